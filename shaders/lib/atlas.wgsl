@@ -90,6 +90,15 @@ fn frame_row(row: u32) -> vec4f {
     return bitcast<vec4f>(textureLoad(frames, table_texel(row), 0));
 }
 
+// Page of a triangle's chart, which shares a number with the sign of the bitangent.
+fn page_of_row(page_and_sign: u32) -> i32 {
+    return i32(page_and_sign >> 1u);
+}
+
+fn bitangent_sign_of(page_and_sign: f32) -> f32 {
+    return select(1.0, -1.0, (bitcast<u32>(page_and_sign) & 1u) != 0u);
+}
+
 fn ghost_link(index: u32) -> GhostLink {
     let row = index * GHOST_ROWS;
     let a = textureLoad(ghosts, table_texel(row), 0);

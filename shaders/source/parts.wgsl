@@ -19,7 +19,7 @@ fn number_of(triangle: u32) -> u32 {
         return material_of(triangle);
     }
     if BY == BY_CHART {
-        return bitcast<u32>(frame_row(triangle * FRAME_ROWS + 3u).z);
+        return bitcast<u32>(frame_row(triangle * FRAME_ROWS).w);
     }
     if BY == BY_PIECE {
         return bitcast<u32>(frame_row(triangle * FRAME_ROWS + 3u).w);

@@ -20,7 +20,7 @@ fn point_at(texel: vec3i, owner: u32) -> u32 {
     let row = owner * FRAME_ROWS;
     let place = frame_row(row + 3u);
     let cell_place = textureLoad(cell_frames, table_texel(row + 3u), 0);
-    let page = i32(textureLoad(cell_frames, table_texel(row + 1u), 0).w);
+    let page = page_of_row(textureLoad(cell_frames, table_texel(row + 1u), 0).w);
     let in_chart = (vec2f(texel.xy) + 0.5 - place.xy) / f32(scale.factor);
     let corner = vec2i(floor(in_chart + bitcast<vec2f>(cell_place.xy)));
     let size = vec2i(textureDimensions(point_of_texel));

@@ -18,7 +18,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     let row = owner * FRAME_ROWS;
     let place = frame_row(row + 3u);
     let coarse_place = textureLoad(coarse_frames, table_texel(row + 3u), 0);
-    let coarse_page = i32(textureLoad(coarse_frames, table_texel(row + 1u), 0).w);
+    let coarse_page = page_of_row(textureLoad(coarse_frames, table_texel(row + 1u), 0).w);
     let in_chart = (vec2f(texel.xy) + 0.5 - place.xy) / f32(scale.factor);
     let point = in_chart + bitcast<vec2f>(coarse_place.xy) - 0.5;
     let corner = floor(point);

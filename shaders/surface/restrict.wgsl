@@ -21,7 +21,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     let row = owner * FRAME_ROWS;
     let place = frame_row(row + 3u);
     let fine_place = fine_frame(row + 3u);
-    let fine_page = i32(fine_frame(row + 1u).w);
+    let fine_page = page_of_row(fine_frame(row + 1u).w);
     let corner = (texel.xy - vec2i(place.xy)) * i32(scale.factor) + vec2i(bitcast<vec2f>(fine_place.xy));
     let size = vec2i(textureDimensions(fine_owners));
     var first = vec4f(0.0);

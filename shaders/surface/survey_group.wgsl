@@ -16,13 +16,13 @@ const SURVEY_COUNTS: u32 = 2u + u32(SURVEY_STEPS);
 
 // First count of the group of a triangle.
 fn survey_counts_of(triangle: u32, survey: Survey) -> u32 {
-    let chart = frame_row(triangle * FRAME_ROWS + 3u);
+    let frame = triangle * FRAME_ROWS;
     let part = bitcast<u32>(geometry_row(triangle * GEOMETRY_ROWS + 3u).w);
     var number = 0u;
     switch survey.each {
         case 1u: { number = part; }
-        case 2u: { number = bitcast<u32>(chart.w); }
-        case 3u: { number = bitcast<u32>(chart.z); }
+        case 2u: { number = bitcast<u32>(frame_row(frame + 3u).w); }
+        case 3u: { number = bitcast<u32>(frame_row(frame).w); }
         default: {}
     }
     return (number % survey.groups) * SURVEY_COUNTS;

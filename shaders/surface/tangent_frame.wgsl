@@ -18,6 +18,7 @@ fn tangent_frame(triangle: u32, step: vec2f) -> TangentFrame {
     let g = triangle * GEOMETRY_ROWS;
     let f = triangle * FRAME_ROWS;
     let normal = geometry_row(g + 3u).xyz + geometry_row(g + 4u).xyz * step.x + geometry_row(g + 5u).xyz * step.y;
-    let tangent = frame_row(f).xyz + frame_row(f + 1u).xyz * step.x + frame_row(f + 2u).xyz * step.y;
-    return TangentFrame(tangent, frame_row(f).w * cross(normal, tangent), normal);
+    let along_u = frame_row(f + 1u);
+    let tangent = frame_row(f).xyz + along_u.xyz * step.x + frame_row(f + 2u).xyz * step.y;
+    return TangentFrame(tangent, bitangent_sign_of(along_u.w) * cross(normal, tangent), normal);
 }

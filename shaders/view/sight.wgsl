@@ -68,8 +68,9 @@ fn basis_there(stand: Stand, otherwise: Basis) -> Basis {
     let f = owner * FRAME_ROWS;
     let step = stand.texel - vec2f(geometry_row(g).w, geometry_row(g + 1u).w);
     let normal = geometry_row(g + 3u).xyz + geometry_row(g + 4u).xyz * step.x + geometry_row(g + 5u).xyz * step.y;
-    let tangent = frame_row(f).xyz + frame_row(f + 1u).xyz * step.x + frame_row(f + 2u).xyz * step.y;
-    let chart = 2u * bitcast<u32>(frame_row(f + 3u).z) + select(0u, 1u, frame_row(f).w < 0.0);
+    let along_u = frame_row(f + 1u);
+    let tangent = frame_row(f).xyz + along_u.xyz * step.x + frame_row(f + 2u).xyz * step.y;
+    let chart = 2u * bitcast<u32>(frame_row(f + 3u).z) + select(0u, 1u, bitangent_sign_of(along_u.w) < 0.0);
     return Basis(normal, tangent, chart);
 }
 

@@ -117,3 +117,103 @@ fn a_strip_that_is_cut_is_smoothed_like_the_whole_one() {
         assert!(largest < 1e-4, "{name}: {largest}");
     }
 }
+
+/// Two arms side by side on a back, in one chart with `gap` of UV between the arms. In space one arm is bent forward and the
+/// other backward.
+fn fork(gap: f32) -> MadeMesh {
+    let quad = |[left, right]: [f32; 2], [top, bottom]: [f32; 2], bend: f32| {
+        let corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        Quad {
+            corners: corners.map(|[x, y]| [x, y, bend * (0.75 - y).max(0.0)]),
+            uvs: corners.map(|[x, y]| [x + 0.1, y]),
+        }
+    };
+    let (left, middle, right) = ([0.0, 0.25], [0.25, 0.25 + gap], [0.25 + gap, 0.5 + gap]);
+    let mut quads = vec![
+        quad(left, [0.75, 1.0], 0.0),
+        quad(middle, [0.75, 1.0], 0.0),
+        quad(right, [0.75, 1.0], 0.0),
+    ];
+    for row in 0..3_u8 {
+        let top = 0.25 * f32::from(row);
+        quads.push(quad(left, [top, top + 0.25], 0.6));
+        quads.push(quad(right, [top, top + 0.25], -0.6));
+    }
+    MeshFile::new(quads).write()
+}
+
+#[test]
+fn nothing_flows_over_a_narrow_gap_of_a_chart() {
+    const SIZE: f32 = 128.0;
+    for texels in [0.3, 1.0, 2.0, 3.5] {
+        let gap = texels / SIZE;
+        let step = (0.25 + gap / 2.0) / (0.5 + gap);
+        let source = format!(
+            r#"{{ "kind": "surface/position", "params": {{ "along": [1, 0, 0], "low": {step}, "high": {step} }} }}"#
+        );
+        let mut on_mesh = OnMesh::new(&smoothing(&source, 8), fork(gap).path(), SIZE as u32);
+        let values = on_mesh.evaluate("smooth").component("mask");
+        let mut counted = [0, 0];
+        for index in on_mesh.covered() {
+            let place = on_mesh.position(index).unwrap();
+            // Further than eight steps from the back.
+            if place.y < 0.6 {
+                let arm = usize::from(place.x > 0.25 + f64::from(gap) / 2.0);
+                assert_eq!(values[index], arm as f32, "{texels} texels apart, at {place}");
+                counted[arm] += 1;
+            }
+        }
+        assert!(counted.iter().all(|count| *count > 2000), "{counted:?}");
+    }
+}
+
+/// Means of a node's mask on each arm of a fork, for sixteen heights of the arm.
+fn means_of_arms(node: &str, gap: f32) -> [[f64; 16]; 2] {
+    let graph = format!(
+        r#"{{ "format": "sabi", "version": 1, "nodes": {{
+            "height": {{ "kind": "surface/position", "params": {{ "along": [0, 1, 0], "low": 0, "high": 1 }} }},
+            "node": {node} }} }}"#
+    );
+    let mut on_mesh = OnMesh::new(&graph, fork(gap).path(), 256);
+    let values = on_mesh.evaluate("node").component("mask");
+    let mut sums = [[[0.0; 2]; 16]; 2];
+    for index in on_mesh.covered() {
+        let place = on_mesh.position(index).expect("an owned texel");
+        if place.y < 0.75 {
+            let arm = usize::from(place.x > 0.25 + f64::from(gap) / 2.0);
+            let [sum, count] = &mut sums[arm][(place.y * 16.0 / 0.75) as usize];
+            *sum += f64::from(values[index]);
+            *count += 1.0;
+        }
+    }
+    sums.map(|arm| arm.map(|[sum, count]| sum / count))
+}
+
+#[test]
+fn wide_results_are_the_same_on_a_chart_that_is_divided_at_a_narrow_gap() {
+    for node in [
+        r#"{ "kind": "surface/occlusion", "params": { "distance": 0.4, "rays": 64 } }"#,
+        r#"{ "kind": "filter/blur", "inputs": { "source": "height" }, "params": { "radius": 0.1 } }"#,
+        r#"{ "kind": "filter/grow", "inputs": { "source": "height" }, "params": { "radius": 0.05 } }"#,
+    ] {
+        let [divided, whole] = [4.0, 5.5].map(|texels| means_of_arms(node, texels / 256.0));
+        let both = divided.iter().flatten().zip(whole.iter().flatten());
+        for (divided, whole) in both {
+            assert!((divided - whole).abs() < 0.02, "{node}: {divided} and {whole}");
+        }
+        let highest = whole.map(|arm| arm.into_iter().fold(0.0, f64::max));
+        assert!(highest.iter().all(|highest| *highest > 0.05), "{node}: {highest:?}");
+    }
+}
+
+#[test]
+fn a_chart_that_is_divided_is_one_part() {
+    let graph = r#"{ "format": "sabi", "version": 1, "nodes": {
+        "parts": { "kind": "surface/id", "params": { "by": "chart" } } } }"#;
+    for texels in [1.0, 2.0, 4.0] {
+        let mut on_mesh = OnMesh::new(graph, fork(texels / 256.0).path(), 256);
+        let ids = on_mesh.evaluate("parts.id").component("mask");
+        let [low, high] = extent(on_mesh.covered().map(|index| ids[index]));
+        assert_eq!(low.to_bits(), high.to_bits(), "{texels} texels apart");
+    }
+}

@@ -85,7 +85,8 @@ impl OnMesh {
         let step = self.step(triangle, at);
         let row = |at: usize| DVec3::from([rows[at][0], rows[at][1], rows[at][2]].map(f64::from));
         let tangent = row(0) + row(1) * step.x + row(2) * step.y;
-        [tangent, f64::from(rows[0][3]) * normal.cross(tangent), normal]
+        let sign = f64::from(self.tables.bitangent_sign(triangle as usize));
+        [tangent, sign * normal.cross(tangent), normal]
     }
 
     fn step(&self, triangle: u32, at: DVec2) -> DVec2 {

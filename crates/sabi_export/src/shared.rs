@@ -73,7 +73,7 @@ pub(crate) enum Shows {
     Texels(Vec<u32>),
 }
 
-/// Visits the texels whose pixel has another value, and the ghosts that claim no pixel but show one; both only of charts that
+/// Visits the texels whose pixel has another value, and the ghosts that claim no pixel but show one; both only of charts in UV that
 /// share a pixel of an owned texel.
 pub(crate) fn for_each_lost(grid: &Grid<'_>, layout: &SetLayout, mut visit: impl FnMut(&MappedTexel, Shows)) {
     let charts = &grid.atlas.charts;
@@ -81,12 +81,12 @@ pub(crate) fn for_each_lost(grid: &Grid<'_>, layout: &SetLayout, mut visit: impl
     let mut is_sharing = vec![false; charts.len()];
     grid.for_each(|mapped| {
         if mapped.cover == Cover::Owned && is_lost(&mapped) {
-            is_sharing[mapped.chart as usize] = true;
+            is_sharing[charts[mapped.chart as usize].uv_chart as usize] = true;
         }
     });
     grid.for_each(|mapped| {
         let chart = mapped.chart as usize;
-        if !is_sharing[chart] {
+        if !is_sharing[charts[chart].uv_chart as usize] {
             return;
         }
         let is_beside = !mapped.is_here && mapped.cover == Cover::Ghost && layout.key.is_home_of(&charts[chart]);

@@ -19,15 +19,21 @@ pub struct SurfaceTables {
     /// reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, the piece's seed, and the
     /// material's number; numbers and seed are bit patterns.
     pub geometry: Vec<[f32; 4]>,
-    /// Four rows per triangle: tangent, its change per texel along u and v, then the chart's place and, as a bit pattern, its number.
-    /// The fourth column of the first row holds the sign of the bitangent, that of the second the chart's page, that of the
-    /// third the size of the piece, that of the last the piece's number.
+    /// Four rows per triangle: tangent, its change per texel along u and v, then the chart's place and its number in the atlas.
+    /// The fourth column holds the number of the chart in UV, the chart's page with the sign of the bitangent
+    /// (`page_and_sign`), the size of the piece, and the piece's number; numbers are bit patterns.
     pub frames: Vec<[f32; 4]>,
     /// Three rows per piece: the axes of its box, longest side first, and in the fourth column the center of the box.
     pub pieces: Vec<[f32; 4]>,
 }
 
 impl SurfaceTables {
+    /// Sign of the bitangent of a triangle.
+    pub fn bitangent_sign(&self, triangle: usize) -> f32 {
+        let [.., page_and_sign] = self.frames[FRAME_ROWS * triangle + 1];
+        if page_and_sign.to_bits() & 1 == 0 { 1.0 } else { -1.0 }
+    }
+
     /// Tables of a mesh and its pieces, scaled by `working_from_model`.
     pub fn new(mesh: &Mesh, pieces: &Pieces, atlas: &Atlas, working_from_model: f64, seed: u32) -> SurfaceTables {
         let rows: Vec<TriangleRows> = (0..mesh.triangles.len())
@@ -58,6 +64,11 @@ impl SurfaceTables {
         }
         tables
     }
+}
+
+/// The page of a chart, doubled, and 1 more where the bitangent is reversed.
+pub(crate) fn page_and_sign(page: u32, bitangent_sign: f32) -> f32 {
+    f32::from_bits(2 * page + u32::from(bitangent_sign < 0.0))
 }
 
 /// Area vector of a texel of a triangle, along its normal; reversed on mirrored charts.
@@ -130,8 +141,8 @@ fn triangle_rows(
     ];
     let [offset_u, offset_v] = chart.texel_from_uv;
     let frames = [
-        row(tangent[0], mesh.tangents[corners[0]][3]),
-        row(tangent[1], f32::from_bits(chart.page)),
+        row(tangent[0], f32::from_bits(chart.uv_chart)),
+        row(tangent[1], page_and_sign(chart.page, mesh.tangents[corners[0]][3])),
         row(tangent[2], piece_size),
         [
             offset_u as f32,

@@ -11,8 +11,10 @@ mod build;
 mod cache;
 pub(crate) mod charts;
 mod codec;
+mod division;
 mod error;
 pub(crate) mod fixed;
+mod gaps;
 mod leap;
 mod level;
 mod links;
@@ -21,6 +23,7 @@ mod overlap;
 mod owners;
 pub(crate) mod pack;
 mod place;
+mod plan;
 pub(crate) mod raster;
 mod report;
 mod ring;
@@ -120,6 +123,22 @@ impl Atlas {
             Some(&value) => Owner::Triangle(value),
         }
     }
+
+    /// Returns the number of the chart in UV that a triangle of the mesh belongs to.
+    pub fn uv_chart(&self, triangle: usize) -> u32 {
+        self.charts[self.triangle_chart[triangle] as usize].uv_chart
+    }
+
+    /// Returns the charts in UV by their numbers.
+    pub fn uv_charts(&self) -> Vec<UvChart<'_>> {
+        let mut parts: Vec<Vec<&Chart>> = Vec::new();
+        for chart in &self.charts {
+            let number = chart.uv_chart as usize;
+            parts.resize(parts.len().max(number + 1), Vec::new());
+            parts[number].push(chart);
+        }
+        parts.into_iter().map(|parts| UvChart { parts }).collect()
+    }
 }
 
 /// The linked atlas of one model at one size.
@@ -153,9 +172,39 @@ pub struct Atlas {
     pub report: AtlasReport,
 }
 
-/// A chart: triangles connected through edges that are not seams, placed at a whole-texel offset.
+/// A chart in UV, as people see it: triangles connected through edges that are not seams, or a part of them that does not overlap itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UvChart<'a> {
+    /// Charts of the atlas: several where it lies too close to itself to be placed as a whole. They have material, sheet, tile
+    /// and winding in common.
+    pub parts: Vec<&'a Chart>,
+}
+
+impl UvChart<'_> {
+    /// Number of owned texels.
+    pub fn texels(&self) -> u64 {
+        self.parts.iter().map(|part| u64::from(part.texels)).sum()
+    }
+
+    /// Width and height in texels.
+    pub fn extent(&self) -> [u32; 2] {
+        [0, 1].map(|axis| {
+            let owning = self.parts.iter().filter(|part| part.texels > 0);
+            let ends = owning.map(|part| {
+                let ends = [part.bounds[axis], part.bounds[axis + 2]];
+                ends.map(|end| i64::from(end) - i64::from(part.texel_from_uv[axis]))
+            });
+            let both = ends.reduce(|[low, high], [start, end]| [low.min(start), high.max(end)]);
+            both.map_or(0, |[low, high]| (high - low) as u32)
+        })
+    }
+}
+
+/// A chart of the atlas: a chart in UV or a part of one, placed at a whole-texel offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
+    /// Number of the chart in UV.
+    pub uv_chart: u32,
     /// Page of the chart.
     pub page: u32,
     /// Added to `uv × size`, gives texel coordinates on the page.
@@ -167,7 +216,7 @@ pub struct Chart {
     /// Sheet of texture coordinates: the chart's material, or 0 for all where they share one
     /// ([`crate::model::Mesh::is_one_sheet`]). Charts of different sheets never overlap.
     pub sheet: u32,
-    /// UV tile, `[floor(u), floor(v)]` of the chart's center; `[0, 0]` is the unit square.
+    /// UV tile, `[floor(u), floor(v)]` of the center of the chart in UV; `[0, 0]` is the unit square.
     pub uv_tile: [i32; 2],
     /// True if its texture coordinates are mirrored.
     pub mirrored: bool,
@@ -216,7 +265,7 @@ pub struct AtlasReport {
     /// Owned texels whose place in their sheet's unit square another chart claims as well, UV tiles wrapped
     /// onto one square as a repeating texture does.
     pub overlap_texels: u64,
-    /// Pairs of overlapping charts, lower index first, with the number of places they share; the first 10 000 pairs.
+    /// Pairs of overlapping charts in UV, lower number first, with the number of places they share; the first 10 000 pairs.
     pub overlapping_charts: Vec<(u32, u32, u64)>,
     /// Charts that coincide in UV with an earlier one (stacked or mirrored copies).
     pub stacked_charts: u32,

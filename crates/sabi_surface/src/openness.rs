@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 use sabi_files::{Cache, CacheKind};
 
-use crate::atlas::{Atlas, AtlasError, AtlasOptions, EMPTY, GHOST_BIT, Ghost, atlas_key, cached};
+use crate::atlas::{Atlas, AtlasError, AtlasOptions, EMPTY, GHOST_BIT, Ghost, atlas_key};
 use crate::bvh::Bvh;
 use crate::model::Mesh;
 
@@ -23,7 +23,7 @@ const GOLDEN_ANGLE: f32 = 2.399_963_2;
 /// Stored openness; the version changes whenever it is found differently.
 const KIND: CacheKind = CacheKind {
     prefix: "openness",
-    version: 1,
+    version: 2,
     limit_bytes: 256 << 20,
 };
 
@@ -36,41 +36,73 @@ pub struct Openness {
     pub page_size: [u32; 2],
     /// Number of pages.
     pub pages: u32,
-    /// For each chart the offset of its texel coordinates from UVs in texels, and its page.
-    pub charts: Vec<([i32; 2], u32)>,
+    /// For each chart what is added to `uv × size` to get texel coordinates, and its page.
+    pub charts: Vec<[i32; 3]>,
     /// Page by page and row by row: the mean open direction in model space, −1..1 as 0..255, and the share that is open.
     pub texels: Vec<[u8; 4]>,
 }
 
 impl Openness {
-    /// Finds the openness of a mesh with rays, or reads it from a cache folder. `None` where its charts are not those of
-    /// `atlas`, the one that pictures are drawn with.
-    pub fn of(mesh: &Mesh, atlas: &Atlas, bvh: &Bvh, cache_dir: Option<&Path>) -> Result<Option<Openness>, AtlasError> {
+    /// Finds the openness of a mesh with rays, or reads it from a cache folder, for the charts of `atlas`, the one that pictures are
+    /// drawn with.
+    pub fn of(mesh: &Mesh, atlas: &Atlas, bvh: &Bvh, cache_dir: Option<&Path>) -> Result<Openness, AtlasError> {
         let options = AtlasOptions::new(SIZE);
-        let (small, _) = cached(cache_dir, mesh, &options)?;
-        if small.triangle_chart != atlas.triangle_chart {
-            return Ok(None);
-        }
         let cache = cache_dir.map(|folder| Cache::new(folder, KIND));
-        let key = atlas_key(mesh, &options);
-        let kept = cache.as_ref().and_then(|cache| cache.read(&key));
-        let kept = kept.filter(|bytes| bytes.len() == 4 * small.owners.len());
-        let texels = kept.map(|bytes| bytes.as_chunks::<4>().0.to_vec()).unwrap_or_else(|| {
-            let found = Finder::new(mesh, &small, bvh).texels();
-            if let Some(cache) = &cache {
-                // What cannot be stored is found again next time.
-                let _ = cache.write(&key, found.as_flattened());
-            }
-            found
+        // How charts are divided depends on the size of the pictures' atlas.
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&atlas_key(mesh, &options));
+        hasher.update(bytemuck::cast_slice(&atlas.triangle_chart));
+        let key = *hasher.finalize().as_bytes();
+        let stored = cache.as_ref().and_then(|cache| cache.read(&key));
+        if let Some(known) = stored.and_then(|bytes| Openness::decode(&bytes, atlas.charts.len())) {
+            return Ok(known);
+        }
+        let small = atlas.rebuild(mesh, SIZE, options.page_limit)?;
+        let charts = small.charts.iter().map(|chart| {
+            let [u, v] = chart.texel_from_uv;
+            [u, v, chart.page as i32]
         });
-        let charts = small.charts.iter().map(|chart| (chart.texel_from_uv, chart.page));
-        Ok(Some(Openness {
+        let found = Openness {
             size: small.size,
             page_size: small.page_size,
             pages: small.pages,
             charts: charts.collect(),
-            texels,
-        }))
+            texels: Finder::new(mesh, &small, bvh).texels(),
+        };
+        if let Some(cache) = &cache {
+            // What cannot be stored is found again next time.
+            let _ = cache.write(&key, &found.encode());
+        }
+        Ok(found)
+    }
+
+    fn encode(&self) -> Vec<u8> {
+        let [width, height] = self.page_size;
+        let head = [width, height, self.pages];
+        [
+            bytemuck::cast_slice(&head),
+            bytemuck::cast_slice(&self.charts),
+            self.texels.as_flattened(),
+        ]
+        .concat()
+    }
+
+    /// Returns the stored openness of so many charts; `None` if it is damaged.
+    fn decode(bytes: &[u8], charts: usize) -> Option<Openness> {
+        let (head, rest) = bytes.split_at_checked(3 * size_of::<u32>())?;
+        let (places, texels) = rest.split_at_checked(charts.checked_mul(size_of::<[i32; 3]>())?)?;
+        let [width, height, pages] = bytemuck::pod_collect_to_vec(head).try_into().ok()?;
+        let count = u64::from(width)
+            .checked_mul(u64::from(height))?
+            .checked_mul(u64::from(pages))?;
+        let is_whole = Some(texels.len() as u64) == count.checked_mul(4);
+        is_whole.then(|| Openness {
+            size: SIZE,
+            page_size: [width, height],
+            pages,
+            charts: bytemuck::pod_collect_to_vec(places),
+            texels: texels.as_chunks::<4>().0.to_vec(),
+        })
     }
 }
 
@@ -272,12 +304,17 @@ mod tests {
         let mesh = corner();
         let bvh = Bvh::build(&mesh);
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(64)).unwrap();
-        let found = Openness::of(&mesh, &atlas, &bvh, None).unwrap().unwrap();
-        let (shift, page) = found.charts[atlas.triangle_chart[0] as usize];
+        let found = Openness::of(&mesh, &atlas, &bvh, None).unwrap();
+        assert_eq!(
+            Openness::decode(&found.encode(), found.charts.len()),
+            Some(found.clone())
+        );
+        assert_eq!(Openness::decode(&found.encode()[1..], found.charts.len()), None);
+        let [left, top, page] = found.charts[atlas.triangle_chart[0] as usize];
         let at = |u: f64, v: f64| {
             let [x, y] = [u, v].map(|at| at * f64::from(found.size));
-            let (x, y) = ((x + f64::from(shift[0])) as u32, (y + f64::from(shift[1])) as u32);
-            found.texels[((page * found.page_size[1] + y) * found.page_size[0] + x) as usize]
+            let (x, y) = ((x + f64::from(left)) as u32, (y + f64::from(top)) as u32);
+            found.texels[((page as u32 * found.page_size[1] + y) * found.page_size[0] + x) as usize]
         };
         // On the floor: v grows along x, from the wall outward. Next to a wall half of the rays go into it.
         let [near, far] = [at(0.2, 0.02), at(0.2, 0.8)];

@@ -22,7 +22,7 @@ impl Seam {
     }
 }
 
-/// Finds all seams of a mesh, in the order of their half-edges: where triangles that meet in space are on different charts,
+/// Finds all seams of a mesh, in the order of their half-edges: where triangles that meet in space are on different charts in UV,
 /// or apart on one. At edges of more than two triangles, those that the atlas links are seams.
 pub fn seams(mesh: &Mesh, atlas: &Atlas) -> Vec<Seam> {
     let topology = Topology::new(mesh);
@@ -33,7 +33,7 @@ pub fn seams(mesh: &Mesh, atlas: &Atlas) -> Vec<Seam> {
             continue;
         }
         let triangles = [edge / 3, twin / 3];
-        let [one, other] = triangles.map(|triangle| atlas.triangle_chart.get(triangle as usize));
+        let [one, other] = triangles.map(|triangle| atlas.uv_chart(triangle as usize));
         if one == other && !is_seam(mesh, &topology, edge, twin) {
             continue;
         }

@@ -22,22 +22,23 @@ wgsl_struct! {
 pub(crate) struct HalfEdge {
     /// Bits of the positions of its ends, model units, the smaller first, so that both half-edges of an edge have the same.
     ends: [[u32; 3]; 2],
-    chart: u32,
-    /// Bits of the texel coordinates of its ends.
-    texels: [[u32; 2]; 2],
+    /// Number of its chart in UV.
+    uv_chart: u32,
+    /// Bits of the texture coordinates of its ends.
+    uvs: [[u32; 2]; 2],
 }
 
 impl HalfEdge {
-    fn new(ends: [[f32; 3]; 2], chart: u32, texels: [[f32; 2]; 2]) -> HalfEdge {
+    fn new(ends: [[f32; 3]; 2], uv_chart: u32, uvs: [[f32; 2]; 2]) -> HalfEdge {
         // Zero has two signs.
         let [a, b] = ends.map(|end| end.map(|at| (at + 0.0).to_bits()));
-        let [of_a, of_b] = texels.map(|texel| texel.map(f32::to_bits));
-        let (ends, texels) = if a <= b {
+        let [of_a, of_b] = uvs.map(|uv| uv.map(f32::to_bits));
+        let (ends, uvs) = if a <= b {
             ([a, b], [of_a, of_b])
         } else {
             ([b, a], [of_b, of_a])
         };
-        HalfEdge { ends, chart, texels }
+        HalfEdge { ends, uv_chart, uvs }
     }
 
     fn line(&self, placement: &Placement) -> Line {
@@ -54,8 +55,8 @@ pub(crate) fn half_edges(mesh: &Mesh, atlas: &Atlas) -> Vec<HalfEdge> {
         let corners = [corner, (corner + 1) % 3];
         HalfEdge::new(
             corners.map(|corner| mesh.positions[mesh.triangles[triangle][corner] as usize]),
-            atlas.triangle_chart[triangle],
-            corners.map(|corner| atlas.triangle_texels[triangle][corner]),
+            atlas.uv_chart(triangle),
+            corners.map(|corner| mesh.uvs[mesh.triangles[triangle][corner] as usize]),
         )
     };
     let triangles = 0..mesh.triangles.len();
@@ -71,7 +72,7 @@ pub(crate) fn displaced_half_edges(displaced: &Displaced, atlas: &Atlas) -> Vec<
     let mut edges: Vec<[u32; 2]> = Vec::new();
     let mut first = 0;
     for same in displaced.triangle_from.chunk_by(|a, b| a == b) {
-        let chart = atlas.triangle_chart[same[0] as usize];
+        let uv_chart = atlas.uv_chart(same[0] as usize);
         edges.clear();
         for [a, b, c] in &displaced.triangles[first..first + same.len()] {
             edges.extend([[a, b], [b, c], [c, a]].map(|[from, to]| [*from.min(to), *from.max(to)]));
@@ -84,8 +85,8 @@ pub(crate) fn displaced_half_edges(displaced: &Displaced, atlas: &Atlas) -> Vec<
             let ends = shared[0].map(|end| end as usize);
             HalfEdge::new(
                 ends.map(|end| displaced.positions[end]),
-                chart,
-                ends.map(|end| displaced.texels[end]),
+                uv_chart,
+                ends.map(|end| displaced.uvs[end]),
             )
         }));
     }

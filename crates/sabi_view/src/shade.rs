@@ -62,7 +62,7 @@ impl Openness {
         let size = [width, height, openness.pages];
         let texture = texture(gpu, "the openness of the model", size, wgpu::TextureFormat::Rgba8Unorm)?;
         write(gpu, &texture, openness.texels.as_flattened());
-        let row = |([u, v], page): &([i32; 2], u32)| [*u as f32, *v as f32, *page as f32, 0.0];
+        let row = |[u, v, page]: &[i32; 3]| [*u as f32, *v as f32, *page as f32, 0.0];
         let rows: Vec<[f32; 4]> = openness.charts.iter().map(row).collect();
         Ok(Openness {
             size: openness.size as f32,

@@ -67,7 +67,9 @@ impl Canvas for SeenTexture {
     }
 
     fn joins(&self, model: &LiveModel, [from, to]: [Site; 2]) -> bool {
-        let chart = |site: Site| model.linked.atlas.triangle_chart.get(site.triangle as usize);
+        let atlas = &model.linked.atlas;
+        let is_known = |site: Site| (site.triangle as usize) < atlas.triangle_chart.len();
+        let chart = |site: Site| is_known(site).then(|| atlas.uv_chart(site.triangle as usize));
         chart(from) == chart(to)
     }
 

@@ -339,7 +339,7 @@ fn report(
         mesh: BakedMesh {
             file: request.evaluator.model.path.display().to_string(),
             triangles: linked.model.mesh.triangles.len(),
-            charts: atlas.charts.len(),
+            charts: atlas.uv_charts().len(),
             coverage: rounded(atlas.report.coverage),
             bounds: file_bounds(evaluator),
             overlap: OverlapTotals::of(linked).report(linked),

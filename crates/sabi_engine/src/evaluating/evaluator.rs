@@ -376,7 +376,7 @@ impl Evaluator {
     /// Adds the shade of the model to its copy on the device.
     pub fn add_shade(&self, view: &ViewModel, cache_dir: Option<&Path>) -> Result<(), EngineError> {
         let shade = self.linked().shade(cache_dir);
-        Ok(view.set_shade(&self.gpu, shade.ground.as_ref(), shade.openness.as_ref())?)
+        Ok(view.set_shade(&self.gpu, shade.ground, shade.openness)?)
     }
 
     /// Uploads the model for drawing.

@@ -293,7 +293,7 @@ fn live_model(evaluator: &Evaluator, model_revision: u64) -> Result<Arc<LiveMode
     let linked = evaluator.linked();
     let view = evaluator.view_model()?;
     if let Some(shade) = linked.found_shade() {
-        view.set_shade(evaluator.gpu(), shade.ground.as_ref(), shade.openness.as_ref())?;
+        view.set_shade(evaluator.gpu(), shade.ground, shade.openness)?;
     }
     Ok(Arc::new(LiveModel {
         model_revision,

@@ -199,9 +199,7 @@ impl Worker {
             if !model.view.has_shade() {
                 let shade = model.linked.shade(self.options.cache_dir.as_deref());
                 // Without memory for it, pictures are drawn without.
-                let _ = model
-                    .view
-                    .set_shade(&self.gpu, shade.ground.as_ref(), shade.openness.as_ref());
+                let _ = model.view.set_shade(&self.gpu, shade.ground, shade.openness);
             }
         }
     }
@@ -227,9 +225,7 @@ impl Worker {
             for model in models {
                 let shade = model.linked.shade(cache_dir.as_deref());
                 // Without memory for it, or without a device, the picture stays as it is.
-                let _ = model
-                    .view
-                    .set_shade(&gpu, shade.ground.as_ref(), shade.openness.as_ref());
+                let _ = model.view.set_shade(&gpu, shade.ground, shade.openness);
                 wake();
             }
             drop(search);

@@ -114,8 +114,10 @@ pub struct LinkedModel {
     pub bvh: Arc<OnceLock<Bvh>>,
     /// Index of the mesh for brushes; made for the first stroke.
     pub paint_index: Arc<OnceLock<SurfaceIndex>>,
-    /// Its shade, found when a picture first needs it.
-    shade: Arc<OnceLock<ModelShade>>,
+    /// Its shade on the ground, found when a picture first needs it.
+    ground: Arc<OnceLock<Option<Ground>>>,
+    /// Its openness for the charts of the atlas, found when a picture first needs it.
+    openness: OnceLock<Option<Openness>>,
     finest_texel: OnceLock<f64>,
     area: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
@@ -134,10 +136,10 @@ pub struct LinkedModel {
 }
 
 /// Shade of a model on the ground and on itself; what cannot be found is left out.
-#[derive(Debug)]
-pub(crate) struct ModelShade {
-    pub(crate) ground: Option<Ground>,
-    pub(crate) openness: Option<Openness>,
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ModelShade<'a> {
+    pub(crate) ground: Option<&'a Ground>,
+    pub(crate) openness: Option<&'a Openness>,
 }
 
 /// Result of unwrapping a model.
@@ -223,7 +225,8 @@ impl LinkedModel {
             pieces,
             bvh: Arc::default(),
             paint_index: Arc::default(),
-            shade: Arc::default(),
+            ground: Arc::default(),
+            openness: OnceLock::new(),
             finest_texel: OnceLock::new(),
             area: OnceLock::new(),
             usable_levels: OnceLock::new(),
@@ -252,7 +255,8 @@ impl LinkedModel {
             pieces: self.pieces.clone(),
             bvh: self.bvh.clone(),
             paint_index: self.paint_index.clone(),
-            shade: self.shade.clone(),
+            ground: self.ground.clone(),
+            openness: OnceLock::new(),
             finest_texel: OnceLock::new(),
             area: OnceLock::new(),
             usable_levels: OnceLock::new(),
@@ -267,23 +271,28 @@ impl LinkedModel {
     }
 
     /// Returns the shade of the model, found on first use or read from a cache folder.
-    pub(crate) fn shade(&self, cache_dir: Option<&Path>) -> &ModelShade {
-        self.shade.get_or_init(|| {
-            let _span = tracing::debug_span!("find the shade of the model").entered();
-            let mesh = &self.model.mesh;
-            let bvh = self.hierarchy();
+    pub(crate) fn shade(&self, cache_dir: Option<&Path>) -> ModelShade<'_> {
+        let _span = tracing::debug_span!("find the shade of the model").entered();
+        let (mesh, bvh) = (&self.model.mesh, self.hierarchy());
+        let ground = self.ground.get_or_init(|| Ground::of(mesh, bvh));
+        let openness = self.openness.get_or_init(|| {
             let folder = cache_dir.map(|folder| folder.join("atlas"));
-            ModelShade {
-                ground: Ground::of(mesh, bvh),
-                // A model without an atlas of that size is drawn without.
-                openness: Openness::of(mesh, &self.atlas, bvh, folder.as_deref()).ok().flatten(),
-            }
-        })
+            // A model without an atlas of that size is drawn without.
+            Openness::of(mesh, &self.atlas, bvh, folder.as_deref()).ok()
+        });
+        ModelShade {
+            ground: ground.as_ref(),
+            openness: openness.as_ref(),
+        }
     }
 
     /// Returns the shade of the model, if it was found.
-    pub(crate) fn found_shade(&self) -> Option<&ModelShade> {
-        self.shade.get()
+    pub(crate) fn found_shade(&self) -> Option<ModelShade<'_>> {
+        let (ground, openness) = (self.ground.get()?, self.openness.get()?);
+        Some(ModelShade {
+            ground: ground.as_ref(),
+            openness: openness.as_ref(),
+        })
     }
 
     /// Returns the model under a fit.

@@ -156,7 +156,7 @@ pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
         size: linked.atlas.size,
         pages: linked.atlas.pages,
         page_size: linked.atlas.page_size,
-        charts: linked.atlas.charts.len(),
+        charts: linked.atlas.uv_charts().len(),
         coverage: report.coverage,
         overlap: OverlapTotals::of(linked).report(linked),
         overlapping_charts: report.overlapping_charts.len(),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_export::{set_keys, set_names};
-use sabi_surface::atlas::{Chart, PAIRS_LIMIT};
+use sabi_surface::atlas::{PAIRS_LIMIT, UvChart};
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Overlap};
@@ -81,30 +81,30 @@ impl OverlapTotals {
             .map(|key| key.material)
             .collect();
         let mut by_material: BTreeMap<u32, MaterialTotals> = BTreeMap::new();
+        let charts = atlas.uv_charts();
         for &(a, b, texels) in &atlas.report.overlapping_charts {
-            let [first, second] = [a, b].map(|chart| &atlas.charts[chart as usize]);
+            let pair = [a, b].map(|chart| &charts[chart as usize]);
+            let [first, second] = pair.map(|chart| chart.parts[0]);
             let apart = first.uv_tile != second.uv_tile;
             if apart && udims.contains(&first.sheet) {
                 continue;
             }
             let shared = by_material.entry(first.material).or_default();
             shared.texels += texels;
-            let whole = |chart: &Chart| u64::from(chart.texels) == texels;
+            let are_whole = pair.iter().all(|chart| chart.texels() == texels);
             let kind = match () {
                 () if apart => &mut shared.pairs.tiling,
-                () if !(whole(first) && whole(second)) => &mut shared.pairs.partial,
+                () if !are_whole => &mut shared.pairs.partial,
                 () if first.mirrored == second.mirrored => &mut shared.pairs.stacked,
                 () => &mut shared.pairs.mirrored,
             };
             *kind += 1;
         }
-        for chart in &atlas.charts {
-            let [x0, y0, x1, y1] = chart.bounds;
-            if (x1 - x0).max(y1 - y0) > atlas.size {
-                let shared = by_material.entry(chart.material).or_default();
-                shared.pairs.tiling += 1;
-                shared.texels += u64::from(chart.texels);
-            }
+        let repeats = |chart: &&UvChart| chart.extent().iter().any(|side| *side > atlas.size);
+        for chart in charts.iter().filter(repeats) {
+            let shared = by_material.entry(chart.parts[0].material).or_default();
+            shared.pairs.tiling += 1;
+            shared.texels += chart.texels();
         }
         let owned: u64 = atlas.charts.iter().map(|chart| u64::from(chart.texels)).sum();
         let texels = if by_material.is_empty() {

@@ -191,7 +191,10 @@ fn numbers<'s>(surface: &SourceSurface<'s>, by: PartRows) -> Cow<'s, [u32]> {
     match by {
         PartRows::Part => Cow::Borrowed(&mesh.triangle_part),
         PartRows::Material => Cow::Borrowed(&mesh.triangle_material),
-        PartRows::Chart => Cow::Borrowed(&surface.atlas.triangle_chart),
+        PartRows::Chart => {
+            let triangles = 0..mesh.triangles.len();
+            Cow::Owned(triangles.map(|triangle| surface.atlas.uv_chart(triangle)).collect())
+        }
         PartRows::Piece => Cow::Borrowed(&surface.pieces.triangle_piece),
         PartRows::Whole => Cow::Owned(vec![0; mesh.triangles.len()]),
     }

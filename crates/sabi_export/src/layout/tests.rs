@@ -19,6 +19,7 @@ pub(crate) fn atlas(size: u32, page: u32, pieces: &[Piece]) -> Atlas {
             }
         }
         charts.push(Chart {
+            uv_chart: index as u32,
             page: 0,
             texel_from_uv: offset,
             bounds: [columns.start, rows.start, columns.end, rows.end],

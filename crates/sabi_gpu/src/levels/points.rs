@@ -181,7 +181,8 @@ fn point_rows(
     let [chart_x, chart_y, chart, piece] = frames[3];
     let uv = |texel: u32, offset: f32| (texel as f32 + 0.5 - offset) / level.atlas.size as f32;
     let uv = [uv(page_texel[0], chart_x), uv(page_texel[1], chart_y)];
-    let [tangent_x, tangent_y, tangent_z, bitangent_sign] = frames[0];
+    let [tangent_x, tangent_y, tangent_z, uv_chart] = frames[0];
+    let bitangent_bit = frames[1][3].to_bits() & 1;
     let rows = [
         row(scaled(point.position, working_from_model), x),
         row(scaled(point.axes[0], spacing), y),
@@ -191,9 +192,9 @@ fn point_rows(
         row([0.0; 3], geometry[5][3]),
     ];
     let frame_rows = [
-        row([tangent_x, tangent_y, tangent_z], bitangent_sign),
+        row([tangent_x, tangent_y, tangent_z], uv_chart),
         // There is one page.
-        row([0.0; 3], f32::from_bits(0)),
+        row([0.0; 3], f32::from_bits(bitangent_bit)),
         row([0.0; 3], frames[2][3]),
         [x - uv[0], y - uv[1], chart, piece],
     ];

@@ -180,7 +180,7 @@ fn triangles(
         | Area::Side => 0,
         Area::Part => mesh.triangle_part[triangle],
         Area::Piece => surface.index().pieces[triangle],
-        Area::Chart => atlas.triangle_chart[triangle],
+        Area::Chart => atlas.uv_chart(triangle),
         Area::Material => mesh.triangle_material[triangle],
     };
     let touched = || points.iter().map(|point| point.site.triangle);

@@ -6,18 +6,19 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::charts::{Partition, partition, sheet_of};
+use super::division::Division;
 use super::fixed::{UNIT, Uvs};
 use super::links::{Links, Pages, link};
-use super::mask::{Mask, texel_box};
+use super::mask::Mask;
 use super::overlap::overlap;
 use super::place::{Placement, place};
+use super::plan::{ChartSet, Origin, Plan};
 use super::report::ReportInputs;
 use super::ring::Occupancy;
-use super::split::Splitter;
 use super::topology::Topology;
 use super::udim::udim_sheets;
 use super::walk::Walker;
-use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, RINGS, TILE, leap, owners};
+use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, TILE, leap, owners};
 use crate::model::Mesh;
 
 impl Atlas {
@@ -42,20 +43,34 @@ impl Atlas {
             size,
             page_limit,
         };
-        let whole = partition(mesh, &topology, &orientations);
-        let udims = udim_sheets(mesh, &whole, udim);
-        let masks = plan.masks(&whole)?;
-        match plan.split(&whole, &masks) {
-            None => plan.assemble(&whole, masks.into_iter().map(|(mask, _)| mask).collect(), udims),
-            Some(split) => {
-                let masks = plan.masks(&split)?.into_iter().map(|(mask, _)| mask).collect();
-                plan.assemble(&split, masks, udims)
-            }
+        let mut partition = partition(mesh, &topology, &orientations);
+        let udims = udim_sheets(mesh, &partition, udim);
+        let mut masks = plan.masks(&partition)?;
+        if let Some(split) = plan.split(&partition, &masks) {
+            masks = plan.masks(&split)?;
+            partition = split;
+        }
+        let origin = |chart: usize| Origin {
+            uv_chart: chart as u32,
+            uv_tile: plan.uv_tile(partition.triangles(chart)),
+        };
+        let whole = ChartSet {
+            origins: (0..partition.len()).map(origin).collect(),
+            masks: masks.into_iter().map(|(mask, _)| mask).collect(),
+            partition,
+        };
+        match plan.divide_at_narrow_gaps(&whole) {
+            Division::NotNeeded => plan.assemble(&whole, &whole, udims),
+            Division::TooLarge => plan.assemble_with_gaps(&whole, udims),
+            Division::Divided(parts) => match plan.assemble(&parts, &whole, udims.clone()) {
+                Err(AtlasError::TooManyTexels { .. }) => plan.assemble_with_gaps(&whole, udims),
+                made => made,
+            },
         }
     }
 
-    /// Builds the atlas of the same charts at another size.
-    pub(super) fn rebuild(&self, mesh: &Mesh, size: u32, page_limit: u32) -> Result<Atlas, AtlasError> {
+    /// Builds the atlas of the same charts at another size. Its report takes each of them for a chart in UV.
+    pub(crate) fn rebuild(&self, mesh: &Mesh, size: u32, page_limit: u32) -> Result<Atlas, AtlasError> {
         let (triangles, expected) = (mesh.triangles.len(), self.triangle_chart.len());
         if triangles != expected {
             return Err(AtlasError::WrongMesh { triangles, expected });
@@ -72,8 +87,16 @@ impl Atlas {
             page_limit,
         };
         let partition = Partition::numbered(self.triangle_chart.clone(), self.charts.len());
-        let masks = plan.masks(&partition)?.into_iter().map(|(mask, _)| mask).collect();
-        plan.assemble(&partition, masks, self.udim_sheets.clone())
+        let origin = |chart: &Chart| Origin {
+            uv_chart: chart.uv_chart,
+            uv_tile: chart.uv_tile,
+        };
+        let charts = ChartSet {
+            origins: self.charts.iter().map(origin).collect(),
+            masks: plan.masks(&partition)?.into_iter().map(|(mask, _)| mask).collect(),
+            partition,
+        };
+        plan.assemble(&charts, &charts, self.udim_sheets.clone())
     }
 }
 
@@ -85,121 +108,49 @@ fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
         .collect()
 }
 
-/// Most texels of all charts' rectangles together; each takes a bit while building.
-const RECTANGLES_LIMIT: u64 = 1 << 33;
-
-/// Inputs of the build that do not depend on the placement of charts.
-struct Plan<'a> {
-    mesh: &'a Mesh,
-    topology: &'a Topology,
-    uvs: Uvs<'a>,
-    orientations: &'a [i8],
-    size: u32,
-    page_limit: u32,
-}
+/// Said where dividing charts would take more texels than an atlas may have.
+const GAPS_WARNING: &str = "Parts of UV charts lie so close to each other that filters flow from one to the other; placing them apart would \
+    take too many texels. More space between them helps.";
 
 impl Plan<'_> {
-    /// Returns the mask of each chart, and whether it covers a texel twice. Charts that would not fit are an error before
-    /// anything is allocated.
-    fn masks(&self, partition: &Partition) -> Result<Vec<(Mask, bool)>, AtlasError> {
-        let charts = 0..partition.len();
-        let boxes: Vec<Option<[i64; 4]>> = charts
-            .clone()
-            .into_par_iter()
-            .map(|chart| texel_box(&self.uvs, partition.triangles(chart)))
-            .collect();
-        let limit = self.page_limit - 2 * RINGS;
-        let mut texels = 0u64;
-        for (chart, bounds) in boxes.iter().enumerate() {
-            let Some([x0, y0, x1, y1]) = *bounds else { continue };
-            let (width, height) = ((x1 - x0) as u64, (y1 - y0) as u64);
-            if width.max(height) > u64::from(limit) {
-                let triangle = partition.triangles(chart)[0];
-                return Err(AtlasError::ChartTooLarge {
-                    triangle,
-                    width,
-                    height,
-                    size: self.size,
-                    limit,
-                });
-            }
-            texels += width * height;
-        }
-        if texels > RECTANGLES_LIMIT {
-            let (needed, limit) = (format!("{texels} texels"), format!("{RECTANGLES_LIMIT} texels"));
-            return Err(AtlasError::TooManyTexels {
-                size: self.size,
-                charts: partition.len(),
-                needed,
-                limit,
-            });
-        }
-        Ok(charts
-            .into_par_iter()
-            .map(|chart| Mask::of_chart(&self.uvs, partition.triangles(chart), boxes[chart]))
-            .collect())
+    /// Builds the atlas of charts with narrow gaps, since their parts would take too many texels.
+    fn assemble_with_gaps(&self, whole: &ChartSet, udims: BTreeSet<u32>) -> Result<Atlas, AtlasError> {
+        let mut atlas = self.assemble(whole, whole, udims)?;
+        atlas.report.warnings.push(GAPS_WARNING.into());
+        Ok(atlas)
     }
 
-    /// Splits charts that overlap themselves; `None` when there are none.
-    fn split(&self, partition: &Partition, masks: &[(Mask, bool)]) -> Option<Partition> {
-        let splitter = Splitter {
-            mesh: self.mesh,
-            topology: self.topology,
-            uvs: self.uvs,
-            partition,
-        };
-        let suspects: Vec<usize> = (0..masks.len()).filter(|&chart| masks[chart].1).collect();
-        let found: Vec<Vec<u32>> = suspects.par_iter().map(|&chart| splitter.split(chart)).collect();
-        if found
-            .iter()
-            .all(|labels| labels.iter().all(|&label| label == labels[0]))
-        {
-            return None;
-        }
-        // The label of a chart is its first triangle, in the given partition as in the result.
-        let mut labels: Vec<u32> = partition
-            .triangle_chart
-            .iter()
-            .map(|&chart| partition.triangles(chart as usize)[0])
-            .collect();
-        for (&chart, found) in suspects.iter().zip(&found) {
-            for (&triangle, &label) in partition.triangles(chart).iter().zip(found) {
-                labels[triangle as usize] = label;
-            }
-        }
-        Some(Partition::from_labels(self.mesh, &labels))
-    }
-
-    fn assemble(&self, partition: &Partition, masks: Vec<Mask>, udims: BTreeSet<u32>) -> Result<Atlas, AtlasError> {
+    /// Builds the atlas of charts that are placed, which may be parts of those in UV that the report is about.
+    fn assemble(&self, placed: &ChartSet, in_uv: &ChartSet, udims: BTreeSet<u32>) -> Result<Atlas, AtlasError> {
+        let ChartSet { partition, masks, .. } = placed;
         if masks.iter().all(Mask::is_empty) {
             return Err(AtlasError::NoArea { size: self.size });
         }
-        let placement = place(&masks, self.size, self.page_limit)?;
+        let placement = place(masks, self.size, self.page_limit)?;
         let mut owners = owners::texel_owners(&self.uvs, partition, &placement);
         let leap = leap::leap(self.mesh, &self.uvs, partition, &owners, placement.page_size);
         let occupancy = Occupancy::new(&owners, placement.page_size);
         let sound = self.sound_triangles();
-        let links = self.links(partition, &masks, &placement, &owners, &occupancy, &sound);
+        let links = self.links(partition, masks, &placement, &owners, &occupancy, &sound);
         let [width, height] = placement.page_size.map(|side| side as usize);
         for (index, ghost) in links.ghosts.iter().enumerate() {
             let [x, y, page] = ghost.texel.map(|value| value as usize);
             owners[(page * height + y) * width + x] = GHOST_BIT | index as u32;
         }
-        let charts = self.charts(partition, &masks, &placement);
+        let charts = self.charts(placed, &placement);
         let inputs = ReportInputs {
             mesh: self.mesh,
             topology: self.topology,
             uvs: self.uvs,
-            partition,
+            in_uv,
             orientations: self.orientations,
             sound: &sound,
             charts: &charts,
-            masks: &masks,
             placement: &placement,
             udims: &udims,
             size: self.size,
         };
-        let overlap = overlap(&self.uvs, partition, &charts, &masks, self.size);
+        let overlap = overlap(self.mesh, &self.uvs, in_uv, self.size);
         let Links {
             ghosts,
             unlinked,
@@ -286,7 +237,12 @@ impl Plan<'_> {
             .collect()
     }
 
-    fn charts(&self, partition: &Partition, masks: &[Mask], placement: &Placement) -> Vec<Chart> {
+    fn charts(&self, placed: &ChartSet, placement: &Placement) -> Vec<Chart> {
+        let ChartSet {
+            partition,
+            masks,
+            origins,
+        } = placed;
         (0..partition.len())
             .into_par_iter()
             .map(|chart| {
@@ -310,12 +266,13 @@ impl Plan<'_> {
                     })
                     .sum();
                 Chart {
+                    uv_chart: origins[chart].uv_chart,
                     page: place.page,
                     texel_from_uv: place.offset,
                     bounds: bounds.map(|value| value as u32),
                     material: self.mesh.triangle_material[triangles[0] as usize],
                     sheet: sheet_of(self.mesh, triangles),
-                    uv_tile: self.uv_tile(triangles),
+                    uv_tile: origins[chart].uv_tile,
                     // Counter-clockwise in a picture is a negative area, since v grows downward.
                     mirrored: turned > 0.0,
                     triangles: triangles.len() as u32,

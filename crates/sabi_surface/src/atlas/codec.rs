@@ -27,7 +27,7 @@ pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
     for chart in &atlas.charts {
         let [dx, dy] = chart.texel_from_uv.map(i32::cast_unsigned);
         let [tile_u, tile_v] = chart.uv_tile.map(i32::cast_unsigned);
-        out.u32s(&[chart.page, dx, dy]);
+        out.u32s(&[chart.uv_chart, chart.page, dx, dy]);
         out.u32s(&chart.bounds);
         let mirrored = u32::from(chart.mirrored);
         let sheet = chart.sheet;
@@ -74,7 +74,7 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     }
     let udims = input.count()?;
     let udim_sheets = input.list(udims, 1, |input| u32::try_from(input.varint()?).ok())?;
-    let charts = input.list(charts, 52, Reader::chart)?;
+    let charts = input.list(charts, 60, Reader::chart)?;
     let triangle_chart = input.pods(triangles)?;
     let triangle_texels = input.pods(triangles)?;
     let owners = input.owners(texels as usize)?;
@@ -210,12 +210,13 @@ impl<'a> Reader<'a> {
     }
 
     fn chart(&mut self) -> Option<Chart> {
-        let [page, dx, dy] = self.u32_array()?;
+        let [uv_chart, page, dx, dy] = self.u32_array()?;
         let bounds = self.u32_array()?;
         let [material, sheet, tile_u, tile_v, mirrored, triangles, texels] = self.u32_array()?;
         let texel_from_uv = [dx, dy].map(u32::cast_signed);
         let uv_tile = [tile_u, tile_v].map(u32::cast_signed);
         Some(Chart {
+            uv_chart,
             page,
             texel_from_uv,
             bounds,

@@ -65,6 +65,11 @@ impl<'a> Uvs<'a> {
         Ok(Uvs { mesh, size: size_f })
     }
 
+    /// Texels for one unit of UV.
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
     /// Texture coordinates of a vertex; 0 where they are no numbers.
     fn uv(&self, vertex: u32) -> DVec2 {
         let finite = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };

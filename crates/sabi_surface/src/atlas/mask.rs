@@ -141,6 +141,15 @@ impl Mask {
         self.height == 0
     }
 
+    /// Returns true if a texel of the user's layout is covered.
+    pub(super) fn is_set(&self, [x, y]: [i64; 2]) -> bool {
+        let (column, row) = (x - self.origin[0], y - self.origin[1]);
+        if column < 0 || row < 0 || column >= i64::from(self.width) || row >= i64::from(self.height) {
+            return false;
+        }
+        self.row(row as usize)[column as usize / 64] >> (column % 64) & 1 == 1
+    }
+
     /// Number of bits set.
     pub(crate) fn count(&self) -> u64 {
         self.bits.iter().map(|word| u64::from(word.count_ones())).sum()

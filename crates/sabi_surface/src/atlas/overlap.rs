@@ -4,10 +4,12 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use super::charts::Partition;
+use super::PAIRS_LIMIT;
+use super::charts::sheet_of;
 use super::fixed::{UNIT, Uvs};
 use super::mask::{Mask, for_each_run};
-use super::{Chart, PAIRS_LIMIT};
+use super::plan::ChartSet;
+use crate::model::Mesh;
 
 /// Most pairs whose shared texels are counted.
 const CANDIDATES_LIMIT: usize = 200_000;
@@ -24,26 +26,20 @@ pub(super) struct Overlap {
 }
 
 /// Finds all overlaps within each sheet, with UV tiles wrapped onto one unit square.
-pub(super) fn overlap(uvs: &Uvs, partition: &Partition, charts: &[Chart], masks: &[Mask], size: u32) -> Overlap {
+pub(super) fn overlap(mesh: &Mesh, uvs: &Uvs, charts: &ChartSet, size: u32) -> Overlap {
     let mut found = Overlap::default();
-    let numbers: Vec<usize> = (0..charts.len()).collect();
-    for of_sheet in numbers.chunk_by(|&a, &b| charts[a].sheet == charts[b].sheet) {
+    let numbers: Vec<usize> = (0..charts.partition.len()).collect();
+    let sheet = |chart: usize| sheet_of(mesh, charts.partition.triangles(chart));
+    for of_sheet in numbers.chunk_by(|&a, &b| sheet(a) == sheet(b)) {
         if of_sheet.len() > 1 {
-            overlap_of_sheet(uvs, partition, charts, masks, size, of_sheet, &mut found);
+            overlap_of_sheet(uvs, charts, size, of_sheet, &mut found);
         }
     }
     found
 }
 
-fn overlap_of_sheet(
-    uvs: &Uvs,
-    partition: &Partition,
-    charts: &[Chart],
-    masks: &[Mask],
-    size: u32,
-    numbers: &[usize],
-    found: &mut Overlap,
-) {
+fn overlap_of_sheet(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: &[usize], found: &mut Overlap) {
+    let masks = &charts.masks;
     let mut square = Square::new(size);
     for &chart in numbers {
         square.claim(&Wrapped::new(&masks[chart], size));
@@ -57,11 +53,11 @@ fn overlap_of_sheet(
         .filter(|(_, wrapped)| square.shared(wrapped) > 0)
         .collect();
     found.texels += crowded.iter().map(|(_, wrapped)| square.shared(wrapped)).sum::<u64>();
-    let mut stacked = coinciding(uvs, partition, charts, size, crowded.iter().map(|&(chart, _)| chart));
+    let mut stacked = coinciding(uvs, charts, size, crowded.iter().map(|&(chart, _)| chart));
     let room = PAIRS_LIMIT - found.pairs.len();
     let pairs = pairs(&crowded, room);
     for &(a, b, shared) in &pairs {
-        let texels = |chart: u32| u64::from(charts[chart as usize].texels);
+        let texels = |chart: u32| masks[chart as usize].count();
         // The charts cover the same texels with different triangles.
         if shared == texels(a) && shared == texels(b) {
             stacked.insert(b as usize);
@@ -96,20 +92,15 @@ fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
 }
 
 /// Finds charts whose triangles coincide with those of an earlier one, regardless of winding.
-fn coinciding(
-    uvs: &Uvs,
-    partition: &Partition,
-    charts: &[Chart],
-    size: u32,
-    numbers: impl Iterator<Item = usize>,
-) -> BTreeSet<usize> {
+fn coinciding(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: impl Iterator<Item = usize>) -> BTreeSet<usize> {
     let mut seen = BTreeSet::new();
     let mut stacked = BTreeSet::new();
     for chart in numbers {
-        let tile = charts[chart]
+        let tile = charts.origins[chart]
             .uv_tile
             .map(|tile| i64::from(tile) * i64::from(size) * UNIT);
-        let mut triangles: Vec<[[i64; 2]; 3]> = partition
+        let mut triangles: Vec<[[i64; 2]; 3]> = charts
+            .partition
             .triangles(chart)
             .iter()
             .map(|&triangle| {

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::charts::Partition;
 use super::fixed::Uvs;
-use super::mask::Mask;
 use super::overlap::Overlap;
 use super::place::Placement;
+use super::plan::ChartSet;
 use super::topology::Topology;
 use super::{AtlasReport, Chart};
 use crate::model::Mesh;
@@ -21,11 +20,12 @@ pub(super) struct ReportInputs<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
     pub(super) uvs: Uvs<'a>,
-    pub(super) partition: &'a Partition,
+    /// Charts in UV.
+    pub(super) in_uv: &'a ChartSet,
     pub(super) orientations: &'a [i8],
     pub(super) sound: &'a [bool],
+    /// Charts that are placed.
     pub(super) charts: &'a [Chart],
-    pub(super) masks: &'a [Mask],
     pub(super) placement: &'a Placement,
     pub(super) udims: &'a BTreeSet<u32>,
     pub(super) size: u32,
@@ -42,7 +42,7 @@ impl ReportInputs<'_> {
             overlap_texels: overlap.texels,
             overlapping_charts: overlap.pairs,
             stacked_charts: overlap.stacked,
-            mirrored_charts: count(&mut self.charts.iter().map(|chart| chart.mirrored)),
+            mirrored_charts: self.count_in_uv(|chart| chart.mirrored),
             degenerate_uv_triangles: count(&mut self.orientations.iter().map(|&way| way == 0)),
             degenerate_triangles: count(&mut self.sound.iter().map(|&sound| !sound)),
             nonmanifold_edges: self.topology.nonmanifold_edges,
@@ -57,29 +57,34 @@ impl ReportInputs<'_> {
         report
     }
 
+    /// Counts charts in UV of which a placed part is as asked for.
+    fn count_in_uv(&self, is_counted: impl Fn(&Chart) -> bool) -> u32 {
+        let counted = self.charts.iter().filter(|chart| is_counted(chart));
+        let in_uv: BTreeSet<u32> = counted.map(|chart| chart.uv_chart).collect();
+        in_uv.len() as u32
+    }
+
     /// Counts thin charts; those without area in UV are none.
     fn thin_charts(&self) -> u32 {
         let has_area = |chart: usize| {
-            let mut triangles = self.partition.triangles(chart).iter();
+            let mut triangles = self.in_uv.partition.triangles(chart).iter();
             triangles.any(|&triangle| self.orientations[triangle as usize] != 0)
         };
-        let thin = |chart: &usize| self.masks[*chart].is_thin() && has_area(*chart);
-        (0..self.masks.len()).filter(thin).count() as u32
+        let masks = self.in_uv.masks.iter().enumerate();
+        masks.filter(|(chart, mask)| mask.is_thin() && has_area(*chart)).count() as u32
     }
 
     fn moved_charts(&self) -> u32 {
         if self.placement.kept {
             return 0;
         }
-        let moved = |chart: &&Chart| chart.texels > 0 && (chart.texel_from_uv != [0, 0] || chart.page != 0);
-        self.charts.iter().filter(moved).count() as u32
+        self.count_in_uv(|chart| chart.texels > 0 && (chart.texel_from_uv != [0, 0] || chart.page != 0))
     }
 
     fn warnings(&self, report: &AtlasReport) -> Vec<String> {
         let mut warnings = Vec::new();
-        let repeats =
-            |chart: &&Chart| chart.uv_tile != [0, 0] && !self.udims.contains(&chart.sheet) && chart.texels > 0;
-        let outside = self.charts.iter().filter(repeats).count() as u32;
+        let repeats = |chart: &Chart| chart.uv_tile != [0, 0] && !self.udims.contains(&chart.sheet) && chart.texels > 0;
+        let outside = self.count_in_uv(repeats);
         if outside > 0 {
             let charts = counted(outside, "UV chart lies", "UV charts lie");
             warnings.push(format!("{charts} outside of the unit square; maps repeat there"));
@@ -112,8 +117,9 @@ impl ReportInputs<'_> {
 
     /// Returns the ratio of texels per model unit between the densest and the sparsest chart.
     fn density_ratio(&self) -> Option<f64> {
-        let areas: Vec<(f64, f64)> = (0..self.partition.len())
-            .map(|chart| self.areas(self.partition.triangles(chart)))
+        let partition = &self.in_uv.partition;
+        let areas: Vec<(f64, f64)> = (0..partition.len())
+            .map(|chart| self.areas(partition.triangles(chart)))
             .collect();
         let least = areas.iter().map(|(space, _)| space).sum::<f64>() * DENSITY_LEAST_SHARE;
         let densities = areas

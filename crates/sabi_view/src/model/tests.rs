@@ -5,6 +5,7 @@ use std::path::Path;
 use sabi_surface::atlas::AtlasOptions;
 use sabi_surface::displace::{DisplaceOptions, displaced};
 use sabi_surface::load::{LoadOptions, load};
+use sabi_surface::model::ModelMaterial;
 
 use super::*;
 
@@ -15,6 +16,35 @@ fn asset(name: &str) -> (Model, Atlas) {
     let model = load(&path, &LoadOptions::default()).unwrap();
     let atlas = Atlas::build(&model.mesh, &AtlasOptions::new(128)).unwrap();
     (model, atlas)
+}
+
+/// Two arms on a back in one chart, with a hundredth of UV between them; in space one is bent forward and the other backward.
+fn fork() -> Model {
+    let columns = [0.0131, 0.4113, 0.4217, 0.8391];
+    let rows = [0.017, 0.293, 0.571, 0.731, 0.919];
+    let mut mesh = Mesh::default();
+    for y in rows {
+        for (column, x) in columns.into_iter().enumerate() {
+            let bend = if column < 2 { 1.0 } else { -1.0 };
+            mesh.positions.push([x, y, bend * (rows[3] - y).max(0.0)]);
+            mesh.normals.push([0.0, 0.0, 1.0]);
+            mesh.tangents.push([1.0, 0.0, 0.0, 1.0]);
+            mesh.uvs.push([x, y]);
+        }
+    }
+    for row in 0..4 {
+        for column in (0..3).filter(|&column| column != 1 || row == 3) {
+            let [a, b, c, d] = [0, 1, 5, 4].map(|corner| 4 * row + column + corner);
+            mesh.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh.triangle_material = vec![0; mesh.triangles.len()];
+    mesh.triangle_part = vec![0; mesh.triangles.len()];
+    Model {
+        mesh,
+        materials: vec![ModelMaterial::default()],
+        ..Model::default()
+    }
 }
 
 /// A copy cut into many triangles, raised by so many model units everywhere.
@@ -89,6 +119,27 @@ fn a_raised_copy_stands_out_of_the_place_of_the_model() {
     for corner in &made.vertices {
         let radius = glam::Vec3::from(corner.position).length();
         assert!((0.59..0.61).contains(&radius), "{radius}");
+    }
+}
+
+#[test]
+fn cuts_at_narrow_gaps_of_a_chart_are_no_seams() {
+    let model = fork();
+    let placement = Placement::of(&model.mesh);
+    let of_size = |size: u32| {
+        let atlas = Atlas::build(&model.mesh, &AtlasOptions::new(size)).unwrap();
+        let copy = raised(&model, &atlas, 0.0);
+        let of_model = lines(half_edges(&model.mesh, &atlas), &placement);
+        let of_copy = lines(displaced_half_edges(&copy, &atlas), &placement);
+        let parts = atlas.charts.len() - atlas.uv_charts().len();
+        (parts, [of_model, of_copy].map(|[_, seams]| length(&seams)))
+    };
+    let (whole, expected) = of_size(1024);
+    let (parts, seams) = of_size(256);
+    assert_eq!(whole, 0);
+    assert!(parts > 0);
+    for (length, expected) in seams.into_iter().zip(expected) {
+        assert!((length - expected).abs() < 1e-4 * expected, "{length} {expected}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! Rings of charts never touch, and charts keep their place where they can.
 
+use super::gaps::comb;
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasError, AtlasOptions, EMPTY, GHOST_BIT, Owner, RINGS, TILE};
 use crate::model::Mesh;
@@ -142,15 +143,16 @@ fn a_layout_that_touches_the_border_moves_as_one() {
 
 #[test]
 fn threads_and_runs_do_not_change_a_byte() {
-    let mesh = scattered(9, 20);
-    let build = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| Atlas::build(&mesh, &AtlasOptions::new(200)).unwrap())
-    };
-    let first = build(1);
-    assert_eq!(first, build(2));
-    assert_eq!(first, build(5));
-    assert_eq!(first, build(1));
+    for mesh in [scattered(9, 20), comb(5, 2.0, 0.3)] {
+        let build = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| Atlas::build(&mesh, &AtlasOptions::new(200)).unwrap())
+        };
+        let first = build(1);
+        assert_eq!(first, build(2));
+        assert_eq!(first, build(5));
+        assert_eq!(first, build(1));
+    }
 }
 
 #[test]
@@ -179,7 +181,8 @@ fn a_chart_that_overlaps_itself_is_split() {
         }
     }
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(128)).unwrap();
-    assert!((3..=5).contains(&atlas.charts.len()), "{} charts", atlas.charts.len());
+    // At least three; a full turn is divided again, since its end lies beside its start.
+    assert!((3..=8).contains(&atlas.charts.len()), "{} charts", atlas.charts.len());
     assert_whole(&atlas, &mesh);
     assert_eq!(atlas.report.unlinked_ghosts, 0);
     // Three rings' worth of texels, none lost.

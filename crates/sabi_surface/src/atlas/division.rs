@@ -1,0 +1,192 @@
+//! Division of charts into those that are placed, each on its own: at overlaps with themselves and at narrow gaps.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::charts::Partition;
+use super::gaps::Gaps;
+use super::mask::{Mask, texel_box};
+use super::plan::{ChartSet, Plan};
+use super::split::Splitter;
+use super::{AtlasError, RINGS};
+
+/// Division of charts at narrow gaps.
+pub(super) enum Division {
+    /// No chart has narrow gaps.
+    NotNeeded,
+    /// Charts without narrow gaps, some of them parts.
+    Divided(ChartSet),
+    /// Parts would take too much room.
+    TooLarge,
+}
+
+/// Most rounds of dividing charts at narrow gaps; gaps that are left then stay.
+const DIVISIONS: usize = 4;
+/// Most room that parts may take, as a multiple of that of the charts in UV, and some texels more.
+const GROWTH_LIMIT: u64 = 2;
+const LEAST_ROOM: u64 = 1 << 14;
+/// Most texels of all charts' rectangles together; each takes a bit while building.
+const RECTANGLES_LIMIT: u64 = 1 << 33;
+
+impl Plan<'_> {
+    /// Returns the mask of each chart, and whether it covers a texel twice. Charts that would not fit are an error before
+    /// anything is allocated.
+    pub(super) fn masks(&self, partition: &Partition) -> Result<Vec<(Mask, bool)>, AtlasError> {
+        let charts = 0..partition.len();
+        let boxes: Vec<Option<[i64; 4]>> = charts
+            .clone()
+            .into_par_iter()
+            .map(|chart| texel_box(&self.uvs, partition.triangles(chart)))
+            .collect();
+        let limit = self.page_limit - 2 * RINGS;
+        let mut texels = 0u64;
+        for (chart, bounds) in boxes.iter().enumerate() {
+            let Some([x0, y0, x1, y1]) = *bounds else { continue };
+            let (width, height) = ((x1 - x0) as u64, (y1 - y0) as u64);
+            if width.max(height) > u64::from(limit) {
+                let triangle = partition.triangles(chart)[0];
+                return Err(AtlasError::ChartTooLarge {
+                    triangle,
+                    width,
+                    height,
+                    size: self.size,
+                    limit,
+                });
+            }
+            texels += width * height;
+        }
+        if texels > RECTANGLES_LIMIT {
+            let (needed, limit) = (format!("{texels} texels"), format!("{RECTANGLES_LIMIT} texels"));
+            return Err(AtlasError::TooManyTexels {
+                size: self.size,
+                charts: partition.len(),
+                needed,
+                limit,
+            });
+        }
+        Ok(charts
+            .into_par_iter()
+            .map(|chart| Mask::of_chart(&self.uvs, partition.triangles(chart), boxes[chart]))
+            .collect())
+    }
+
+    /// Splits charts that overlap themselves; `None` when there are none.
+    pub(super) fn split(&self, partition: &Partition, masks: &[(Mask, bool)]) -> Option<Partition> {
+        let splitter = Splitter {
+            mesh: self.mesh,
+            topology: self.topology,
+            uvs: self.uvs,
+            partition,
+        };
+        let suspects = (0..masks.len()).into_par_iter().filter(|&chart| masks[chart].1);
+        let found: Vec<(usize, Vec<u32>)> = suspects.map(|chart| (chart, splitter.split(chart))).collect();
+        let is_whole = |(_, labels): &(usize, Vec<u32>)| labels.iter().all(|&label| label == labels[0]);
+        (!found.iter().all(is_whole)).then(|| self.relabeled(partition, &found))
+    }
+
+    /// Divides charts at narrow gaps.
+    pub(super) fn divide_at_narrow_gaps(&self, whole: &ChartSet) -> Division {
+        let Some((partition, masks)) = self.divided(whole) else {
+            return Division::TooLarge;
+        };
+        if partition.len() == whole.partition.len() {
+            return Division::NotNeeded;
+        }
+        if room(&masks) > GROWTH_LIMIT * room(&whole.masks) + LEAST_ROOM {
+            return Division::TooLarge;
+        }
+        let origin = |chart: usize| {
+            let triangle = partition.triangles(chart)[0];
+            whole.origins[whole.partition.triangle_chart[triangle as usize] as usize]
+        };
+        Division::Divided(ChartSet {
+            origins: (0..partition.len()).map(origin).collect(),
+            masks,
+            partition,
+        })
+    }
+
+    /// Returns the parts of charts at narrow gaps and their masks; `None` where these would be too large.
+    fn divided(&self, whole: &ChartSet) -> Option<(Partition, Vec<Mask>)> {
+        let mut partition = whole.partition.clone();
+        // Masks by first triangle: of charts that need no more division, and those that may.
+        let mut done: HashMap<u32, Mask> = HashMap::new();
+        let first = |partition: &Partition, chart: usize| partition.triangles(chart)[0];
+        let mut open: Vec<(usize, Mask)> = whole.masks.iter().cloned().enumerate().collect();
+        // A cut may leave a narrow gap of its own.
+        for _ in 0..DIVISIONS {
+            let gaps = Gaps {
+                mesh: self.mesh,
+                topology: self.topology,
+                uvs: self.uvs,
+                partition: &partition,
+            };
+            let found: Vec<Option<Vec<u32>>> = open.par_iter().map(|(chart, mask)| gaps.divide(*chart, mask)).collect();
+            let mut divided = Vec::new();
+            for ((chart, mask), labels) in open.into_iter().zip(found) {
+                match labels {
+                    Some(labels) => divided.push((chart, labels)),
+                    None => {
+                        done.insert(first(&partition, chart), mask);
+                    }
+                }
+            }
+            if divided.is_empty() {
+                open = Vec::new();
+                break;
+            }
+            partition = self.relabeled(&partition, &divided);
+            let unknown = (0..partition.len()).filter(|&chart| !done.contains_key(&first(&partition, chart)));
+            open = self.masks_of_parts(&partition, unknown.collect())?;
+        }
+        done.extend(open.into_iter().map(|(chart, mask)| (first(&partition, chart), mask)));
+        let mask = |chart: usize| done.remove(&first(&partition, chart));
+        let masks: Option<Vec<Mask>> = (0..partition.len()).map(mask).collect();
+        Some((partition, masks?))
+    }
+
+    /// Returns the masks of some charts; `None` where their rectangles have too many texels, as those of spirals may.
+    fn masks_of_parts(&self, partition: &Partition, charts: Vec<usize>) -> Option<Vec<(usize, Mask)>> {
+        let boxes: Vec<_> = charts
+            .par_iter()
+            .map(|&chart| texel_box(&self.uvs, partition.triangles(chart)))
+            .collect();
+        let texels = boxes
+            .iter()
+            .flatten()
+            .map(|[x0, y0, x1, y1]| ((x1 - x0) * (y1 - y0)) as u64);
+        if texels.sum::<u64>() > RECTANGLES_LIMIT {
+            return None;
+        }
+        let rastered = charts.into_par_iter().zip(boxes);
+        Some(
+            rastered
+                .map(|(chart, bounds)| (chart, Mask::of_chart(&self.uvs, partition.triangles(chart), bounds).0))
+                .collect(),
+        )
+    }
+
+    /// Returns charts of which some have other labels for their triangles, each the first triangle of its new chart.
+    fn relabeled(&self, partition: &Partition, found: &[(usize, Vec<u32>)]) -> Partition {
+        // The label of a chart is its first triangle, in the given partition as in the result.
+        let mut labels: Vec<u32> = partition
+            .triangle_chart
+            .iter()
+            .map(|&chart| partition.triangles(chart as usize)[0])
+            .collect();
+        for (chart, found) in found {
+            for (&triangle, &label) in partition.triangles(*chart).iter().zip(found) {
+                labels[triangle as usize] = label;
+            }
+        }
+        Partition::from_labels(self.mesh, &labels)
+    }
+}
+
+/// Returns the texels of the rectangles of charts with their rings.
+fn room(masks: &[Mask]) -> u64 {
+    let around = |side: u32| u64::from(side + 2 * RINGS);
+    let masks = masks.iter().filter(|mask| !mask.is_empty());
+    masks.map(|mask| around(mask.width) * around(mask.height)).sum()
+}
