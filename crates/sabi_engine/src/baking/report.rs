@@ -150,7 +150,7 @@ pub struct BakedMesh {
     pub file: String,
     /// Triangles of all parts.
     pub triangles: usize,
-    /// Charts of the atlas.
+    /// Charts in UV; one that overlaps itself counts in the parts that do not.
     pub charts: usize,
     /// Share of the atlas that charts cover.
     pub coverage: f64,

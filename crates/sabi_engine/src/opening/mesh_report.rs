@@ -37,7 +37,7 @@ pub struct MeshReport {
     pub pages: u32,
     /// Width and height of a page, texels.
     pub page_size: [u32; 2],
-    /// Charts of the atlas.
+    /// Charts in UV; one that overlaps itself counts in the parts that do not.
     pub charts: usize,
     /// Share of the atlas that charts cover.
     pub coverage: f32,
