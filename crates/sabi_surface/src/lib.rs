@@ -41,6 +41,7 @@ pub mod patch;
 pub mod pieces;
 pub mod points;
 pub mod seams;
+mod segment;
 pub mod unwrap;
 
 pub use atlas::topology::{NO_TWIN, Topology};

@@ -48,7 +48,7 @@ impl Openness {
     pub fn of(mesh: &Mesh, atlas: &Atlas, bvh: &Bvh, cache_dir: Option<&Path>) -> Result<Openness, AtlasError> {
         let options = AtlasOptions::new(SIZE);
         let cache = cache_dir.map(|folder| Cache::new(folder, KIND));
-        // How charts are divided depends on the size of the pictures' atlas.
+        // The division of charts depends on the size of the pictures' atlas.
         let mut hasher = blake3::Hasher::new();
         hasher.update(&atlas_key(mesh, &options));
         hasher.update(bytemuck::cast_slice(&atlas.triangle_chart));
@@ -70,7 +70,7 @@ impl Openness {
             texels: Finder::new(mesh, &small, bvh).texels(),
         };
         if let Some(cache) = &cache {
-            // What cannot be stored is found again next time.
+            // Found again next time if it cannot be stored.
             let _ = cache.write(&key, &found.encode());
         }
         Ok(found)

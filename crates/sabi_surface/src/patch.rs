@@ -15,6 +15,7 @@ use glam::{DVec2, DVec3};
 
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
+use crate::segment::distance_to_segment;
 
 pub use walk::walk;
 
@@ -258,16 +259,4 @@ fn corners_beside(corners: [DVec3; 3], first: usize, ends: [DVec2; 2]) -> Option
         placed[(first + corner) % 3] = at;
     }
     Some(placed)
-}
-
-/// Distance from a point to a segment.
-pub fn distance_to_segment(point: DVec2, ends: [DVec2; 2]) -> f64 {
-    let along = ends[1] - ends[0];
-    let square = along.length_squared();
-    let t = if square > 0.0 {
-        ((point - ends[0]).dot(along) / square).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    point.distance(ends[0] + t * along)
 }

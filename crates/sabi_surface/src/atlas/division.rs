@@ -33,15 +33,18 @@ impl Plan<'_> {
     /// Returns the mask of each chart, and whether it covers a texel twice. Charts that would not fit are an error before
     /// anything is allocated.
     pub(super) fn masks(&self, partition: &Partition) -> Result<Vec<(Mask, bool)>, AtlasError> {
-        let charts = 0..partition.len();
+        self.masks_of(partition, &(0..partition.len()).collect::<Vec<_>>())
+    }
+
+    /// Returns the same of some charts.
+    fn masks_of(&self, partition: &Partition, charts: &[usize]) -> Result<Vec<(Mask, bool)>, AtlasError> {
         let boxes: Vec<Option<[i64; 4]>> = charts
-            .clone()
-            .into_par_iter()
-            .map(|chart| texel_box(&self.uvs, partition.triangles(chart)))
+            .par_iter()
+            .map(|&chart| texel_box(&self.uvs, partition.triangles(chart)))
             .collect();
         let limit = self.page_limit - 2 * RINGS;
         let mut texels = 0u64;
-        for (chart, bounds) in boxes.iter().enumerate() {
+        for (&chart, bounds) in charts.iter().zip(&boxes) {
             let Some([x0, y0, x1, y1]) = *bounds else { continue };
             let (width, height) = ((x1 - x0) as u64, (y1 - y0) as u64);
             if width.max(height) > u64::from(limit) {
@@ -60,25 +63,20 @@ impl Plan<'_> {
             let (needed, limit) = (format!("{texels} texels"), format!("{RECTANGLES_LIMIT} texels"));
             return Err(AtlasError::TooManyTexels {
                 size: self.size,
-                charts: partition.len(),
+                charts: charts.len(),
                 needed,
                 limit,
             });
         }
-        Ok(charts
-            .into_par_iter()
-            .map(|chart| Mask::of_chart(&self.uvs, partition.triangles(chart), boxes[chart]))
+        let bounded = charts.par_iter().zip(boxes);
+        Ok(bounded
+            .map(|(&chart, bounds)| Mask::of_chart(&self.uvs, partition.triangles(chart), bounds))
             .collect())
     }
 
     /// Splits charts that overlap themselves; `None` when there are none.
     pub(super) fn split(&self, partition: &Partition, masks: &[(Mask, bool)]) -> Option<Partition> {
-        let splitter = Splitter {
-            mesh: self.mesh,
-            topology: self.topology,
-            uvs: self.uvs,
-            partition,
-        };
+        let splitter = Splitter { plan: self, partition };
         let suspects = (0..masks.len()).into_par_iter().filter(|&chart| masks[chart].1);
         let found: Vec<(usize, Vec<u32>)> = suspects.map(|chart| (chart, splitter.split(chart))).collect();
         let is_whole = |(_, labels): &(usize, Vec<u32>)| labels.iter().all(|&label| label == labels[0]);
@@ -117,9 +115,7 @@ impl Plan<'_> {
         // A cut may leave a narrow gap of its own.
         for _ in 0..DIVISIONS {
             let gaps = Gaps {
-                mesh: self.mesh,
-                topology: self.topology,
-                uvs: self.uvs,
+                plan: self,
                 partition: &partition,
             };
             let found: Vec<Option<Vec<u32>>> = open.par_iter().map(|(chart, mask)| gaps.divide(*chart, mask)).collect();
@@ -137,34 +133,16 @@ impl Plan<'_> {
                 break;
             }
             partition = self.relabeled(&partition, &divided);
-            let unknown = (0..partition.len()).filter(|&chart| !done.contains_key(&first(&partition, chart)));
-            open = self.masks_of_parts(&partition, unknown.collect())?;
+            let is_new = |&chart: &usize| !done.contains_key(&first(&partition, chart));
+            let new: Vec<usize> = (0..partition.len()).filter(is_new).collect();
+            // Rectangles of parts may be too large where those of whole charts are not, as those of spirals.
+            let masks = self.masks_of(&partition, &new).ok()?.into_iter().map(|(mask, _)| mask);
+            open = new.into_iter().zip(masks).collect();
         }
         done.extend(open.into_iter().map(|(chart, mask)| (first(&partition, chart), mask)));
         let mask = |chart: usize| done.remove(&first(&partition, chart));
         let masks: Option<Vec<Mask>> = (0..partition.len()).map(mask).collect();
         Some((partition, masks?))
-    }
-
-    /// Returns the masks of some charts; `None` where their rectangles have too many texels, as those of spirals may.
-    fn masks_of_parts(&self, partition: &Partition, charts: Vec<usize>) -> Option<Vec<(usize, Mask)>> {
-        let boxes: Vec<_> = charts
-            .par_iter()
-            .map(|&chart| texel_box(&self.uvs, partition.triangles(chart)))
-            .collect();
-        let texels = boxes
-            .iter()
-            .flatten()
-            .map(|[x0, y0, x1, y1]| ((x1 - x0) * (y1 - y0)) as u64);
-        if texels.sum::<u64>() > RECTANGLES_LIMIT {
-            return None;
-        }
-        let rastered = charts.into_par_iter().zip(boxes);
-        Some(
-            rastered
-                .map(|(chart, bounds)| (chart, Mask::of_chart(&self.uvs, partition.triangles(chart), bounds).0))
-                .collect(),
-        )
     }
 
     /// Returns charts of which some have other labels for their triangles, each the first triangle of its new chart.

@@ -7,12 +7,11 @@ use std::collections::{HashSet, VecDeque};
 use glam::{DVec2, DVec3};
 
 use super::RINGS;
-use super::charts::{Partition, is_seam};
-use super::fixed::Uvs;
+use super::charts::Partition;
 use super::mask::{Mask, for_each_run, or_shifted};
+use super::plan::Plan;
 use super::raster::spans;
-use super::topology::{NO_TWIN, Topology};
-use crate::model::Mesh;
+use crate::segment::distance_to_segment;
 
 /// Most texels between two parts of a chart whose rings meet.
 const WIDEST: i64 = 2 * RINGS as i64;
@@ -46,9 +45,7 @@ type Texel = [i64; 2];
 
 /// Charts whose gaps are looked for.
 pub(super) struct Gaps<'a> {
-    pub(super) mesh: &'a Mesh,
-    pub(super) topology: &'a Topology,
-    pub(super) uvs: Uvs<'a>,
+    pub(super) plan: &'a Plan<'a>,
     pub(super) partition: &'a Partition,
 }
 
@@ -100,11 +97,11 @@ impl Gaps<'_> {
 
     /// Returns the place of a texel's center in space, and the longer one of its steps; `None` for a triangle without area in UV.
     fn place(&self, triangle: u32, texel: Texel) -> Option<[DVec3; 2]> {
-        let [q0, q1, q2] = self.uvs.corners(triangle);
+        let [q0, q1, q2] = self.plan.uvs.corners(triangle);
         let (to_1, to_2) = (q1 - q0, q2 - q0);
         let area2 = to_1.perp_dot(to_2);
-        let position = |vertex: u32| DVec3::from(self.mesh.positions[vertex as usize].map(f64::from));
-        let [p0, p1, p2] = self.mesh.triangles[triangle as usize].map(position);
+        let position = |vertex: u32| DVec3::from(self.plan.mesh.positions[vertex as usize].map(f64::from));
+        let [p0, p1, p2] = self.plan.mesh.triangles[triangle as usize].map(position);
         let step = |v: DVec2| (p1 - p0) * (v.perp_dot(to_2) / area2) + (p2 - p0) * (to_1.perp_dot(v) / area2);
         let (x, y) = (step(DVec2::X), step(DVec2::Y));
         let longer = if x.length_squared() < y.length_squared() { y } else { x };
@@ -116,7 +113,7 @@ impl Gaps<'_> {
         let triangles = self.partition.triangles(chart);
         let mut steps_left = EDGE_STEPS.saturating_mul(triangles.len()).max(LEAST_EDGE_STEPS);
         for &triangle in triangles {
-            let corners = self.uvs.corners(triangle);
+            let corners = self.plan.uvs.corners(triangle);
             for k in 0..3 {
                 if self.beyond(3 * triangle + k as u32).is_some() {
                     continue;
@@ -161,9 +158,13 @@ impl Gaps<'_> {
         if !pairs.is_empty() {
             // Backwards, so that the lowest number is written last, as in the atlas.
             for &triangle in self.partition.triangles(chart).iter().rev() {
-                spans(self.uvs.fixed(triangle), (i64::MIN / 4, i64::MAX / 4), |y, x0, x1| {
-                    owners.paint(y, [x0, x1], triangle);
-                });
+                spans(
+                    self.plan.uvs.fixed(triangle),
+                    (i64::MIN / 4, i64::MAX / 4),
+                    |y, x0, x1| {
+                        owners.paint(y, [x0, x1], triangle);
+                    },
+                );
             }
         }
         owners
@@ -171,10 +172,8 @@ impl Gaps<'_> {
 
     /// Returns the triangle on the other side of a half-edge, if it belongs to the same chart there.
     fn beyond(&self, edge: u32) -> Option<u32> {
-        let twin = self.topology.twins[edge as usize];
-        let chart = |edge: u32| self.partition.triangle_chart[edge as usize / 3];
-        let goes_on = twin != NO_TWIN && chart(twin) == chart(edge) && !is_seam(self.mesh, self.topology, edge, twin);
-        goes_on.then_some(twin / 3)
+        let chart = |triangle: u32| self.partition.triangle_chart[triangle as usize];
+        self.plan.across(edge).filter(|&next| chart(next) == chart(edge / 3))
     }
 
     /// Returns whether the chart leads from one triangle to another near a point.
@@ -201,11 +200,11 @@ impl Gaps<'_> {
 
     /// Returns the neighbors of a triangle in its chart, over edges near a point.
     fn near_neighbors(&self, triangle: u32, point: DVec2) -> impl Iterator<Item = u32> {
-        let corners = self.uvs.corners(triangle);
-        let reach = AROUND.max(AROUND_SHARE * self.uvs.size());
+        let corners = self.plan.uvs.corners(triangle);
+        let reach = AROUND.max(AROUND_SHARE * self.plan.uvs.size());
         (0..3).filter_map(move |k| {
             let next = self.beyond(3 * triangle + k as u32)?;
-            (distance_to_segment(point, corners[k], corners[(k + 1) % 3]) <= reach).then_some(next)
+            (distance_to_segment(point, [corners[k], corners[(k + 1) % 3]]) <= reach).then_some(next)
         })
     }
 
@@ -342,12 +341,4 @@ fn wide_pairs(mask: &Mask) -> Vec<[Texel; 2]> {
 
 fn center([x, y]: Texel) -> DVec2 {
     DVec2::new(x as f64, y as f64) + 0.5
-}
-
-fn distance_to_segment(point: DVec2, from: DVec2, to: DVec2) -> f64 {
-    let along = to - from;
-    let share = (point - from).dot(along) / along.length_squared();
-    // Also for an edge without length, whose share is no number.
-    let share = if share > 0.0 { share.min(1.0) } else { 0.0 };
-    point.distance(from + along * share)
 }

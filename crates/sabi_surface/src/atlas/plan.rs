@@ -1,9 +1,9 @@
 //! Inputs of a build: what does not depend on where charts are placed, and the charts with their masks.
 
-use super::charts::Partition;
+use super::charts::{Partition, is_seam};
 use super::fixed::Uvs;
 use super::mask::Mask;
-use super::topology::Topology;
+use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
 /// Inputs of a build that do not depend on the placement of charts.
@@ -17,12 +17,19 @@ pub(super) struct Plan<'a> {
     pub(super) page_limit: u32,
 }
 
-/// Where a chart of the atlas comes from.
+impl Plan<'_> {
+    /// Returns the triangle on the other side of a half-edge, if the edge is no seam.
+    pub(super) fn across(&self, edge: u32) -> Option<u32> {
+        let twin = self.topology.twins[edge as usize];
+        (twin != NO_TWIN && !is_seam(self.mesh, self.topology, edge, twin)).then_some(twin / 3)
+    }
+}
+
+/// Chart in UV that a chart of the atlas is, or is a part of.
 #[derive(Clone, Copy)]
 pub(super) struct Origin {
-    /// Number of the chart in UV that it is, or is a part of.
     pub(super) uv_chart: u32,
-    /// Tile of that chart in UV.
+    /// Its tile.
     pub(super) uv_tile: [i32; 2],
 }
 

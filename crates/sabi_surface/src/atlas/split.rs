@@ -2,20 +2,17 @@
 
 use std::collections::VecDeque;
 
-use super::charts::{Partition, is_seam};
+use super::charts::Partition;
 use super::fixed::{UNIT, Uvs};
+use super::plan::Plan;
 use super::raster::spans;
-use super::topology::{NO_TWIN, Topology};
-use crate::model::Mesh;
 
 /// No triangle.
 const UNCLAIMED: u32 = u32::MAX;
 
 /// Inputs of a split.
 pub(super) struct Splitter<'a> {
-    pub(super) mesh: &'a Mesh,
-    pub(super) topology: &'a Topology,
-    pub(super) uvs: Uvs<'a>,
+    pub(super) plan: &'a Plan<'a>,
     pub(super) partition: &'a Partition,
 }
 
@@ -26,7 +23,7 @@ impl Splitter<'_> {
     /// Returns the first triangle of its new chart for each of the chart's triangles, in their order.
     pub(super) fn split(&self, chart: usize) -> Vec<u32> {
         let triangles = self.partition.triangles(chart);
-        let mut grid = Grid::covering(&self.uvs, triangles);
+        let mut grid = Grid::covering(&self.plan.uvs, triangles);
         // Index of a triangle within the chart.
         let local = |triangle: u32| triangles.binary_search(&triangle).ok();
         let mut labels = vec![UNCLAIMED; triangles.len()];
@@ -44,7 +41,7 @@ impl Splitter<'_> {
                 if triangle != seed && !self.fits(&grid, triangle) {
                     continue;
                 }
-                grid.paint(self.uvs.fixed(triangle), triangle);
+                grid.paint(self.plan.uvs.fixed(triangle), triangle);
                 labels[at] = seed;
                 grown.push(triangle);
                 for neighbor in self.neighbors(triangle).filter_map(local) {
@@ -55,7 +52,7 @@ impl Splitter<'_> {
                 }
             }
             for triangle in grown {
-                grid.paint(self.uvs.fixed(triangle), UNCLAIMED);
+                grid.paint(self.plan.uvs.fixed(triangle), UNCLAIMED);
             }
         }
         labels
@@ -63,22 +60,23 @@ impl Splitter<'_> {
 
     /// Returns the neighbors of a triangle over edges that are no seams, in the order of its edges.
     fn neighbors(&self, triangle: u32) -> impl Iterator<Item = u32> {
-        (3 * triangle..3 * triangle + 3).filter_map(|edge| {
-            let twin = self.topology.twins[edge as usize];
-            (twin != NO_TWIN && !is_seam(self.mesh, self.topology, edge, twin)).then_some(twin / 3)
-        })
+        (3 * triangle..3 * triangle + 3).filter_map(|edge| self.plan.across(edge))
     }
 
     /// Returns true if all texel centers of a triangle are free or belong to triangles that touch it.
     fn fits(&self, grid: &Grid, triangle: u32) -> bool {
         let mut fits = true;
-        spans(self.uvs.fixed(triangle), (i64::MIN / 4, i64::MAX / 4), |y, x0, x1| {
-            fits = fits
-                && grid
-                    .row(y, x0, x1)
-                    .iter()
-                    .all(|&owner| owner == UNCLAIMED || self.touch(owner, triangle));
-        });
+        spans(
+            self.plan.uvs.fixed(triangle),
+            (i64::MIN / 4, i64::MAX / 4),
+            |y, x0, x1| {
+                fits = fits
+                    && grid
+                        .row(y, x0, x1)
+                        .iter()
+                        .all(|&owner| owner == UNCLAIMED || self.touch(owner, triangle));
+            },
+        );
         fits
     }
 
@@ -86,8 +84,8 @@ impl Splitter<'_> {
     /// snapped, which is not an overlap in the user's layout.
     fn touch(&self, a: u32, b: u32) -> bool {
         let corner = |triangle: u32, k: usize| {
-            let place = self.topology.corners[triangle as usize * 3 + k];
-            (place, self.uvs.fixed(triangle)[k])
+            let place = self.plan.topology.corners[triangle as usize * 3 + k];
+            (place, self.plan.uvs.fixed(triangle)[k])
         };
         (0..3).any(|i| (0..3).any(|j| corner(a, i) == corner(b, j)))
     }

@@ -9,6 +9,7 @@ use crate::atlas::charts::partition;
 use crate::atlas::fixed::Uvs;
 use crate::atlas::gaps::Gaps;
 use crate::atlas::mask::{Mask, texel_box};
+use crate::atlas::plan::Plan;
 use crate::atlas::topology::Topology;
 use crate::atlas::{Atlas, AtlasOptions, Chart, Owner, UvChart};
 use crate::model::Mesh;
@@ -142,11 +143,17 @@ fn gaps_are_parted_even_when_there_are_too_many_to_look_for_good_cuts() {
     let mesh = comb(12, 2.0, 0.0);
     let topology = Topology::new(&mesh);
     let uvs = Uvs::check(&mesh, SIZE).unwrap();
-    let partition = partition(&mesh, &topology, &vec![1; mesh.triangles.len()]);
-    let gaps = Gaps {
+    let plan = Plan {
         mesh: &mesh,
         topology: &topology,
         uvs,
+        orientations: &vec![1; mesh.triangles.len()],
+        size: SIZE,
+        page_limit: 2048,
+    };
+    let partition = partition(&mesh, &topology, plan.orientations);
+    let gaps = Gaps {
+        plan: &plan,
         partition: &partition,
     };
     let (mask, _) = Mask::of_chart(&uvs, partition.triangles(0), texel_box(&uvs, partition.triangles(0)));
