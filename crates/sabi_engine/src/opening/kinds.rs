@@ -62,17 +62,8 @@ impl Kinds {
             if folder.is_dir() {
                 self.add_folder(folder);
             } else {
-                self.drop_folder(folder);
+                self.library.remove_folder(folder);
             }
-        }
-    }
-
-    /// Drops the nodes of a folder that does not exist any more.
-    fn drop_folder(&mut self, folder: &Path) {
-        let own = self.library.kinds().filter(|kind| kind.path.starts_with(folder));
-        let ids: Vec<String> = own.map(|kind| kind.id.clone()).collect();
-        for id in ids {
-            self.library.remove(&id);
         }
     }
 

@@ -21,7 +21,7 @@ impl Library {
     pub fn load_folder(&mut self, folder: &Path) -> Vec<Fault> {
         let mut faults = Vec::new();
         self.kinds
-            .retain(|_, kind| !kind.path.starts_with(folder) || kind.path.exists());
+            .retain(|_, kind| !kind.path().starts_with(folder) || kind.path().exists());
         for file in wgsl_files(&folder.join("lib"), true, &mut faults) {
             if let Some((name, text)) = read(&file, &mut faults) {
                 self.add_library(&file, name, text, &mut faults);
@@ -75,13 +75,13 @@ impl Library {
 
     fn add_node(&mut self, id: String, path: PathBuf, text: String, faults: &mut Vec<Fault>) {
         match self.kinds.get(&id) {
-            Some(known) if known.path != path => faults.push(Fault::of_file(
+            Some(known) if known.path() != path => faults.push(Fault::of_file(
                 &path,
                 format!("There is a node `{id}` already, and this one is not read."),
                 "Give the file another name.",
             )),
             // The nodes of a changed library were read again with it.
-            Some(known) if *known.source == *text => {}
+            Some(known) if known.text() == text => {}
             _ => {
                 if let Err(mut found) = self.replace(SourceFile { path, id, text }) {
                     faults.append(&mut found);

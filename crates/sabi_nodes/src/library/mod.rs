@@ -1,13 +1,15 @@
 //! The library of kinds: built in, from a user's folder, reloaded while they are edited.
 
+mod entry;
 mod folder;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::sync::Arc;
 
+use self::entry::{BuiltIn, Entry};
 use crate::compile::check_library;
 use crate::fault::Fault;
 use crate::kind::Kind;
@@ -19,7 +21,7 @@ use crate::words::nearest;
 /// Node kinds by id, and the libraries they use.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
-    kinds: BTreeMap<String, Kind>,
+    kinds: BTreeMap<String, Entry>,
     libraries: Libraries,
     /// Paths of the libraries from folders, to distinguish a changed file from a second file of the same name.
     library_paths: BTreeMap<String, PathBuf>,
@@ -43,14 +45,15 @@ impl Library {
         (library, faults)
     }
 
-    /// Returns a copy of the kinds that come with the program, which are read once in a process.
+    /// Returns the kinds that come with the program, each of which is read once in a process, when it is first needed. None of them is
+    /// faulty, which a test checks.
     pub fn builtin() -> Library {
-        static BUILTIN: LazyLock<Library> = LazyLock::new(|| {
-            let (files, libraries) = Library::builtin_files();
-            // None of them is faulty, which a test checks.
-            Library::load(files, libraries).0
-        });
-        BUILTIN.clone()
+        let kinds = BuiltIn::all().iter();
+        Library {
+            kinds: kinds.map(|kind| (kind.id.to_owned(), Entry::BuiltIn(kind))).collect(),
+            libraries: Libraries::builtin().clone(),
+            library_paths: BTreeMap::new(),
+        }
     }
 
     /// The texts of the kinds that come with the program, and of their libraries.
@@ -65,14 +68,13 @@ impl Library {
 
     /// The kind with this id, present or earlier (`@was`).
     pub fn kind(&self, id: &str) -> Option<&Kind> {
-        self.kinds
-            .get(id)
-            .or_else(|| self.kinds().find(|kind| kind.formerly.iter().any(|old| old == id)))
+        let present = self.kinds.get(id).and_then(Entry::kind);
+        present.or_else(|| self.kinds.values().find_map(|entry| entry.formerly(id)))
     }
 
     /// All kinds, sorted by id.
     pub fn kinds(&self) -> impl Iterator<Item = &Kind> {
-        self.kinds.values()
+        self.kinds.values().filter_map(Entry::kind)
     }
 
     /// The libraries that kinds use.
@@ -98,7 +100,7 @@ impl Library {
     /// Reads a new or changed file. A faulty one changes nothing: the last good version stays.
     pub fn replace(&mut self, file: SourceFile) -> Result<(), Vec<Fault>> {
         let kind = read_kind(&file, &self.libraries)?;
-        self.kinds.insert(kind.id.clone(), kind);
+        self.insert(kind);
         Ok(())
     }
 
@@ -128,14 +130,17 @@ impl Library {
             return Err(faults);
         }
         self.libraries = libraries;
-        self.kinds
-            .extend(changed.into_iter().map(|kind| (kind.id.clone(), kind)));
+        changed.into_iter().for_each(|kind| self.insert(kind));
         Ok(())
     }
 
-    /// Removes a kind whose file is gone; `false` when there was none.
-    pub fn remove(&mut self, id: &str) -> bool {
-        self.kinds.remove(id).is_some()
+    fn insert(&mut self, kind: Kind) {
+        self.kinds.insert(kind.id.clone(), Entry::Read(Arc::new(kind)));
+    }
+
+    /// Removes the kinds of a folder that is gone.
+    pub fn remove_folder(&mut self, folder: &Path) {
+        self.kinds.retain(|_, kind| !kind.path().starts_with(folder));
     }
 
     /// Removes the libraries that do not compile, so that each is reported once and not by every node that uses it.

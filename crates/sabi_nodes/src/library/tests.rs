@@ -56,7 +56,10 @@ fn a_reload_keeps_the_last_good_version() {
         .replace(file("test/good", &GOOD.replace("Good", "Better")))
         .unwrap();
     assert_eq!(library.kind("test/good").unwrap().label, "Better");
-    assert!(library.remove("test/good") && !library.remove("test/good"));
+    library.remove_folder(Path::new("tes"));
+    assert!(library.kind("test/good").is_some(), "of another folder");
+    library.remove_folder(Path::new("test"));
+    assert!(library.kind("test/good").is_none());
 }
 
 #[test]
