@@ -1,5 +1,7 @@
 //! Padding outside the charts: the nearest covered pixel, found once for a texture set and used for every channel.
 
+use std::iter;
+
 use rayon::prelude::*;
 
 use crate::layout::{Cover, NONE, SetLayout};
@@ -122,6 +124,24 @@ impl PaddingMap {
         })
     }
 
+    /// Pixels of a part that are not covered, each with its source.
+    fn others(&self, part: usize) -> impl Iterator<Item = (usize, u32)> {
+        const WORD: usize = u64::BITS as usize;
+        let first = self.parts[part];
+        let end = self.pixels.min(PART * (part + 1));
+        let words = self.is_covered[PART / WORD * part..end.div_ceil(WORD)].iter().enumerate();
+        let pixels = words.flat_map(move |(word, is_covered)| {
+            let mut open = !is_covered;
+            iter::from_fn(move || {
+                let bit = (open != 0).then(|| open.trailing_zeros() as usize)?;
+                open &= open - 1;
+                Some(PART * part + WORD * word + bit)
+            })
+        });
+        // The last word may have bits beyond the last pixel.
+        pixels.take_while(move |pixel| *pixel < end).zip(self.of_others[first..].iter().copied())
+    }
+
     /// Gathers a channel of the set from the atlas: covered pixels are exact copies of their texels, or the mean of those that
     /// share one in a merged layout; padding repeats them.
     ///
@@ -207,13 +227,9 @@ impl PaddingMap {
             let is_other = source
                 .zip(of(*to))
                 .is_some_and(|(one, other)| !one.iter().zip(other).all(is_same));
-            *to < last && *from as usize != *to && is_other
+            *to < last && is_other
         };
-        let changed = |part: usize| {
-            let sources = self.sources_from(part).take(PART).enumerate();
-            let pixels = sources.map(move |(at, from)| (PART * part + at, from));
-            pixels.filter(differs).collect::<Vec<_>>()
-        };
+        let changed = |part: usize| self.others(part).filter(differs).collect::<Vec<_>>();
         let changed: Vec<Vec<(usize, u32)>> = (0..self.parts.len()).into_par_iter().map(changed).collect();
         for (to, from) in changed.into_iter().flatten() {
             let to = to * components;

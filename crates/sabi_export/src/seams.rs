@@ -7,6 +7,7 @@
 //! texels keep their bits.
 
 mod erase;
+mod readers;
 mod solve;
 #[cfg(test)]
 mod tests;
@@ -17,11 +18,13 @@ use sabi_surface::atlas::Atlas;
 use sabi_surface::model::Mesh;
 use sabi_surface::seams::Seam;
 
+use self::readers::Readers;
 use crate::layout::SetLayout;
 
 /// Samples a texel along a seam: more than one, so that all texels beside the seam are sampled.
 const SAMPLES_A_TEXEL: f64 = 3.0;
-/// Most samples of all seams together; where that is too few for the length of the seams, samples lie further apart.
+/// Most samples of all seams together, which [`Readers`] can tell apart; where that is too few for the length of the seams, samples lie
+/// further apart.
 const MOST_SAMPLES: f64 = (1 << 21) as f64;
 
 /// Samples of a texture set along its seams, with the texels that a renderer reads on both sides.
@@ -33,6 +36,8 @@ pub struct SeamSamples {
     /// The set's pixels beside seams, rising.
     pixels: Vec<u32>,
     samples: Vec<Sample>,
+    /// The samples of each pixel.
+    readers: Readers,
     seams: Vec<Seam>,
 }
 
@@ -97,6 +102,7 @@ impl SeamSamples {
                     .map(|pixel| pixels.partition_point(|&other| other < pixel) as u32);
             });
         SeamSamples {
+            readers: Readers::new(&samples, pixels.len()),
             pixels,
             samples,
             seams: seams.to_vec(),

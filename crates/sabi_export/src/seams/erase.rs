@@ -115,7 +115,7 @@ impl SeamSamples {
         let (rows, differences) = compared.unzip();
         System {
             samples: &self.samples,
-            texels: self.pixels.len(),
+            readers: &self.readers,
             rows,
             differences,
         }

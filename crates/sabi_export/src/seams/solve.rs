@@ -1,9 +1,10 @@
-//! Linear least squares over the texels beside seams, by conjugate gradients in a fixed order: the same bits on every
-//! machine and with any number of threads.
+//! Linear least squares over the texels beside seams, by conjugate gradients whose sums have a fixed order: the same bits on
+//! every machine and with any number of threads.
 
 use rayon::prelude::*;
 
 use super::Sample;
+use super::readers::Readers;
 
 /// Weight of a squared change of a texel, relative to a squared difference over one texel of seam. A difference that is
 /// constant along the seam shrinks to this share of itself; one that varies from texel to texel shrinks less, since its
@@ -13,6 +14,8 @@ const CHANGE_WEIGHT: f64 = 0.03;
 const RESIDUAL_TOLERANCE: f64 = 1e-3;
 /// Most iterations.
 const MOST_ITERATIONS: usize = 100;
+/// Texels of a part of a parallel task.
+const PART: usize = 1 << 12;
 
 /// For each side of a sample the rows that map a footprint to the compared values, and the first side's values minus the
 /// second's.
@@ -21,8 +24,8 @@ pub(super) type Compared<const N: usize, const K: usize> = ([[[f32; N]; K]; 2], 
 /// Both sides of every sample, compared in `K` numbers; a texel has `N` values.
 pub(super) struct System<'a, const N: usize, const K: usize> {
     pub(super) samples: &'a [Sample],
-    /// Number of texels.
-    pub(super) texels: usize,
+    /// The samples of each texel.
+    pub(super) readers: &'a Readers,
     /// The rows of each sample.
     pub(super) rows: Vec<[[[f32; N]; K]; 2]>,
     /// The differences of each sample as they are.
@@ -43,17 +46,12 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
 
     /// Solves for the changes of all texels.
     pub(super) fn changes(&self) -> Vec<[f64; N]> {
-        let mut changes = vec![[0.0; N]; self.texels];
-        let mut residual = vec![[0.0; N]; self.texels];
-        for (index, difference) in self.differences.iter().enumerate() {
-            self.scatter(index, difference.map(|x| -x), &mut residual);
-        }
-        let scales = self.scales();
-        let scaled = |residual: &[[f64; N]]| -> Vec<[f64; N]> {
-            let pairs = residual.iter().zip(&scales);
-            pairs
-                .map(|(values, scale)| std::array::from_fn(|at| values[at] / scale[at]))
-                .collect()
+        let mut changes = vec![[0.0; N]; self.readers.texels()];
+        let pulled: Vec<[f64; K]> = self.differences.iter().map(|difference| difference.map(|x| -x)).collect();
+        let mut residual = self.of_texels(|texel| self.transposed(texel, [0.0; N], &pulled));
+        let scales = self.of_texels(|texel| self.scale(texel));
+        let scaled = |residual: &[[f64; N]]| {
+            self.of_texels(|texel| std::array::from_fn(|at| residual[texel][at] / scales[texel][at]))
         };
         let mut toward = scaled(&residual);
         let mut step = toward.clone();
@@ -71,25 +69,24 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
             toward = scaled(&residual);
             let before = std::mem::replace(&mut size, dot(&residual, &toward));
             let keep = size / before;
-            for (step, toward) in step.iter_mut().zip(&toward) {
-                *step = std::array::from_fn(|at| toward[at] + keep * step[at]);
-            }
+            step = self.of_texels(|texel| std::array::from_fn(|at| toward[texel][at] + keep * step[texel][at]));
         }
         changes
     }
 
     /// The system's matrix times a vector.
     fn image(&self, vector: &[[f64; N]]) -> Vec<[f64; N]> {
-        let mut image: Vec<[f64; N]> = vector.iter().map(|values| values.map(|x| CHANGE_WEIGHT * x)).collect();
         let compared: Vec<[f64; K]> = (0..self.samples.len())
             .into_par_iter()
             .map(|index| self.compared(index, vector))
             .collect();
-        // In the order of the samples, since the order of a sum decides its last bit.
-        for (index, compared) in compared.into_iter().enumerate() {
-            self.scatter(index, compared, &mut image);
-        }
-        image
+        self.of_texels(|texel| self.transposed(texel, vector[texel].map(|x| CHANGE_WEIGHT * x), &compared))
+    }
+
+    /// A vector with the values that `of` returns for each texel.
+    fn of_texels(&self, of: impl Fn(usize) -> [f64; N] + Send + Sync) -> Vec<[f64; N]> {
+        let texels = (0..self.readers.texels()).into_par_iter();
+        texels.with_min_len(PART).map(of).collect()
     }
 
     /// A sample's rows times the values of its footprints, of the first side minus the second.
@@ -111,50 +108,75 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
         compared
     }
 
-    /// Adds the transpose of a sample's rows times `compared` to the texels of its footprints.
-    fn scatter(&self, index: usize, compared: [f64; K], to: &mut [[f64; N]]) {
-        let sample = &self.samples[index];
-        for (side, footprint) in sample.sides.iter().enumerate() {
+    /// Adds to the values of a texel the transpose of its samples' rows times `compared`, in the order of the samples, since the
+    /// order of a sum decides its last bit.
+    fn transposed(&self, texel: usize, values: [f64; N], compared: &[[f64; K]]) -> [f64; N] {
+        let mut sum = values;
+        for place in self.readers.of(texel) {
+            let (index, side) = (place.sample(), place.side());
+            let sample = &self.samples[index];
             let sign = if side == 0 { 1.0 } else { -1.0 };
-            let mut pull = [0.0; N];
-            for (row, compared) in self.rows[index][side].iter().zip(compared) {
-                for at in 0..N {
-                    pull[at] += sign * f64::from(sample.length) * f64::from(row[at]) * compared;
-                }
-            }
-            for (weight, texel) in footprint.weights().into_iter().zip(footprint.texels) {
-                let values = &mut to[texel as usize];
-                for at in 0..N {
-                    values[at] += weight * pull[at];
-                }
+            let length = sign * f64::from(sample.length);
+            let weight = sample.sides[side].weights()[place.corner()];
+            for (at, sum) in sum.iter_mut().enumerate() {
+                let rows = self.rows[index][side].iter().zip(compared[index]);
+                let pull: f64 = rows.map(|(row, compared)| length * f64::from(row[at]) * compared).sum();
+                *sum += weight * pull;
             }
         }
+        sum
     }
 
-    /// Returns the diagonal of the matrix, the preconditioner of the iterations.
-    fn scales(&self) -> Vec<[f64; N]> {
-        let mut scales = vec![[CHANGE_WEIGHT; N]; self.texels];
-        for (sample, rows) in self.samples.iter().zip(&self.rows) {
-            for (footprint, rows) in sample.sides.iter().zip(rows) {
-                for (weight, texel) in footprint.weights().into_iter().zip(footprint.texels) {
-                    for at in 0..N {
-                        let squares: f64 = rows.iter().map(|row| f64::from(row[at]).powi(2)).sum();
-                        scales[texel as usize][at] += f64::from(sample.length) * weight * weight * squares;
-                    }
-                }
+    /// Returns the diagonal of the matrix at a texel; it is the preconditioner of the iterations.
+    fn scale(&self, texel: usize) -> [f64; N] {
+        let mut scale = [CHANGE_WEIGHT; N];
+        for place in self.readers.of(texel) {
+            let sample = &self.samples[place.sample()];
+            let rows = &self.rows[place.sample()][place.side()];
+            let weight = sample.sides[place.side()].weights()[place.corner()];
+            for (at, scale) in scale.iter_mut().enumerate() {
+                let squares: f64 = rows.iter().map(|row| f64::from(row[at]).powi(2)).sum();
+                *scale += f64::from(sample.length) * weight * weight * squares;
             }
         }
-        scales
+        scale
     }
 }
 
+/// Scalar product, summed up in parts, which are the same with any number of threads.
 fn dot<const N: usize>(a: &[[f64; N]], b: &[[f64; N]]) -> f64 {
-    let pairs = a.as_flattened().iter().zip(b.as_flattened());
-    pairs.map(|(a, b)| a * b).sum()
+    let parts = a.par_chunks(PART).zip(b.par_chunks(PART));
+    let of_part = |(a, b): (&[[f64; N]], &[[f64; N]])| {
+        let pairs = a.as_flattened().iter().zip(b.as_flattened());
+        pairs.map(|(a, b)| a * b).sum::<f64>()
+    };
+    let sums: Vec<f64> = parts.map(of_part).collect();
+    sums.iter().sum()
 }
 
 fn add<const N: usize>(to: &mut [[f64; N]], from: &[[f64; N]], factor: f64) {
-    for (to, from) in to.as_flattened_mut().iter_mut().zip(from.as_flattened()) {
-        *to += factor * from;
+    let parts = to.par_chunks_mut(PART).zip(from.par_chunks(PART));
+    parts.for_each(|(to, from)| {
+        for (to, from) in to.as_flattened_mut().iter_mut().zip(from.as_flattened()) {
+            *to += factor * from;
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_product_of_several_parts_has_the_same_bits_with_any_number_of_threads() {
+        let values: Vec<[f64; 3]> = (0..5 * PART + 7)
+            .map(|at| [0.1, 0.7, -0.4].map(|factor| (at as f64 * factor).sin()))
+            .collect();
+        let product = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| dot(&values, &values).to_bits())
+        };
+        let alone = product(1);
+        assert_eq!([2, 3, 8].map(product), [alone; 3]);
     }
 }
