@@ -2,6 +2,7 @@
 
 mod in_bands;
 mod material;
+mod sameness;
 mod set_pixels;
 
 use std::collections::BTreeMap;
@@ -11,7 +12,7 @@ use sabi_color::luminance;
 use sabi_export::{
     BakeWriter, BandGather, Channel, ChannelPixels, Padding, PaddingMap, SeamSamples, SetKey, SetLayout, SetOptions,
 };
-use sabi_gpu::{PlaneData, Run, RunOptions};
+use sabi_gpu::{AdapterKind, PlaneData, Run, RunOptions};
 use sabi_graph::PortType;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
@@ -49,8 +50,11 @@ pub(crate) struct MapWriter<'a> {
 
 /// Approximate memory limit for the layouts and paddings of sets that are written together.
 const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
-/// Limit for the pixels of maps that wait or are being encoded: a mask of 4096², or two color maps of 2048². A larger map is alone.
+/// Limit for the pixels of maps that wait or are being encoded, where textures are in the same memory: a mask of 4096², or two color
+/// maps of 2048². A larger map is alone.
 const PIXEL_BUDGET_BYTES: usize = 96 << 20;
+/// The same where the device has a memory of its own: two color maps of 4096², one of which is encoded while the other is laid out.
+const DISCRETE_PIXEL_BUDGET_BYTES: usize = 384 << 20;
 /// Bytes per pixel of a layout's source and cover, and at most of the padding's sources.
 const LAYOUT_PIXEL_BYTES: usize = 9;
 
@@ -77,7 +81,10 @@ impl MapWriter<'_> {
                 .sum(),
             progress,
         };
-        let budget = MemoryBudget::new(PIXEL_BUDGET_BYTES);
+        let budget = MemoryBudget::new(match self.evaluator.gpu().summary().kind {
+            AdapterKind::Discrete => DISCRETE_PIXEL_BUDGET_BYTES,
+            AdapterKind::Integrated | AdapterKind::Cpu => PIXEL_BUDGET_BYTES,
+        });
         let mut finish_passes = 0;
         run.drop_unused();
         let mut chunks = sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)).peekable();

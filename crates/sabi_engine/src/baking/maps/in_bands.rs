@@ -59,6 +59,19 @@ impl<'s> Maps<'_, 's> {
         self.gathered((set, channel), first, read, value)
     }
 
+    /// Hands over one channel that has the same value in all texels that its set shows.
+    pub(super) fn even_channel(
+        &mut self,
+        (set, channel): (&'s OpenSet<'s>, &Channel),
+        first: usize,
+        value: [f32; 4],
+    ) -> Result<(), EngineError> {
+        stop_if_canceled(self.progress)?;
+        let memory = self.steps.reserve(set.pixels(), channel);
+        let pixels = set.padding.gather(&set.layout, channel, first, |_| value);
+        self.send(set, channel.clone(), pixels, (true, memory))
+    }
+
     /// Computes and hands over the normals of a set; the neutral ones where its material has neither height nor slope.
     pub(super) fn normals_in_bands(
         &mut self,

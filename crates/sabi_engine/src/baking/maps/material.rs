@@ -6,6 +6,7 @@ use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{PlannedResult, SlotRef};
 
+use super::sameness::Sameness;
 use super::{MapStep, Maps, OpenSet};
 use crate::error::EngineError;
 use crate::evaluating::looks::slot_of;
@@ -80,8 +81,15 @@ impl<'s> Maps<'_, 's> {
             && sets.iter().all(|set| set.is_gathered_in_bands())
         {
             for set in sets {
+                let seen = Sameness::default();
                 for (channel, first) in channels {
-                    self.channel_in_bands((&*run, slot), (set, channel), *first, value)?;
+                    match seen.of(*first, channel.components()) {
+                        Some(texel) => self.even_channel((set, channel), *first, value(texel))?,
+                        None => {
+                            let noted = |texel| value(seen.noted(texel));
+                            self.channel_in_bands((&*run, slot), (set, channel), *first, noted)?;
+                        }
+                    }
                 }
                 self.steps.send(MapStep::Advance)?;
             }
