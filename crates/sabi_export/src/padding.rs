@@ -129,7 +129,9 @@ impl PaddingMap {
         const WORD: usize = u64::BITS as usize;
         let first = self.parts[part];
         let end = self.pixels.min(PART * (part + 1));
-        let words = self.is_covered[PART / WORD * part..end.div_ceil(WORD)].iter().enumerate();
+        let words = self.is_covered[PART / WORD * part..end.div_ceil(WORD)]
+            .iter()
+            .enumerate();
         let pixels = words.flat_map(move |(word, is_covered)| {
             let mut open = !is_covered;
             iter::from_fn(move || {
@@ -139,7 +141,9 @@ impl PaddingMap {
             })
         });
         // The last word may have bits beyond the last pixel.
-        pixels.take_while(move |pixel| *pixel < end).zip(self.of_others[first..].iter().copied())
+        pixels
+            .take_while(move |pixel| *pixel < end)
+            .zip(self.of_others[first..].iter().copied())
     }
 
     /// Gathers a channel of the set from the atlas: covered pixels are exact copies of their texels, or the mean of those that

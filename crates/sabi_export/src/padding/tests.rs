@@ -166,7 +166,9 @@ fn covered_pixels_are_copies_and_the_rest_is_neutral_beyond_the_reach() {
 #[test]
 fn the_others_are_the_pixels_that_are_not_their_own_source() {
     const SIZE: u32 = 201;
-    let covered: Vec<bool> = (0..SIZE * SIZE).map(|pixel| pixel % 7 < 5 && pixel % SIZE > 3).collect();
+    let covered: Vec<bool> = (0..SIZE * SIZE)
+        .map(|pixel| pixel % 7 < 5 && pixel % SIZE > 3)
+        .collect();
     for padding in [Padding::Infinite, Padding::Texels(2)] {
         let map = PaddingMap::new(&layout(SIZE, &covered), padding);
         assert!(map.parts.len() > 1);

@@ -47,7 +47,11 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
     /// Solves for the changes of all texels.
     pub(super) fn changes(&self) -> Vec<[f64; N]> {
         let mut changes = vec![[0.0; N]; self.readers.texels()];
-        let pulled: Vec<[f64; K]> = self.differences.iter().map(|difference| difference.map(|x| -x)).collect();
+        let pulled: Vec<[f64; K]> = self
+            .differences
+            .iter()
+            .map(|difference| difference.map(|x| -x))
+            .collect();
         let mut residual = self.of_texels(|texel| self.transposed(texel, [0.0; N], &pulled));
         let scales = self.of_texels(|texel| self.scale(texel));
         let scaled = |residual: &[[f64; N]]| {
