@@ -23,8 +23,7 @@ use crate::layout::SetLayout;
 
 /// Samples a texel along a seam: more than one, so that all texels beside the seam are sampled.
 const SAMPLES_A_TEXEL: f64 = 3.0;
-/// Most samples of all seams together, which [`Readers`] can tell apart; where that is too few for the length of the seams, samples lie
-/// further apart.
+/// About the most samples of all seams together; where that is too few for the length of the seams, samples lie further apart.
 const MOST_SAMPLES: f64 = (1 << 21) as f64;
 
 /// Samples of a texture set along its seams, with the texels that a renderer reads on both sides.
@@ -36,7 +35,7 @@ pub struct SeamSamples {
     /// The set's pixels beside seams, rising.
     pixels: Vec<u32>,
     samples: Vec<Sample>,
-    /// The samples of each pixel.
+    /// Samples of each pixel.
     readers: Readers,
     seams: Vec<Seam>,
 }

@@ -1,14 +1,10 @@
 //! `cargo xtask test`: everything that must hold before a change is shared, cheapest first.
 
-use std::env;
 use std::process::Stdio;
 
 use crate::display;
 use crate::project::{Project, TaskError, finish};
 use crate::vulkan::{self, Driver};
-
-/// Variable with options of Mesa's compiler of kernels.
-const DRIVER_OPTIONS: &str = "GALLIVM_PERF";
 
 /// Name of a check, and cargo's arguments for it.
 type Check = (&'static str, &'static [&'static str]);
@@ -80,16 +76,8 @@ pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
             arguments.join(" ")
         );
         let mut command = project.cargo(arguments)?;
-        match arguments[0] {
-            "doc" => {
-                command.env("RUSTDOCFLAGS", "-D warnings");
-            }
-            // Mesa's software driver compiles thousands of kernels for tests that run each of them a few times: without optimization
-            // golden results take two thirds of the time, and are the same.
-            "test" if env::var_os(DRIVER_OPTIONS).is_none() => {
-                command.env(DRIVER_OPTIONS, "nopt");
-            }
-            _ => {}
+        if arguments[0] == "doc" {
+            command.env("RUSTDOCFLAGS", "-D warnings");
         }
         finish(command, name)?;
     }

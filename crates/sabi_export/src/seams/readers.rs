@@ -23,6 +23,10 @@ const SIDE_BITS: u32 = 1;
 
 impl Place {
     fn new(sample: usize, side: usize, corner: usize) -> Place {
+        debug_assert!(
+            sample < 1 << (u32::BITS - SIDE_BITS - CORNER_BITS),
+            "a model has fewer edges"
+        );
         Place {
             packed: (sample as u32) << (SIDE_BITS + CORNER_BITS) | (side as u32) << CORNER_BITS | corner as u32,
         }

@@ -28,7 +28,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads files. Faulty ones are left out, and their faults are returned.
+    /// Reads all of some files at once, as tests and tools do. Faulty ones are left out, and their faults are returned.
     pub fn load(files: Vec<SourceFile>, libraries: Libraries) -> (Library, Vec<Fault>) {
         let mut faults = Vec::new();
         let mut library = Library {

@@ -68,7 +68,11 @@ impl<'s> Maps<'_, 's> {
     ) -> Result<(), EngineError> {
         stop_if_canceled(self.progress)?;
         let memory = self.steps.reserve(set.pixels(), channel);
-        let pixels = set.padding.gather(&set.layout, channel, first, |_| value);
+        let pixels = {
+            let _span =
+                tracing::debug_span!("lay out", set = set.work.name.as_str(), channel = %channel.name()).entered();
+            set.padding.gather(&set.layout, channel, first, |_| value)
+        };
         self.send(set, channel.clone(), pixels, (true, memory))
     }
 

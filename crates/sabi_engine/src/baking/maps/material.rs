@@ -82,11 +82,12 @@ impl<'s> Maps<'_, 's> {
         {
             for set in sets {
                 let seen = Sameness::default();
-                for (channel, first) in channels {
+                for (at, (channel, first)) in channels.iter().enumerate() {
                     match seen.of(*first, channel.components()) {
                         Some(texel) => self.even_channel((set, channel), *first, value(texel))?,
                         None => {
-                            let noted = |texel| value(seen.noted(texel));
+                            let is_last = at + 1 == channels.len();
+                            let noted = |texel| value(if is_last { texel } else { seen.noted(texel) });
                             self.channel_in_bands((&*run, slot), (set, channel), *first, noted)?;
                         }
                     }

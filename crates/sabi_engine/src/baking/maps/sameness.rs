@@ -25,8 +25,8 @@ impl Sameness {
         texel
     }
 
-    /// Returns a texel with the value that all have in some components, counted from `first`; none where one of them varies, or
-    /// where no texel was read.
+    /// Returns a texel that stands for all in some components from `first` on; none where one of these varies, or where no texel was
+    /// read.
     pub(super) fn of(&self, first: usize, components: usize) -> Option<[f32; 4]> {
         let varies: [bool; 4] = array::from_fn(|at| self.varies[at].load(Ordering::Relaxed));
         let is_same = !varies.iter().skip(first).take(components).any(|varies| *varies);
