@@ -35,7 +35,7 @@ fn every_example_is_good() {
 
 #[test]
 fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
-    // The driver compiles on one core, and all of it takes longer than all other tests together.
+    // Most of the time the driver compiles, on one core: without a second thread this test ends long after all others.
     let graphs = examples();
     thread::scope(|scope| {
         for some in graphs.chunks(graphs.len().div_ceil(2)) {
