@@ -81,11 +81,21 @@ fn cell_of(texel: vec3i, read: ReadPlace) -> f32 {
     return select(own, stored, image.has_cell != 0u && is_finite(stored));
 }
 
-// The shown part of a color of the picture.
-fn shown_of(color: vec4f, cover: f32) -> vec3f {
-    if image.shown == SHOWN_COLOR {
-        return color.xyz;
+// A color as it adds up with others: times its alpha where clear colors do not count.
+fn weighed(color: vec4f) -> vec4f {
+    return vec4f(color.xyz * select(1.0, color.w, image.picture.by_alpha != 0u), color.w);
+}
+
+// A color of sums of weighed ones; where all are clear, another one.
+fn unweighed(sum: vec4f, otherwise: vec3f) -> vec4f {
+    if image.picture.by_alpha == 0u {
+        return sum;
     }
+    return vec4f(select(otherwise, sum.xyz / max(sum.w, 1e-12), sum.w > 0.0), sum.w);
+}
+
+// The shown part of a color of the picture, but for colors themselves.
+fn shown_of(color: vec4f, cover: f32) -> vec3f {
     let luminous = select(color.w, luminance(color.xyz), image.shown == SHOWN_LUMINANCE);
     let channel = color[clamp(image.shown, SHOWN_CHANNELS, SHOWN_CHANNELS + 2u) - SHOWN_CHANNELS];
     return vec3f(cover * select(luminous, channel, image.shown >= SHOWN_CHANNELS), 0.0, 0.0);
@@ -100,33 +110,41 @@ fn slope_of(color: vec4f, view: View, frame: TangentFrame, turn: vec2f) -> vec3f
     return view_slope(image.projection, view, frame, normal);
 }
 
-// The value of one view: of the picture as it is, or of its patches.
-fn view_value(view: View, frame: TangentFrame) -> vec3f {
+// The value of one view, of the picture as it is or of its patches: a color with its alpha, or the shown part of it.
+fn view_value(view: View, frame: TangentFrame) -> vec4f {
     var color = vec4f(0.0);
     var slope = vec3f(0.0);
     if IS_RANDOM {
         let patches = Patches(image.seed, image.most_turned, image.projection.aspect);
-        color = image.mean;
+        let mean = weighed(image.mean);
+        color = mean;
         for (var index = 0u; index < 3u; index++) {
             let part = patch_at(patches, view.footprint, index);
             // Patches that are hardly seen are not read.
             for (var read = 0u; read < select(0u, 1u, part.weight > LEAST_WEIGHT); read++) {
                 let own = footprint_mean(table, STORAGE_0, image.picture, part.footprint);
-                color += part.weight * (own - image.mean);
+                color += part.weight * (weighed(own) - mean);
                 slope += part.weight * slope_of(own, view, frame, part.turn);
             }
         }
         if image.is_limited != 0u {
             color = clamp(color, vec4f(0.0), vec4f(1.0));
         }
+        color = unweighed(color, image.mean.xyz);
+        if image.is_limited != 0u {
+            color = min(color, vec4f(1.0));
+        }
     } else {
         color = footprint_mean(table, STORAGE_0, image.picture, view.footprint);
         slope = slope_of(color, view, frame, vec2f(1.0, 0.0));
     }
     if SHOWS_SLOPE {
-        return select(view.cover * slope, vec3f(0.0), image.green == 0.0);
+        return vec4f(select(view.cover * slope, vec3f(0.0), image.green == 0.0), 1.0);
     }
-    return shown_of(color, view.cover);
+    if image.shown == SHOWN_COLOR {
+        return color;
+    }
+    return vec4f(shown_of(color, view.cover), 1.0);
 }
 
 @compute @workgroup_size(8, 8)
@@ -141,15 +159,21 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     let read = place_of(texel, point);
     let is_triplanar = WAY == TRIPLANAR;
     let normal = unit_or(frame.normal, select(image.projection.toward, vec3f(0.0, 1.0, 0.0), is_triplanar));
-    var sum = vec3f(0.0);
+    let is_color = !SHOWS_SLOPE && image.shown == SHOWN_COLOR;
+    var sum = vec4f(0.0);
+    // Of colors that no alpha weighs, where all views are clear.
+    var clear = vec3f(0.0);
     for (var side = 0u; side < select(1u, 3u, is_triplanar); side++) {
         var view = view_of(image.projection, point, normal, read, side);
         if HAS_CELLS {
             view.footprint = in_cell(image.projection, view.footprint, cell_of(texel, read));
         }
         for (var seen = 0u; seen < select(0u, 1u, view.weight > 0.0); seen++) {
-            sum += view.weight * view_value(view, frame);
+            let value = view_value(view, frame);
+            sum += view.weight * select(value, weighed(value), is_color);
+            clear += view.weight * value.xyz;
         }
     }
-    textureStore(field, texel.xy, texel.z, stored(vec4f(sum, 1.0)));
+    let value = select(sum.xyz, unweighed(sum, clear).xyz, is_color);
+    textureStore(field, texel.xy, texel.z, stored(vec4f(value, 1.0)));
 }

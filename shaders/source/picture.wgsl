@@ -27,7 +27,8 @@ const CENTER: f32 = 0.002;
 struct Picture {
     // Number of the smallest copy.
     last: u32,
-    pad: u32,
+    // 1 where a color counts in averages as much as it is opaque.
+    by_alpha: u32,
     // Pixels beyond the borders along u and v.
     wrap: vec2u,
 }
@@ -39,6 +40,20 @@ struct Footprint {
     // Change of the coordinates over one texel along the u and along the v of the atlas.
     along: vec2f,
     across: vec2f,
+}
+
+// Sums over pixels, each times its share.
+struct Sums {
+    plain: vec4f,
+    // Of colors times alpha.
+    opaque: vec3f,
+}
+
+// The mean of pixels. By alpha, clear pixels give it no color, unless all are clear.
+fn mean_of(sums: Sums, by_alpha: bool) -> vec4f {
+    let is_seen = by_alpha && sums.plain.w > 0.0;
+    let color = sums.opaque / select(1.0, sums.plain.w, is_seen);
+    return vec4f(select(sums.plain.xyz, color, is_seen), sums.plain.w);
 }
 
 // A footprint through the transform of a texture, by rows.
@@ -61,18 +76,21 @@ fn footprint_mean(table: texture_2d<u32>, storage: u32, picture: Picture, covere
     let taps = clamp(ceil(sides / f32(1u << copy) - 1e-3), vec2f(1.0), vec2f(TAPS_LIMIT));
     let across = u32(taps.x);
     let count = across * u32(taps.y);
-    var sum = vec4f(0.0);
+    var sums = Sums(vec4f(0.0), vec3f(0.0));
     for (var tap = 0u; tap < select(0u, count, copy == 0u); tap++) {
         let at = tap_place(covered, taps, vec2u(tap % across, tap / across));
-        sum += bilinear(table, storage, picture.wrap, whole, at);
+        let near = bilinear(table, storage, picture.wrap, whole, at);
+        sums = Sums(sums.plain + near.plain, sums.opaque + near.opaque);
     }
     let of_copies = select(FLOATS, HALVES, storage == HALVES);
     for (var tap = 0u; tap < select(count, 0u, copy == 0u); tap++) {
         let at = tap_place(covered, taps, vec2u(tap % across, tap / across));
         let head = textureLoad(table, table_texel(copy), 0);
-        sum += bilinear(table, of_copies, picture.wrap, head, at);
+        let near = bilinear(table, of_copies, picture.wrap, head, at);
+        sums = Sums(sums.plain + near.plain, sums.opaque + near.opaque);
     }
-    return sum / f32(count);
+    let mean = Sums(sums.plain / f32(count), sums.opaque / f32(count));
+    return mean_of(mean, picture.by_alpha != 0u);
 }
 
 fn tap_place(covered: Footprint, taps: vec2f, tap: vec2u) -> vec2f {
@@ -81,25 +99,27 @@ fn tap_place(covered: Footprint, taps: vec2f, tap: vec2u) -> vec2f {
 }
 
 // One to four pixels around a place; `head` is the row of the copy.
-fn bilinear(table: texture_2d<u32>, storage: u32, wrap: vec2u, head: vec4u, at: vec2f) -> vec4f {
+fn bilinear(table: texture_2d<u32>, storage: u32, wrap: vec2u, head: vec4u, at: vec2f) -> Sums {
     let size = vec2i(head.yz);
     let inside = vec2f(within(at.x, wrap.x), within(at.y, wrap.y));
     let place = inside * vec2f(size) - 0.5;
     let corner = floor(place);
     let fraction = place - corner;
     let is_center = (fraction < vec2f(CENTER)) | (fraction > vec2f(1.0 - CENTER));
-    let weight = select(fraction, vec2f(0.0), is_center);
+    let ahead = select(fraction, vec2f(0.0), is_center);
     // The center of the next pixel is a corner of its own.
     let low = vec2i(select(corner, corner + 1.0, is_center & (fraction > vec2f(0.5))));
-    var sum = vec4f(0.0);
+    var sums = Sums(vec4f(0.0), vec3f(0.0));
     for (var corner_index = 0u; corner_index < select(4u, 1u, all(is_center)); corner_index++) {
         let step = vec2u(corner_index & 1u, corner_index >> 1u);
-        let share = select(1.0 - weight, weight, step != vec2u(0u));
+        let share = select(1.0 - ahead, ahead, step != vec2u(0u));
         let column = pixel_within(low.x + i32(step.x), size.x, wrap.x);
         let row = pixel_within(low.y + i32(step.y), size.y, wrap.y);
-        sum += share.x * share.y * pixel(table, storage, head.x, row * head.y + column);
+        let seen = pixel(table, storage, head.x, row * head.y + column);
+        let weight = share.x * share.y;
+        sums = Sums(sums.plain + weight * seen, sums.opaque + weight * seen.w * seen.xyz);
     }
-    return sum;
+    return sums;
 }
 
 // A texture coordinate at which the same is seen, near the picture.

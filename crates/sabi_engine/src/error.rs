@@ -195,6 +195,7 @@ fn kind_of_picture(error: &ImageError) -> ErrorKind {
         | ImageError::Feature { .. }
         | ImageError::Damaged { .. }
         | ImageError::TooLarge { .. } => ErrorKind::BadInput,
+        ImageError::Layer { .. } => ErrorKind::Usage,
         ImageError::Encode { .. } => ErrorKind::Defect,
     }
 }

@@ -8,6 +8,7 @@ use sabi_nodes::kind::WrittenStop;
 use sabi_view::Pixels;
 
 use crate::Pictures;
+use crate::source::mip_chain::Reading;
 
 /// Places along a line at which its color is measured.
 const PLACES: usize = 128;
@@ -28,7 +29,7 @@ pub struct PickedPicture {
 impl PickedPicture {
     /// Reads an image file, reduced to at most `side` pixels along a side. The error is a sentence.
     pub fn read(pictures: &Pictures, file: &Path, side: u32) -> Result<PickedPicture, String> {
-        let opened = pictures.open(file, &file.to_string_lossy());
+        let opened = pictures.open(file, &file.to_string_lossy(), "");
         let open = opened.map_err(|(why, _)| format!("The picture cannot be used: {why}."))?;
         let picture = &open.picture;
         let is_srgb = match picture.color_space {
@@ -36,7 +37,11 @@ impl PickedPicture {
             Declared::Linear => false,
             Declared::Unknown => !matches!(picture.pixels, Samples::F32(_)),
         };
-        let levels = open.levels(is_srgb, side);
+        let reading = Reading {
+            is_srgb,
+            by_alpha: true,
+        };
+        let levels = open.levels(reading, side);
         let level = levels.last();
         let [width, height] = levels.size(level);
         let places = (0..height as usize).flat_map(|y| (0..width as usize).map(move |x| (x, y)));

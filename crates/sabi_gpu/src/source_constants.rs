@@ -22,8 +22,8 @@ wgsl_struct! {
     pub struct PictureConstants {
         /// Number of the smallest copy.
         pub last: u32,
-        /// Unused.
-        pub pad: u32,
+        /// 1 where a color counts in averages as much as it is opaque.
+        pub by_alpha: u32,
         /// Pixels beyond the borders along u and v: repeats, the border itself, or mirrored repeats.
         pub wrap: [u32; 2],
     }

@@ -1,11 +1,14 @@
 //! Bytes of a picture file to a [`Picture`].
 
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
-use crate::decode_exr::{check_exr, decode_exr};
+use crate::decode_bmp;
+use crate::decode_exr::{check_exr, decode_exr, exr_layer_names};
+use crate::decode_hdr::HdrFile;
 use crate::decode_ktx2::{self, check_ktx2, decode_ktx2};
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
@@ -19,13 +22,42 @@ const JPEG_PIXELS_A_BYTE: u64 = 8 * 8 * 8;
 const TGA_PIXELS_A_BYTE: u64 = 64;
 
 /// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR, OpenEXR or KTX2 file, recognized by its content
-/// (TGA, which has no mark, by the name's ending). `name` is used in messages. Sizes are checked before memory is taken.
+/// (TGA, which has no mark, by the name's ending). `name` is used in messages. Sizes are checked before memory is taken. Of an
+/// OpenEXR file with several layers, the first of [`layer_names`] is read.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+    decode_chosen(name, bytes, None)
+}
+
+/// The picture of one layer of an OpenEXR file, by one of its [`layer_names`]; otherwise as [`decode`].
+///
+/// # Errors
+/// The file has no such layer.
+pub fn decode_layer(name: &str, bytes: &[u8], layer: &str) -> Result<Picture, ImageError> {
+    decode_chosen(name, bytes, Some(layer))
+}
+
+fn decode_chosen(name: &str, bytes: &[u8], layer: Option<&str>) -> Result<Picture, ImageError> {
+    guarded(name, bytes, |format| match (format, layer) {
+        (Format::Exr, layer) => decode_exr(name, bytes, layer),
+        (_, Some(asked)) => Err(ImageError::Layer {
+            name: name.into(),
+            asked: asked.into(),
+            layers: Vec::new(),
+        }),
+        (Format::Png, None) => decode_png(name, bytes),
+        (Format::Ktx2, None) => decode_ktx2(name, bytes),
+        (Format::Hdr, None) => HdrFile::open(name, bytes)?.decode(name),
+        (Format::Other(format), None) => decode_other(name, bytes, format),
+    })
+}
+
+/// Lists the layers of an OpenEXR file by its header alone, the one that [`decode`] reads first; files of other formats have none.
+/// A layer is what the channels of a part with one prefix show: color, a luminance, a vector (X, Y, Z) or a lone channel. Colors
+/// without a prefix go first, then those of layers that are named like a finished picture, such as `beauty` and `Combined`.
+pub fn layer_names(name: &str, bytes: &[u8]) -> Result<Vec<String>, ImageError> {
     guarded(name, bytes, |format| match format {
-        Format::Png => decode_png(name, bytes),
-        Format::Exr => decode_exr(name, bytes),
-        Format::Ktx2 => decode_ktx2(name, bytes),
-        Format::Other(format) => decode_other(name, bytes, format),
+        Format::Exr => exr_layer_names(name, bytes),
+        Format::Png | Format::Ktx2 | Format::Hdr | Format::Other(_) => Ok(Vec::new()),
     })
 }
 
@@ -48,8 +80,10 @@ pub fn decoded_size(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError>
         }
         Format::Exr => check_exr(name, bytes),
         Format::Ktx2 => check_ktx2(name, bytes),
+        Format::Hdr => Ok(HdrFile::open(name, bytes)?.decoded_size()),
         Format::Other(format) => {
-            let decoder = open_other(name, bytes, format)?;
+            let plain = plain_of(name, bytes, format)?;
+            let decoder = open_other(name, &plain, format)?;
             let (width, height) = decoder.dimensions();
             let pixel_bytes = u64::from(decoder.color_type().bytes_per_pixel());
             Ok(DecodedSize::of_pixels([width, height], pixel_bytes))
@@ -69,6 +103,8 @@ enum Format {
     Png,
     Exr,
     Ktx2,
+    Hdr,
+    /// What the `image` crate decodes.
     Other(ImageFormat),
 }
 
@@ -78,11 +114,11 @@ impl Format {
             Format::Png => "PNG",
             Format::Exr => "OpenEXR",
             Format::Ktx2 => "KTX2",
+            Format::Hdr => "HDR",
             Format::Other(ImageFormat::Jpeg) => "JPEG",
             Format::Other(ImageFormat::WebP) => "WebP",
             Format::Other(ImageFormat::Tga) => "TGA",
             Format::Other(ImageFormat::Bmp) => "BMP",
-            Format::Other(ImageFormat::Hdr) => "HDR",
             Format::Other(_) => "picture",
         }
     }
@@ -114,7 +150,7 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
         [0x89, b'P', b'N', b'G', ..] => Format::Png,
         [0x76, 0x2f, 0x31, 0x01, ..] => Format::Exr,
         [0xff, 0xd8, 0xff, ..] => Format::Other(ImageFormat::Jpeg),
-        [b'#', b'?', ..] => Format::Other(ImageFormat::Hdr),
+        [b'#', b'?', ..] => Format::Hdr,
         _ if bytes.starts_with(decode_ktx2::IDENTIFIER) => Format::Ktx2,
         _ if is_webp => Format::Other(ImageFormat::WebP),
         [b'B', b'M', ..] if bytes.len() >= 26 => Format::Other(ImageFormat::Bmp),
@@ -265,7 +301,16 @@ fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<im
     Ok(decoder)
 }
 
+/// Bytes of a file as the decoder of its format takes them.
+fn plain_of<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<Cow<'b, [u8]>, ImageError> {
+    match format {
+        ImageFormat::Bmp => decode_bmp::plain(name, bytes),
+        _ => Ok(Cow::Borrowed(bytes)),
+    }
+}
+
 fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture, ImageError> {
+    let bytes = &plain_of(name, bytes, format)?;
     let decoder = open_other(name, bytes, format)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(|error| explain_other(name, format, error))?;
     let (width, height) = (picture.width(), picture.height());
@@ -275,17 +320,12 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
         format: Format::Other(format).name(),
         feature,
     })?;
-    let color_space = if format == ImageFormat::Hdr {
-        Declared::Linear
-    } else {
-        Declared::Unknown
-    };
     Ok(Picture {
         width,
         height,
         channels,
         pixels,
-        color_space,
+        color_space: Declared::Unknown,
     })
 }
 

@@ -1,4 +1,4 @@
-//! OpenEXR files: RGBA or luminance of one layer, at full resolution.
+//! OpenEXR files: one layer, at full resolution.
 
 use std::io::Cursor;
 
@@ -9,6 +9,7 @@ use exr::meta::header::Header;
 use exr::prelude::{AnyChannels, ReadChannels as _, ReadLayers as _};
 
 use crate::error::damaged;
+use crate::exr_layers::{ExrLayer, Part, layers};
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
 
@@ -37,16 +38,7 @@ pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageEr
     if all_bytes > MAX_DECODED_BYTES {
         return Err(unsupported(name, "its layers take more than 1 GiB together"));
     }
-    let channels = |header: &Header| {
-        header
-            .channels
-            .list
-            .iter()
-            .map(|channel| channel.name.to_string())
-            .collect()
-    };
-    let names: Vec<Vec<String>> = meta.headers.iter().map(channels).collect();
-    picked_of(name, &names)?;
+    layers_of(name, &parts_of(&meta))?;
     let pixels = |header: &Header| header.layer_size.area() as u64;
     Ok(DecodedSize {
         // All channels are decoded, and four of them become the picture.
@@ -55,8 +47,16 @@ pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageEr
     })
 }
 
-/// Decodes the display window; pixels of it that the file does not have are 0.
-pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+/// Lists the names of the layers of a file that make a picture, the one that is shown by default first, by its headers alone.
+pub(crate) fn exr_layer_names(name: &str, bytes: &[u8]) -> Result<Vec<String>, ImageError> {
+    check_exr(name, bytes)?;
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| explain(name, error))?;
+    let layers = layers_of(name, &parts_of(&meta))?;
+    Ok(layers.into_iter().map(|layer| layer.name).collect())
+}
+
+/// Decodes the display window of a layer, or of the one that is shown by default; pixels of it that the file does not have are 0.
+pub(crate) fn decode_exr(name: &str, bytes: &[u8], asked: Option<&str>) -> Result<Picture, ImageError> {
     check_exr(name, bytes)?;
     // One thread: a panic in a worker thread of the decoder could not be caught.
     let image: Image<Layers<AnyChannels<FlatSamples>>> = exr::prelude::read()
@@ -68,13 +68,32 @@ pub(crate) fn decode_exr(name: &str, bytes: &[u8]) -> Result<Picture, ImageError
         .non_parallel()
         .from_buffered(Cursor::new(bytes))
         .map_err(|error| explain(name, error))?;
-    let names: Vec<Vec<String>> = image.layer_data.iter().map(channel_names).collect();
-    let (layer, picked) = picked_of(name, &names)?;
+    let parts: Vec<Part> = image.layer_data.iter().map(part_of_decoded).collect();
+    let layers = layers_of(name, &parts)?;
+    let layer = match asked {
+        None => layers.first(),
+        Some(asked) => find_layer(&layers, asked),
+    };
+    let layer = layer.ok_or_else(|| no_layer(name, asked, &layers))?;
     Ok(compose(
-        &image.layer_data[layer],
+        &image.layer_data[layer.part],
         image.attributes.display_window,
-        &picked,
+        &layer.channels,
     ))
+}
+
+/// Finds a layer by its name, or by its name in another case.
+fn find_layer<'l>(layers: &'l [ExrLayer], asked: &str) -> Option<&'l ExrLayer> {
+    let exact = layers.iter().find(|layer| layer.name == asked);
+    exact.or_else(|| layers.iter().find(|layer| layer.name.eq_ignore_ascii_case(asked)))
+}
+
+fn no_layer(name: &str, asked: Option<&str>, layers: &[ExrLayer]) -> ImageError {
+    ImageError::Layer {
+        name: name.into(),
+        asked: asked.unwrap_or_default().into(), // Some layer is shown where none is asked for.
+        layers: layers.iter().map(|layer| layer.name.clone()).collect(),
+    }
 }
 
 fn explain(name: &str, error: exr::error::Error) -> ImageError {
@@ -119,52 +138,42 @@ fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
     Ok(data.0 as u64 * data.1 as u64 * pixel_bytes)
 }
 
-fn channel_names(layer: &FlatLayer) -> Vec<String> {
+/// Parts of a file by its headers.
+fn parts_of(meta: &MetaData) -> Vec<Part> {
+    let parts = meta.headers.iter().map(|header| Part {
+        name: header.own_attributes.layer_name.as_ref().map(ToString::to_string),
+        channels: header
+            .channels
+            .list
+            .iter()
+            .map(|channel| channel.name.to_string())
+            .collect(),
+    });
+    parts.collect()
+}
+
+/// Part of a file that is decoded.
+fn part_of_decoded(layer: &FlatLayer) -> Part {
     let channels = layer.channel_data.list.iter();
-    channels.map(|channel| channel.name.to_string()).collect()
+    Part {
+        name: layer.attributes.layer_name.as_ref().map(ToString::to_string),
+        channels: channels.map(|channel| channel.name.to_string()).collect(),
+    }
 }
 
-/// The layer and its channels that make the picture.
-fn picked_of(name: &str, names: &[Vec<String>]) -> Result<(usize, Vec<usize>), ImageError> {
-    pick_layer(names).ok_or_else(|| {
-        let all: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
-        unsupported(
-            name,
-            &format!("none of its channels ({}) is R, G, B or Y", all.join(", ")),
-        )
-    })
+/// Layers that make a picture, the one that is shown by default first.
+///
+/// # Errors
+/// There is none.
+fn layers_of(name: &str, parts: &[Part]) -> Result<Vec<ExrLayer>, ImageError> {
+    let layers = layers(parts);
+    match layers.is_empty() {
+        true => Err(unsupported(name, "it has no channels")),
+        false => Ok(layers),
+    }
 }
 
-/// The first layer in color, else the first that makes a picture at all (depth often comes first), with its channels.
-fn pick_layer(names: &[Vec<String>]) -> Option<(usize, Vec<usize>)> {
-    let pictures = || {
-        let picked = names.iter().map(|names| pick_channels(names));
-        picked.enumerate().filter_map(|(layer, picked)| Some((layer, picked?)))
-    };
-    pictures()
-        .find(|(_, picked)| picked.len() >= 3)
-        .or_else(|| pictures().next())
-}
-
-/// Channels of the picture in their order, as indices into the layer's list.
-fn pick_channels(names: &[String]) -> Option<Vec<usize>> {
-    // `layer.R` counts as `R` when the file has no plain one.
-    let find = |wanted: &str| {
-        let plain = names.iter().position(|name| name.eq_ignore_ascii_case(wanted));
-        plain.or_else(|| names.iter().position(|name| name.rsplit('.').next() == Some(wanted)))
-    };
-    let color = match (find("R"), find("G"), find("B"), find("Y")) {
-        (Some(r), Some(g), Some(b), _) => vec![r, g, b],
-        (_, _, _, Some(y)) => vec![y],
-        // A lone channel of any name, and the single color of a mask.
-        (Some(only), None, None, _) | (None, Some(only), None, _) | (None, None, Some(only), _) => vec![only],
-        _ if names.len() == 1 => return Some(vec![0]),
-        _ => return None,
-    };
-    Some(color.into_iter().chain(find("A")).collect())
-}
-
-fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[usize]) -> Picture {
+fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[Option<usize>]) -> Picture {
     let (width, height) = (window.size.0, window.size.1);
     // Offset of the data window in the display window.
     let corner_x = i64::from(layer.attributes.layer_position.0) - i64::from(window.position.0);
@@ -173,7 +182,11 @@ fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[usize]) -> Pictur
     let rows = overlap(corner_y, layer.size.1, height);
     let channels = picked.len();
     let mut samples = vec![0.0f32; width * height * channels];
-    for (offset, &index) in picked.iter().enumerate() {
+    let there = picked
+        .iter()
+        .enumerate()
+        .filter_map(|(offset, index)| Some((offset, (*index)?)));
+    for (offset, index) in there {
         let source = &layer.channel_data.list[index].sample_data;
         for y in rows.clone() {
             let source_row = (y as i64 - corner_y) as usize * layer.size.0;
@@ -216,33 +229,6 @@ fn sample(samples: &FlatSamples, index: usize) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn channels_are_found_by_name_in_any_layer() {
-        let pick = |names: &[&str]| pick_channels(&names.iter().map(ToString::to_string).collect::<Vec<_>>());
-        assert_eq!(pick(&["A", "B", "G", "R"]), Some(vec![3, 2, 1, 0]));
-        assert_eq!(pick(&["diffuse.B", "diffuse.G", "diffuse.R"]), Some(vec![2, 1, 0]));
-        assert_eq!(pick(&["A", "Y", "Z"]), Some(vec![1, 0]));
-        assert_eq!(pick(&["depth"]), Some(vec![0]));
-        assert_eq!(pick(&["id", "depth"]), None);
-    }
-
-    #[test]
-    fn a_layer_in_color_goes_before_depth_and_masks() {
-        let pick = |layers: &[&[&str]]| {
-            let names: Vec<Vec<String>> = layers
-                .iter()
-                .map(|names| names.iter().map(ToString::to_string).collect())
-                .collect();
-            pick_layer(&names)
-        };
-        assert_eq!(
-            pick(&[&["Z"], &["B", "G", "R"], &["R", "G", "B"]]),
-            Some((1, vec![2, 1, 0]))
-        );
-        assert_eq!(pick(&[&["id", "object"], &["Z"]]), Some((1, vec![0])));
-        assert_eq!(pick(&[&["id", "object"]]), None);
-    }
 
     #[test]
     fn the_data_lies_where_its_window_says() {

@@ -53,6 +53,16 @@ pub enum ImageError {
         /// Claimed height, pixels.
         height: u64,
     },
+    /// A layer that the file does not have.
+    #[error("{name} has no layer '{asked}'; {}", layers_there(.layers))]
+    Layer {
+        /// Name as given by the caller.
+        name: String,
+        /// Layer that was asked for.
+        asked: String,
+        /// Layers of the file.
+        layers: Vec<String>,
+    },
     /// The numbers given to an encoder do not make the picture that was asked for.
     #[error("cannot encode a {width} × {height} picture: {reason}")]
     Encode {
@@ -63,6 +73,24 @@ pub enum ImageError {
         /// Contradiction between size and samples.
         reason: String,
     },
+}
+
+/// Most layers that a sentence names.
+const NAMED_LAYERS: usize = 12;
+
+/// Layers of a file as half a sentence.
+fn layers_there(layers: &[String]) -> String {
+    let named = layers
+        .iter()
+        .take(NAMED_LAYERS)
+        .map(String::as_str)
+        .collect::<Vec<_>>()
+        .join(", ");
+    match layers.len().saturating_sub(NAMED_LAYERS) {
+        _ if layers.is_empty() => "only OpenEXR files have layers, so leave the name empty".to_owned(),
+        0 => format!("it has {named}"),
+        more => format!("it has {named} and {more} more"),
+    }
 }
 
 /// The error of a damaged file, with the words of its decoder.

@@ -21,18 +21,21 @@
 
 mod blue_noise;
 mod decode;
+mod decode_bmp;
 mod decode_exr;
+mod decode_hdr;
 mod decode_ktx2;
 mod encode_exr;
 mod encode_png;
 mod encode_tga;
 mod error;
+mod exr_layers;
 mod picture;
 mod quantize;
 mod size_limits;
 
 pub use blue_noise::DitherPattern;
-pub use decode::{check_header, decode, decoded_size};
+pub use decode::{check_header, decode, decode_layer, decoded_size, layer_names};
 pub use encode_exr::{ExrSamples, encode_exr};
 pub use encode_png::{PngData, PngOptions, encode_png};
 pub use encode_tga::encode_tga;

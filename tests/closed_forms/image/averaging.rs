@@ -84,3 +84,51 @@ fn many_repeats_are_as_sharp_as_one() {
         assert!(apart <= f32::EPSILON, "texel {pixel}: {apart}");
     }
 }
+
+#[test]
+fn clear_pixels_give_no_color_to_the_opaque_ones_beside_them() {
+    let folder = Folder::new();
+    // Red columns between clear black ones, four pixels wide, so that texels see both.
+    let codes: Vec<u8> = (0..SIDE * SIDE)
+        .flat_map(|at| {
+            if at % SIDE / 4 % 2 == 0 {
+                [255, 0, 0, 255]
+            } else {
+                [0, 0, 0, 0]
+            }
+        })
+        .collect();
+    let file = folder.write("stripes.png", png(SIDE, 4, true, &codes));
+    let made = MeshFile::new(vec![square()]).write();
+    let red = |params: &Value, size: u32| {
+        let mut on_mesh = OnMesh::new(&graph(params), made.path(), size);
+        let [color, alpha] = [("image.color", "color.r"), ("image.alpha", "mask")]
+            .map(|(port, component)| on_mesh.evaluate(port).component(component).to_vec());
+        let seen: Vec<(f32, f32)> = on_mesh.owned().map(|(index, _)| (color[index], alpha[index])).collect();
+        seen
+    };
+    for params in [
+        json!({}),
+        json!({ "rotate": 30 }),
+        json!({ "tiles": [3, 3] }),
+        json!({ "tiling": "random" }),
+        json!({ "projection": "triplanar", "size": 0.7, "rotate": 20 }),
+        json!({ "projection": "decal", "size": 0.9, "rotate": 10 }),
+    ] {
+        let mut params = params;
+        params["file"] = json!(file);
+        for size in [24, 50, 200] {
+            let partly = red(&params, size)
+                .into_iter()
+                .filter(|(_, alpha)| (0.01..0.99).contains(alpha));
+            let colors: Vec<f32> = partly.map(|(color, _)| color).collect();
+            assert!(colors.len() > 20, "{params} at {size} has {} soft texels", colors.len());
+            // Colors are stored as half floats.
+            let least = colors.iter().copied().fold(f32::INFINITY, f32::min);
+            assert!(least > 0.998, "{params} at {size}: red is {least}");
+        }
+    }
+    // Where alpha holds other data, a texel over both kinds of columns has the plain mean.
+    let data = red(&json!({ "file": file, "alpha_is": "data", "tiles": [4, 4] }), 16);
+    assert!(data.iter().all(|(color, _)| (color - 0.5).abs() < 0.01), "{data:?}");
+}

@@ -123,3 +123,43 @@ fn a_picture_that_is_read_is_never_written_over() {
     assert!(run.stderr.trim_end().ends_with(words), "{}", run.stderr);
     assert_eq!(place.read("cube_mask.png"), texture);
 }
+
+#[test]
+fn a_layer_of_an_openexr_file_is_chosen_by_rule_or_by_name() {
+    let place = Place::new();
+    let pixel = |value: f32| vec![value; 4];
+    let (beauty, mask, depth) = (pixel(0.8), pixel(0.25), pixel(0.5));
+    let channels: [(&str, &[f32]); 7] = [
+        ("albedo.B", &mask),
+        ("albedo.G", &mask),
+        ("albedo.R", &mask),
+        ("beauty.B", &beauty),
+        ("beauty.G", &beauty),
+        ("beauty.R", &beauty),
+        ("depth.Z", &depth),
+    ];
+    let exr = sabi_image::encode_exr(2, 2, &channels, sabi_image::ExrSamples::Float).unwrap();
+    place.write("layers.exr", exr);
+    place.write("image.sabi", image("layers.exr"));
+    assert!((constant(&place, "image.sabi", &[]) - 0.8).abs() < 1e-3);
+    for (layer, value) in [("albedo", 0.25), ("Beauty", 0.8), ("depth", 0.5)] {
+        let set = format!("img.layer={layer}");
+        assert!(
+            (constant(&place, "image.sabi", &["--set", &set]) - value).abs() < 1e-3,
+            "{layer}"
+        );
+    }
+    let run = place.bake("image.sabi", "cube.glb", &["--force"]).good();
+    let told = "layers.exr has 3 layers, of which beauty is shown; its parameter layer chooses another: albedo, depth";
+    assert!(run.stderr.contains(told), "{}", run.stderr);
+    let run = place
+        .bake("image.sabi", "cube.glb", &["--force", "--set", "img.layer=albido"])
+        .fails(65);
+    let told = "parameter 'layer' of node 'img' (source/image): layers.exr has no layer 'albido'; it has beauty, albedo, depth";
+    assert!(run.stderr.contains(told), "{}", run.stderr);
+    place.write("plain.bmp", bmp(51));
+    let set = ["--force", "--set", "img.file=plain.bmp", "--set", "img.layer=a"];
+    let run = place.bake("image.sabi", "cube.glb", &set).fails(65);
+    let told = "plain.bmp has no layer 'a'; only OpenEXR files have layers, so leave the name empty";
+    assert!(run.stderr.contains(told), "{}", run.stderr);
+}

@@ -178,6 +178,14 @@ fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineEr
     let linear = picture.linear_rgba(!is_linear);
     drop(picture);
     let (panorama, mut remarks) = Panorama::new(linear.width, linear.height, &linear.rgba)?;
+    if let [shown, others @ ..] = sabi_image::layer_names(name, bytes)?.as_slice()
+        && !others.is_empty()
+    {
+        remarks.push(format!(
+            "it has {} layers, of which {shown} is the light",
+            others.len() + 1
+        ));
+    }
     if !is_light {
         let weak =
             "it has no light brighter than white, so lamps and the sun will look weak; use an HDR or OpenEXR picture";

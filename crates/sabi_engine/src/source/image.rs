@@ -8,6 +8,7 @@ use sabi_image::{Declared, Picture, Pixels};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
+use super::mip_chain::Reading;
 use super::picture_table::PictureTable;
 use super::pictures::OpenPicture;
 use super::projection::Projection;
@@ -142,8 +143,12 @@ pub(super) fn draw(
     let of = Output::of(output);
     let unread = |error| unreadable(step, &error);
     let choice = step.values.index("color_space").map_err(unread)?;
-    let is_srgb = of.is_srgb(choice, &open.picture);
-    let picture = surface.picture_tables.table(canvas, open, is_srgb)?;
+    let reading = Reading {
+        is_srgb: of.is_srgb(choice, &open.picture),
+        // Channels and slopes are values as the file stores them.
+        by_alpha: of == Output::Color && step.values.index("alpha_is").map_err(unread)? == 0,
+    };
+    let picture = surface.picture_tables.table(canvas, open, reading)?;
     let mut mistakes = probable_mistakes(open, step, of).map_err(unread)?;
     let file = step.values.text("file").map_err(unread)?;
     mistakes.extend(picture.why_smaller(&format!("node '{}' ({NAME}): {file}", step.id)));
@@ -152,7 +157,7 @@ pub(super) fn draw(
             warnings.push(mistake);
         }
     }
-    let (shader, constants) = kernel(canvas, step, of, (open, is_srgb), &picture).map_err(unread)?;
+    let (shader, constants) = kernel(canvas, step, of, (open, reading), &picture).map_err(unread)?;
     canvas.draw(&SourceDraw {
         shader: SourceShader::Image(shader),
         constants,
@@ -166,7 +171,7 @@ fn kernel(
     canvas: &SourceCanvas<'_>,
     step: &SourceStep,
     of: Output,
-    (open, is_srgb): (&OpenPicture, bool),
+    (open, reading): (&OpenPicture, Reading),
     table: &PictureTable,
 ) -> Result<(ImageShader, ImageConstants), NoSuchValue> {
     let (picture, values) = (&open.picture, &step.values);
@@ -174,7 +179,7 @@ fn kernel(
     let repeats = projection.repeats();
     let wrap = if repeats { Wrap::Repeat } else { Wrap::Clamp };
     let green = if values.index("normal_y")? == 0 { 1.0 } else { -1.0 };
-    let levels = open.levels(is_srgb, 1);
+    let levels = open.levels(reading, 1);
     let shader = ImageShader {
         storage: table.storage,
         shows_slope: of == Output::Slope,
@@ -209,6 +214,17 @@ fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: Output) -> Resul
             step.id
         ));
     }
+    if let [shown, others @ ..] = open.layers.as_slice()
+        && !others.is_empty()
+        && step.values.text("layer")?.is_empty()
+    {
+        sentences.push(format!(
+            "node '{}' ({NAME}): {file} has {} layers, of which {shown} is shown; its parameter layer chooses another: {}",
+            step.id,
+            open.layers.len(),
+            listed(others)
+        ));
+    }
     if open.has_non_numbers {
         sentences.push(format!(
             "node '{}' ({NAME}): {file} holds infinite or undefined numbers, which count as 0",
@@ -216,4 +232,21 @@ fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: Output) -> Resul
         ));
     }
     Ok(sentences)
+}
+
+/// Most layers that a sentence names.
+const NAMED_LAYERS: usize = 12;
+
+/// Names in a sentence.
+fn listed(names: &[String]) -> String {
+    let named = names
+        .iter()
+        .take(NAMED_LAYERS)
+        .map(String::as_str)
+        .collect::<Vec<_>>()
+        .join(", ");
+    match names.len().saturating_sub(NAMED_LAYERS) {
+        0 => named,
+        more => format!("{named} and {more} more"),
+    }
 }

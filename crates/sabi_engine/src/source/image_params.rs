@@ -15,11 +15,22 @@ fn projection_params() -> Vec<Param> {
             "Image file: PNG, JPEG, WebP, TGA, BMP, HDR or OpenEXR. A relative path starts from the folder of the \
              graph file.",
         ),
+        Param::text(
+            "layer",
+            "",
+            "Layer of an OpenEXR file with several, such as diffuse; the picture itself where it is empty.",
+        ),
         Param::choice(
             "color_space",
             &["auto", "srgb", "linear"],
             "Color space of the file. With auto, the color is read as the file declares, else as sRGB, or as linear in \
              files of floating-point numbers, and the mask is read as linear. Alpha and slope are always linear.",
+        ),
+        Param::choice(
+            "alpha_is",
+            &["opacity", "data"],
+            "Meaning of the file's alpha for its color. As opacity, clear pixels give no color to the averages of their neighbors, so \
+             that borders of holes have no fringes; as data, such as smoothness, it is left alone.",
         ),
         Param::choice(
             "projection",

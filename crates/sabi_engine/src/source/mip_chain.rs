@@ -5,13 +5,43 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use sabi_image::{Picture, Pixels, linear_from_srgb};
 
-/// Picture with copies of half, a quarter… its size, whose pixels are exact area averages. All values are linear.
+/// Way in which the values of a picture are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Reading {
+    /// True where sRGB is decoded in all channels but alpha.
+    pub(crate) is_srgb: bool,
+    /// True where a color counts in averages as much as it is opaque, as colors beside holes do; false where alpha is another value
+    /// among others.
+    pub(crate) by_alpha: bool,
+}
+
+impl Reading {
+    /// All ways, each at the place of its number.
+    pub(super) const ALL: [Reading; 4] = [
+        Reading::of(false, false),
+        Reading::of(true, false),
+        Reading::of(false, true),
+        Reading::of(true, true),
+    ];
+
+    const fn of(is_srgb: bool, by_alpha: bool) -> Reading {
+        Reading { is_srgb, by_alpha }
+    }
+
+    /// Number of the way, below four.
+    pub(super) fn number(self) -> usize {
+        usize::from(self.is_srgb) + 2 * usize::from(self.by_alpha)
+    }
+}
+
+/// Picture with copies of half, a quarter… its size, whose pixels are exact area averages. All values are linear, and colors are
+/// never multiplied by alpha.
 #[derive(Clone)]
 pub(crate) struct MipChain {
     picture: Arc<Picture>,
     /// Linear value of each 8-bit code.
     code_table: Option<[f32; 256]>,
-    is_srgb: bool,
+    reading: Reading,
     smaller: Vec<Arc<Level>>,
 }
 
@@ -22,8 +52,9 @@ struct Level {
 }
 
 impl MipChain {
-    /// The chain of a picture without any smaller copy. With `is_srgb`, sRGB is decoded in all channels but alpha.
-    pub(crate) fn new(picture: Arc<Picture>, is_srgb: bool) -> MipChain {
+    /// The chain of a picture without any smaller copy.
+    pub(crate) fn new(picture: Arc<Picture>, reading: Reading) -> MipChain {
+        let is_srgb = reading.is_srgb;
         let linear = |code: usize| {
             let value = code as f32 / 255.0;
             if is_srgb { linear_from_srgb(value) } else { value }
@@ -32,7 +63,7 @@ impl MipChain {
         MipChain {
             picture,
             code_table,
-            is_srgb,
+            reading,
             smaller: Vec::new(),
         }
     }
@@ -53,7 +84,7 @@ impl MipChain {
 
     /// Returns whether another chain shows the same picture in the same way.
     pub(super) fn is_same(&self, other: &MipChain) -> bool {
-        Arc::ptr_eq(&self.picture, &other.picture) && self.is_srgb == other.is_srgb && self.last() == other.last()
+        Arc::ptr_eq(&self.picture, &other.picture) && self.reading == other.reading && self.last() == other.last()
     }
 
     /// Returns the values of the picture as the file stores them.
@@ -66,9 +97,9 @@ impl MipChain {
         usize::from(self.picture.channels)
     }
 
-    /// Returns whether sRGB is decoded in all channels but alpha.
-    pub(super) fn is_srgb(&self) -> bool {
-        self.is_srgb
+    /// Returns the way in which the values of the picture are read.
+    pub(super) fn reading(&self) -> Reading {
+        self.reading
     }
 
     /// Returns the index of the smallest level; 0 is the picture itself.
@@ -112,7 +143,7 @@ impl MipChain {
     fn value(&self, index: usize, channel: usize) -> f32 {
         let is_alpha = matches!((self.picture.channels, channel), (2, 1) | (4, 3));
         let decode = |value: f32| {
-            if self.is_srgb && !is_alpha {
+            if self.reading.is_srgb && !is_alpha {
                 linear_from_srgb(value)
             } else {
                 value
@@ -136,7 +167,8 @@ impl MipChain {
         pixels.par_chunks_mut(width).enumerate().for_each(|(row, line)| {
             for (column, pixel) in line.iter_mut().enumerate() {
                 let at = |x: usize, y: usize| self.pixel(level, 2 * column + x, 2 * row + y);
-                *pixel = quarter_sum([at(0, 0), at(1, 0), at(0, 1), at(1, 1)]);
+                let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
+                *pixel = mean(four.map(|pixel| (pixel, 0.25)), self.reading.by_alpha);
             }
         });
         Level { size, pixels }
@@ -161,16 +193,11 @@ impl MipChain {
         let pixels = (0..size[1]).into_par_iter().flat_map_iter(|row| {
             let rows = Coverage::new(row, size[1], from[1]);
             let average = move |columns: &Coverage| {
-                let mut sum = [0.0_f32; 4];
-                for (y, down) in rows.parts() {
-                    for (x, across) in columns.parts() {
-                        let pixel = self.pixel(level, x, y);
-                        for (sum, value) in sum.iter_mut().zip(pixel) {
-                            *sum += value * (down * across);
-                        }
-                    }
-                }
-                sum
+                let parts = rows.parts().flat_map(|(y, down)| {
+                    let of_row = move |(x, across)| (self.pixel(level, x, y), down * across);
+                    columns.parts().map(of_row)
+                });
+                mean(parts, self.reading.by_alpha)
             };
             columns.iter().map(average).collect::<Vec<_>>()
         });
@@ -181,11 +208,25 @@ impl MipChain {
     }
 }
 
-/// Adds a quarter of each of four pixels in turn, as the average over any other area does.
-fn quarter_sum(pixels: [[f32; 4]; 4]) -> [f32; 4] {
-    pixels.into_iter().fold([0.0_f32; 4], |sum, pixel| {
-        std::array::from_fn(|channel| sum[channel] + pixel[channel] * 0.25)
-    })
+/// Mean of pixels with their shares of the area, which add up to 1. By alpha, a color counts as much as it is opaque; where all
+/// pixels are clear, colors count alike.
+fn mean(pixels: impl IntoIterator<Item = ([f32; 4], f32)>, by_alpha: bool) -> [f32; 4] {
+    let mut sum = [0.0_f32; 4];
+    let mut opaque = [0.0_f32; 3];
+    for (pixel, share) in pixels {
+        for (sum, value) in sum.iter_mut().zip(pixel) {
+            *sum += value * share;
+        }
+        for (sum, value) in opaque.iter_mut().zip(pixel) {
+            *sum += value * (share * pixel[3]);
+        }
+    }
+    let alpha = sum[3];
+    if by_alpha && alpha > 0.0 {
+        let [red, green, blue] = opaque.map(|sum| sum / alpha);
+        return [red, green, blue, alpha];
+    }
+    sum
 }
 
 /// Pixels of a row that one pixel of a smaller row covers: at most four, each with its weight.
@@ -230,6 +271,47 @@ mod tests {
 
     use super::*;
 
+    const PLAIN: Reading = Reading::of(false, false);
+
+    #[test]
+    fn clear_pixels_give_no_color_to_averages_of_opaque_ones() {
+        // Red beside clear black, and clear white over clear blue.
+        let pixels = [
+            [1.0, 0.0, 0.0, 1.0],
+            [0.0; 4],
+            [1.0, 1.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+        ]
+        .concat();
+        for (size, last) in [([4, 1], [1.0, 0.0, 0.0, 0.25]), ([1, 4], [1.0, 0.0, 0.0, 0.25])] {
+            let picture = Arc::new(Picture {
+                width: size[0],
+                height: size[1],
+                channels: 4,
+                pixels: Pixels::F32(pixels.clone()),
+                color_space: Declared::Linear,
+            });
+            let levels = MipChain::new(picture.clone(), Reading::of(false, true)).down_to(1);
+            let second = if size[0] == 4 { (1, 0) } else { (0, 1) };
+            assert_eq!(levels.pixel(1, 0, 0), [1.0, 0.0, 0.0, 0.5]);
+            assert_eq!(levels.pixel(1, second.0, second.1), [0.5, 0.5, 1.0, 0.0]);
+            assert_eq!(levels.pixel(2, 0, 0), last);
+            // Of three pixels, none of which has a half of the area.
+            let odd = Arc::new(Picture {
+                width: 3,
+                height: 1,
+                channels: 4,
+                pixels: Pixels::F32(pixels[..12].to_vec()),
+                color_space: Declared::Linear,
+            });
+            let color = MipChain::new(odd, Reading::of(false, true)).down_to(1).pixel(1, 0, 0);
+            assert_eq!(color[..3], [1.0, 0.0, 0.0]);
+            // Where alpha is a value among others, nothing is weighed.
+            let plain = MipChain::new(picture, PLAIN).down_to(1);
+            assert_eq!(plain.pixel(1, 0, 0), [0.5, 0.0, 0.0, 0.5]);
+        }
+    }
+
     fn gray(size: [u32; 2], value: impl Fn(u32, u32) -> f32) -> Arc<Picture> {
         let samples = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         Arc::new(Picture {
@@ -245,7 +327,7 @@ mod tests {
     fn every_level_has_the_mean_of_the_picture_whatever_its_size() {
         for size in [[64, 64], [37, 5], [1, 9], [3, 3], [1, 1]] {
             let picture = gray(size, |x, y| ((x * 7 + y * 13) % 11) as f32);
-            let levels = MipChain::new(picture, false).down_to(1);
+            let levels = MipChain::new(picture, PLAIN).down_to(1);
             let mean = |level: usize| {
                 let [across, down] = levels.size(level).map(|side| side as usize);
                 let all = (0..down).flat_map(|y| (0..across).map(move |x| (x, y)));
@@ -262,14 +344,14 @@ mod tests {
 
     #[test]
     fn what_is_no_number_counts_as_nothing() {
-        let levels = MipChain::new(gray([2, 1], |x, _| if x == 0 { f32::NAN } else { 4.0 }), false).down_to(1);
+        let levels = MipChain::new(gray([2, 1], |x, _| if x == 0 { f32::NAN } else { 4.0 }), PLAIN).down_to(1);
         assert_eq!(levels.pixel(1, 0, 0)[0], 2.0);
     }
 
     #[test]
     fn levels_of_even_sizes_are_the_averages_of_any_other_size() {
         let value = |x: u32, y: u32| ((x * 7 + y * 13) % 31) as f32 / 31.0;
-        let chain = MipChain::new(gray([8, 4], value), false);
+        let chain = MipChain::new(gray([8, 4], value), PLAIN);
         let fast = chain.half();
         let slow = chain.half_of_any_size(0, [4, 2]);
         assert_eq!((fast.size, fast.pixels), (slow.size, slow.pixels));
@@ -277,7 +359,7 @@ mod tests {
 
     #[test]
     fn a_chain_ends_where_its_user_wants_it_and_shares_the_levels() {
-        let mut all = MipChain::new(gray([16, 8], |x, _| x as f32), false);
+        let mut all = MipChain::new(gray([16, 8], |x, _| x as f32), PLAIN);
         let [small, large] = [4, 8].map(|least| all.down_to(least));
         assert_eq!([small.last(), large.last(), all.last()], [2, 1, 2]);
         assert!(Arc::ptr_eq(&small.smaller[0], &large.smaller[0]));

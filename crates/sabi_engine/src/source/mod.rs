@@ -5,7 +5,7 @@ mod id_color;
 mod image;
 mod image_params;
 mod material_canvas;
-mod mip_chain;
+pub(crate) mod mip_chain;
 mod model;
 mod model_finish;
 mod model_pictures;
@@ -148,8 +148,9 @@ impl Files<'_> {
     /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
         let written = step.values.text("file").map_err(|error| unread(step, &error))?;
+        let layer = step.values.text("layer").map_err(|error| unread(step, &error))?;
         let path = allowed_path(&self.base, self.trusted, &self.graph.nodes[step.node], written);
-        let opened = path.and_then(|path| self.pictures.open(&path, written));
+        let opened = path.and_then(|path| self.pictures.open(&path, written, layer));
         opened.map_err(|(why, _)| format!("node '{}' ({}): {why}", step.id, step.kind))
     }
 }

@@ -11,6 +11,7 @@ use sabi_surface::model::{Model, ModelMaterial, TextureRef};
 
 use super::hash_apart;
 use super::material_canvas::{CoordinateTables, MaterialCanvas};
+use super::mip_chain::Reading;
 use super::model_finish::{self, FinishTextures};
 use super::model_pictures::open_pictures;
 use super::model_textures::{Product, Texture};
@@ -51,6 +52,17 @@ pub(crate) fn kind() -> SourceKind {
         content: [0; 32],
     }
 }
+
+/// Colors whose alpha, if there is one, means nothing.
+const COLORS: Reading = Reading {
+    is_srgb: true,
+    by_alpha: false,
+};
+/// Values that are no colors.
+const VALUES: Reading = Reading {
+    is_srgb: false,
+    by_alpha: false,
+};
 
 /// Textures of one material.
 struct MaterialTextures<'a> {
@@ -190,7 +202,7 @@ fn open_materials<'a>(
             .get(triangles.start as usize..triangles.end as usize);
         own.is_some_and(|own| own.contains(&(material as u32)))
     };
-    let mut open = |material: usize, texture: &Option<TextureRef>, what: &str, is_srgb: bool| {
+    let mut open = |material: usize, texture: &Option<TextureRef>, what: &str, reading: Reading| {
         let texture = texture.as_ref()?;
         let image = model.images.get(texture.image)?;
         let (name, set) = (&image.name, texture.uv_set);
@@ -213,21 +225,26 @@ fn open_materials<'a>(
         let picture = decoded.get(&texture.image)?;
         let picture = picture.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let mut texture = Texture::new((name, picture), texture, other, is_srgb, size);
+        let mut texture = Texture::new((name, picture), texture, other, reading, size);
         texture.missing = missing;
         Some(texture)
     };
+    // Where a material ignores alpha, colors of clear pixels are seen like any other.
+    let opaque = |material: &ModelMaterial| Reading {
+        by_alpha: !material.ignores_alpha,
+        ..COLORS
+    };
     let open_material = |(index, material): (usize, &'a ModelMaterial)| MaterialTextures {
         material,
-        base_color: open(index, &material.base_color, "base color", true),
-        metallic_roughness: open(index, &material.metallic_roughness, "roughness", false),
-        roughness: open(index, &material.roughness, "roughness", false),
-        metallic: open(index, &material.metallic, "metallic", false),
-        normal: open(index, &material.normal, "normal", false),
-        occlusion: open(index, &material.occlusion, "occlusion", false),
-        emission: open(index, &material.emission, "emission", true),
+        base_color: open(index, &material.base_color, "base color", opaque(material)),
+        metallic_roughness: open(index, &material.metallic_roughness, "roughness", VALUES),
+        roughness: open(index, &material.roughness, "roughness", VALUES),
+        metallic: open(index, &material.metallic, "metallic", VALUES),
+        normal: open(index, &material.normal, "normal", VALUES),
+        occlusion: open(index, &material.occlusion, "occlusion", VALUES),
+        emission: open(index, &material.emission, "emission", COLORS),
         finish: FinishTextures::new(&material.finish, &mut |texture, what, is_srgb| {
-            open(index, texture, what, is_srgb)
+            open(index, texture, what, if is_srgb { COLORS } else { VALUES })
         }),
     };
     model.materials.iter().enumerate().map(open_material).collect()

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use sabi_surface::model::{TextureRef, TextureUvs, Wrap};
 
-use super::mip_chain::MipChain;
+use super::mip_chain::{MipChain, Reading};
 use super::pictures::OpenPicture;
 
 /// Texture of a material.
@@ -29,7 +29,7 @@ impl<'a> Texture<'a> {
         (name, picture): (&'a str, &OpenPicture),
         texture: &TextureRef,
         other: Option<&'a TextureUvs>,
-        is_srgb: bool,
+        reading: Reading,
         size: u32,
     ) -> Texture<'a> {
         let transform = texture.transform.map(|row| row.map(f64::from));
@@ -38,7 +38,7 @@ impl<'a> Texture<'a> {
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
         Texture {
             name,
-            levels: picture.levels(is_srgb, least as u32),
+            levels: picture.levels(reading, least as u32),
             wrap: texture.wrap,
             transform: texture.transform,
             uv_set: texture.uv_set,

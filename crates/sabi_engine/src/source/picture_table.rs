@@ -8,7 +8,7 @@ use sabi_gpu::{COPY_ROWS, DeviceTable, GpuError, PictureConstants, PictureStorag
 use sabi_image::Pixels;
 use sabi_surface::model::Wrap;
 
-use super::mip_chain::MipChain;
+use super::mip_chain::{MipChain, Reading};
 use super::pictures::OpenPicture;
 
 /// Most bytes of the tables that are kept from run to run; a single larger one is kept alone.
@@ -23,6 +23,8 @@ pub(super) struct PictureTable {
     pub(super) storage: PictureStorage,
     /// Number of the smallest copy.
     last: u32,
+    /// True where colors count as much as they are opaque.
+    by_alpha: bool,
     /// Number of sizes, from the largest on, that the device has no room for.
     left_out: usize,
     bytes: u64,
@@ -41,6 +43,7 @@ impl PictureTable {
             table: canvas.table("a picture", &rows)?,
             storage: if first == 0 { storage } else { of_copies(storage) },
             last: (levels.last() - first) as u32,
+            by_alpha: levels.reading().by_alpha,
             left_out: first,
             bytes: size_of_val(rows.as_slice()) as u64,
         })
@@ -57,12 +60,12 @@ impl PictureTable {
     pub(super) fn constants(&self, wrap: [Wrap; 2]) -> PictureConstants {
         PictureConstants {
             last: self.last,
+            by_alpha: u32::from(self.by_alpha),
             wrap: wrap.map(|wrap| match wrap {
                 Wrap::Repeat => 0,
                 Wrap::Clamp => 1,
                 Wrap::Mirror => 2,
             }),
-            ..PictureConstants::default()
         }
     }
 }
@@ -77,8 +80,7 @@ pub(crate) struct PictureTables {
 /// A table that is kept.
 struct KeptTable {
     picture: Weak<OpenPicture>,
-    /// True for a picture that is decoded from sRGB.
-    is_srgb: bool,
+    reading: Reading,
     table: Arc<PictureTable>,
 }
 
@@ -91,19 +93,20 @@ impl PictureTables {
         &self,
         canvas: &SourceCanvas<'_>,
         picture: &Arc<OpenPicture>,
-        is_srgb: bool,
+        wish: Reading,
     ) -> Result<Arc<PictureTable>, GpuError> {
+        let reading = picture.reading(wish);
         // Every change is a single push or removal.
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let weak = Arc::downgrade(picture);
-        let is_wanted = |known: &KeptTable| known.picture.ptr_eq(&weak) && known.is_srgb == is_srgb;
+        let is_wanted = |known: &KeptTable| known.picture.ptr_eq(&weak) && known.reading == reading;
         let table = match kept.iter().position(is_wanted) {
             Some(at) => kept.remove(at).table,
-            None => Arc::new(PictureTable::upload(canvas, &picture.levels(is_srgb, 1))?),
+            None => Arc::new(PictureTable::upload(canvas, &picture.levels(reading, 1))?),
         };
         kept.push(KeptTable {
             picture: weak,
-            is_srgb,
+            reading,
             table: table.clone(),
         });
         kept.retain(|known| known.picture.strong_count() > 0);
@@ -122,7 +125,7 @@ impl PictureTables {
 
 /// Storage of the picture itself. Halves hold colors of 8 bits to an eighth of a step.
 fn storage_of(levels: &MipChain) -> PictureStorage {
-    match (levels.pixels(), levels.is_srgb()) {
+    match (levels.pixels(), levels.reading().is_srgb) {
         (Pixels::U8(_), true) => PictureStorage::Halves,
         (Pixels::U8(_), false) => PictureStorage::Codes8,
         (Pixels::U16(_), false) => PictureStorage::Codes16,
@@ -230,7 +233,11 @@ mod tests {
             pixels,
             color_space: Declared::Unknown,
         };
-        MipChain::new(Arc::new(picture), is_srgb).down_to(1)
+        let reading = Reading {
+            is_srgb,
+            by_alpha: false,
+        };
+        MipChain::new(Arc::new(picture), reading).down_to(1)
     }
 
     #[test]

@@ -14,7 +14,7 @@ use sabi_nodes::kind::Role;
 use sabi_plan::{FileContents, FileFault, FileFaultKind};
 
 use super::SourceKinds;
-use super::mip_chain::MipChain;
+use super::mip_chain::{MipChain, Reading};
 
 /// Files of pictures larger than this are not read.
 pub(crate) const SIZE_LIMIT_BYTES: u64 = 1 << 30;
@@ -36,18 +36,20 @@ pub struct Pictures {
 struct PictureCache {
     /// Files by path, as they were when last read.
     known: BTreeMap<PathBuf, KnownFile>,
-    /// Pictures by the hash of their file's bytes, the most recently used last.
+    /// Pictures by the key of what they show, the most recently used last.
     decoded: Vec<([u8; 32], Arc<OpenPicture>)>,
     /// Pictures that are not kept here and that something may still show.
     others: BTreeMap<[u8; 32], Weak<OpenPicture>>,
 }
 
 /// A file whose header is that of a picture.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct KnownFile {
     stamp: Option<Stamp>,
     /// Hash of the file's bytes.
     content: [u8; 32],
+    /// Layers of an OpenEXR file, the one that is shown by default first.
+    layers: Vec<String>,
 }
 
 /// Length and modification time of a file.
@@ -58,12 +60,33 @@ fn stamp(path: &Path) -> Option<Stamp> {
     Some((metadata.len(), metadata.modified().ok()?))
 }
 
+/// What is shown of a file.
+#[derive(Clone, Copy)]
+struct Shown<'a> {
+    /// Hash of the file's bytes.
+    content: [u8; 32],
+    /// Name of a layer; empty for the default one.
+    layer: &'a str,
+}
+
+impl Shown<'_> {
+    /// Key of the picture: the content alone for the default layer.
+    fn key(self) -> [u8; 32] {
+        if self.layer.is_empty() {
+            return self.content;
+        }
+        let mut hash = blake3::Hasher::new();
+        hash.update(&self.content).update(self.layer.as_bytes());
+        *hash.finalize().as_bytes()
+    }
+}
+
 impl PictureCache {
-    /// Finds a decoded picture and marks it as the most recently used.
-    fn find(&mut self, content: &[u8; 32]) -> Option<Arc<OpenPicture>> {
-        let Some(at) = self.decoded.iter().position(|(own, _)| own == content) else {
-            let picture = self.others.remove(content)?.upgrade()?;
-            self.decoded.push((*content, picture.clone()));
+    /// Finds a decoded picture by the key of what it shows and marks it as the most recently used.
+    fn find(&mut self, key: &[u8; 32]) -> Option<Arc<OpenPicture>> {
+        let Some(at) = self.decoded.iter().position(|(own, _)| own == key) else {
+            let picture = self.others.remove(key)?.upgrade()?;
+            self.decoded.push((*key, picture.clone()));
             return Some(picture);
         };
         let entry = self.decoded.remove(at);
@@ -96,18 +119,24 @@ pub(crate) struct OpenPicture {
     pub(crate) picture: Arc<Picture>,
     /// True if it holds infinite or undefined numbers.
     pub(crate) has_non_numbers: bool,
-    /// Mip chains of its values as they are, and of sRGB decoded, as far down as they were needed.
-    levels: [Mutex<MipChain>; 2],
+    /// Layers of the file it is from, the shown one first where none was asked for; none but in OpenEXR files.
+    pub(crate) layers: Vec<String>,
+    /// True if a pixel is not opaque.
+    is_transparent: bool,
+    /// Mip chains, as far down as they were needed, by the number of the way in which values are read.
+    levels: [Mutex<MipChain>; 4],
 }
 
 impl OpenPicture {
-    fn new(picture: Picture) -> OpenPicture {
+    fn new(picture: Picture, layers: Vec<String>) -> OpenPicture {
         let is_odd = |values: &[f32]| values.iter().any(|value| !value.is_finite());
         let has_non_numbers = matches!(&picture.pixels, Pixels::F32(values) if is_odd(values));
         let picture = Arc::new(picture);
         OpenPicture {
             has_non_numbers,
-            levels: [false, true].map(|is_srgb| Mutex::new(MipChain::new(picture.clone(), is_srgb))),
+            layers,
+            is_transparent: is_transparent(&picture),
+            levels: Reading::ALL.map(|reading| Mutex::new(MipChain::new(picture.clone(), reading))),
             picture,
         }
     }
@@ -123,11 +152,36 @@ impl OpenPicture {
         own as u64 + levels.sum::<u64>()
     }
 
-    /// Returns the mip chain of the picture, down to the first level with at most `least` pixels along both sides; with
-    /// `is_srgb`, sRGB is decoded in all channels but alpha. Levels are built once, by many threads: not to be called from a
-    /// parallel task, which might wait for itself.
-    pub(crate) fn levels(&self, is_srgb: bool, least: u32) -> MipChain {
-        locked(&self.levels[usize::from(is_srgb)]).down_to(least)
+    /// Returns the way in which the picture is read for a wish: where all is opaque, nothing is weighed by alpha.
+    pub(crate) fn reading(&self, wish: Reading) -> Reading {
+        Reading {
+            by_alpha: wish.by_alpha && self.is_transparent,
+            ..wish
+        }
+    }
+
+    /// Returns the mip chain of the picture, down to the first level with at most `least` pixels along both sides. Levels are built
+    /// once, by many threads: not to be called from a parallel task, which might wait for itself.
+    pub(crate) fn levels(&self, wish: Reading, least: u32) -> MipChain {
+        locked(&self.levels[self.reading(wish).number()]).down_to(least)
+    }
+}
+
+/// Returns whether a pixel is not opaque.
+fn is_transparent(picture: &Picture) -> bool {
+    let channels = usize::from(picture.channels);
+    if channels != 2 && channels != 4 {
+        return false;
+    }
+    fn any<T: Copy>(samples: &[T], channels: usize, is_clear: impl Fn(T) -> bool) -> bool {
+        samples
+            .chunks_exact(channels)
+            .any(|pixel| is_clear(pixel[channels - 1]))
+    }
+    match &picture.pixels {
+        Pixels::U8(samples) => any(samples, channels, |alpha| alpha < u8::MAX),
+        Pixels::U16(samples) => any(samples, channels, |alpha| alpha < u16::MAX),
+        Pixels::F32(samples) => any(samples, channels, |alpha| alpha < 1.0),
     }
 }
 
@@ -143,11 +197,18 @@ impl Pictures {
         let named = nodes.into_iter().filter_map(|index| {
             let node = graph.nodes.get(index).filter(|node| !node.muted)?;
             let (param, path) = named_file(node, sources)?;
-            let content = allowed_path(base, trusted, node, path).and_then(|file| self.content(&file, path));
-            let content = content.map_err(|(why, kind)| FileFault {
+            let fault = |param: &str, (why, kind): Fault| FileFault {
                 param: param.to_owned(),
                 why,
                 kind,
+            };
+            let content = allowed_path(base, trusted, node, path)
+                .and_then(|file| Ok((self.content(&file, path)?, file)))
+                .map_err(|why| fault(param, why));
+            let content = content.and_then(|(content, file)| {
+                self.check_layer(&file, path, named_layer(node))
+                    .map_err(|why| fault(LAYER, why))?;
+                Ok(content)
             });
             Some((index, content))
         });
@@ -167,17 +228,39 @@ impl Pictures {
         }
         let bytes = read(path, written)?;
         sabi_image::check_header(written, &bytes).map_err(unusable)?;
-        let content = *blake3::hash(&bytes).as_bytes();
-        self.lock().known.insert(path.to_owned(), KnownFile { stamp, content });
+        let known = KnownFile {
+            stamp,
+            content: *blake3::hash(&bytes).as_bytes(),
+            layers: sabi_image::layer_names(written, &bytes).map_err(unusable)?,
+        };
+        let content = known.content;
+        self.lock().known.insert(path.to_owned(), known);
         Ok(content)
     }
 
+    /// Checks that a file whose content is known has a layer; an empty name asks for none.
+    fn check_layer(&self, path: &Path, written: &str, layer: &str) -> Result<(), Fault> {
+        let cache = self.lock();
+        let Some(known) = cache.known.get(path).filter(|_| !layer.is_empty()) else {
+            return Ok(());
+        };
+        match known.layers.iter().any(|own| own.eq_ignore_ascii_case(layer)) {
+            true => Ok(()),
+            false => Err(unusable(ImageError::Layer {
+                name: written.to_owned(),
+                asked: layer.to_owned(),
+                layers: known.layers.clone(),
+            })),
+        }
+    }
+
     /// Opens the picture at a path with the content that [`Pictures::contents`] last returned, since results are cached by that
-    /// content.
-    pub(crate) fn open(&self, path: &Path, written: &str) -> Result<Arc<OpenPicture>, Fault> {
+    /// content; of a file with several layers the one of a name, or the first where the name is empty.
+    pub(crate) fn open(&self, path: &Path, written: &str, layer: &str) -> Result<Arc<OpenPicture>, Fault> {
         let known = self.lock().known.get(path).map(|known| known.content);
         let content = known.map_or_else(|| self.content(path, written), Ok)?;
-        if let Some(picture) = self.lock().find(&content) {
+        let shown = Shown { content, layer };
+        if let Some(picture) = self.lock().find(&shown.key()) {
             return Ok(picture);
         }
         let bytes = read(path, written)?;
@@ -185,7 +268,7 @@ impl Pictures {
             let why = format!("{written} was saved again while it was in use; try again to use the new version");
             return Err((why, FileFaultKind::Unusable));
         }
-        self.decode(written, &bytes, content).map_err(unusable)
+        self.decode(written, &bytes, shown).map_err(unusable)
     }
 
     /// Opens a picture in memory, such as one within the file of a model; `name` is for messages, and `content` the hash of the
@@ -196,16 +279,22 @@ impl Pictures {
         bytes: &[u8],
         content: [u8; 32],
     ) -> Result<Arc<OpenPicture>, ImageError> {
-        if let Some(picture) = self.lock().find(&content) {
+        let shown = Shown { content, layer: "" };
+        if let Some(picture) = self.lock().find(&shown.key()) {
             return Ok(picture);
         }
-        self.decode(name, bytes, content)
+        self.decode(name, bytes, shown)
     }
 
-    fn decode(&self, name: &str, bytes: &[u8], content: [u8; 32]) -> Result<Arc<OpenPicture>, ImageError> {
-        let picture = Arc::new(OpenPicture::new(sabi_image::decode(name, bytes)?));
+    fn decode(&self, name: &str, bytes: &[u8], shown: Shown<'_>) -> Result<Arc<OpenPicture>, ImageError> {
+        let picture = match shown.layer {
+            "" => sabi_image::decode(name, bytes)?,
+            layer => sabi_image::decode_layer(name, bytes, layer)?,
+        };
+        let layers = sabi_image::layer_names(name, bytes)?;
+        let picture = Arc::new(OpenPicture::new(picture, layers));
         let mut cache = self.lock();
-        cache.decoded.push((content, picture.clone()));
+        cache.decoded.push((shown.key(), picture.clone()));
         cache.evict(CACHE_LIMIT_BYTES);
         Ok(picture)
     }
@@ -313,6 +402,18 @@ pub(crate) fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Op
         None => Some((param.name.as_str(), "")),
         // The planner reports it with the other values of a wrong type.
         Some(_) => None,
+    }
+}
+
+/// Parameter of `source/image` that names a layer.
+const LAYER: &str = "layer";
+
+/// Name of the layer that a node shows; empty for the default one.
+fn named_layer(node: &FlatNode) -> &str {
+    match node.params.get(LAYER) {
+        Some(Value::Text(layer)) => layer,
+        // The planner reports a value of a wrong type.
+        _ => "",
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 use sabi_image::Pixels;
 use sabi_plan::FileFaultKind;
 
-use super::{OpenPicture, Pictures};
+use super::{OpenPicture, Pictures, Reading};
 
 /// A BMP of 2 by 2 pixels, all of one gray.
 pub(in crate::source) fn bmp(gray: u8) -> Vec<u8> {
@@ -43,12 +43,12 @@ fn a_picture_saved_again_is_seen_by_the_next_plan() {
     let pictures = Pictures::default();
     save(&path, &bmp(10), 1);
     let first = pictures.content(&path, "a.bmp").unwrap();
-    assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 10);
+    assert_eq!(gray(&pictures.open(&path, "a.bmp", "").unwrap()), 10);
     save(&path, &bmp(20), 2);
     // An earlier plan keeps the content that it was made for.
-    assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 10);
+    assert_eq!(gray(&pictures.open(&path, "a.bmp", "").unwrap()), 10);
     assert_ne!(pictures.content(&path, "a.bmp").unwrap(), first);
-    assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 20);
+    assert_eq!(gray(&pictures.open(&path, "a.bmp", "").unwrap()), 20);
     save(&path, &bmp(10), 3);
     assert_eq!(pictures.content(&path, "a.bmp").unwrap(), first);
     fs::remove_file(&path).unwrap();
@@ -63,7 +63,7 @@ fn no_result_is_kept_under_the_name_of_another_picture() {
     save(&path, &bmp(10), 1);
     pictures.content(&path, "a.bmp").unwrap();
     save(&path, &bmp(20), 2);
-    let (why, kind) = pictures.open(&path, "a.bmp").err().unwrap();
+    let (why, kind) = pictures.open(&path, "a.bmp", "").err().unwrap();
     assert_eq!(
         why,
         "a.bmp was saved again while it was in use; try again to use the new version"
@@ -79,7 +79,7 @@ fn nothing_is_decoded_before_it_is_used() {
     save(&path, &bmp(10)[..60], 1);
     pictures.content(&path, "a.bmp").unwrap();
     assert!(pictures.lock().decoded.is_empty());
-    let (why, _) = pictures.open(&path, "a.bmp").err().unwrap();
+    let (why, _) = pictures.open(&path, "a.bmp", "").err().unwrap();
     assert!(why.starts_with("a.bmp is a damaged BMP file"), "{why}");
 }
 
@@ -90,9 +90,9 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
     let [a, b, c] = ["a.bmp", "b.bmp", "c.bmp"].map(|name| folder.path().join(name));
     for (path, gray) in [(&a, 1), (&b, 2), (&c, 3)] {
         save(path, &bmp(gray), 1);
-        pictures.open(path, "x.bmp").unwrap();
+        pictures.open(path, "x.bmp", "").unwrap();
     }
-    pictures.open(&a, "x.bmp").unwrap();
+    pictures.open(&a, "x.bmp", "").unwrap();
     let kept = |limit: u64| {
         let mut cache = pictures.lock();
         cache.evict(limit);
@@ -107,8 +107,14 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
     assert_eq!(kept(35), [3, 1]);
     assert_eq!(kept(0), [1]);
     // Its one smaller copy counts too: a pixel of four floats.
-    let last = pictures.open(&a, "x.bmp").unwrap();
-    last.levels(false, 1);
+    let last = pictures.open(&a, "x.bmp", "").unwrap();
+    last.levels(
+        Reading {
+            is_srgb: false,
+            by_alpha: true,
+        },
+        1,
+    );
     assert_eq!(last.bytes(), 12 + 16);
 }
 
