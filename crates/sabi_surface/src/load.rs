@@ -4,6 +4,7 @@
 
 mod assembly;
 mod beside;
+mod blur;
 mod completion;
 mod dae;
 mod error;
@@ -13,7 +14,9 @@ mod fbx;
 mod format;
 mod gltf;
 mod normals;
+mod numbers;
 mod obj;
+mod opacity;
 mod pictures;
 mod ply;
 mod polygon;
@@ -26,6 +29,7 @@ mod text;
 mod unit_vector;
 mod warnings;
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -41,6 +45,7 @@ pub use self::gltf::UnpackedVertices;
 use self::repeating::repeating;
 pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
+use self::text::unmarked;
 use crate::model::Model;
 
 /// Most triangles of a model; more are refused before anything is allocated for them.
@@ -165,7 +170,19 @@ fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &Lo
         Err(Fault::Smooth(degrees))
     } else if options.scale.is_finite() && options.scale > 0.0 {
         let is_smoothed = options.smooth_degrees.is_some();
-        let model = match format_of(name, bytes) {
+        // The bytes of a binary STL may begin like a mark.
+        let text = if stl::has_binary_size(bytes) {
+            Cow::Borrowed(bytes)
+        } else {
+            unmarked(bytes)
+        };
+        let format = format_of(name, &text);
+        let is_wide = matches!(text, Cow::Owned(_));
+        let bytes = &text;
+        let model = match format {
+            Ok(Format::Gltf) if is_wide => Err(Fault::Format(
+                "it is text in UTF-16, and glTF is UTF-8; save it as UTF-8 or export it as .glb".into(),
+            )),
             Ok(Format::Gltf) => gltf::read(name, bytes, resolve, options).map(|model| Model { is_gltf: true, ..model }),
             Ok(Format::Obj) => obj::read(name, bytes, resolve, options),
             Ok(Format::Fbx) => fbx::read(name, bytes, resolve, options),

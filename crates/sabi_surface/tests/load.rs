@@ -13,6 +13,8 @@ mod completing;
 mod dae;
 #[path = "load/draco.rs"]
 mod draco;
+#[path = "load/far.rs"]
+mod far;
 #[path = "load/faults.rs"]
 mod faults;
 #[path = "load/fbx.rs"]
@@ -31,8 +33,12 @@ mod layouts;
 mod materials;
 #[path = "load/meshopt.rs"]
 mod meshopt;
+#[path = "load/numbers.rs"]
+mod numbers;
 #[path = "load/obj.rs"]
 mod obj;
+#[path = "load/obj_library.rs"]
+mod obj_library;
 #[path = "load/oracle.rs"]
 mod oracle;
 #[path = "load/origins.rs"]

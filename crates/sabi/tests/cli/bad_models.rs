@@ -33,7 +33,13 @@ fn a_model_that_cannot_be_read_is_a_sentence() {
                 cube.len()
             ),
         ),
-        ("text.obj", 65, "text.obj: it has no triangles".to_owned()),
+        (
+            "text.obj",
+            65,
+            "text.obj: it has no triangles; The file has statements that are not known and are left out, the first in line 1: \
+             `hello`"
+                .to_owned(),
+        ),
         (
             "cube.usd",
             65,

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DMat4;
 
-use super::error::{Fault, damaged};
+use super::blur::warn_of_placing;
+use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
 use super::gltf::Resolve;
 use super::pictures::Pictures;
@@ -82,10 +83,13 @@ impl Assembly {
         mut warnings: Warnings,
     ) -> Result<Model, Fault> {
         let has = |what: fn(&Submesh) -> bool| self.meshes.iter().flatten().any(what);
+        if !has(|submesh| !submesh.triangles.is_empty()) {
+            return Err(warnings.into_fault());
+        }
         let with_uvs = has(|submesh| !submesh.uvs.is_empty());
         let with_colors = has(|submesh| !submesh.colors.is_empty());
         if !with_uvs {
-            self.check_uv_set(options.uv_set)?;
+            missing_uv_set(options.uv_set, &self.uv_sets)?;
         }
         let placements = self.placements(|mesh, instance| (mesh, instance.file_from_mesh));
         let (world_from_file, middle) = brought_near(options.world_from_file(), placements);
@@ -97,12 +101,13 @@ impl Assembly {
         model.mesh.uv_set = with_uvs.then_some(options.uv_set);
         model.mesh.texture_uvs = self.empty_sets()?;
         let mut without_uvs = BTreeSet::new();
-        let mut lost = 0;
+        let (mut lost, mut blurred) = (0, 0);
         for instance in &self.instances {
             let part = model.parts.len() as u32;
             for submesh in &self.meshes[instance.mesh] {
                 let mut placed = submesh.placed(world_from_file * instance.file_from_mesh);
                 lost += placed.drop_broken();
+                blurred += placed.blurred;
                 for material in &mut placed.materials {
                     *material = self.material_of(instance, *material);
                 }
@@ -116,6 +121,7 @@ impl Assembly {
                 model.parts.push(instance.name.clone());
             }
         }
+        warn_of_placing(blurred, &mut warnings);
         if lost > 0 {
             warnings.add(format!(
                 "{} reached out of the range of numbers once placed and had to be left out.",
@@ -150,18 +156,6 @@ impl Assembly {
         let none = self.materials.len() as u32;
         let material = instance.materials.get(number as usize).copied();
         material.unwrap_or(none).min(none)
-    }
-
-    /// Returns the fault that no mesh has the chosen UV set; a model without any set is no fault for the default set.
-    fn check_uv_set(&self, asked: u32) -> Result<(), Fault> {
-        let sets: Vec<String> = self.uv_sets.iter().map(u32::to_string).collect();
-        let there = match sets.as_slice() {
-            [] if asked == 0 => return Ok(()),
-            [] => "it has no UVs at all".to_string(),
-            [one] => format!("it has set {one}"),
-            [first @ .., last] => format!("it has the sets {} and {last}", first.join(", ")),
-        };
-        Err(Fault::UvSet { asked, there })
     }
 
     /// The UV sets besides the chosen one that textures use, without coordinates yet.

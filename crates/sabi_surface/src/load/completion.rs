@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::blur::warn_of_storage;
 use super::normals::{self, Missing};
 use super::submesh::Submesh;
 use super::tangents;
@@ -30,6 +31,7 @@ impl Completion {
         who: &str,
         warnings: &mut Warnings,
     ) -> bool {
+        warn_of_storage(submesh.blurred_by_file, who, warnings);
         let dropped = submesh.drop_broken();
         if dropped > 0 {
             warnings.add(format!(

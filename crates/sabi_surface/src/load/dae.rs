@@ -39,7 +39,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let mut warnings = Warnings::default();
     let text = decoded(bytes);
     let tree = document::parsed(&text)?;
-    let document = Document::new(&tree)?;
+    let document = Document::new(&tree, &mut warnings)?;
     if document.first("library_animations").is_some() {
         warnings.add("Animations are left out: the scene is taken as it stands without them.");
     }

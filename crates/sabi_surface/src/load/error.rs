@@ -1,5 +1,7 @@
 //! Errors of loading a model.
 
+use std::collections::BTreeSet;
+
 use sabi_files::Refusal;
 
 /// A model that could not be loaded, and the reason.
@@ -107,6 +109,20 @@ impl Fault {
             limit_mib: limit >> 20,
         }
     }
+}
+
+/// Returns the fault that no triangle has the UV set that was asked for, where the meshes have these `sets`. A model without
+/// the default set has no UVs, which is no fault.
+pub(super) fn missing_uv_set(asked: u32, sets: &BTreeSet<u32>) -> Result<(), Fault> {
+    let has_asked = sets.contains(&asked);
+    let there = match sets.iter().map(u32::to_string).collect::<Vec<_>>().as_slice() {
+        sets if asked == 0 && (sets.is_empty() || has_asked) => return Ok(()),
+        _ if has_asked => "all triangles with that set had to be left out".to_owned(),
+        [] => "it has no UVs at all".to_owned(),
+        [one] => format!("it has set {one}"),
+        [first @ .., last] => format!("it has the sets {} and {last}", first.join(", ")),
+    };
+    Err(Fault::UvSet { asked, there })
 }
 
 /// Bytes as mebibytes, rounded up.

@@ -3,6 +3,10 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use glam::{DVec3, Vec3};
+
+use super::blur::{StorageErrors, blurred};
+use super::far::far_middle;
 use super::polygon;
 use super::submesh::{Smoothing, Submesh};
 use super::warnings::Warnings;
@@ -13,8 +17,8 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// Values of an attribute, and the number of the value of each corner. Without values, the file does not have it.
 #[derive(Default)]
-pub(super) struct Attribute<const N: usize> {
-    pub(super) values: Vec<[f32; N]>,
+pub(super) struct Attribute<const N: usize, T = f32> {
+    pub(super) values: Vec<[T; N]>,
     /// [`NONE`] where a corner has none.
     pub(super) corners: Vec<u32>,
 }
@@ -31,7 +35,10 @@ pub(super) struct Face {
 /// Faces with checked indices.
 #[derive(Default)]
 pub(super) struct Faces {
-    pub(super) positions: Vec<[f32; 3]>,
+    /// As the file has them; they lose what 32 bits cannot hold once they are moved near.
+    pub(super) positions: Vec<[f64; 3]>,
+    /// True if the file stores positions in 32 bits.
+    pub(super) is_single: bool,
     /// Position of each corner.
     pub(super) corners: Vec<u32>,
     pub(super) faces: Vec<Face>,
@@ -107,9 +114,15 @@ impl Faces {
             uvs: uvs.gathered(&first_corners, [0.0; 2]),
             tangents: Vec::new(),
         });
-        let position = |corner: &u32| self.positions[self.corners[*corner as usize] as usize];
+        let position = |corner: u32| DVec3::from(self.positions[self.corners[corner as usize] as usize]);
+        let origin = far_middle(first_corners.iter().map(|corner| position(*corner)));
+        let near = |corner: u32| position(corner) - origin;
         let mut submesh = Submesh {
-            positions: first_corners.iter().map(position).collect(),
+            origin,
+            positions: first_corners
+                .iter()
+                .map(|corner| near(*corner).as_vec3().into())
+                .collect(),
             normals: self.normals.gathered(&first_corners, [0.0; 3]),
             colors: self.colors.gathered(&first_corners, [1.0; 4]),
             uvs: self.uvs.gathered(&first_corners, [0.0; 2]),
@@ -129,6 +142,17 @@ impl Faces {
             submesh.materials.extend(std::iter::repeat_n(face.material, more));
             submesh.parts.extend(std::iter::repeat_n(face.part, more));
             submesh.smoothing.extend(std::iter::repeat_n(face.smoothing, more));
+        }
+        let exact = |vertex: usize| near(first_corners[vertex]);
+        if self.is_single {
+            let stored = |corner: u32| -> [f32; 3] { position(corner).as_vec3().into() };
+            let errors = StorageErrors::of(first_corners.iter().map(|corner| stored(*corner)));
+            let error = |vertex: usize| errors.at(stored(first_corners[vertex]));
+            submesh.blurred_by_file = blurred(&submesh.triangles, exact, error);
+        } else {
+            let rounded = |vertex: usize| Vec3::from(submesh.positions[vertex]).as_dvec3();
+            let error = |vertex: usize| exact(vertex).distance(rounded(vertex));
+            submesh.blurred = blurred(&submesh.triangles, exact, error);
         }
         if budget.is_spent() {
             warnings.add("Some hollow faces have too many corners to be cut up well; triangulate the model on export.");

@@ -18,7 +18,7 @@ pub(super) fn brought_near<'p>(
     let placed = submeshes.map(|(submesh, file_from_mesh)| (submesh, world_from_file * file_from_mesh));
     let points = placed.flat_map(|(submesh, world_from_mesh)| {
         let positions = submesh.positions.iter();
-        positions.map(move |at| world_from_mesh.transform_point3(Vec3::from(*at).as_dvec3()))
+        positions.map(move |at| world_from_mesh.transform_point3(submesh.origin + Vec3::from(*at).as_dvec3()))
     });
     let middle = far_middle(points);
     (DMat4::from_translation(-middle) * world_from_file, middle.to_array())
@@ -29,7 +29,7 @@ pub(super) fn far_middle(points: impl Iterator<Item = DVec3>) -> DVec3 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for at in points {
         // Positions that are not finite are left out when submeshes are placed.
-        if at.abs().max_element() <= f64::from(f32::MAX) {
+        if at.is_finite() && at.abs().max_element() <= f64::from(f32::MAX) {
             (low, high) = (low.min(at), high.max(at));
         }
     }

@@ -11,9 +11,9 @@ mod mesh;
 mod nodes;
 mod textures;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use glam::DVec3;
 use ufbx::{AllocatorOpts, ErrorType, FileFormat, LoadOpts, MirrorAxis, OpenFileCb, WarningType};
 
 use self::material::Looks;
@@ -23,6 +23,7 @@ use super::error::{Fault, damaged};
 use super::gltf::Resolve;
 use super::polygon::Budget;
 use super::skin_rest::{JointBudget, Rest};
+use super::text::with_line_feeds;
 use super::warnings::Warnings;
 use crate::model::{Model, ModelMaterial};
 
@@ -37,7 +38,13 @@ const MEMORY_OF_A_BYTE: usize = 256;
 /// Reads an `.fbx` file.
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
-    let scene = opened(bytes)?;
+    // The library ends remarks of a text at line feeds alone.
+    let text = if bytes.starts_with(b";") {
+        with_line_feeds(bytes)
+    } else {
+        Cow::Borrowed(bytes)
+    };
+    let scene = opened(&text)?;
     note_omissions(&scene, &mut warnings);
     let shown = nodes::shown(&scene, &mut warnings);
     let mut looks = Looks::new(&scene, &shown, super::stem(name));
@@ -58,7 +65,6 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         let place = *places.entry(node.mesh.element.typed_id).or_insert_with(|| {
             sources.push(Source {
                 mesh: node.mesh,
-                origin: mesh::origin(node.mesh),
                 rest: nodes::rest(node.mesh, &mut joints),
                 who: format!("mesh `{}`", node.name()),
             });
@@ -82,8 +88,6 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
 /// A mesh that any node shows.
 struct Source<'s> {
     mesh: &'s ufbx::Mesh,
-    /// Origin of the positions that are kept, in the space of the mesh; see [`mesh::origin`].
-    origin: DVec3,
     rest: Rest,
     /// Name in warnings.
     who: String,

@@ -49,7 +49,7 @@ pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
 fn marked(bytes: &[u8]) -> Option<Format> {
     let starts_with = |marks: &[&[u8]]| marks.iter().any(|mark| bytes.starts_with(mark));
     let start = &bytes[..bytes.len().min(ROOT_WITHIN)];
-    let is_xml = start.trim_ascii_start().starts_with(b"<") || start.starts_with(b"\xef\xbb\xbf<");
+    let is_xml = start.trim_ascii_start().starts_with(b"<");
     let has_root = || start.windows(dae::ROOT.len()).any(|window| window == dae::ROOT);
     match () {
         () if bytes.starts_with(b"glTF") => Some(Format::Gltf),

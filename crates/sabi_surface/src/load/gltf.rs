@@ -32,7 +32,8 @@ use self::source::Source;
 pub use self::unpacked::UnpackedVertices;
 pub(super) use self::unpacked::unpack;
 use self::uv_decoding::UvDecodings;
-use super::error::{Fault, damaged};
+use super::blur::warn_of_placing;
+use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
@@ -64,10 +65,12 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         .flatten()
         .for_each(|primitive| decodings.apply(primitive));
     let has = |what: fn(&LoadedPrimitive) -> bool| primitives.values().flatten().any(what);
+    let has_triangles = has(|primitive| !primitive.submesh.triangles.is_empty());
     let with_uvs = has(|primitive| !primitive.submesh.uvs.is_empty());
     let with_colors = has(|primitive| !primitive.submesh.colors.is_empty());
-    if !with_uvs {
-        primitive::check_uv_set(options.uv_set, primitives.values().flatten())?;
+    if !with_uvs && has_triangles {
+        let sets = primitives.values().flatten().flat_map(|primitive| &primitive.uv_sets);
+        missing_uv_set(options.uv_set, &sets.copied().collect())?;
     }
 
     let without_uvs = gather_warnings(primitives.values().flatten(), with_uvs, &mut warnings);
@@ -81,7 +84,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     model.mesh.texture_uvs = empty_sets(primitives.values().flatten());
     let mut materials = Materials::default();
     let placed = (world_from_file, [with_uvs, with_colors]);
-    let lost = place_all(&instances, placed, &primitives, &mut materials, &mut model);
+    let Placed { lost, blurred } = place_all(&instances, placed, &primitives, &mut materials, &mut model);
+    warn_of_placing(blurred, &mut warnings);
     if lost > 0 {
         warnings.add(format!(
             "{} reached out of the range of numbers once placed and had to be left out.",
@@ -163,22 +167,34 @@ fn gather_warnings<'a>(
     without_uvs
 }
 
-/// Adds all instances to the model; returns the number of triangles that were lost.
+/// Numbers of triangles that placing did not leave as they were.
+#[derive(Default)]
+struct Placed {
+    /// Triangles that reached out of the range of numbers.
+    lost: usize,
+    /// Triangles that lost their shape.
+    blurred: usize,
+}
+
+/// Adds all instances to the model.
 fn place_all(
     instances: &[Instance],
     (world_from_file, with): (DMat4, [bool; 2]),
     primitives: &BTreeMap<usize, Vec<LoadedPrimitive>>,
     materials: &mut Materials,
     model: &mut Model,
-) -> usize {
-    let of_instance = |instance: &Instance| {
+) -> Placed {
+    let mut all = Placed::default();
+    for instance in instances {
         let primitives = primitives.get(&instance.mesh).into_iter().flatten();
-        place(instance, world_from_file, primitives, with, materials, model)
-    };
-    instances.iter().map(of_instance).sum()
+        let Placed { lost, blurred } = place(instance, world_from_file, primitives, with, materials, model);
+        all.lost += lost;
+        all.blurred += blurred;
+    }
+    all
 }
 
-/// Adds the primitives of an instance to the model as one part; returns the number of triangles that were lost.
+/// Adds the primitives of an instance to the model as one part.
 fn place<'a>(
     instance: &Instance,
     world_from_file: DMat4,
@@ -186,13 +202,14 @@ fn place<'a>(
     [with_uvs, with_colors]: [bool; 2],
     materials: &mut Materials,
     model: &mut Model,
-) -> usize {
+) -> Placed {
     let part = model.parts.len() as u32;
-    let mut lost = 0;
+    let mut all = Placed::default();
     let world_from_mesh = world_from_file * instance.file_from_mesh;
     for (number, primitive) in primitives.enumerate() {
         let mut placed = primitive.submesh.placed(world_from_mesh);
-        lost += placed.drop_broken();
+        all.lost += placed.drop_broken();
+        all.blurred += placed.blurred;
         if placed.triangles.is_empty() {
             continue;
         }
@@ -215,7 +232,7 @@ fn place<'a>(
     if model.mesh.triangle_part.last() == Some(&part) {
         model.parts.push(instance.name.clone());
     }
-    lost
+    all
 }
 
 /// Most vertices of all primitives together; vertices that primitives share count for each, since each reads all of them.

@@ -2,10 +2,15 @@
 //!
 //! Normals that the file leaves out are smooth up to a crease of 80°, or follow its smoothing groups where it has them.
 //! Texture coordinates are turned to glTF's convention (v grows downward). Vertex colors, an unwritten addition to the
-//! format, are taken as sRGB, as the programs that write them do.
+//! format, are taken as sRGB, as the programs that write them do. Each `o` begins a part; a group (`g`) of one name is one part of
+//! its object.
 
+mod colors;
+mod draft;
 mod library;
+mod map_statement;
 mod statements;
+mod unknown;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,6 +18,7 @@ use glam::DMat4;
 
 use self::library::Library;
 use self::statements::Statements;
+use super::blur::warn_of_placing;
 use super::completion::{Completion, LACKING_NORMALS};
 use super::error::Fault;
 use super::faces::NONE;
@@ -54,6 +60,7 @@ pub(super) fn read(
     completion.complete(&mut submesh, &BTreeSet::new(), "the model", &mut warnings);
     let (mut placed, middle) = placed(&submesh, options);
     model.middle = middle;
+    warn_of_placing(placed.blurred, &mut warnings);
     if placed.drop_broken() > 0 {
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
     }

@@ -14,7 +14,7 @@ use glam::DMat4;
 use sabi_color::linear_from_srgb;
 
 use self::body::{Body, Value};
-use self::header::{Element, Header, Kind};
+use self::header::{Element, Encoding, Header, Kind};
 use super::assembly::{Assembly, Instance};
 use super::completion::{Completion, LACKING_NORMALS};
 use super::error::{Fault, damaged};
@@ -28,7 +28,7 @@ use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Model, ModelMaterial, TextureRef};
 
 /// First bytes of each file.
-pub(super) const MARKS: [&[u8]; 2] = [b"ply\n", b"ply\r"];
+pub(super) const MARKS: [&[u8]; 3] = [b"ply\n", b"ply\r", b"ply "];
 
 /// Names of the properties of a vertex that are read, in the order of [`Vertex`]; of each list the first that is there.
 const VERTEX: [&[&str]; 12] = [
@@ -65,7 +65,10 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
             .into(),
         });
     }
-    if faces.faces.is_empty() && !faces.positions.is_empty() && warnings.is_empty() {
+    let has_faces = ["face", "tristrips"]
+        .into_iter()
+        .any(|name| header.element(name).is_some_and(|faces| faces.count > 0));
+    if !has_faces && !faces.positions.is_empty() {
         warnings.add("it is a cloud of points without faces; make a mesh of them first");
     }
     let completion = Completion {
@@ -144,6 +147,7 @@ impl Reader<'_, '_> {
                 _ => body.skip(element)?,
             }
         }
+        self.warnings.absorb(body.warnings);
         Ok(self.faces)
     }
 
@@ -155,18 +159,22 @@ impl Reader<'_, '_> {
         }
         let [with_normals, with_uvs, with_colors] = [has(3..6), has(6..8) && !self.corners_have_uvs, has(8..11)];
         let kinds: Vec<Kind> = element.properties.iter().map(|property| property.kind).collect();
-        let color_kind = |channel: usize| places[channel].and_then(|place| kinds.get(place)).copied();
-        let color_kinds = [8, 9, 10, 11].map(color_kind);
+        let kind_of = |channel: usize| places[channel].and_then(|place| kinds.get(place)).copied();
+        let color_kinds = [8, 9, 10, 11].map(kind_of);
+        // Text holds as many digits as it has, whatever type it names.
+        self.faces.is_single =
+            self.header.encoding != Encoding::Text && (0..3).all(|axis| kind_of(axis) == Some(Kind::F32));
         let mut row = Vec::new();
         for _ in 0..element.count {
             body.row(element, &mut row)?;
             let number = |place: Option<usize>| match place.and_then(|place| row.get(place)) {
-                Some(Value::Number(number)) => *number as f32,
+                Some(Value::Number(number)) => *number,
                 _ => 0.0,
             };
-            let vertex: Vertex = places.map(number);
-            let [x, y, z, nx, ny, nz, s, t, ..] = vertex;
+            let [x, y, z, ..] = places.map(number);
             self.faces.positions.push([x, y, z]);
+            let vertex: Vertex = places.map(number).map(|number| number as f32);
+            let [_, _, _, nx, ny, nz, s, t, ..] = vertex;
             if with_normals {
                 self.faces.normals.values.push([nx, ny, nz]);
             }

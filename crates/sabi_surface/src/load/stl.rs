@@ -14,9 +14,10 @@ use super::error::{Fault, damaged};
 use super::faces::Faces;
 use super::gltf::Resolve;
 use super::normals::Missing;
+use super::numbers::number;
 use super::polygon::Budget;
 use super::submesh::Smoothing;
-use super::text::decoded;
+use super::text::{decoded, lines, part_name};
 use super::warnings::Warnings;
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::Model;
@@ -26,11 +27,16 @@ const HEADER_BYTES: usize = 84;
 /// Bytes of a binary facet: a normal, three corners, two bytes of any meaning.
 const FACET_BYTES: usize = 50;
 
+/// Bytes among which the first line of a text is looked for.
+const START_BYTES: usize = 4096;
+/// Beginnings of lines of remarks, which programs write although the format has none.
+const REMARKS: [&[u8]; 4] = [b"#", b"//", b";", b"!"];
+
 /// Reads an `.stl` file.
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
     let mut solids = if is_binary(bytes) {
-        vec![read_binary(bytes)?]
+        vec![read_binary(bytes, &mut warnings)?]
     } else {
         read_text(&decoded(bytes), &mut warnings)?
     };
@@ -68,19 +74,32 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
 /// files may begin with the word of text files.
 fn is_binary(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(FACET_BYTES * 8)];
-    binary_size(bytes) == Some(bytes.len() as u64) || !starts_with_solid(bytes) || start.contains(&0)
+    has_binary_size(bytes) || !begins_as_text(bytes) || start.contains(&0)
+}
+
+/// Returns true if a file is as large as a binary one of its number of facets.
+pub(super) fn has_binary_size(bytes: &[u8]) -> bool {
+    binary_size(bytes) == Some(bytes.len() as u64)
 }
 
 /// Returns true if a file of an unknown ending looks like STL.
 pub(super) fn is_likely(bytes: &[u8]) -> bool {
-    binary_size(bytes) == Some(bytes.len() as u64) || starts_with_solid(bytes)
+    has_binary_size(bytes) || begins_as_text(bytes)
 }
 
-/// Returns true if the file begins as text files do.
-fn starts_with_solid(bytes: &[u8]) -> bool {
-    let start = bytes.trim_ascii_start();
-    let word = start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    word && start.get(5).is_none_or(u8::is_ascii_whitespace)
+/// Returns true if the first line of a file that is no remark begins as text files do.
+fn begins_as_text(bytes: &[u8]) -> bool {
+    let lines = bytes[..bytes.len().min(START_BYTES)].split(|byte| matches!(byte, b'\n' | b'\r'));
+    let first = lines
+        .map(<[u8]>::trim_ascii)
+        .find(|line| !line.is_empty() && !REMARKS.iter().any(|mark| line.starts_with(mark)));
+    let word = first.and_then(|line| line.split(u8::is_ascii_whitespace).next());
+    // Some programs leave out the line of the solid.
+    word.is_some_and(|word| {
+        [&b"solid"[..], b"facet"]
+            .iter()
+            .any(|begin| word.eq_ignore_ascii_case(begin))
+    })
 }
 
 /// Size that a binary file says it has.
@@ -96,15 +115,16 @@ struct Solid {
     name: String,
     faces: Faces,
     /// Corner positions by their bits.
-    known: HashMap<[u32; 3], u32>,
+    known: HashMap<[u64; 3], u32>,
 }
 
 impl Solid {
-    fn corner(&mut self, at: [f32; 3]) {
+    /// Adds a corner of the open facet.
+    fn corner(&mut self, at: [f64; 3]) {
         // + 0.0 turns −0 into 0.
         let at = at.map(|x| x + 0.0);
         let next = self.faces.positions.len() as u32;
-        let position = *self.known.entry(at.map(f32::to_bits)).or_insert(next);
+        let position = *self.known.entry(at.map(f64::to_bits)).or_insert(next);
         if position == next {
             self.faces.positions.push(at);
         }
@@ -112,86 +132,162 @@ impl Solid {
     }
 }
 
-fn read_binary(bytes: &[u8]) -> Result<Solid, Fault> {
+fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Solid, Fault> {
     let Some(size) = binary_size(bytes) else {
         return damaged("it is no STL file: it does not begin with `solid`, and is too short for a binary one");
     };
-    if size > bytes.len() as u64 {
-        let [claim, there] =
-            [size, bytes.len() as u64].map(|size| size.saturating_sub(HEADER_BYTES as u64) / FACET_BYTES as u64);
-        return damaged(format!("it promises {claim} facets and has {there}; it was cut off"));
-    }
+    let body = &bytes[HEADER_BYTES..];
+    let (there, rest) = body.as_chunks::<FACET_BYTES>();
     let claim = (size - HEADER_BYTES as u64) / FACET_BYTES as u64;
-    if claim > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(claim));
+    let facets = match usize::try_from(claim).ok().and_then(|claim| there.get(..claim)) {
+        // A program that does not know the number when it begins to write says 0.
+        Some([]) if !there.is_empty() && rest.is_empty() => there,
+        Some(facets) => facets,
+        None if rest.is_empty() => there,
+        None => {
+            return damaged(format!(
+                "it promises {claim} facets and has {}; it was cut off",
+                there.len()
+            ));
+        }
+    };
+    if facets.len() as u64 > MAX_TRIANGLES {
+        return Err(Fault::TooLarge(facets.len() as u64));
+    }
+    if facets.len() as u64 != claim {
+        warnings.add(format!(
+            "The file says that it has {claim} facets, and has {}; these are read.",
+            facets.len()
+        ));
+    } else if there.len() > facets.len() {
+        warnings.add(format!(
+            "The file goes on behind the {claim} facets that it says it has; what follows is left out."
+        ));
     }
     let mut solid = Solid::default();
-    for facet in bytes[HEADER_BYTES..size as usize].as_chunks::<FACET_BYTES>().0 {
+    solid.faces.is_single = true;
+    for facet in facets {
         let numbers: &[[u8; 4]] = facet.as_chunks().0;
         // The first three numbers are a normal.
         let (corners, _) = numbers[3..].as_chunks::<3>();
         for corner in corners {
-            solid.corner(corner.map(f32::from_le_bytes));
+            solid.corner(corner.map(f32::from_le_bytes).map(f64::from));
         }
         solid.faces.close(3, 0, Smoothing::ByAngle);
     }
     Ok(solid)
 }
 
-/// Reads the solids of a text, each `solid NAME`, then `facet … outer loop vertex x y z … endloop endfacet`.
+/// Reader of a text.
+struct TextReader<'w> {
+    solids: Vec<Solid>,
+    /// First corner of the open facet.
+    first: usize,
+    warnings: &'w mut Warnings,
+}
+
+/// Reads the solids of a text, each `solid NAME`, then `facet … outer loop vertex x y z … endloop endfacet`; the ends may be two
+/// words.
 fn read_text(text: &str, warnings: &mut Warnings) -> Result<Vec<Solid>, Fault> {
-    let mut solids: Vec<Solid> = Vec::new();
-    let mut first = 0;
-    for (line, number) in text.lines().zip(1..) {
-        let mut words = line.split_ascii_whitespace();
-        // A facet may stand on one line.
-        while let Some(word) = words.next() {
-            if word.eq_ignore_ascii_case("solid") {
-                let name: Vec<&str> = words.by_ref().collect();
-                let name = name.join(" ");
-                solids.push(Solid {
-                    name,
-                    ..Solid::default()
-                });
-                first = 0;
-                continue;
-            }
-            let Some(solid) = solids.last_mut() else { continue };
-            if word.eq_ignore_ascii_case("endsolid") {
-                words.by_ref().for_each(drop);
-            } else if word.eq_ignore_ascii_case("vertex") {
-                let Some(corner) = corner(&mut words) else {
-                    return damaged(format!("line {number}: `vertex` needs 3 numbers"));
-                };
-                solid.corner(corner);
-            } else if word.eq_ignore_ascii_case("endloop") || word.eq_ignore_ascii_case("endfacet") {
-                let count = solid.faces.corners.len() - first;
-                if count >= 3 {
-                    solid.faces.close(count, 0, Smoothing::ByAngle);
-                } else if count > 0 {
-                    warnings.add("Faces with fewer than 3 corners are left out.");
-                    solid.faces.corners.truncate(first);
-                }
-                first = solid.faces.corners.len();
-            }
+    let mut reader = TextReader {
+        solids: Vec::new(),
+        first: 0,
+        warnings,
+    };
+    for (line, number) in lines(text).zip(1..) {
+        if REMARKS
+            .iter()
+            .any(|mark| line.trim_ascii_start().as_bytes().starts_with(mark))
+        {
+            continue;
         }
+        let read = reader.read(line);
+        read.map_err(|what| Fault::Damaged(format!("line {number}: {what}")))?;
     }
-    for solid in &mut solids {
+    for solid in &mut reader.solids {
         let whole = solid.faces.faces.last().map_or(0, |face| face.corners.end);
         if solid.faces.corners.len() > whole {
-            warnings.add("The file ends in the middle of a facet, which is left out.");
+            reader
+                .warnings
+                .add("The file ends in the middle of a facet, which is left out.");
             solid.faces.corners.truncate(whole);
         }
     }
-    Ok(solids)
+    Ok(reader.solids)
 }
 
-/// Three numbers; one that is no number, such as `nan` or `-1.#IND`, makes a broken corner.
-fn corner<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<[f32; 3]> {
-    let mut next = || {
-        let word = words.next()?;
-        let number = word.parse().ok();
-        number.or(word.contains(".#").then_some(f32::NAN))
-    };
+impl TextReader<'_> {
+    /// Reads a line, which may hold a whole facet and more.
+    fn read(&mut self, line: &str) -> Result<(), String> {
+        let mut words = line.split_ascii_whitespace();
+        while let Some(word) = words.next() {
+            let is = |other: &str| word.eq_ignore_ascii_case(other);
+            if is("solid") {
+                let name = solid_name(&mut words);
+                self.close();
+                self.first = 0;
+                self.solids.push(Solid {
+                    name,
+                    ..Solid::default()
+                });
+            } else if is("endsolid") || is("end") && next_is(&words, "solid") {
+                self.close();
+                words.by_ref().for_each(drop);
+            } else if is("vertex") {
+                let corner = corner(&mut words, self.warnings).ok_or("`vertex` needs 3 numbers")?;
+                self.solid().corner(corner);
+            } else if ["facet", "end", "endloop", "endfacet"].into_iter().any(is) {
+                self.close();
+            }
+        }
+        Ok(())
+    }
+
+    /// The solid that is read; the line that begins the first may be missing.
+    fn solid(&mut self) -> &mut Solid {
+        if self.solids.is_empty() {
+            self.solids.push(Solid::default());
+        }
+        let last = self.solids.len() - 1;
+        &mut self.solids[last]
+    }
+
+    /// Closes the open facet, if it has corners.
+    fn close(&mut self) {
+        let Some(solid) = self.solids.last_mut() else { return };
+        let count = solid.faces.corners.len() - self.first;
+        if count >= 3 {
+            solid.faces.close(count, 0, Smoothing::ByAngle);
+        } else if count > 0 {
+            self.warnings.add("Faces with fewer than 3 corners are left out.");
+            solid.faces.corners.truncate(self.first);
+        }
+        self.first = solid.faces.corners.len();
+    }
+}
+
+/// The three numbers of a corner.
+fn corner<'a>(words: &mut impl Iterator<Item = &'a str>, warnings: &mut Warnings) -> Option<[f64; 3]> {
+    let mut next = || number(words.next()?, warnings);
     Some([next()?, next()?, next()?])
+}
+
+/// The name of a solid: the rest of its line, or what stands before its first facet.
+fn solid_name<'a>(words: &mut (impl Iterator<Item = &'a str> + Clone)) -> String {
+    let mut name = Vec::new();
+    loop {
+        let mut ahead = words.clone();
+        let is_facet = ahead.next().is_some_and(|word| word.eq_ignore_ascii_case("facet"));
+        if is_facet && next_is(&ahead, "normal") {
+            break;
+        }
+        let Some(word) = words.next() else { break };
+        name.push(word);
+    }
+    part_name(&name.join(" "))
+}
+
+/// Returns true if the next word is this one.
+fn next_is<'a>(words: &(impl Iterator<Item = &'a str> + Clone), word: &str) -> bool {
+    words.clone().next().is_some_and(|next| next.eq_ignore_ascii_case(word))
 }

@@ -2,15 +2,23 @@
 
 use std::collections::HashMap;
 
-use glam::{DMat4, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 
+use super::blur::blurred;
 use super::unit_vector::{perpendicular, unit};
 use crate::model::{Mesh, MissingUvs, TextureUvs};
 
 /// Triangles with one set of vertex attributes, in the space of their mesh. Attributes that the file lacks are empty.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Submesh {
+    /// Around [`Submesh::origin`].
     pub(crate) positions: Vec<[f32; 3]>,
+    /// Origin of the positions in the space of the mesh: zero, except for a mesh whose vertices are far from its own origin.
+    pub(crate) origin: DVec3,
+    /// Triangles that lost their shape when positions were rounded to 32 bits.
+    pub(crate) blurred: usize,
+    /// Triangles that have lost it in the file.
+    pub(crate) blurred_by_file: usize,
     /// Zero where a vertex has none.
     pub(crate) normals: Vec<[f32; 3]>,
     pub(crate) tangents: Vec<[f32; 4]>,
@@ -175,6 +183,8 @@ impl Submesh {
     /// their outside stays outside.
     pub(super) fn placed(&self, world_from_mesh: DMat4) -> Submesh {
         let mut placed = self.clone();
+        let world_from_mesh = world_from_mesh * DMat4::from_translation(self.origin);
+        placed.origin = DVec3::ZERO;
         if world_from_mesh == DMat4::IDENTITY {
             return placed;
         }
@@ -184,12 +194,12 @@ impl Submesh {
         // The cofactor matrix is the inverse transpose times the determinant, and exists for singular matrices as well.
         let [a, b, c] = [linear.x_axis, linear.y_axis, linear.z_axis];
         let normal_from_normal = glam::DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * sign;
-        for at in &mut placed.positions {
-            *at = world_from_mesh
-                .transform_point3(Vec3::from(*at).as_dvec3())
-                .as_vec3()
-                .into();
+        let exact = |vertex: usize| world_from_mesh.transform_point3(Vec3::from(self.positions[vertex]).as_dvec3());
+        for (vertex, at) in placed.positions.iter_mut().enumerate() {
+            *at = exact(vertex).as_vec3().into();
         }
+        let error = |vertex: usize| exact(vertex).distance(Vec3::from(placed.positions[vertex]).as_dvec3());
+        placed.blurred = self.blurred.max(blurred(&self.triangles, exact, error));
         for normal in &mut placed.normals {
             // A singular transform leaves no direction; the normal of the file stays.
             *normal = unit(normal_from_normal * Vec3::from(*normal).as_dvec3()).unwrap_or(*normal);

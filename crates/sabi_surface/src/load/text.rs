@@ -19,6 +19,42 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
+/// The bytes of a file without a byte order mark, those of text in UTF-16 that has one as UTF-8.
+pub(super) fn unmarked(bytes: &[u8]) -> Cow<'_, [u8]> {
+    match bytes {
+        [0xef, 0xbb, 0xbf, text @ ..] => Cow::Borrowed(text),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Cow::Owned(decoded(bytes).into_owned().into_bytes()),
+        _ => Cow::Borrowed(bytes),
+    }
+}
+
+/// The lines of a text, each of which may end as those of any system do.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.bytes().position(|byte| matches!(byte, b'\n' | b'\r'));
+        let (line, after) = rest.split_at(end.unwrap_or(rest.len()));
+        rest = after
+            .strip_prefix("\r\n")
+            .or_else(|| after.strip_prefix(['\n', '\r']))
+            .unwrap_or(after);
+        Some(line)
+    })
+}
+
+/// The bytes of a text whose lines end in a carriage return alone with line feeds instead.
+pub(super) fn with_line_feeds(text: &[u8]) -> Cow<'_, [u8]> {
+    let is_lone = |at: usize| text[at] == b'\r' && text.get(at + 1) != Some(&b'\n');
+    if !(0..text.len()).any(is_lone) {
+        return Cow::Borrowed(text);
+    }
+    let byte = |at: usize| if is_lone(at) { b'\n' } else { text[at] };
+    Cow::Owned((0..text.len()).map(byte).collect())
+}
+
 /// Most bytes of the name of a part: many nodes may share that of one mesh.
 const MOST_NAME_BYTES: usize = 256;
 

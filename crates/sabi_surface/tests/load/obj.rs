@@ -104,13 +104,132 @@ fn missing_normals_are_smooth_up_to_the_crease_or_as_the_groups_say() {
 }
 
 #[test]
-fn parts_follow_objects_and_groups() {
-    let model = read(&format!(
-        "{SQUARE}f 1 2 3\no unused\ng left wing\nf 2 3 4\no tail\nf 1 2 4\ng left wing\nf 1 3 4\n"
-    ));
-    let model = model.unwrap();
-    assert_eq!(model.parts, ["thing", "left wing", "tail"]);
-    assert_eq!(model.mesh.triangle_part, [0, 1, 2, 1]);
+fn each_object_is_a_part_and_groups_of_one_name_are_one() {
+    for (statements, parts, of_triangles) in [
+        (
+            ["", "o unused\ng left wing\n", "g tail\n", "g left wing\n"],
+            &["thing", "left wing", "tail"][..],
+            [0, 1, 2, 1],
+        ),
+        (
+            ["o Cube\n", "o Cube\n", "o Other\n", "o Cube\n"],
+            &["Cube", "Cube", "Other", "Cube"],
+            [0, 1, 2, 3],
+        ),
+        (
+            ["o Cube\ng Cube\n", "o Cube\ng Cube\n", "g other\n", "g Cube\n"],
+            &["Cube", "Cube", "other"],
+            [0, 1, 2, 1],
+        ),
+        (
+            ["o\n", "o Cube # the first\n", "g Cube #2\n", "g #\n"],
+            &["thing", "Cube", "Cube #2", "thing"],
+            [0, 1, 2, 3],
+        ),
+    ] {
+        let faces = statements.map(|statement| format!("{statement}f 1 2 3\n")).concat();
+        let model = read(&format!("{SQUARE}{faces}")).unwrap();
+        assert_eq!(model.parts, parts, "{statements:?}");
+        assert_eq!(model.mesh.triangle_part, of_triangles, "{statements:?}");
+    }
+}
+
+#[test]
+fn remarks_may_stand_behind_every_statement_and_end_in_a_backslash() {
+    let plain = "o thing\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\ns 1\nf 1/1/1 2/2/1 3/3/1\nf 1 3 4\nl 1 2\n";
+    let expected = read(plain).unwrap();
+    for remark in [" # quad", " #quad", "\t# C:\\props\\", " # 1 2 3 \\"] {
+        let commented = plain.replace('\n', &format!("{remark}\n"));
+        // Without a space the remark could belong to the name.
+        let commented = commented
+            .replace("thing #quad", "thing")
+            .replace("usemtl a #quad", "usemtl a");
+        let model = read(&commented).unwrap();
+        assert_eq!(
+            (&model.mesh, &model.parts),
+            (&expected.mesh, &expected.parts),
+            "{remark:?}"
+        );
+        assert_eq!(model.warnings, expected.warnings, "{remark:?}");
+        assert_eq!(model.materials, expected.materials, "{remark:?}");
+    }
+    for remark in ["# group C:\\props\\", "#\\", "  # \\"] {
+        let commented = plain.replace('\n', &format!("\n{remark}\n"));
+        assert_eq!(read(&commented).unwrap().mesh, expected.mesh, "{remark:?}");
+    }
+}
+
+#[test]
+fn keywords_are_read_in_any_case_and_unknown_ones_are_told() {
+    let text = format!("{SQUARE}vt 0 0\nusemtl a\ng wing\nf 1/1 2/1 3/1\n");
+    let model = read(
+        &text
+            .replace("v ", "V ")
+            .replace("vt", "VT")
+            .replace("f 1", "F 1")
+            .replace("g w", "G w"),
+    )
+    .unwrap();
+    assert_eq!(model.mesh, read(&text).unwrap().mesh);
+    assert_eq!(model.parts, ["wing"]);
+    let model = read(&format!("lod 1\nvp 0 0\nbevel on\n{text}glow 1\nVC 1 1 1\nglow 2\n")).unwrap();
+    assert_eq!(
+        model.warnings,
+        ["The file has statements that are not known and are left out, the first in line 12: `glow`, `VC`."]
+    );
+    let many: String = ["a", "b", "c", "d", "e", "h", "i"]
+        .map(|word| format!("{word} 1\n"))
+        .concat();
+    assert_eq!(
+        read(&format!("{text}{many}")).unwrap().warnings,
+        [
+            "The file has statements that are not known and are left out, the first in line 9: `a`, `b`, `c`, `d`, `e` and others."
+        ]
+    );
+    assert_eq!(
+        read(&format!("{text}call other.obj\n")).unwrap().warnings,
+        ["Other files and commands that the file calls are left out."]
+    );
+}
+
+#[test]
+fn colors_of_vertices_are_read_in_all_their_forms() {
+    // sRGB 0.5 and 128 of 255 are 0.214 and 0.216 in linear light (IEC 61966-2-1).
+    let orange = |text: &str| {
+        let model = read(text).unwrap();
+        let [r, g, b, a] = model.mesh.colors[0];
+        assert_eq!([r, b], [1.0, 0.0], "{text}");
+        assert!((g - 0.215).abs() < 2e-3, "{text}: {g}");
+        assert_eq!(model.mesh.colors[1], [1.0; 4], "{text}");
+        (a, model.warnings)
+    };
+    let faces = "f 1 2 3\n";
+    assert_eq!(
+        orange(&format!("v 0 0 0 1 0.5 0 0.25\nv 1 0 0 1 1 1 1\nv 0 1 0\n{faces}")),
+        (0.25, vec![])
+    );
+    assert_eq!(
+        orange(&format!("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0\n{faces}")),
+        (1.0, vec![])
+    );
+    let codes = ["The colors of vertices reach above 1; they are taken as codes of 0 to 255.".to_owned()];
+    assert_eq!(
+        orange(&format!("v 0 0 0 255 128 0\nv 1 0 0\nv 0 1 0\n{faces}")),
+        (1.0, codes.to_vec())
+    );
+    let plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    assert_eq!(
+        orange(&format!("{plain}#MRGB ffff8000ffffffff\n#MRGB 00ffffff\n{faces}")),
+        (1.0, vec![])
+    );
+    assert_eq!(orange(&format!("#MRGB 00FF8000\n{plain}{faces}")), (1.0, vec![]));
+    let (_, warnings) = orange(&format!("{plain}#MRGB ffff8000ffffffffzz\n{faces}"));
+    assert_eq!(
+        warnings,
+        ["Colors in a remark `#MRGB` are damaged; some vertices have none, or that of another."]
+    );
+    let weighted = read(&format!("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n{faces}")).unwrap();
+    assert!(weighted.mesh.colors.is_empty());
 }
 
 #[test]
@@ -251,7 +370,10 @@ fn each_fault_has_its_sentence() {
             "the file is damaged: line 1: the corner `/1` names no vertex",
         ),
         ("f a b c\n", "the file is damaged: line 1: `a` is not an index"),
-        ("hello\n", "it has no triangles"),
+        (
+            "hello\n",
+            "it has no triangles; The file has statements that are not known and are left out, the first in line 1: `hello`",
+        ),
         (
             "v 0 0 0\nv 0 0 1\n",
             "it has no triangles; it is a cloud of points without faces; make a mesh of them first",

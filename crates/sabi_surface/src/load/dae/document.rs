@@ -7,6 +7,8 @@ use roxmltree::{Node, ParsingOptions};
 
 use crate::load::Up;
 use crate::load::error::{Fault, damaged};
+use crate::load::numbers::number;
+use crate::load::warnings::Warnings;
 
 /// Parses the text; definitions of entities, by which a short text may become a long one, are refused.
 pub(super) fn parsed(text: &str) -> Result<roxmltree::Document<'_>, Fault> {
@@ -27,7 +29,7 @@ pub(super) struct Document<'d> {
 }
 
 impl<'d> Document<'d> {
-    pub(super) fn new(tree: &'d roxmltree::Document<'d>) -> Result<Document<'d>, Fault> {
+    pub(super) fn new(tree: &'d roxmltree::Document<'d>, warnings: &mut Warnings) -> Result<Document<'d>, Fault> {
         let root = tree.root_element();
         if root.tag_name().name() != "COLLADA" {
             return damaged("it is no COLLADA file");
@@ -39,14 +41,20 @@ impl<'d> Document<'d> {
             }
         }
         let asset = child(root, "asset");
-        let unit = asset.and_then(|asset| child(asset, "unit")?.attribute("meter")?.parse::<f64>().ok());
+        let unit = asset.and_then(|asset| child(asset, "unit")?.attribute("meter"));
         // The unit of a file that names none is a meter.
-        let unit = unit.filter(|unit| unit.is_finite() && *unit > 0.0).unwrap_or(1.0);
+        let unit = unit.map_or(1.0, |unit| meters(unit, warnings));
         let up = asset.and_then(|asset| child(asset, "up_axis")?.text());
         let up = match up.map(str::trim) {
             Some("Z_UP") => Up::Z,
             Some("X_UP") => Up::X,
-            _ => Up::Y,
+            None | Some("Y_UP" | "") => Up::Y,
+            Some(other) => {
+                warnings.add(format!(
+                    "The file has the unknown axis `{other}` up; +Y is taken to point up."
+                ));
+                Up::Y
+            }
         };
         Ok(Document {
             root,
@@ -76,6 +84,19 @@ impl<'d> Document<'d> {
     }
 }
 
+/// The length of a file's unit, which is a meter where it is no length.
+fn meters(written: &str, warnings: &mut Warnings) -> f64 {
+    let length = number(written.trim(), warnings);
+    length
+        .filter(|length| length.is_finite() && *length > 0.0)
+        .unwrap_or_else(|| {
+            warnings.add(format!(
+                "The unit of the file is `{written}` meters, which is no length; it is taken as 1 meter."
+            ));
+            1.0
+        })
+}
+
 /// The first element below a node with a name.
 pub(super) fn child<'d>(node: Node<'d, 'd>, name: &str) -> Option<Node<'d, 'd>> {
     children(node, name).next()
@@ -91,8 +112,8 @@ pub(super) fn text<'d>(node: Node<'d, 'd>) -> &'d str {
     node.text().map_or("", str::trim)
 }
 
-/// The numbers of a text. Words that are no number, such as `NaN` or `1.#IND`, are none.
-pub(super) fn numbers(node: Node<'_, '_>) -> Vec<f32> {
+/// The numbers of a text. Words that are no number are NaN.
+pub(super) fn numbers(node: Node<'_, '_>, warnings: &mut Warnings) -> Vec<f64> {
     let words = node.text().map_or("", str::trim).split_ascii_whitespace();
-    words.map(|word| word.parse().unwrap_or(f32::NAN)).collect()
+    words.map(|word| number(word, warnings).unwrap_or(f64::NAN)).collect()
 }

@@ -9,6 +9,7 @@ use super::document::{Document, child, children, numbers, text};
 use super::geometry::Geometry;
 use super::scene::Shown;
 use crate::load::faces::NONE;
+use crate::load::opacity::{set_opacity, set_opacity_map};
 use crate::load::pictures::{Pictures, Place, file_name, places};
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
@@ -120,14 +121,14 @@ impl<'d> Effect<'_, 'd> {
             // A material that is not lit has its color as emission, and no other.
             let diffuse = child(model, "diffuse");
             material.base_color = diffuse.and_then(|diffuse| self.texture(diffuse, "base color"));
-            if let Some([r, g, b, _]) = diffuse.and_then(color) {
+            if let Some([r, g, b, _]) = diffuse.and_then(|diffuse| self.color(diffuse)) {
                 material.base_color_factor = [r, g, b, 1.0].map(|share| share.clamp(0.0, 1.0));
             }
             let emission = child(model, "emission");
             material.emission = emission.and_then(|emission| self.texture(emission, "emission"));
             if material.emission.is_some() {
                 material.emission_factor = [1.0; 3];
-            } else if let Some([r, g, b, _]) = emission.and_then(color) {
+            } else if let Some([r, g, b, _]) = emission.and_then(|emission| self.color(emission)) {
                 material.emission_factor = [r, g, b].map(|share| share.clamp(0.0, f32::MAX));
             }
             self.read_opacity(model, &mut material);
@@ -140,20 +141,14 @@ impl<'d> Effect<'_, 'd> {
     fn read_opacity(&mut self, model: Node<'d, 'd>, material: &mut ModelMaterial) {
         let transparent = child(model, "transparent");
         let amount = child(model, "transparency").and_then(|amount| child(amount, "float"));
-        let amount = amount.and_then(|amount| numbers(amount).first().copied());
-        let amount = amount.filter(|amount| amount.is_finite()).unwrap_or(1.0);
+        let amount = amount.and_then(|amount| numbers(amount, self.warnings).first().copied());
+        let amount = amount.filter(|amount| amount.is_finite()).unwrap_or(1.0) as f32;
         if let Some(texture) = transparent.and_then(|transparent| self.texture(transparent, "opacity")) {
-            let own = material.base_color.as_ref().map(|own| own.image);
-            material.ignores_alpha = own != Some(texture.image);
-            if material.ignores_alpha {
-                self.warnings.add(format!(
-                    "The opacity map of {} is left out: opacity is read from the alpha of its base color's picture.",
-                    self.label
-                ));
-            }
-            return;
+            return set_opacity_map(material, texture.image, self.warnings);
         }
-        let [r, g, b, a] = transparent.and_then(color).unwrap_or([1.0; 4]);
+        let [r, g, b, a] = transparent
+            .and_then(|transparent| self.color(transparent))
+            .unwrap_or([1.0; 4]);
         let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
         let opacity = match transparent.and_then(|transparent| transparent.attribute("opaque")) {
             Some("RGB_ZERO") => 1.0 - luminance * amount,
@@ -161,15 +156,7 @@ impl<'d> Effect<'_, 'd> {
             Some("RGB_ONE") => luminance * amount,
             _ => a * amount,
         };
-        let opacity = opacity.clamp(0.0, 1.0);
-        material.ignores_alpha = opacity == 0.0 || opacity >= 1.0;
-        if opacity > 0.0 {
-            material.base_color_factor[3] = opacity;
-        } else {
-            // Programs disagree about the meaning of transparency, and nobody bakes a model that cannot be seen.
-            self.warnings
-                .add(format!("The file has {} invisible; it is taken as opaque.", self.label));
-        }
+        set_opacity(material, opacity, self.warnings);
     }
 
     /// Reads what programs add: a normal map, and whether both sides are seen.
@@ -189,6 +176,25 @@ impl<'d> Effect<'_, 'd> {
             }
             if let Some(sides) = child(extra, "double_sided") {
                 material.is_double_sided = text(sides) != "0";
+            }
+        }
+    }
+
+    /// The value of a color: four finite numbers, or three of an opaque one.
+    fn color(&mut self, of: Node<'d, 'd>) -> Option<[f32; 4]> {
+        let numbers = numbers(child(of, "color")?, self.warnings);
+        match numbers[..] {
+            [r, g, b] | [r, g, b, _] if [r, g, b].iter().all(|share| share.is_finite()) => {
+                let alpha = numbers.get(3).copied().filter(|alpha| alpha.is_finite());
+                Some([r, g, b, alpha.unwrap_or(1.0)].map(|share| share as f32))
+            }
+            _ => {
+                self.warnings.add(format!(
+                    "The {} of {} is no color of three or four numbers and is left out.",
+                    of.tag_name().name(),
+                    self.label
+                ));
+                None
             }
         }
     }
@@ -232,12 +238,6 @@ impl<'d> Effect<'_, 'd> {
         let image = through.or_else(|| document.by_id(sampler));
         image.filter(|image| image.tag_name().name() == "image")
     }
-}
-
-/// The value of a color, if all of it is finite.
-fn color<'d>(of: Node<'d, 'd>) -> Option<[f32; 4]> {
-    let color: [f32; 4] = numbers(child(of, "color")?).try_into().ok()?;
-    color.iter().all(|share| share.is_finite()).then_some(color)
 }
 
 /// The path of an image: a text in version 1.4, an element in 1.5.

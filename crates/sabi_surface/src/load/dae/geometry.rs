@@ -100,7 +100,7 @@ impl<'d> Geometry<'d> {
             warnings.add(format!("A part of {} has no positions and is left out.", self.who));
             return Ok(faces);
         };
-        let positions = sources.gathered(&list.polygons, positions, vector);
+        let positions = sources.gathered(&list.polygons, positions, position, warnings);
         if let Some(index) = positions.beyond {
             return damaged(format!("{} names position {index}, which is not there", self.who));
         }
@@ -128,12 +128,12 @@ impl<'d> Geometry<'d> {
         let polygons = &list.polygons;
         let mut is_beyond = false;
         if let Some(input) = polygons.input("NORMAL") {
-            let normals = sources.gathered(polygons, input, vector);
+            let normals = sources.gathered(polygons, input, vector, warnings);
             is_beyond |= normals.beyond.is_some();
             faces.normals = normals.attribute.joined();
         }
         if let Some(input) = polygons.input("COLOR") {
-            let colors = sources.gathered(polygons, input, color);
+            let colors = sources.gathered(polygons, input, color, warnings);
             is_beyond |= colors.beyond.is_some();
             faces.colors = colors.attribute.joined();
         }
@@ -143,7 +143,7 @@ impl<'d> Geometry<'d> {
             let Some(set) = set.filter(|set| wanted.contains(set) && !known(set)) else {
                 continue;
             };
-            let uvs = sources.gathered(polygons, input, coordinate);
+            let uvs = sources.gathered(polygons, input, coordinate, warnings);
             is_beyond |= uvs.beyond.is_some();
             let uvs = uvs.attribute.joined();
             if set == chosen {
@@ -159,19 +159,27 @@ impl<'d> Geometry<'d> {
     }
 }
 
-fn vector(row: &[f32]) -> Option<[f32; 3]> {
+fn position(row: &[f64]) -> Option<[f64; 3]> {
     row.first_chunk().copied()
 }
 
-/// v grows upward in the file.
-fn coordinate(row: &[f32]) -> Option<[f32; 2]> {
-    let [u, v] = row.first_chunk()?;
-    Some([*u, 1.0 - v])
+fn vector(row: &[f64]) -> Option<[f32; 3]> {
+    position(row).map(single)
 }
 
-fn color(row: &[f32]) -> Option<[f32; 4]> {
-    let light = row.first_chunk::<3>()?;
+/// v grows upward in the file.
+fn coordinate(row: &[f64]) -> Option<[f32; 2]> {
+    let [u, v] = row.first_chunk()?;
+    Some(single([*u, 1.0 - v]))
+}
+
+fn color(row: &[f64]) -> Option<[f32; 4]> {
+    let light = single(*row.first_chunk::<3>()?);
     let [r, g, b] = light.map(|share| linear_from_srgb(share.clamp(0.0, 1.0)));
     // Rows of three numbers are opaque.
-    Some([r, g, b, row.get(3).copied().unwrap_or(1.0)])
+    Some([r, g, b, row.get(3).map_or(1.0, |alpha| *alpha as f32)])
+}
+
+fn single<const N: usize>(numbers: [f64; N]) -> [f32; N] {
+    numbers.map(|x| x as f32)
 }

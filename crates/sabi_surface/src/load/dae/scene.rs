@@ -165,7 +165,7 @@ fn controlled<'d>(
             source = document.referenced(morph, "source")?;
         } else if let Some(skin) = child(source, "skin") {
             let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
-            let (rest, bound) = skins.scene_from_bound(document, skin, scene_from_node, joints);
+            let (rest, bound) = skins.scene_from_bound(document, skin, scene_from_node, joints, warnings);
             scene_from_mesh = rest.file_from_bound(bound, &part_name(name), warnings);
             source = document.referenced(skin, "source")?;
         }
@@ -177,25 +177,49 @@ fn controlled<'d>(
 fn parent_from_node(node: Node<'_, '_>, warnings: &mut Warnings) -> DMat4 {
     let mut placed = DMat4::IDENTITY;
     for step in node.children() {
-        let values: Vec<f64> = match step.tag_name().name() {
-            "matrix" | "translate" | "rotate" | "scale" => numbers(step).into_iter().map(f64::from).collect(),
+        let kind = step.tag_name().name();
+        match kind {
+            "matrix" | "translate" | "rotate" | "scale" => {}
             "lookat" | "skew" => {
                 warnings.add("Transforms by `lookat` and `skew` are left out.");
                 continue;
             }
             _ => continue,
-        };
-        placed *= match (step.tag_name().name(), &values[..]) {
-            ("matrix", values) => values.try_into().map_or(DMat4::IDENTITY, |values: [f64; 16]| {
-                DMat4::from_cols_array(&values).transpose()
-            }),
-            ("translate", [x, y, z]) => DMat4::from_translation(DVec3::new(*x, *y, *z)),
-            ("scale", [x, y, z]) => DMat4::from_scale(DVec3::new(*x, *y, *z)),
-            ("rotate", [x, y, z, degrees]) => DVec3::new(*x, *y, *z).try_normalize().map_or(DMat4::IDENTITY, |axis| {
-                DMat4::from_quat(DQuat::from_axis_angle(axis, degrees.to_radians()))
-            }),
-            _ => DMat4::IDENTITY,
-        };
+        }
+        match transform(kind, &numbers(step, warnings)) {
+            Some(transform) => placed *= transform,
+            None => warnings.add(format!(
+                "A `{kind}` of node `{}` has not the numbers that it needs and is left out.",
+                part_name(
+                    node.attribute("name")
+                        .or(node.attribute("id"))
+                        .unwrap_or("without a name")
+                )
+            )),
+        }
     }
     placed
+}
+
+/// The transform of a kind with these numbers; `None` where they are none of it.
+fn transform(kind: &str, values: &[f64]) -> Option<DMat4> {
+    if !values.iter().all(|value| value.is_finite()) {
+        return None;
+    }
+    match (kind, values) {
+        ("matrix", values) => {
+            let values: [f64; 16] = values.try_into().ok()?;
+            Some(DMat4::from_cols_array(&values).transpose())
+        }
+        ("translate", [x, y, z]) => Some(DMat4::from_translation(DVec3::new(*x, *y, *z))),
+        ("scale", [x, y, z]) => Some(DMat4::from_scale(DVec3::new(*x, *y, *z))),
+        // Without an axis there is no rotation.
+        ("rotate", [x, y, z, degrees]) => {
+            let axis = DVec3::new(*x, *y, *z).try_normalize();
+            Some(axis.map_or(DMat4::IDENTITY, |axis| {
+                DMat4::from_quat(DQuat::from_axis_angle(axis, degrees.to_radians()))
+            }))
+        }
+        _ => None,
+    }
 }

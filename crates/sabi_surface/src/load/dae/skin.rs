@@ -7,6 +7,7 @@ use roxmltree::{Node, NodeId};
 
 use super::document::{Document, child, children, numbers, text};
 use crate::load::skin_rest::{JointBudget, Placement, Rest};
+use crate::load::warnings::Warnings;
 
 /// Transforms of nodes by their ids, and by the names that skins use for joints; of several nodes the first counts.
 #[derive(Default)]
@@ -40,13 +41,17 @@ impl Skins {
         skin: Node<'d, 'd>,
         scene_from_node: DMat4,
         joints: &Joints<'d>,
+        warnings: &mut Warnings,
     ) -> (Rest, DMat4) {
         let (rest, shape) = match self.known.get(&skin.id()) {
             Some(known) => *known,
             None => {
-                let shape = child(skin, "bind_shape_matrix").map_or(DMat4::IDENTITY, |shape| matrix(&numbers(shape)));
+                let shape =
+                    child(skin, "bind_shape_matrix").map_or(DMat4::IDENTITY, |shape| matrix(&numbers(shape, warnings)));
                 // A skin that does not say enough leaves its mesh where its node stands.
-                let rest = self.rest(document, skin, shape, joints).unwrap_or(Rest::Unknown);
+                let rest = self
+                    .rest(document, skin, shape, joints, warnings)
+                    .unwrap_or(Rest::Unknown);
                 self.known.insert(skin.id(), (rest, shape));
                 (rest, shape)
             }
@@ -61,6 +66,7 @@ impl Skins {
         skin: Node<'d, 'd>,
         shape: DMat4,
         joints: &Joints<'d>,
+        warnings: &mut Warnings,
     ) -> Option<Rest> {
         let list = child(skin, "joints")?;
         let source = |semantic: &str| {
@@ -75,7 +81,7 @@ impl Skins {
         if self.joints.take(most as u64).is_none() {
             return Some(Rest::TooLarge);
         }
-        let binds = numbers(binds);
+        let binds = numbers(binds, warnings);
         let bound = text(names).split_ascii_whitespace().zip(binds.as_chunks::<16>().0);
         let placements = bound.filter_map(|(name, bind)| {
             let scene_from_joint = joints.scene_from_joint(name)?;
@@ -89,9 +95,7 @@ impl Skins {
 }
 
 /// A matrix whose rows follow each other.
-fn matrix(values: &[f32]) -> DMat4 {
-    let values: Option<[f32; 16]> = values.try_into().ok();
-    values.map_or(DMat4::IDENTITY, |values| {
-        DMat4::from_cols_array(&values.map(f64::from)).transpose()
-    })
+fn matrix(values: &[f64]) -> DMat4 {
+    let values: Option<[f64; 16]> = values.try_into().ok();
+    values.map_or(DMat4::IDENTITY, |values| DMat4::from_cols_array(&values).transpose())
 }

@@ -8,28 +8,31 @@ use roxmltree::{Node, NodeId};
 use super::document::{child, numbers};
 use super::polygons::{Input, Polygons};
 use crate::load::faces::{Attribute, NONE};
+use crate::load::warnings::Warnings;
 
 /// Rows of numbers.
 #[derive(Default)]
 struct Source {
-    numbers: Vec<f32>,
+    numbers: Vec<f64>,
     offset: usize,
     stride: usize,
 }
 
 impl Source {
-    fn read<'d>(node: Node<'d, 'd>) -> Source {
+    fn read<'d>(node: Node<'d, 'd>, warnings: &mut Warnings) -> Source {
         let accessor = child(node, "technique_common").and_then(|technique| child(technique, "accessor"));
         let number = |name: &str| accessor.and_then(|accessor| accessor.attribute(name)?.parse().ok());
         Source {
-            // A source of names has no numbers.
-            numbers: child(node, "float_array").map(numbers).unwrap_or_default(),
+            numbers: child(node, "float_array")
+                .map(|array| numbers(array, warnings))
+                // A source of names has no numbers.
+                .unwrap_or_default(),
             offset: number("offset").unwrap_or(0),
             stride: number("stride").unwrap_or(1).max(1),
         }
     }
 
-    fn row(&self, index: u32) -> Option<&[f32]> {
+    fn row(&self, index: u32) -> Option<&[f64]> {
         let start = (index as usize).checked_mul(self.stride)?.checked_add(self.offset)?;
         self.numbers.get(start..start.checked_add(self.stride)?)
     }
@@ -40,22 +43,23 @@ impl Source {
 pub(super) struct Sources(HashMap<NodeId, Rc<Source>>);
 
 /// An attribute of the corners of polygons.
-pub(super) struct Gathered<const N: usize> {
-    pub(super) attribute: Attribute<N>,
+pub(super) struct Gathered<const N: usize, T> {
+    pub(super) attribute: Attribute<N, T>,
     /// An index that the source does not have, or whose row is too short; its corners have no value.
     pub(super) beyond: Option<u32>,
 }
 
 impl Sources {
     /// Returns the values of an input that corners use, in the order of their first use. `value` makes one of a row.
-    pub(super) fn gathered<'d, const N: usize>(
+    pub(super) fn gathered<'d, const N: usize, T: Default>(
         &mut self,
         polygons: &Polygons<'d>,
         input: Input<'d>,
-        value: impl Fn(&[f32]) -> Option<[f32; N]>,
-    ) -> Gathered<N> {
+        value: impl Fn(&[f64]) -> Option<[T; N]>,
+        warnings: &mut Warnings,
+    ) -> Gathered<N, T> {
         let source = self.0.entry(input.source.id());
-        let source = Rc::clone(source.or_insert_with(|| Rc::new(Source::read(input.source))));
+        let source = Rc::clone(source.or_insert_with(|| Rc::new(Source::read(input.source, warnings))));
         let mut numbers: HashMap<u32, u32> = HashMap::new();
         let mut gathered = Gathered {
             attribute: Attribute::default(),

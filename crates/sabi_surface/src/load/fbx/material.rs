@@ -7,6 +7,7 @@ use ufbx::{Material, MaterialMap, Mesh, ShaderType};
 
 use super::nodes::Shown;
 use super::textures::{Textures, connected};
+use crate::load::opacity::{set_opacity, set_opacity_map};
 use crate::load::pictures::Pictures;
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
@@ -139,28 +140,12 @@ impl<'s> Looks<'s> {
             };
             1.0 - amount
         };
-        let opacity = opacity.clamp(0.0, 1.0);
-        if let Some(map) = map {
-            let texture = self.texture(material, map, "opacity", warnings);
-            let image = |texture: &Option<TextureRef>| texture.as_ref().map(|texture| texture.image);
-            // The alpha of the base color's own picture is its opacity.
-            if image(&texture).is_some() && image(&texture) != image(&look.base_color) {
-                warnings.add(format!(
-                    "The opacity map of {} is left out: opacity is read from the alpha of its base color's picture.",
-                    label(material)
-                ));
-            }
-            look.ignores_alpha = image(&texture) != image(&look.base_color);
-        } else if opacity > 0.0 {
-            look.base_color_factor[3] = opacity;
-            look.ignores_alpha = opacity >= 1.0;
-        } else {
-            // Programs disagree about the meaning of transparency, and nobody bakes a model that cannot be seen.
-            warnings.add(format!(
-                "The file has {} invisible; it is taken as opaque.",
-                label(material)
-            ));
-            look.ignores_alpha = true;
+        match map {
+            Some(map) => match self.texture(material, map, "opacity", warnings) {
+                Some(texture) => set_opacity_map(look, texture.image, warnings),
+                None => look.ignores_alpha = look.base_color.is_some(),
+            },
+            None => set_opacity(look, opacity, warnings),
         }
     }
 

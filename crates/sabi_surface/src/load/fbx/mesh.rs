@@ -9,7 +9,6 @@ use crate::load::LoadOptions;
 use crate::load::assembly::TextureSets;
 use crate::load::completion::{Completion, LACKING_NORMALS};
 use crate::load::faces::{Attribute, Faces, NONE};
-use crate::load::far::far_middle;
 use crate::load::normals::Missing;
 use crate::load::polygon::Budget;
 use crate::load::submesh::{Smoothing, Submesh};
@@ -22,10 +21,10 @@ pub(super) struct Reader<'r> {
 }
 
 impl Reader<'_> {
-    /// Reads a mesh in its own space, around its origin.
+    /// Reads a mesh in its own space.
     pub(super) fn read(&self, source: &Source, budget: &mut Budget, warnings: &mut Warnings) -> Submesh {
-        let Source { mesh, origin, who, .. } = source;
-        let mut faces = outlines(mesh, *origin, who, warnings);
+        let Source { mesh, who, .. } = source;
+        let mut faces = outlines(mesh, who, warnings);
         let corners = kept_corners(mesh);
         if has_own_smoothing(mesh) {
             faces.normals = directions(&mesh.vertex_normal, &corners).joined();
@@ -52,12 +51,6 @@ impl Reader<'_> {
     }
 }
 
-/// Origin of the positions that are kept, in the space of the mesh: zero, except for a mesh whose vertices are far from its own
-/// origin, which 64-bit floats can place exactly.
-pub(super) fn origin(mesh: &Mesh) -> DVec3 {
-    far_middle(mesh.vertices.iter().map(|at| DVec3::new(at.x, at.y, at.z)))
-}
-
 /// Returns true if the mesh has normals, or smoothing by which they were computed.
 fn has_own_smoothing(mesh: &Mesh) -> bool {
     let has_smoothing = !mesh.face_smoothing.is_empty() || !mesh.edge_smoothing.is_empty();
@@ -81,7 +74,7 @@ fn kept_corners(mesh: &Mesh) -> Vec<usize> {
     kept_faces(mesh).flat_map(|(_, corners)| corners).collect()
 }
 
-fn outlines(mesh: &Mesh, origin: DVec3, who: &str, warnings: &mut Warnings) -> Faces {
+fn outlines(mesh: &Mesh, who: &str, warnings: &mut Warnings) -> Faces {
     let mut faces = Faces::default();
     let vertices = mesh.vertices.len();
     for (number, corners) in kept_faces(mesh) {
@@ -96,8 +89,7 @@ fn outlines(mesh: &Mesh, origin: DVec3, who: &str, warnings: &mut Warnings) -> F
         let material = mesh.face_material.get(number).copied().unwrap_or(0);
         faces.close(count, material, Smoothing::ByAngle);
     }
-    let position = |at: &ufbx::Vec3| (DVec3::new(at.x, at.y, at.z) - origin).as_vec3().to_array();
-    faces.positions = mesh.vertices.iter().map(position).collect();
+    faces.positions = mesh.vertices.iter().map(|at| [at.x, at.y, at.z]).collect();
     if vertices == 0 {
         faces.faces.clear();
     }

@@ -81,7 +81,7 @@ impl Shown<'_> {
         Instance {
             mesh: place,
             name,
-            file_from_mesh: file_from_mesh * DMat4::from_translation(source.origin),
+            file_from_mesh,
             // A node may show its mesh with other materials than the mesh names.
             materials: self
                 .node

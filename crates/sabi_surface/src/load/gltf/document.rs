@@ -3,7 +3,7 @@
 
 use gltf::json;
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
@@ -31,6 +31,24 @@ pub(super) struct Scene {
     pub(super) nodes: Vec<u64>,
 }
 
+/// A node of a file. Its numbers have 64 bits, since a node may place a mesh far away.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Node {
+    pub(super) name: Option<String>,
+    pub(super) mesh: Option<usize>,
+    pub(super) skin: Option<usize>,
+    #[serde(default)]
+    pub(super) children: Vec<u64>,
+    pub(super) matrix: Option<[f64; 16]>,
+    pub(super) translation: Option<[f64; 3]>,
+    /// Quaternion, x y z w.
+    pub(super) rotation: Option<[f64; 4]>,
+    pub(super) scale: Option<[f64; 3]>,
+    #[serde(default)]
+    pub(super) extensions: Map<String, Value>,
+}
+
 /// The lists of a glTF file that matter here.
 #[derive(Default)]
 pub(super) struct Document {
@@ -40,7 +58,7 @@ pub(super) struct Document {
     pub(super) images: Vec<json::Image>,
     pub(super) materials: Vec<json::Material>,
     pub(super) meshes: Vec<json::Mesh>,
-    pub(super) nodes: Vec<json::Node>,
+    pub(super) nodes: Vec<Node>,
     /// Not parsed yet, since a broken skin is no reason to refuse the mesh.
     pub(super) skins: Vec<Value>,
     pub(super) samplers: Vec<json::texture::Sampler>,

@@ -139,13 +139,19 @@ impl Pictures<'_> {
         let metallic_roughness = info(&pbr.metallic_roughness_texture);
         let emission = info(&material.emissive_texture);
         let finish = self.finish(material, &label);
+        let ignores_alpha = matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque));
+        if base_color_factor[3] == 0.0 && !ignores_alpha {
+            // The format says what alpha means, so that it is believed.
+            self.warnings
+                .add(format!("The file has {label} invisible: its alpha is 0."));
+        }
         ModelMaterial {
             // A name is optional in glTF; an empty one means unnamed.
             name: material.name.clone().unwrap_or_default(),
             file_index: Some(index),
             uv_decoding: None,
             base_color_factor,
-            ignores_alpha: matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque)),
+            ignores_alpha,
             is_double_sided: material.double_sided,
             metallic_factor,
             roughness_factor,

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::Vec3;
 use gltf::json;
 use json::mesh::{Mode, Semantic};
 use json::validation::Checked;
@@ -13,6 +14,7 @@ use super::packed;
 use super::source::Source;
 use super::storage::Meaning;
 use super::texture_use::TextureSets;
+use crate::load::blur::{StorageErrors, blurred};
 use crate::load::completion::Completion;
 use crate::load::error::{Fault, damaged};
 use crate::load::normals::Missing;
@@ -142,6 +144,12 @@ impl Source<'_> {
             warnings,
         )?;
         submesh.triangles = source.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
+        if !self.is_integer(positions.value()) {
+            let errors = StorageErrors::of(submesh.positions.iter().copied());
+            let exact = |vertex: usize| Vec3::from(submesh.positions[vertex]).as_dvec3();
+            let error = |vertex: usize| errors.at(submesh.positions[vertex]);
+            submesh.blurred_by_file = blurred(&submesh.triangles, exact, error);
+        }
         submesh.sources = (0..submesh.positions.len() as u32).collect();
         source.read_attributes(primitive, &label, submesh, warnings)?;
         loaded.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
@@ -282,18 +290,6 @@ fn complete(loaded: &mut LoadedPrimitive, label: &str, smooth_degrees: Option<f3
     };
     let framed = submesh.normal_set.into_iter().collect();
     *has_own_tangents = completion.complete(submesh, &framed, label, warnings);
-}
-
-/// Returns the fault that no mesh has the chosen UV set; a model without any set is no fault for the default set.
-pub(super) fn check_uv_set<'a>(asked: u32, loaded: impl Iterator<Item = &'a LoadedPrimitive>) -> Result<(), Fault> {
-    let sets: BTreeSet<u32> = loaded.flat_map(|loaded| &loaded.uv_sets).copied().collect();
-    let there = match sets.iter().map(u32::to_string).collect::<Vec<_>>().as_slice() {
-        [] if asked == 0 => return Ok(()),
-        [] => "it has no UVs at all".to_string(),
-        [one] => format!("it has set {one}"),
-        [first @ .., last] => format!("it has the sets {} and {last}", first.join(", ")),
-    };
-    Err(Fault::UvSet { asked, there })
 }
 
 fn uv_set(semantic: &Checked<Semantic>) -> Option<u32> {

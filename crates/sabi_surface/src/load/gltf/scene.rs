@@ -1,10 +1,9 @@
 //! Scenes and nodes: placed meshes.
 
-use glam::{DMat4, DQuat, DVec3, Vec3};
-use gltf::json;
+use glam::{DMat4, DQuat, DVec3};
 use serde_json::Value;
 
-use super::document::Document;
+use super::document::{Document, Node};
 use super::skin::Skins;
 use super::source::Source;
 use crate::load::error::{Fault, damaged};
@@ -49,7 +48,7 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
             return damaged(format!("nodes[{index}] is below itself or below two nodes"));
         }
         let is_hidden = step.is_hidden || is_hidden(node);
-        if let Some(mesh) = node.mesh.map(|mesh| mesh.value()) {
+        if let Some(mesh) = node.mesh {
             if mesh >= document.meshes.len() {
                 return damaged(format!("nodes[{index}] shows meshes[{mesh}], which is not there"));
             }
@@ -59,10 +58,7 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
                 shown.push((index, mesh, placed));
             }
         }
-        // A leaf has no list.
-        let children = node.children.as_deref().unwrap_or_default();
-        let children: Vec<u64> = children.iter().map(|child| child.value() as u64).collect();
-        stack.extend(below(&children, placed, is_hidden));
+        stack.extend(below(&node.children, placed, is_hidden));
     }
     if shown.is_empty() && !document.meshes.is_empty() {
         warnings.add("The file's scene shows no mesh; all meshes are taken as they are stored.");
@@ -91,9 +87,9 @@ fn below(nodes: &[u64], file_from_parent: DMat4, is_hidden: bool) -> impl Iterat
     })
 }
 
-fn is_hidden(node: &json::Node) -> bool {
-    let others = node.extensions.as_ref().map(|extensions| &extensions.others);
-    let visible = others.and_then(|others| others.get("KHR_node_visibility")?.get("visible"));
+fn is_hidden(node: &Node) -> bool {
+    let extension = node.extensions.get("KHR_node_visibility");
+    let visible = extension.and_then(|extension| extension.get("visible"));
     visible.and_then(Value::as_bool) == Some(false)
 }
 
@@ -107,8 +103,8 @@ fn instance(
 ) -> Instance {
     let node = &document.nodes[index];
     let name = name(document, node.name.as_deref(), mesh);
-    let file_from_mesh = match &node.skin {
-        Some(skin) => skins.file_from_bound(skin.value(), &name, warnings),
+    let file_from_mesh = match node.skin {
+        Some(skin) => skins.file_from_bound(skin, &name, warnings),
         None => placed,
     };
     Instance {
@@ -175,9 +171,9 @@ fn scene_labels(document: &Document, scenes: impl Iterator<Item = usize>) -> Str
 /// Nodes that are no children.
 fn parentless(document: &Document) -> Vec<u64> {
     let mut is_child = vec![false; document.nodes.len()];
-    let lists = document.nodes.iter().filter_map(|node| node.children.as_deref());
-    for child in lists.flatten() {
-        if let Some(is_child) = is_child.get_mut(child.value()) {
+    for child in document.nodes.iter().flat_map(|node| &node.children) {
+        let place = usize::try_from(*child).ok();
+        if let Some(is_child) = place.and_then(|child| is_child.get_mut(child)) {
             *is_child = true;
         }
     }
@@ -192,21 +188,19 @@ fn name(document: &Document, node: Option<&str>, mesh: usize) -> String {
     named.map_or_else(|| format!("mesh {mesh}"), part_name)
 }
 
-fn parent_from_node(node: &json::Node, label: &str, warnings: &mut Warnings) -> DMat4 {
+fn parent_from_node(node: &Node, label: &str, warnings: &mut Warnings) -> DMat4 {
     if let Some(matrix) = node.matrix {
         if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
             warnings.add(format!(
                 "The {label} has both a matrix and a translation, rotation or scale; the matrix is taken."
             ));
         }
-        return DMat4::from_cols_array(&matrix.map(f64::from));
+        return DMat4::from_cols_array(&matrix);
     }
-    let scale = node.scale.map_or(DVec3::ONE, |scale| Vec3::from(scale).as_dvec3());
-    let translation = node
-        .translation
-        .map_or(DVec3::ZERO, |translation| Vec3::from(translation).as_dvec3());
+    let scale = node.scale.map_or(DVec3::ONE, DVec3::from);
+    let translation = node.translation.map_or(DVec3::ZERO, DVec3::from);
     let rotation = node.rotation.map_or(DQuat::IDENTITY, |rotation| {
-        let quaternion = DQuat::from_array(rotation.0.map(f64::from));
+        let quaternion = DQuat::from_array(rotation);
         let length = quaternion.length();
         if (length - 1.0).abs() > ROUNDED || !length.is_finite() {
             warnings.add(format!(

@@ -3,11 +3,13 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use sabi_color::linear_from_srgb;
-
+use super::colors::Colors;
+use super::unknown::Unknown;
 use crate::load::error::{Fault, damaged};
-use crate::load::faces::{Face, Faces, NONE};
+use crate::load::faces::{Attribute, Face, Faces, NONE};
+use crate::load::numbers::number;
 use crate::load::submesh::Smoothing;
+use crate::load::text::{lines, part_name};
 use crate::load::warnings::Warnings;
 
 /// Most material libraries that are read.
@@ -23,15 +25,49 @@ pub(super) struct Statements {
     pub(super) parts: Vec<String>,
     /// Arguments of each `mtllib`.
     pub(super) libraries: Vec<String>,
+    colors: Colors,
 }
+
+/// Statements of curves, surfaces, groups of merging and display, which no polygon needs.
+const WITHOUT_EFFECT: [&str; 25] = [
+    "vp",
+    "cstype",
+    "deg",
+    "bmat",
+    "step",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "sp",
+    "end",
+    "con",
+    "mg",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "maplib",
+    "usemap",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+    "bsp",
+    "bzp",
+];
 
 /// State that applies to the faces that follow.
 struct State {
     material: u32,
     part: u32,
+    /// Number of `o` statements so far.
+    object: u32,
     smoothing: Smoothing,
     materials: BTreeMap<String, u32>,
-    parts: BTreeMap<String, u32>,
+    /// Parts by object and group.
+    parts: BTreeMap<(u32, String), u32>,
+    unknown: Unknown,
 }
 
 impl Statements {
@@ -41,83 +77,121 @@ impl Statements {
         let mut state = State {
             material: 0,
             part: 0,
+            object: 0,
             smoothing: Smoothing::ByAngle,
             materials: BTreeMap::new(),
             parts: BTreeMap::new(),
+            unknown: Unknown::default(),
         };
-        state.material = numbered("", &mut state.materials, &mut statements.materials);
-        state.part = numbered("", &mut state.parts, &mut statements.parts);
+        state.material = numbered(String::new(), "", &mut state.materials, &mut statements.materials);
+        state.part = numbered((0, String::new()), "", &mut state.parts, &mut statements.parts);
         for (line, content) in logical_lines(text) {
             let (keyword, rest) = split_word(&content);
-            let read = statements.statement(keyword, rest, &mut state, warnings);
-            read.map_err(|what| Fault::Damaged(format!("line {line}: {what}")))?;
+            let read = match statements.statement(keyword, rest, &mut state, warnings) {
+                Ok(false) => {
+                    // Few programs write another case, so that it is tried last.
+                    let lower = keyword.to_ascii_lowercase();
+                    statements.statement(&lower, rest, &mut state, warnings)
+                }
+                read => read,
+            };
+            let is_known = read.map_err(|what| Fault::Damaged(format!("line {line}: {what}")))?;
+            if !is_known && !keyword.starts_with('#') {
+                state.unknown.note(keyword, line);
+            }
         }
+        state.unknown.warn("The file", warnings);
         statements.check_indices(warnings)?;
-        // Colors belong to positions, and may end before those do.
-        statements.faces.colors.corners = statements.faces.corners.clone();
+        let faces = &mut statements.faces;
+        faces.colors = Attribute {
+            values: std::mem::take(&mut statements.colors).linear(warnings),
+            // Colors belong to positions, and may end before those do.
+            corners: faces.corners.clone(),
+        };
         Ok(statements)
     }
 
+    /// Reads a statement; returns false if its keyword is not known.
     fn statement(
         &mut self,
         keyword: &str,
         rest: &str,
         state: &mut State,
         warnings: &mut Warnings,
-    ) -> Result<(), String> {
+    ) -> Result<bool, String> {
         match keyword {
-            "v" => self.vertex(rest)?,
+            "v" => self.vertex(rest, warnings)?,
             "vt" => {
-                let ([u, v, _], count) = numbers::<3>(rest)?;
+                let ([u, v, _], count) = numbers::<3>(rest, warnings)?;
                 require(count >= 1, "vt", "at least 1 number")?;
-                self.faces.uvs.values.push([u, 1.0 - v]);
+                self.faces.uvs.values.push([u as f32, (1.0 - v) as f32]);
             }
             "vn" => {
-                let (normal, count) = numbers::<3>(rest)?;
+                let (normal, count) = numbers::<3>(rest, warnings)?;
                 require(count == 3, "vn", "3 numbers")?;
-                self.faces.normals.values.push(normal);
+                self.faces.normals.values.push(normal.map(|x| x as f32));
             }
             "f" | "fo" => self.face(rest, state, warnings)?,
-            "usemtl" => state.material = numbered(rest, &mut state.materials, &mut self.materials),
-            "o" | "g" => state.part = numbered(rest, &mut state.parts, &mut self.parts),
+            "usemtl" => {
+                let name = named(rest);
+                state.material = numbered(name.to_owned(), name, &mut state.materials, &mut self.materials);
+            }
+            "o" => {
+                state.object += 1;
+                state.part = self.parts.len() as u32;
+                self.parts.push(part_name(named(rest)));
+            }
+            "g" => {
+                let name = part_name(named(rest));
+                let key = (state.object, name.clone());
+                state.part = numbered(key, &name, &mut state.parts, &mut self.parts);
+            }
             "s" => {
-                state.smoothing = match rest {
+                let (group, _) = split_word(rest);
+                state.smoothing = match group {
                     "off" | "0" => Smoothing::Off,
                     group => group.parse().map_or(Smoothing::ByAngle, Smoothing::Group),
                 }
             }
-            "mtllib" if self.libraries.iter().any(|library| library == rest) => {}
+            "#MRGB" | "#mrgb" => self.colors.push_mrgb(rest, warnings),
+            "mtllib" if self.libraries.iter().any(|library| library == named(rest)) => {}
             "mtllib" if self.libraries.len() == MOST_LIBRARIES => {
                 warnings.add(format!(
                     "The file names more than {MOST_LIBRARIES} material libraries; the others are left out."
                 ));
             }
-            "mtllib" => self.libraries.push(rest.to_string()),
+            "mtllib" => self.libraries.push(named(rest).to_string()),
             "l" | "p" => warnings.add("Points and lines are left out."),
             "curv" | "curv2" | "surf" => warnings.add("Curves and curved surfaces are left out."),
-            _ => {}
+            "call" | "csh" => warnings.add("Other files and commands that the file calls are left out."),
+            _ => return Ok(WITHOUT_EFFECT.contains(&keyword)),
         }
-        Ok(())
+        Ok(true)
     }
 
-    fn vertex(&mut self, rest: &str) -> Result<(), String> {
-        let (values, count) = numbers::<7>(rest)?;
+    fn vertex(&mut self, rest: &str, warnings: &mut Warnings) -> Result<(), String> {
+        let (values, count) = numbers::<7>(rest, warnings)?;
         require(count >= 3, "v", "3 numbers")?;
-        let faces = &mut self.faces;
-        if count == 6 {
-            let linear = |x: f32| linear_from_srgb(x.clamp(0.0, 1.0));
-            let [r, g, b] = [values[3], values[4], values[5]].map(linear);
-            faces.colors.values.resize(faces.positions.len(), [1.0; 4]);
-            faces.colors.values.push([r, g, b, 1.0]);
+        let [x, y, z, r, g, b, a] = values;
+        let color = match count {
+            6 => Some([r, g, b, 1.0]),
+            7 => Some([r, g, b, a]),
+            // A fourth number is a weight, for curves.
+            _ => None,
+        };
+        if let Some(color) = color {
+            self.colors
+                .push(self.faces.positions.len(), color.map(|share| share as f32));
         }
-        faces.positions.push([values[0], values[1], values[2]]);
+        self.faces.positions.push([x, y, z]);
         Ok(())
     }
 
     fn face(&mut self, rest: &str, state: &State, warnings: &mut Warnings) -> Result<(), String> {
         let faces = &mut self.faces;
         let first = faces.corners.len();
-        for word in rest.split_ascii_whitespace() {
+        let words = rest.split_ascii_whitespace();
+        for word in words.take_while(|word| !word.starts_with('#')) {
             let mut indices = word.split('/');
             let mut next = |count: usize| match indices.next() {
                 None | Some("") => Ok(NONE),
@@ -183,19 +257,14 @@ fn from_zero(word: &str, count: usize) -> Result<u32, String> {
 }
 
 /// Up to `N` numbers and how many there were; more are ignored.
-fn numbers<const N: usize>(rest: &str) -> Result<([f32; N], usize), String> {
+fn numbers<const N: usize>(rest: &str, warnings: &mut Warnings) -> Result<([f64; N], usize), String> {
     let mut values = [0.0; N];
     let mut count = 0;
     for (value, word) in values.iter_mut().zip(rest.split_ascii_whitespace()) {
         if word.starts_with('#') {
             break;
         }
-        *value = match word.parse() {
-            Ok(value) => value,
-            // Some programs write NaN as 1.#IND or -1.#QNAN.
-            Err(_) if word.contains(".#") => f32::NAN,
-            Err(_) => return Err(format!("`{word}` is not a number")),
-        };
+        *value = number(word, warnings).ok_or_else(|| format!("`{word}` is not a number"))?;
         count += 1;
     }
     Ok((values, count))
@@ -209,15 +278,12 @@ fn require(holds: bool, keyword: &str, what: &str) -> Result<(), String> {
     }
 }
 
-/// The number of a name, a new one for a new name.
-fn numbered(name: &str, known: &mut BTreeMap<String, u32>, names: &mut Vec<String>) -> u32 {
-    if let Some(number) = known.get(name) {
-        return *number;
-    }
-    let number = names.len() as u32;
-    names.push(name.to_string());
-    known.insert(name.to_string(), number);
-    number
+/// The number of what has a key, a new one with a name for a new key.
+fn numbered<K: Ord>(key: K, name: &str, known: &mut BTreeMap<K, u32>, names: &mut Vec<String>) -> u32 {
+    *known.entry(key).or_insert_with(|| {
+        names.push(name.to_string());
+        names.len() as u32 - 1
+    })
 }
 
 /// The first word of a line and the rest.
@@ -227,25 +293,53 @@ pub(super) fn split_word(line: &str) -> (&str, &str) {
     (word, rest.trim_ascii())
 }
 
-/// Lines with their numbers, trimmed, without empty lines and comments; lines that end in a backslash go on in the next.
+/// The name that is the rest of a line, without a remark behind it. A `#` inside a name is followed by something: `Material #25`.
+pub(super) fn named(rest: &str) -> &str {
+    let bytes = rest.as_bytes();
+    let is_remark = |at: &usize| {
+        let before = at
+            .checked_sub(1)
+            .is_none_or(|before| bytes[before].is_ascii_whitespace());
+        before && bytes.get(at + 1).is_none_or(u8::is_ascii_whitespace)
+    };
+    let remark = rest.match_indices('#').map(|(at, _)| at).find(is_remark);
+    rest[..remark.unwrap_or(rest.len())].trim_ascii_end()
+}
+
+/// Beginning of a remark that holds colors of vertices.
+const MRGB: &str = "#MRGB";
+
+/// Lines with their numbers, trimmed, without empty lines and remarks; lines that end in a backslash go on in the next, unless
+/// a remark does.
 pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
-    // Trimming takes care of line ends of two characters.
-    let line_end = if text.contains('\n') { '\n' } else { '\r' };
-    let mut lines = text.split(line_end).zip(1..);
+    let mut lines = lines(text).zip(1..);
     std::iter::from_fn(move || {
         loop {
             let (line, number) = lines.next()?;
-            let mut line = Cow::Borrowed(line.trim_ascii());
-            while line.ends_with('\\') {
-                let next = lines.next().map_or("", |(next, _)| next.trim_ascii());
-                let whole = line.to_mut();
+            let line = line.trim_ascii();
+            let is_colors = || {
+                line.get(..MRGB.len())
+                    .is_some_and(|start| start.eq_ignore_ascii_case(MRGB))
+            };
+            if line.is_empty() || line.starts_with('#') && !is_colors() {
+                continue;
+            }
+            let mut whole = Cow::Borrowed(line);
+            let mut last = line;
+            while last.ends_with('\\') && !has_remark(last) {
+                last = lines.next().map_or("", |(next, _)| next.trim_ascii());
+                let whole = whole.to_mut();
                 whole.pop();
                 whole.push(' ');
-                whole.push_str(next);
+                whole.push_str(last);
             }
-            if !line.is_empty() && !line.starts_with('#') {
-                return Some((number, line));
-            }
+            return Some((number, whole));
         }
     })
+}
+
+/// Returns true if a remark stands in a line, at its beginning or behind a space.
+fn has_remark(line: &str) -> bool {
+    let mut words = line.split(|c: char| c.is_ascii_whitespace());
+    words.any(|word| word.starts_with('#'))
 }

@@ -2,6 +2,8 @@
 
 use super::header::{Element, Encoding, Kind};
 use crate::load::error::{Fault, damaged};
+use crate::load::numbers::number;
+use crate::load::warnings::Warnings;
 
 /// Value of a property.
 pub(super) enum Value {
@@ -13,11 +15,17 @@ pub(super) enum Value {
 pub(super) struct Body<'b> {
     encoding: Encoding,
     rest: &'b [u8],
+    /// About numbers of a text.
+    pub(super) warnings: Warnings,
 }
 
 impl<'b> Body<'b> {
     pub(super) fn new(encoding: Encoding, rest: &'b [u8]) -> Body<'b> {
-        Body { encoding, rest }
+        Body {
+            encoding,
+            rest,
+            warnings: Warnings::default(),
+        }
     }
 
     /// Returns a fault where the file is too short for the element's count.
@@ -111,11 +119,7 @@ impl<'b> Body<'b> {
         }
         // A word that is not UTF-8 is no number.
         let text = String::from_utf8_lossy(word);
-        match text.parse() {
-            Ok(number) => Ok(number),
-            Err(_) if text.contains(".#") => Ok(f64::NAN),
-            Err(_) => damaged(format!("`{text}` is not a number")),
-        }
+        number(&text, &mut self.warnings).ok_or_else(|| Fault::Damaged(format!("`{text}` is not a number")))
     }
 
     /// Reads a number; `turn` puts its bytes in little-endian order.

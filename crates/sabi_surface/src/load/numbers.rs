@@ -1,0 +1,55 @@
+//! Numbers of text files, as programs of all systems and languages write them.
+
+use super::warnings::Warnings;
+
+/// Sentence about numbers such as `0,5`, which programs write that follow the language of their user.
+const COMMAS: &str = "The file writes numbers with decimal commas, such as `0,5`; they are read as decimal points.";
+
+/// Reads a number: a decimal comma is one, too, with a warning. Words for what is no number, such as `1.#IND` and `-nan(ind)`,
+/// are NaN; others are none.
+pub(super) fn number(word: &str, warnings: &mut Warnings) -> Option<f64> {
+    if let Ok(number) = word.parse() {
+        return Some(number);
+    }
+    let unsigned = word.trim_start_matches(['-', '+']);
+    let is_nan = unsigned
+        .get(..4)
+        .is_some_and(|start| start.eq_ignore_ascii_case("nan("));
+    if is_nan || word.contains(".#") {
+        return Some(f64::NAN);
+    }
+    let (whole, fraction) = word.split_once(',')?;
+    let number = format!("{whole}.{fraction}").parse().ok()?;
+    warnings.add(COMMAS);
+    Some(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_as_programs_write_them() {
+        for (word, number_of_it, has_comma) in [
+            ("5412345.456864", Some(5_412_345.456_864), false),
+            ("-1e-3", Some(-0.001), false),
+            ("0,010000", Some(0.01), true),
+            ("-,5", Some(-0.5), true),
+            ("1,5e2", Some(150.0), true),
+            ("1,234.5", None, false),
+            ("1,2,3", None, false),
+            ("0.5x", None, false),
+            ("", None, false),
+        ] {
+            let mut warnings = Warnings::default();
+            assert_eq!(number(word, &mut warnings), number_of_it, "{word}");
+            assert_eq!(!warnings.is_empty(), has_comma, "{word}");
+        }
+        for word in ["nan", "-NaN", "-nan(ind)", "1.#IND", "-1.#QNAN"] {
+            assert!(
+                number(word, &mut Warnings::default()).is_some_and(f64::is_nan),
+                "{word}"
+            );
+        }
+    }
+}

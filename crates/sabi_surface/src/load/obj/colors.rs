@@ -1,0 +1,77 @@
+//! Colors of vertices, of which the format knows nothing: behind a position, as `x y z r g b` or `x y z r g b a`, or in remarks
+//! `#MRGB` with eight digits a vertex for mask, red, green and blue.
+
+use sabi_color::linear_from_srgb;
+
+use crate::load::warnings::Warnings;
+
+/// Value from which colors are codes of 0 to 255: rounding and light make no share of 1 that large.
+const CODES_FROM: f32 = 2.0;
+const LARGEST_CODE: f32 = 255.0;
+/// Stands for the color of a position without one.
+const ABSENT: [f32; 4] = [f32::INFINITY; 4];
+/// Digits of a vertex in a remark.
+const DIGITS: usize = 8;
+
+/// Colors as the file has them, sRGB.
+#[derive(Default)]
+pub(super) struct Colors {
+    /// Of the positions with these numbers.
+    behind_positions: Vec<[f32; 4]>,
+    /// Of the vertices of the file, in their order.
+    in_remarks: Vec<[f32; 4]>,
+}
+
+impl Colors {
+    /// Adds the color of the position that follows `before` others; those without one are white.
+    pub(super) fn push(&mut self, before: usize, color: [f32; 4]) {
+        self.behind_positions.resize(before, ABSENT);
+        self.behind_positions.push(color);
+    }
+
+    /// Adds the colors of a remark.
+    pub(super) fn push_mrgb(&mut self, digits: &str, warnings: &mut Warnings) {
+        let (vertices, rest) = digits.as_bytes().as_chunks::<DIGITS>();
+        let color = |digits: &[u8; DIGITS]| {
+            let code = u32::from_str_radix(std::str::from_utf8(digits).ok()?, 16).ok()?;
+            let [_, r, g, b] = code.to_be_bytes().map(|code| f32::from(code) / LARGEST_CODE);
+            Some([r, g, b, 1.0])
+        };
+        let before = self.in_remarks.len();
+        self.in_remarks.extend(vertices.iter().map_while(color));
+        if self.in_remarks.len() - before < vertices.len() || !rest.is_empty() {
+            warnings.add("Colors in a remark `#MRGB` are damaged; some vertices have none, or that of another.");
+        }
+    }
+
+    /// Returns linear colors by the numbers of positions; there may be fewer than positions.
+    pub(super) fn linear(self, warnings: &mut Warnings) -> Vec<[f32; 4]> {
+        let mut colors = self.behind_positions;
+        if colors.is_empty() {
+            colors = self.in_remarks;
+        }
+        let largest = colors
+            .iter()
+            .filter(|color| **color != ABSENT)
+            .flatten()
+            .copied()
+            .fold(0.0, f32::max);
+        let most = if largest >= CODES_FROM {
+            warnings.add("The colors of vertices reach above 1; they are taken as codes of 0 to 255.");
+            LARGEST_CODE
+        } else {
+            1.0
+        };
+        for color in &mut colors {
+            let [r, g, b, a] = *color;
+            *color = if *color == ABSENT {
+                [1.0; 4]
+            } else {
+                let light = |share: f32| linear_from_srgb((share / most).clamp(0.0, 1.0));
+                let alpha = if a > 1.0 { a / most } else { a };
+                [light(r), light(g), light(b), alpha.clamp(0.0, 1.0)]
+            };
+        }
+        colors
+    }
+}
