@@ -224,6 +224,30 @@ fn instances_of_a_mesh_have_materials_of_their_own() {
     assert_eq!(model.materials[1], plain);
 }
 
+#[test]
+fn opacity_and_colors_of_materials_have_the_rules_of_all_formats() {
+    let looks = |from: &str, to: &str| read(&file("", &LOOKS.replace(from, to), FACE, &bound("m1")));
+    let unseen = looks("<float>0.5</float>", "<float>0</float>");
+    assert_eq!(
+        (
+            unseen.materials[0].base_color_factor[3],
+            unseen.materials[0].ignores_alpha
+        ),
+        (1.0, true)
+    );
+    assert_eq!(
+        unseen.warnings,
+        ["The file has material `painted` invisible; it is taken as opaque."]
+    );
+    let short = looks("<color>0.5 0.25 0 1</color>", "<color>0.5 0.25 0</color>");
+    assert_eq!(short.materials[0].emission_factor, [0.5, 0.25, 0.0]);
+    let lost = looks("<color>0.5 0.25 0 1</color>", "<color>bright</color>");
+    assert_eq!(
+        lost.warnings,
+        ["The emission of material `painted` is no color of three or four numbers and is left out."]
+    );
+}
+
 /// The board, bound to a bone; `swing` moves a second bone away from where it was bound.
 fn boned(swing: f32) -> String {
     let skin = r##"<library_controllers><controller id="skin"><skin source="#shape">

@@ -49,6 +49,21 @@ fn factors_are_read_and_emission_includes_its_strength() {
 }
 
 #[test]
+fn alpha_of_gltf_is_believed_and_a_material_that_nobody_sees_is_told() {
+    for (mode, warnings) in [
+        ("OPAQUE", &[][..]),
+        ("BLEND", &["The file has material `glass` invisible: its alpha is 0."]),
+        ("MASK", &["The file has material `glass` invisible: its alpha is 0."]),
+    ] {
+        let pbr = json!({ "baseColorFactor": [1, 1, 1, 0] });
+        let file = with_material(json!({ "name": "glass", "alphaMode": mode, "pbrMetallicRoughness": pbr }));
+        let model = file.model();
+        assert_eq!(model.materials[0].base_color_factor[3], 0.0, "{mode}");
+        assert_eq!(model.warnings, warnings, "{mode}");
+    }
+}
+
+#[test]
 fn extensions_give_a_coat_a_sheen_and_light_below_the_surface() {
     let mut file = with_material(json!({
         "extensions": {
