@@ -22,7 +22,11 @@ pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySou
         Some(file) => file,
         None => relative_paths::relative(document, file).ok()?,
     };
-    Some(LibrarySource { file, digest })
+    Some(LibrarySource {
+        file,
+        digest,
+        extra: BTreeMap::new(),
+    })
 }
 
 /// File that a link leads to, if the document may open it; it need not exist.

@@ -85,6 +85,8 @@ pub struct LibrarySource {
     pub file: String,
     /// Digest of the file that the copy was made of, blake3 in hexadecimal.
     pub digest: String,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
 }
 
 /// Settings of the preview in the editor.
@@ -103,7 +105,7 @@ pub struct Preview {
 }
 
 /// A view of the model. Lengths are shares of the model's largest side.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SavedView {
     /// Point that is looked at, from the middle of the model.
     pub target: [f64; 3],
@@ -115,6 +117,8 @@ pub struct SavedView {
     pub distance: f64,
     /// True through a parallel lens.
     pub is_parallel: bool,
+    /// Keys that this version does not know.
+    pub extra: BTreeMap<String, Value>,
 }
 
 impl SavedView {

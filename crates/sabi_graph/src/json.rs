@@ -87,6 +87,34 @@ impl Json {
 
 /// Reads one JSON value and nothing after it.
 pub(crate) fn parse(text: &str) -> Result<Json, JsonError> {
+    parse_value(text).map_err(|error| conflict(text).unwrap_or(error))
+}
+
+/// Beginnings of the lines that git writes around both sides of a conflict. No text in JSON has line breaks, so no line of a graph
+/// begins with one.
+const CONFLICT_MARKERS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
+
+/// The error of a text that is no JSON because of a conflict.
+fn conflict(text: &str) -> Option<JsonError> {
+    let is_marker = |line: &str| CONFLICT_MARKERS.iter().any(|marker| line.starts_with(marker));
+    let mut at = 0;
+    let marker = text.split_inclusive('\n').find(|line| {
+        let is_found = is_marker(line);
+        at += if is_found { 0 } else { line.len() };
+        is_found
+    })?;
+    let sentence = format!(
+        "{} is a conflict marker of git: two versions of the graph were merged and differ here; keep one side or both, and remove \
+         the lines that begin with <<<<<<<, ======= and >>>>>>>",
+        quoted(marker.trim_end())
+    );
+    Some(JsonError {
+        at,
+        kind: JsonErrorKind::Syntax(sentence),
+    })
+}
+
+fn parse_value(text: &str) -> Result<Json, JsonError> {
     if text.len() > BYTE_LIMIT {
         return Err(JsonError {
             at: 0,

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::format::ObjectKeys;
 use crate::value::{Value, number_text};
 
 /// Object to be written, with its keys in order.
@@ -43,9 +44,9 @@ impl OrderedObject {
     }
 
     /// Adds unknown keys, sorted, without those that are known keys of this version.
-    pub(crate) fn put_extra(&mut self, extra: &BTreeMap<String, Value>, known: &[&str]) {
+    pub(crate) fn put_extra(&mut self, extra: &BTreeMap<String, Value>, known: &ObjectKeys) {
         for (key, value) in extra {
-            if !known.contains(&key.as_str()) {
+            if !known.has(key) {
                 self.put(key, value.clone());
             }
         }

@@ -28,6 +28,43 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
+/// Most names that are all listed.
+const MOST_LISTED: usize = 12;
+/// Names that are listed of more.
+const NEAREST: usize = 5;
+
+/// Advice on a name that is none of these: the one that was probably meant, all of them if they are few, or those that are most alike.
+/// A clause, such as `did you mean 'wood'?`.
+pub fn advice_on<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.into_iter().collect();
+    if let Some(near) = nearest(word, names.iter().copied()) {
+        return format!("did you mean '{near}'?");
+    }
+    let quoted = |names: &[&str]| {
+        names
+            .iter()
+            .map(|name| format!("'{name}'"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    match names.len() {
+        0 => "there is none".to_owned(),
+        1..=MOST_LISTED => format!("there is {}", quoted(&names)),
+        count => {
+            let mut alike = names;
+            let asked = letters(word).unwrap_or_default(); // An endless word is like none.
+            // A stable sort: of several that are as much alike, the first.
+            alike.sort_by_cached_key(|name| {
+                let letters = letters(name).unwrap_or_default();
+                let is_part = letters.windows(asked.len().max(1)).any(|part| part == asked);
+                (!is_part, distance(&asked, &letters))
+            });
+            alike.truncate(NEAREST);
+            format!("there is {} and {} more", quoted(&alike), count - NEAREST)
+        }
+    }
+}
+
 /// Lower-case letters of a word; `None` when it is empty or longer than any name.
 fn letters(word: &str) -> Option<Vec<char>> {
     let letters: Vec<char> = word
@@ -78,6 +115,20 @@ mod tests {
             assert_eq!(nearest(word, known), found, "{word}");
         }
         assert_eq!(nearest("a", ["b"]), None);
+    }
+
+    #[test]
+    fn advice_names_what_was_meant_or_all_of_few_or_the_most_alike_of_many() {
+        let few = ["wood", "brass", "glass"];
+        assert_eq!(advice_on("glas", few), "did you mean 'glass'?");
+        assert_eq!(advice_on("x", few), "there is 'wood', 'brass', 'glass'");
+        assert_eq!(advice_on("x", []), "there is none");
+        let many: Vec<String> = (0..200).map(|at| format!("node_{at:03}_scratches")).collect();
+        let told = advice_on("007", many.iter().map(String::as_str));
+        assert!(told.starts_with("there is 'node_007_scratches', "), "{told}");
+        assert!(told.ends_with(" and 195 more") && told.len() < 160, "{told}");
+        let endless = "a".repeat(1_000_000);
+        assert!(advice_on(&endless, many.iter().map(String::as_str)).ends_with(" and 195 more"));
     }
 
     #[test]

@@ -91,7 +91,7 @@ pub enum Problem {
     },
     /// A curve without the points that it needs.
     #[error(
-        "the curve of {slot} is none; write at least two points [knob value, parameter value] whose knob values grow"
+        "the curve of {slot} cannot be used; write at least two points [knob value, parameter value] whose knob values grow"
     )]
     BadCurve {
         /// `node.param`.

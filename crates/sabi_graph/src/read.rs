@@ -10,6 +10,7 @@ use fields::Fields;
 
 use crate::document::{Description, Fit, GroupDef, LibrarySource, Preview, SavedView};
 use crate::file_error::ReadError;
+use crate::format;
 use crate::json::{Json, Tree};
 use crate::name::check_name;
 use crate::{Document, FileError};
@@ -35,7 +36,7 @@ pub fn format_version(text: &str) -> Result<u32, FileError> {
 
 fn read(text: &str) -> Result<Document, ReadError> {
     let json = crate::migrate::to_newest(crate::json::parse(text)?)?;
-    let mut fields = Fields::of(json, "the file")?;
+    let mut fields = Fields::of(json, "the file", &format::DOCUMENT)?;
     // Both were checked by the migration.
     fields.take("format");
     fields.take("version");
@@ -69,7 +70,7 @@ fn read(text: &str) -> Result<Document, ReadError> {
 }
 
 fn read_group(json: Json, group_names: &BTreeSet<String>) -> Result<GroupDef, ReadError> {
-    let mut fields = Fields::of(json, "groups")?;
+    let mut fields = Fields::of(json, "groups", &format::GROUP)?;
     let name = fields.text("name")?;
     let description = read_description(&mut fields)?;
     let library = fields.take("library").map(read_library).transpose()?;
@@ -94,7 +95,7 @@ fn read_description(fields: &mut Fields) -> Result<Description, ReadError> {
 }
 
 fn read_library(json: Json) -> Result<LibrarySource, ReadError> {
-    let mut fields = Fields::of(json, "library")?;
+    let mut fields = Fields::of(json, "library", &format::LIBRARY)?;
     let mut text = |key: &str, advice| super::read::fields::text(fields.need(key, advice)?, key);
     Ok(LibrarySource {
         file: text("file", "a linked group has the file that it is a copy of")?,
@@ -102,11 +103,12 @@ fn read_library(json: Json) -> Result<LibrarySource, ReadError> {
             "digest",
             "a linked group has the digest of the file that it is a copy of",
         )?,
+        extra: fields.extra()?,
     })
 }
 
 fn read_preview(json: Json) -> Result<Preview, ReadError> {
-    let mut fields = Fields::of(json, "preview")?;
+    let mut fields = Fields::of(json, "preview", &format::PREVIEW)?;
     Ok(Preview {
         mesh: fields.text("mesh")?,
         size: fields.whole("size")?,
@@ -120,13 +122,14 @@ fn read_views(fields: &mut Fields) -> Result<BTreeMap<String, SavedView>, ReadEr
     let mut views = BTreeMap::new();
     for member in fields.map("views")? {
         check_name("view", &member.key, "").map_err(|problem| ReadError::new(member.key_at, problem))?;
-        let mut fields = Fields::of(member.value, "views")?;
+        let mut fields = Fields::of(member.value, "views", &format::VIEW)?;
         let view = SavedView {
             target: fields.numbers("target", "a list of three numbers")?.unwrap_or([0.0; 3]),
             yaw: fields.number("yaw")?.unwrap_or(0.0),
             pitch: fields.number("pitch")?.unwrap_or(0.0),
             distance: fields.number("distance")?.unwrap_or(SavedView::FAR),
             is_parallel: fields.flag("parallel")?,
+            extra: fields.extra()?,
         };
         views.insert(member.key, view);
     }

@@ -3,32 +3,11 @@
 use std::collections::BTreeMap;
 
 use crate::document::{Description, Document, Fit, GroupDef, GroupInput, LibrarySource, Preview, SavedView};
+use crate::format;
 use crate::graph::{Exposed, Frame};
 use crate::layout::{Item, OrderedObject};
 use crate::migrate::NEWEST;
 use crate::{Graph, KnobCurve, Node, NodeId, NodeRows, Note, OutputRef, SlotRef, Value};
-
-/// Keys of the file, in order.
-const DOCUMENT_KEYS: [&str; 16] = [
-    "format", "version", "name", "about", "words", "preview", "fit", "seed", "exposed", "variants", "frames", "notes",
-    "groups", "inputs", "outputs", "nodes",
-];
-/// Keys of a group, in order.
-const GROUP_KEYS: [&str; 12] = [
-    "name", "about", "words", "library", "fit", "exposed", "variants", "frames", "notes", "inputs", "outputs", "nodes",
-];
-/// Keys of a node, in order.
-const NODE_KEYS: [&str; 9] = [
-    "kind",
-    "group",
-    "label",
-    "inputs",
-    "params",
-    "pos",
-    "muted",
-    "rows",
-    "named_wires",
-];
 
 impl Document {
     /// The canonical text: the same document gives the same bytes, and reading them gives this document.
@@ -47,7 +26,7 @@ impl Document {
         object.put_map("groups", &self.groups, group_item);
         put_ports(&mut object, &self.inputs, &self.outputs);
         put_nodes(&mut object, &self.graph);
-        object.put_extra(&self.extra, &DOCUMENT_KEYS);
+        object.put_extra(&self.extra, &format::DOCUMENT);
         object.into_text()
     }
 }
@@ -63,7 +42,7 @@ fn group_item(group: &GroupDef) -> Item {
     put_panel(&mut object, &group.graph);
     put_ports(&mut object, &group.inputs, &group.outputs);
     put_nodes(&mut object, &group.graph);
-    object.put_extra(&group.extra, &GROUP_KEYS);
+    object.put_extra(&group.extra, &format::GROUP);
     Item::Object(object)
 }
 
@@ -80,6 +59,7 @@ fn library_item(library: &LibrarySource) -> Item {
     let mut object = OrderedObject::default();
     object.put("file", library.file.as_str());
     object.put("digest", library.digest.as_str());
+    object.put_extra(&library.extra, &format::LIBRARY);
     Item::Object(object)
 }
 
@@ -118,7 +98,7 @@ fn node_item(node: &Node) -> Item {
     let rows = rows.filter(|(rows, _)| *rows != NodeRows::All);
     object.put_some("rows", rows.map(|(_, name)| *name));
     object.put_some("named_wires", node.display.has_named_wires.then_some(true));
-    object.put_extra(&node.extra, &NODE_KEYS);
+    object.put_extra(&node.extra, &format::NODE);
     Item::Object(object)
 }
 
@@ -132,7 +112,7 @@ fn preview_item(preview: &Preview) -> Item {
     object.put_some("size", preview.size);
     object.put_some("variant", preview.variant.as_deref());
     object.put_map("views", &preview.views, view_item);
-    object.put_extra(&preview.extra, &["mesh", "size", "variant", "views"]);
+    object.put_extra(&preview.extra, &format::PREVIEW);
     Item::Object(object)
 }
 
@@ -143,6 +123,7 @@ fn view_item(view: &SavedView) -> Item {
     object.put("pitch", view.pitch);
     object.put("distance", view.distance);
     object.put_some("parallel", view.is_parallel.then_some(true));
+    object.put_extra(&view.extra, &format::VIEW);
     Item::Object(object)
 }
 
@@ -156,10 +137,7 @@ fn exposed_item(knob: &Exposed) -> Item {
     object.put_some("order", knob.order);
     object.put_some("range", knob.range.map(|ends| ends.to_vec()));
     object.put_some("default", knob.default.clone());
-    object.put_extra(
-        &knob.extra,
-        &["to", "curves", "label", "about", "section", "order", "range", "default"],
-    );
+    object.put_extra(&knob.extra, &format::EXPOSED);
     Item::Object(object)
 }
 
@@ -176,7 +154,7 @@ fn input_item(input: &GroupInput) -> Item {
     object.put("to", slots(&input.to));
     object.put_some("type", input.ty.map(|ty| ty.to_string()));
     object.put_some("label", input.label.as_deref());
-    object.put_extra(&input.extra, &["to", "type", "label"]);
+    object.put_extra(&input.extra, &format::INPUT);
     Item::Object(object)
 }
 
@@ -185,7 +163,7 @@ fn frame_item(frame: &Frame) -> Item {
     object.put_some("title", frame.title.as_deref());
     object.put_some("color", frame.color.as_deref());
     object.put("nodes", frame.nodes.iter().map(NodeId::as_str).collect::<Vec<_>>());
-    object.put_extra(&frame.extra, &["title", "color", "nodes"]);
+    object.put_extra(&frame.extra, &format::FRAME);
     Item::Object(object)
 }
 
@@ -195,7 +173,7 @@ fn note_item(note: &Note) -> Item {
     object.put("pos", note.pos.map(f64::from).to_vec());
     object.put("width", f64::from(note.width));
     object.put_some("color", note.color.as_deref());
-    object.put_extra(&note.extra, &["text", "pos", "width", "color"]);
+    object.put_extra(&note.extra, &format::NOTE);
     Item::Object(object)
 }
 

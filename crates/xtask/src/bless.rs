@@ -1,5 +1,5 @@
 //! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window, and
-//! `cargo xtask bless library` the graphs of the effect library.
+//! `cargo xtask bless library` the graphs of the effect library, and `cargo xtask bless schema` the JSON schema of graph files.
 
 use crate::project::{Project, TaskError, finish};
 use crate::vulkan::{self, Driver};
@@ -7,10 +7,18 @@ use crate::vulkan::{self, Driver};
 /// Writes the goldens of a kind or of all, the pictures of the window, or the graphs of the library.
 pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError> {
     let Some(kind) = kind else {
-        let advice = "Which node? Say `cargo xtask bless noise/simplex`, `cargo xtask bless all`, `cargo xtask bless window`, or \
-                      `cargo xtask bless library`.";
+        let advice = "Which node? Say `cargo xtask bless noise/simplex`, `cargo xtask bless all`, `cargo xtask bless window`, \
+                      `cargo xtask bless library`, or `cargo xtask bless schema`.";
         return Err(TaskError::new(2, advice.to_owned()));
     };
+    if kind == "schema" {
+        let tests = ["test", "--workspace", "--lib", "format::tests::the_schema"];
+        let mut command = project.cargo(&tests)?;
+        command.env("SABI_BLESS", kind);
+        finish(command, "The schema of graph files")?;
+        tell("docs");
+        return Ok(());
+    }
     vulkan::ensure(project, Driver::Software)?;
     if kind == "window" {
         let tests = ["test", "--workspace", "--lib", "app::tests::snapshots"];

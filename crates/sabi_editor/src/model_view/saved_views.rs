@@ -1,5 +1,7 @@
 //! Views of the model that are kept in the graph: a camera by a name.
 
+use std::collections::BTreeMap;
+
 use egui::{Button, TextEdit, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use glam::Vec3;
@@ -18,6 +20,7 @@ fn view_of(camera: &Camera) -> SavedView {
         pitch: f64::from(camera.pitch_degrees),
         distance: f64::from(camera.distance),
         is_parallel: camera.lens == Lens::Orthographic,
+        extra: BTreeMap::new(),
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::fields::{Fields, text, value};
 use crate::document::GroupInput;
 use crate::file_error::ReadError;
+use crate::format;
 use crate::graph::{Exposed, Frame};
 use crate::id_text::check_port_name;
 use crate::json::{Json, Member, Tree};
@@ -95,7 +96,7 @@ fn link_error(link: &Link, problem: Problem) -> ReadError {
 /// A node without its links, which go to `links`.
 fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec<Link>) -> Result<Node, ReadError> {
     let begin = json.at;
-    let mut fields = Fields::of(json, "nodes")?;
+    let mut fields = Fields::of(json, "nodes", &format::NODE)?;
     let kind_json = fields
         .take("kind")
         .ok_or_else(|| ReadError::new(begin, Problem::NoKind))?;
@@ -157,7 +158,7 @@ fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, ReadEr
 
 fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, ReadError> {
     let begin = json.at;
-    let mut fields = Fields::of(json, "exposed")?;
+    let mut fields = Fields::of(json, "exposed", &format::EXPOSED)?;
     let knob = Exposed {
         to: read_slots(graph, &mut fields)?,
         curves: read_curves(fields.map("curves")?)?,
@@ -226,7 +227,7 @@ fn read_display(fields: &mut Fields) -> Result<NodeDisplay, ReadError> {
 }
 
 fn read_note(json: Json) -> Result<Note, ReadError> {
-    let mut fields = Fields::of(json, "notes")?;
+    let mut fields = Fields::of(json, "notes", &format::NOTE)?;
     let text = fields.need("text", "a note has a text")?;
     Ok(Note {
         text: super::fields::text(text, "text")?,
@@ -238,7 +239,7 @@ fn read_note(json: Json) -> Result<Note, ReadError> {
 }
 
 fn read_frame(json: Json) -> Result<Frame, ReadError> {
-    let mut fields = Fields::of(json, "frames")?;
+    let mut fields = Fields::of(json, "frames", &format::FRAME)?;
     let parsed = |(begin, id): (usize, String)| id.parse().map_err(at(begin));
     Ok(Frame {
         title: fields.text("title")?,
@@ -257,7 +258,7 @@ fn read_inputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, G
     let mut fed = validate::FedInputs::new();
     for member in members {
         check_port_name(&member.key).map_err(at(member.key_at))?;
-        let mut fields = Fields::of(member.value, &member.key)?;
+        let mut fields = Fields::of(member.value, &member.key, &format::INPUT)?;
         let input = GroupInput {
             to: read_slots(graph, &mut fields)?,
             ty: fields.take("type").map(read_type).transpose()?,

@@ -4,29 +4,34 @@ use std::collections::BTreeMap;
 
 use crate::Value;
 use crate::file_error::{FileProblem, ReadError};
+use crate::format::ObjectKeys;
 use crate::json::{Json, Member, Tree};
 use crate::problem::{Problem, quoted};
 
 pub(super) struct Fields {
     /// Offset of the object in the text.
     at: usize,
+    /// All keys that are read.
+    known: &'static ObjectKeys,
     members: BTreeMap<String, Json>,
 }
 
 impl Fields {
     /// Members of an object; `what` names the value in the error for one that is not an object.
-    pub(super) fn of(json: Json, what: &str) -> Result<Self, ReadError> {
+    pub(super) fn of(json: Json, what: &str, known: &'static ObjectKeys) -> Result<Self, ReadError> {
         let at = json.at;
         let members = members(json, what)?
             .into_iter()
             .map(|member| (member.key, member.value));
         Ok(Fields {
             at,
+            known,
             members: members.collect(),
         })
     }
 
     pub(super) fn take(&mut self, key: &str) -> Option<Json> {
+        debug_assert!(self.known.has(key), "{key} is no key of {}", self.known.name);
         self.members.remove(key)
     }
 

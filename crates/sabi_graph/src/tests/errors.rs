@@ -243,7 +243,7 @@ fn a_curve_belongs_to_a_parameter_that_its_knob_sets_and_needs_a_default() {
     for (more, text) in [
         (
             "\"exposed\": { \"age\": { \"to\": [\"edges.width\"], \"default\": 0,\n\"curves\": { \"edges.width\": [[0, 1]] } } }",
-            "3:28: the curve of edges.width is none; write at least two points [knob value, parameter value] whose knob \
+            "3:28: the curve of edges.width cannot be used; write at least two points [knob value, parameter value] whose knob \
              values grow",
         ),
         (

@@ -130,6 +130,7 @@ fn a_view() -> impl Strategy<Value = SavedView> {
             pitch,
             distance,
             is_parallel,
+            extra: BTreeMap::from([("newer".to_owned(), Value::Bool(is_parallel))]),
         },
     )
 }

@@ -1,0 +1,319 @@
+//! The keys of a graph file: what reading knows, the order of writing, unknown keys, and the JSON schema come from this table.
+
+mod schema;
+#[cfg(test)]
+mod tests;
+mod unknown_keys;
+
+pub use schema::{FormatKey, FormatObject, format_objects, format_schema};
+pub use unknown_keys::{UnknownKey, unknown_keys};
+
+/// Object of a graph file whose keys are fixed.
+#[derive(Debug)]
+pub(crate) struct ObjectKeys {
+    /// Word for it in the schema and the documentation.
+    pub(crate) name: &'static str,
+    /// Description, a sentence.
+    pub(crate) about: &'static str,
+    /// Its keys, in the order of writing.
+    pub(crate) keys: &'static [Key],
+}
+
+/// Key of an object.
+#[derive(Debug)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) value: Shape,
+    pub(crate) is_needed: bool,
+    /// Meaning, a sentence.
+    pub(crate) about: &'static str,
+}
+
+/// Shape of a value.
+#[derive(Debug)]
+pub(crate) enum Shape {
+    /// This text.
+    Word(&'static str),
+    /// One of these texts.
+    Words(&'static [&'static str]),
+    Text,
+    Texts,
+    /// `node.name`, or `node` for the first output of a node.
+    Reference,
+    /// `node.name`, any number of them.
+    References,
+    Flag,
+    /// A whole number of 32 bits.
+    Whole,
+    /// Version of the format.
+    Version,
+    Number,
+    /// So many numbers.
+    Numbers(usize),
+    /// Word or length that counts as 1.
+    Fit,
+    /// Value of a parameter.
+    Any,
+    /// Points of a curve.
+    Curve,
+    /// An object with fixed keys.
+    Object(&'static ObjectKeys),
+    /// Objects with fixed keys, by name.
+    Objects(&'static ObjectKeys),
+    /// Other values by name.
+    Map(&'static Shape),
+}
+
+impl ObjectKeys {
+    /// Returns true if the object has a key of that name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.keys.iter().any(|key| key.name == name)
+    }
+}
+
+const fn key(name: &'static str, value: Shape, about: &'static str) -> Key {
+    Key {
+        name,
+        value,
+        is_needed: false,
+        about,
+    }
+}
+
+const fn needed(name: &'static str, value: Shape, about: &'static str) -> Key {
+    Key {
+        is_needed: true,
+        ..key(name, value, about)
+    }
+}
+
+const ABOUT: Key = key("about", Shape::Text, "What one sees, a sentence or two.");
+const WORDS: Key = key(
+    "words",
+    Shape::Texts,
+    "Words that it is found by, besides those of its name and text.",
+);
+const EXPOSED_KEY: Key = key("exposed", Shape::Objects(&EXPOSED), "Knobs on its panel, by name.");
+const VARIANTS: Key = key(
+    "variants",
+    Shape::Map(&Shape::Map(&Shape::Any)),
+    "Sets of values for its knobs, by name.",
+);
+const FRAMES: Key = key("frames", Shape::Objects(&FRAME), "Titled boxes around nodes, by name.");
+const NOTES: Key = key("notes", Shape::Objects(&NOTE), "Notes on the canvas, by name.");
+const INPUTS: Key = key(
+    "inputs",
+    Shape::Objects(&INPUT),
+    "Inputs, by name, where it is used as a group.",
+);
+const OUTPUTS: Key = key(
+    "outputs",
+    Shape::Map(&Shape::Reference),
+    "Outputs of nodes, by the name of the group's output.",
+);
+const NODES: Key = needed("nodes", Shape::Objects(&NODE), "Nodes by id; may be empty.");
+const FIT_WORDS: &str =
+    "Length that counts as 1: \"unit\" (the model's largest side), \"metres\", \"piece\", or a number of meters.";
+
+/// The file itself.
+pub(crate) static DOCUMENT: ObjectKeys = ObjectKeys {
+    name: "graph",
+    about: "The whole file.",
+    keys: &[
+        needed("format", Shape::Word("sabi"), "Mark of a graph file."),
+        needed("version", Shape::Version, "Version of the format; older ones are read."),
+        key("name", Shape::Text, "Display name."),
+        ABOUT,
+        WORDS,
+        key(
+            "preview",
+            Shape::Object(&PREVIEW),
+            "What the graph is shown on while it is edited.",
+        ),
+        key("fit", Shape::Fit, FIT_WORDS),
+        key("seed", Shape::Whole, "Seed of the whole graph."),
+        EXPOSED_KEY,
+        VARIANTS,
+        FRAMES,
+        NOTES,
+        key(
+            "groups",
+            Shape::Objects(&GROUP),
+            "Groups that the file defines, by name.",
+        ),
+        INPUTS,
+        OUTPUTS,
+        NODES,
+    ],
+};
+
+/// A group.
+pub(crate) static GROUP: ObjectKeys = ObjectKeys {
+    name: "group",
+    about: "A graph that is used as a node.",
+    keys: &[
+        key("name", Shape::Text, "Display name, where it is not that of the group."),
+        ABOUT,
+        WORDS,
+        key("library", Shape::Object(&LIBRARY), "Library file that it is a copy of."),
+        key("fit", Shape::Fit, FIT_WORDS),
+        EXPOSED_KEY,
+        VARIANTS,
+        FRAMES,
+        NOTES,
+        INPUTS,
+        OUTPUTS,
+        NODES,
+    ],
+};
+
+/// A node.
+pub(crate) static NODE: ObjectKeys = ObjectKeys {
+    name: "node",
+    about: "One step of a graph.",
+    keys: &[
+        needed(
+            "kind",
+            Shape::Text,
+            "Kind, such as `noise/simplex`, or `graph/group` for an instance of a group.",
+        ),
+        key(
+            "group",
+            Shape::Text,
+            "Group of an instance: its name, or the path of a graph file.",
+        ),
+        key("label", Shape::Text, "Display name."),
+        key(
+            "inputs",
+            Shape::Map(&Shape::Reference),
+            "Links, by input: `node` or `node.output`. An input that a parameter has as well is its mask.",
+        ),
+        key("params", Shape::Map(&Shape::Any), "Parameters that were set, by name."),
+        key("pos", Shape::Numbers(2), "Place on the canvas, in points."),
+        key("muted", Shape::Flag, "Whether it passes its main input on."),
+        key("rows", Shape::Words(&["all", "wired", "none"]), "Rows that are drawn."),
+        key("named_wires", Shape::Flag, "Whether its wires are drawn as names."),
+    ],
+};
+
+/// A knob.
+pub(crate) static EXPOSED: ObjectKeys = ObjectKeys {
+    name: "exposed",
+    about: "A knob on the panel of a graph or group.",
+    keys: &[
+        key("to", Shape::References, "Parameters that it sets, `node.param`."),
+        key(
+            "curves",
+            Shape::Map(&Shape::Curve),
+            "Value of a parameter over that of the knob, by `node.param`: points [knob, parameter].",
+        ),
+        key("label", Shape::Text, "Display name."),
+        key("about", Shape::Text, "Its effect, a sentence."),
+        key(
+            "section",
+            Shape::Text,
+            "Title of the part of the panel that it stands in.",
+        ),
+        key("order", Shape::Whole, "Place on the panel."),
+        key("range", Shape::Numbers(2), "Lowest and highest number taken."),
+        key("default", Shape::Any, "Value until it is set."),
+    ],
+};
+
+/// An input of a group.
+pub(crate) static INPUT: ObjectKeys = ObjectKeys {
+    name: "input",
+    about: "An input of a group.",
+    keys: &[
+        key("to", Shape::References, "Inputs of nodes that it feeds, `node.input`."),
+        key(
+            "type",
+            Shape::Words(&["mask", "color", "vector", "material"]),
+            "Type of its values.",
+        ),
+        key("label", Shape::Text, "Display name."),
+    ],
+};
+
+/// A frame.
+pub(crate) static FRAME: ObjectKeys = ObjectKeys {
+    name: "frame",
+    about: "A titled box around nodes.",
+    keys: &[
+        key("title", Shape::Text, "Title."),
+        key("color", Shape::Text, "Color, `#rrggbb`."),
+        key("nodes", Shape::Texts, "Ids of the nodes in it."),
+    ],
+};
+
+/// A note.
+pub(crate) static NOTE: ObjectKeys = ObjectKeys {
+    name: "note",
+    about: "A note on the canvas.",
+    keys: &[
+        needed("text", Shape::Text, "Its text."),
+        key("pos", Shape::Numbers(2), "Place on the canvas, in points."),
+        key("width", Shape::Number, "Width, in points."),
+        key("color", Shape::Text, "Color, `#rrggbb`."),
+    ],
+};
+
+/// The preview.
+pub(crate) static PREVIEW: ObjectKeys = ObjectKeys {
+    name: "preview",
+    about: "What a graph is shown on while it is edited; bakes do not read it.",
+    keys: &[
+        key("mesh", Shape::Text, "Model, relative to the graph file."),
+        key("size", Shape::Whole, "Texels along a side."),
+        key("variant", Shape::Text, "Variant that is shown."),
+        key(
+            "views",
+            Shape::Objects(&VIEW),
+            "Views of the model that were kept, by name.",
+        ),
+    ],
+};
+
+/// A view.
+pub(crate) static VIEW: ObjectKeys = ObjectKeys {
+    name: "view",
+    about: "A view of the model. Lengths are shares of its largest side.",
+    keys: &[
+        key(
+            "target",
+            Shape::Numbers(3),
+            "Point that is looked at, from the middle of the model.",
+        ),
+        key(
+            "yaw",
+            Shape::Number,
+            "Side that is seen, degrees: 0 the front, 90 the right.",
+        ),
+        key("pitch", Shape::Number, "Elevation, degrees: 90 is from above."),
+        key("distance", Shape::Number, "Distance from the target."),
+        key("parallel", Shape::Flag, "Whether it is seen through a parallel lens."),
+    ],
+};
+
+/// The origin of a library group.
+pub(crate) static LIBRARY: ObjectKeys = ObjectKeys {
+    name: "library",
+    about: "Library file that a group is a copy of.",
+    keys: &[
+        needed(
+            "file",
+            Shape::Text,
+            "Path in the library, or relative to the graph file.",
+        ),
+        needed(
+            "digest",
+            Shape::Text,
+            "BLAKE3 of the file that was copied, in hexadecimal.",
+        ),
+    ],
+};
+
+/// All objects with fixed keys.
+pub(crate) static OBJECTS: [&ObjectKeys; 10] = [
+    &DOCUMENT, &GROUP, &NODE, &EXPOSED, &INPUT, &FRAME, &NOTE, &PREVIEW, &VIEW, &LIBRARY,
+];

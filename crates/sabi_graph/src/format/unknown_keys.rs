@@ -1,0 +1,112 @@
+//! Keys of a graph file that nothing reads: those of a newer version, or misspelled ones.
+
+use std::fmt;
+
+use super::{DOCUMENT, Key, ObjectKeys, Shape};
+use crate::json::{Json, Tree, parse};
+use crate::migrate::to_newest;
+use crate::problem::{listed, quoted};
+use crate::text_position::line_and_column;
+
+/// Key of a graph file that nothing reads; it is kept when the file is saved. Prints as a sentence, with line and column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownKey {
+    /// Line in the text, from 1.
+    pub line: usize,
+    /// Column in the line, in characters from 1.
+    pub column: usize,
+    /// Object that it stands in, such as `node "edges"`.
+    pub place: String,
+    /// The key.
+    pub key: String,
+    /// The known key that was probably meant.
+    pub meant: Option<&'static str>,
+    /// Known keys of the object that it does not have.
+    free: Vec<&'static str>,
+}
+
+impl fmt::Display for UnknownKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (place, key) = (&self.place, quoted(&self.key));
+        write!(f, "{place} has a key {key}, which nothing reads; ")?;
+        match self.meant {
+            Some(meant) => write!(f, "did you mean {}?", quoted(meant)),
+            None => write!(f, "there is also {}", listed(self.free.iter().copied())),
+        }
+    }
+}
+
+/// Lists the keys that nothing reads in the text of a graph file, in their order; none in a text that is no graph.
+pub fn unknown_keys(text: &str) -> Vec<UnknownKey> {
+    let Some(json) = parse(text).ok().and_then(|json| to_newest(json).ok()) else {
+        return Vec::new();
+    };
+    let mut search = Search {
+        text,
+        found: Vec::new(),
+    };
+    search.object(&json, &DOCUMENT, "the graph", "");
+    search.found.sort_by_key(|(at, _)| *at);
+    search.found.into_iter().map(|(_, key)| key).collect()
+}
+
+struct Search<'t> {
+    text: &'t str,
+    /// Keys with their offsets.
+    found: Vec<(usize, UnknownKey)>,
+}
+
+impl Search<'_> {
+    /// Searches an object with fixed keys; `of` ends the words for what is in it, such as ` of group "rust"`.
+    fn object(&mut self, json: &Json, keys: &'static ObjectKeys, place: &str, of: &str) {
+        let Tree::Object(members) = &json.tree else { return };
+        let is_free = |name: &&str| members.iter().all(|member| member.key != **name);
+        for member in members {
+            match keys.keys.iter().find(|known| known.name == member.key) {
+                Some(known) => self.value(&member.value, known, place, of),
+                None => {
+                    let (line, column) = line_and_column(self.text, member.key_at);
+                    // A key that is there already was not meant.
+                    let free: Vec<&str> = keys.keys.iter().map(|known| known.name).filter(is_free).collect();
+                    let key = UnknownKey {
+                        line,
+                        column,
+                        place: place.to_owned(),
+                        key: member.key.clone(),
+                        meant: meant(&member.key, &free),
+                        free,
+                    };
+                    self.found.push((member.key_at, key));
+                }
+            }
+        }
+    }
+
+    fn value(&mut self, json: &Json, key: &'static Key, place: &str, of: &str) {
+        match (&key.value, &json.tree) {
+            (Shape::Object(keys), _) => self.object(json, keys, &format!("\"{}\" of {place}", key.name), of),
+            (Shape::Objects(keys), Tree::Object(members)) => {
+                for member in members {
+                    let place = format!("{} {}{of}", keys.name, quoted(&member.key));
+                    let of = match keys.name {
+                        "group" => format!(" of {place}"),
+                        _ => of.to_owned(),
+                    };
+                    self.object(&member.value, keys, &place, &of);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The known key that was probably meant: one with few other letters, or one that it begins, or that begins with it.
+fn meant(key: &str, free: &[&'static str]) -> Option<&'static str> {
+    let near = crate::nearest(key, free.iter().copied());
+    let begins = || {
+        free.iter()
+            .copied()
+            .find(|known| known.len() >= 4 && key.starts_with(known))
+    };
+    near.or_else(begins)
+}
