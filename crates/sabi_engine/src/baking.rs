@@ -7,6 +7,7 @@ pub(crate) mod encoded_cache;
 #[cfg(test)]
 mod fault_tests;
 pub(crate) mod folder;
+mod losses;
 pub(crate) mod made_of;
 mod map_encoder;
 pub(crate) mod maps;

@@ -1,7 +1,6 @@
 //! Batches: a matrix of models, graphs and settings becomes a plan of bakes, one item each, which workers run in whatever order.
 
 mod expansion;
-mod faults;
 mod inputs;
 mod item;
 mod matrix;

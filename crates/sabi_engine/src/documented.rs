@@ -57,6 +57,7 @@ fn output() -> OutputRecord {
         color_space: "linear",
         udim: Some(1001),
         range: Some([0.0, 1.0]),
+        scale: Some(2.0),
         engine_format: EngineFormat::Bc7,
         engine_bytes: 1,
         blake3: text(),
@@ -292,6 +293,7 @@ fn the_description_of_a_preset_has_the_documented_keys() {
             components: vec![text()],
             color_space: "linear",
             dither: true,
+            normalize: true,
             engine_format: "BC7",
             size: Some(text()),
             when: text(),
@@ -301,6 +303,7 @@ fn the_description_of_a_preset_has_the_documented_keys() {
             ending: "usda",
             about: "text",
         }],
+        left_out: vec![text()],
     };
     assert_eq!(written(&description), documented("Presets"));
 }

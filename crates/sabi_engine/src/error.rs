@@ -213,9 +213,10 @@ impl From<ExportError> for EngineError {
             ExportError::Replace { .. } => (ErrorKind::CannotWrite, &[]),
             ExportError::Model { .. } => (ErrorKind::BadInput, &[Remedy::TryAgain, Remedy::WithoutModelCopy]),
             ExportError::CopyTooLarge { .. } => (ErrorKind::BadInput, &[Remedy::SmallerSize, Remedy::SaveModelAsGltf]),
-            ExportError::Names { .. } | ExportError::SameName { .. } | ExportError::SameDocument { .. } => {
-                (ErrorKind::BadInput, &[])
-            }
+            ExportError::Names { .. }
+            | ExportError::SameName { .. }
+            | ExportError::SameLetters { .. }
+            | ExportError::SameDocument { .. } => (ErrorKind::BadInput, &[]),
             ExportError::Encode { source, .. } => (kind_of_picture(source), &[]),
             ExportError::WrongSize { .. } => (ErrorKind::Defect, &[]),
         };

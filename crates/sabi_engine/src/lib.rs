@@ -35,6 +35,7 @@ mod documented;
 mod effect_library;
 mod error;
 mod evaluating;
+mod faults;
 mod graph_info;
 mod live;
 mod opening;

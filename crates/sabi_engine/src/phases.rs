@@ -174,17 +174,65 @@ impl Serialize for PhaseTime {
     }
 }
 
-/// Time spent in each phase of a bake: `stages_ms` of the report.
+/// Clock of a piece of work that goes from phase to phase without a gap.
+#[derive(Debug)]
+pub(crate) struct PhaseClock {
+    since: Instant,
+}
+
+impl PhaseClock {
+    /// Starts the first phase.
+    pub(crate) fn start() -> PhaseClock {
+        PhaseClock { since: Instant::now() }
+    }
+
+    /// Ends a phase and starts the next one; returns the time that the phase took.
+    pub(crate) fn lap(&mut self) -> Duration {
+        let now = Instant::now();
+        let taken = now.saturating_duration_since(self.since);
+        self.since = now;
+        taken
+    }
+}
+
+/// Time spent in each phase of a bake: `stages_ms` of the report. Together they are the time that the bake took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PhaseTimes {
-    /// Reading the graph, the model and its images, and uploading the surface.
+    /// Reading the graph, the model and its images, uploading the surface, and hashing and checking all inputs.
     pub load: PhaseTime,
     /// Building the atlas, or reading it from the cache.
     pub atlas: PhaseTime,
-    /// Opening the device and compiling kernels.
+    /// Opening the device, planning, and compiling kernels.
     pub compile: PhaseTime,
     /// Running the plan.
     pub run: PhaseTime,
     /// Normals, readback, padding, encoding and writing.
     pub encode: PhaseTime,
+}
+
+impl PhaseTimes {
+    /// Sum of all phases.
+    pub fn total(&self) -> Duration {
+        let phases = [self.load, self.atlas, self.compile, self.run, self.encode];
+        phases.iter().map(PhaseTime::total).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_of_a_clock_leave_no_gap() {
+        let started = Instant::now();
+        let mut clock = PhaseClock::start();
+        let mut times = PhaseTimes::default();
+        times.load.add(clock.lap());
+        times.run.add(clock.lap());
+        let last = clock.since;
+        times.encode.add(clock.lap());
+        let until_last = times.load.total() + times.run.total();
+        assert!(until_last <= last.saturating_duration_since(started));
+        assert_eq!(times.total(), until_last + times.encode.total());
+    }
 }

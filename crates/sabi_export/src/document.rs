@@ -14,7 +14,7 @@ mod usd;
 mod xml;
 
 pub(crate) use facts::{ChannelFacts, FileFacts, SetFacts};
-pub(crate) use material::{DocumentMaterial, PresetFiles, materials};
+pub(crate) use material::{DocumentMaterial, PresetFiles, changes_nothing, materials};
 
 use crate::Channel;
 use crate::preset::Document;

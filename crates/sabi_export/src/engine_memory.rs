@@ -85,6 +85,7 @@ mod tests {
             color_space: "linear",
             udim,
             range: None,
+            scale: None,
             engine_format,
             engine_bytes: engine_format.bytes([64, 64]),
             blake3: String::new(),

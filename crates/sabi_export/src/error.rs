@@ -68,6 +68,17 @@ pub enum ExportError {
         /// The file, without its folder.
         file_name: String,
     },
+    /// Two maps of a bake would have files whose names differ by capital letters alone.
+    #[error(
+        "two maps would be written to {first} and {second}, which are one file on systems that ignore capital letters; rename the \
+         material or the output that one of them belongs to"
+    )]
+    SameLetters {
+        /// A file, without its folder.
+        first: String,
+        /// The other one.
+        second: String,
+    },
     /// Two presets of a bake would write the same document.
     #[error(
         "two presets would write the document {file_name}; bake them one after the other, into folders of their own, or leave \
@@ -182,6 +193,15 @@ mod tests {
             same.to_string(),
             "two maps would be written to a.png; rename the material or the output that one of them belongs to, or \
              name maps with $material and $preset"
+        );
+        let letters = ExportError::SameLetters {
+            first: "Wood_normal.png".into(),
+            second: "wood_normal.png".into(),
+        };
+        assert_eq!(
+            letters.to_string(),
+            "two maps would be written to Wood_normal.png and wood_normal.png, which are one file on systems that ignore capital \
+             letters; rename the material or the output that one of them belongs to"
         );
         let document = ExportError::SameDocument {
             file_name: "helmet.usda".into(),

@@ -14,6 +14,8 @@ pub(crate) struct HeldChannel {
     /// Bounds of each component over the owned pixels.
     pub(crate) low: [f32; 3],
     pub(crate) high: [f32; 3],
+    /// Highest value of all components, over all tiles of the material where its tiles share a scale.
+    pub(crate) peak: f32,
     /// True if the graph gives it, rather than the neutral value.
     pub(crate) is_connected: bool,
 }
@@ -85,6 +87,20 @@ impl HeldSet {
             },
         };
         Some(if component.is_inverted { 1.0 - value } else { value })
+    }
+
+    /// Divisor of the values of a map; 1 but for normalized emission above 1.
+    pub(crate) fn scale(&self, map: &Map) -> f32 {
+        if !map.is_normalized {
+            return 1.0;
+        }
+        // A normalized height spans its range.
+        let emission = map
+            .channels()
+            .into_iter()
+            .find(|channel| **channel == Channel::Emission);
+        let held = emission.and_then(|channel| self.channel(channel));
+        held.map_or(1.0, |held| held.peak.max(1.0))
     }
 
     /// Returns true if a map is to be written.

@@ -60,7 +60,7 @@ pub use model_copy::{
 pub use name_pattern::{NameParts, NamePattern, folder_name};
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
-pub use record::{ConstantRecord, DocumentRecord, DocumentedMaterial, OutputRecord};
+pub use record::{ConstantRecord, CutMap, DocumentRecord, DocumentedMaterial, LeftOut, OutputRecord};
 pub use seams::SeamSamples;
 pub use shared::SharedTexels;
 pub use shown::ShownTexels;

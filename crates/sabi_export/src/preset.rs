@@ -57,6 +57,9 @@ pub struct Map {
     pub is_srgb: bool,
     /// True if gradients in whole numbers are dithered; areas of one value never are.
     pub is_dithered: bool,
+    /// True if the file holds 0 to 1 whatever its channel holds: heights span their range, also in floats, and emission above 1 is
+    /// divided by its highest value. The report has the range and the divisor.
+    pub is_normalized: bool,
     /// Size of the file.
     pub size: MapSize,
     /// Condition for writing it.
@@ -150,6 +153,12 @@ impl Preset {
     /// Reads a preset from its TOML text; docs/presets.md describes the file. `file` names it in errors.
     pub fn parse(file: &str, text: &str) -> Result<Preset, PresetError> {
         read::parse(file, text)
+    }
+
+    /// Channels of materials that no file of the preset has a part of.
+    pub fn left_out(&self) -> Vec<Channel> {
+        let all = Channel::ALL.into_iter();
+        all.filter(|channel| self.maps_of(channel).next().is_none()).collect()
     }
 
     /// The files that a channel becomes a part of.

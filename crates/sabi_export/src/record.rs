@@ -30,9 +30,12 @@ pub struct OutputRecord {
     /// UDIM number, when the material uses several tiles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub udim: Option<u32>,
-    /// Heights of the lowest and highest code, in the model's own units; heights in whole numbers only.
+    /// Heights of the lowest and highest code, in the model's own units; heights in whole numbers, and normalized ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f32; 2]>,
+    /// Divisor of its values: emission is the map times this; normalized emission above 1 only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f32>,
     /// Format that an engine has it in.
     pub engine_format: EngineFormat,
     /// Bytes of it there, with all mip levels.
@@ -79,6 +82,32 @@ impl ConstantRecord {
     }
 }
 
+/// Channels of a material that a preset has no map for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// The preset.
+    pub preset: String,
+    /// Stem of the set's files: the material.
+    pub material: String,
+    /// Channels that the material has.
+    pub channels: Vec<Channel>,
+}
+
+/// A map in whole numbers that holds less than its channel, whose values exceed 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutMap {
+    /// The file, relative to the output folder.
+    pub path: String,
+    /// Preset that it is a file of.
+    pub preset: String,
+    /// The channel.
+    pub channel: Channel,
+    /// Stem of the set's files: the material.
+    pub material: String,
+    /// Highest value of the channel.
+    pub peak: f32,
+}
+
 /// A document of materials beside the maps.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct DocumentRecord {
@@ -123,6 +152,7 @@ mod tests {
             color_space: "linear",
             udim: None,
             range: Some([-0.1, 0.7]),
+            scale: None,
             engine_format: EngineFormat::R16,
             engine_bytes: 10_922,
             blake3: "ab".into(),

@@ -17,14 +17,14 @@ pub use self::documents::WrittenDocuments;
 use self::file::{EncodedFile, FileSet, Values, WantedFile, WrittenFile, held_values, sources};
 pub use self::options::{NamedPreset, SetOptions};
 use crate::constant::{constant_value, survey};
-use crate::document::{ChannelFacts, FileFacts, SetFacts};
+use crate::document::{ChannelFacts, FileFacts, SetFacts, changes_nothing};
 use crate::encoded_files::EncodedFiles;
 use crate::held::{HeldChannel, HeldSet, MapIndex};
 use crate::layout::{Cover, SetKey, SetLayout};
 use crate::model_copy::{ChannelInput, MapCollector, MaterialMaps, WrittenMap};
 use crate::name_pattern::{NameParts, NamePattern};
 use crate::preset::{Content, Map, When, components_of};
-use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord};
+use crate::{Channel, ChannelPixels, ConstantRecord, CutMap, ExportError, LeftOut, OutputRecord};
 
 /// Writes the texture sets of one bake into a folder; all files are put in place together by [`BakeWriter::commit`].
 #[derive(Debug)]
@@ -43,6 +43,10 @@ pub struct BakeWriter {
     encoded_files: Option<Box<dyn EncodedFiles>>,
     /// Names of the files that were taken from there.
     kept: Vec<String>,
+    /// Highest values of channels over all tiles of a material, where its tiles share a scale.
+    peaks: BTreeMap<(u32, Channel), f32>,
+    /// Maps that hold less than their channel.
+    cut: Vec<CutMap>,
 }
 
 /// Result of writing a channel.
@@ -82,6 +86,8 @@ impl BakeWriter {
             map_collector: None,
             encoded_files: None,
             kept: Vec::new(),
+            peaks: BTreeMap::new(),
+            cut: Vec::new(),
         })
     }
 
@@ -119,6 +125,55 @@ impl BakeWriter {
     /// Refuses to replace these files, which the bake reads.
     pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
         self.staged.protect(inputs);
+    }
+
+    /// Sets the highest value of a channel over all tiles of a material, by which normalized maps of each tile are divided. Without it
+    /// each tile has its own.
+    pub fn set_peak(&mut self, material: u32, channel: &Channel, peak: f32) {
+        self.peaks.insert((material, channel.clone()), peak);
+    }
+
+    /// Maps in whole numbers so far whose channels exceed 1, where their preset has no other map that holds all of it.
+    pub fn cut_maps(&self) -> &[CutMap] {
+        &self.cut
+    }
+
+    /// Channels of the materials that presets have no map for, once all sets are finished. Channels that change nothing do not
+    /// count, nor do presets without any map of a material.
+    pub fn left_out(&self, options: &SetOptions) -> Vec<LeftOut> {
+        let mut materials: BTreeMap<u32, (&str, BTreeSet<&Channel>)> = BTreeMap::new();
+        for (key, set) in &self.facts {
+            let (_, channels) = materials.entry(key.material).or_insert((&set.name, BTreeSet::new()));
+            let matter = set
+                .channels
+                .iter()
+                .filter(|(channel, facts)| !facts.constant.is_some_and(|value| changes_nothing(channel, value)));
+            channels.extend(matter.map(|(channel, _)| channel));
+        }
+        let mut found = Vec::new();
+        for preset in options.presets() {
+            let left_out = preset.left_out();
+            for (material, has) in materials.values().filter(|_| left_out.len() < Channel::ALL.len()) {
+                // The roughness of a layer goes with the layer.
+                let is_layered = |channel: &Channel| match channel {
+                    Channel::CoatRoughness => has.contains(&Channel::Coat),
+                    Channel::SheenRoughness => has.contains(&Channel::Sheen),
+                    _ => true,
+                };
+                let channels = left_out
+                    .iter()
+                    .filter(|channel| has.contains(channel) && is_layered(channel));
+                let channels: Vec<Channel> = channels.cloned().collect();
+                if !channels.is_empty() {
+                    found.push(LeftOut {
+                        preset: preset.name.clone(),
+                        material: (*material).to_owned(),
+                        channels,
+                    });
+                }
+            }
+        }
+        found
     }
 
     /// Begins a texture set. `name` is the stem of its files, from [`crate::set_names`].
@@ -188,6 +243,9 @@ impl SetWriter<'_> {
         let constant = value.map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
         // A set without owned pixels has an empty range.
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
+        let own_peak = high.into_iter().fold(0.0, f32::max);
+        let shared_peak = self.bake.peaks.get(&(self.layout.key.material, channel.clone()));
+        let peak = shared_peak.copied().unwrap_or(own_peak);
         let facts = ChannelFacts {
             constant: value,
             range: [low[0], high[0]],
@@ -198,6 +256,7 @@ impl SetWriter<'_> {
             constant: value,
             low,
             high,
+            peak,
             is_connected,
         };
         let mut written = self.output(channel, &held)?;
@@ -208,7 +267,7 @@ impl SetWriter<'_> {
         let complete = self.held().add(channel, Some(held), &presets);
         written.extend(self.packed(&complete)?);
         if let Some(pixels) = pixels {
-            self.collect(channel, &pixels, value, high, &written)?;
+            self.collect(channel, &pixels, value, high, peak, &written)?;
         }
         Ok(Written {
             outputs: written.into_iter().map(|written| written.record).collect(),
@@ -279,6 +338,7 @@ impl SetWriter<'_> {
                     preset,
                     name,
                     sources: components.map(|component| (component, Values::Pixels(held))).collect(),
+                    scale: 1.0,
                 });
             }
         }
@@ -299,9 +359,11 @@ impl SetWriter<'_> {
                 Content::Packed(components) if held.is_wanted(map, options.all_maps) => {
                     let sources = sources(components, |channel| held_values(&held, channel));
                     let components = sources.iter().map(|(component, _)| component.clone()).collect();
+                    let scale = held.scale(map);
                     let file = FileFacts {
                         name: name.clone(),
                         components,
+                        scale,
                     };
                     self.facts().files.insert(*index, file);
                     files.push(WantedFile {
@@ -309,6 +371,7 @@ impl SetWriter<'_> {
                         preset,
                         name,
                         sources,
+                        scale,
                     });
                 }
                 _ => {
@@ -346,6 +409,9 @@ impl SetWriter<'_> {
         let kept = self.bake.encoded_files.as_deref();
         let encoded: Vec<Result<EncodedFile, ExportError>> =
             files.par_iter().map(|file| file.encode(set, for_all, kept)).collect();
+        self.bake
+            .cut
+            .extend(files.iter().filter_map(|file| file.cut(&self.name)));
         let mut written = Vec::new();
         for encoded in encoded {
             let (file, bytes) = encoded?;
@@ -365,6 +431,7 @@ impl SetWriter<'_> {
         pixels: &ChannelPixels,
         constant: Option<crate::Value>,
         high: [f32; 3],
+        peak: f32,
         written: &[WrittenFile],
     ) -> Result<(), ExportError> {
         let Some(collector) = &mut self.bake.map_collector else {
@@ -378,6 +445,7 @@ impl SetWriter<'_> {
             pixels,
             constant,
             high,
+            peak,
             dither_seed: self.options.dither_seed,
             written: &written,
         };

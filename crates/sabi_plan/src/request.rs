@@ -156,8 +156,10 @@ pub struct FileFault {
 pub enum FileFaultKind {
     /// It does not exist, or cannot be read.
     Missing,
-    /// The graph may not open it.
+    /// The graph may not open it, unless the user trusts it.
     Refused,
+    /// No graph opens it, whatever is trusted: it is on another computer, an address or a device.
+    NeverOpened,
     /// Its content cannot be used.
     Unusable,
 }

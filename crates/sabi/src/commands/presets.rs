@@ -102,7 +102,12 @@ fn table(preset: &PresetDescription) -> String {
         );
         format!("{}\n", line.trim_end())
     });
-    head + &lines.collect::<String>()
+    let lines: String = lines.collect();
+    let left_out = match &preset.left_out[..] {
+        [] => String::new(),
+        channels => format!("\nleft out  {}\n", channels.join(", ")),
+    };
+    format!("{head}{lines}{left_out}")
 }
 
 fn row(file: &PresetFile) -> [String; 4] {
@@ -112,7 +117,8 @@ fn row(file: &PresetFile) -> [String; 4] {
         .unwrap_or_else(|| format!("({})", file.outputs.unwrap_or("outputs")));
     let color = if file.color_space == "srgb" { " sRGB" } else { "" };
     let size = file.size.as_ref().map_or(String::new(), |size| format!(" at {size}"));
-    let format = format!("{} {}{color}{size}", file.ending, file.bits);
+    let normalized = if file.normalize { ", 0 to 1" } else { "" };
+    let format = format!("{} {}{color}{size}{normalized}", file.ending, file.bits);
     [map, format, file.packing(), file.when.clone()]
 }
 

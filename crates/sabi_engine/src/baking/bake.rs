@@ -13,6 +13,7 @@ use crate::baking::bake_request::{BakeRequest, set_options};
 use crate::baking::documents::{check_documents, write_documents};
 use crate::baking::encoded_cache::EncodedCache;
 use crate::baking::folder::is_foreign_folder;
+use crate::baking::losses::tell_losses;
 use crate::baking::made_of::MadeOf;
 use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetPixels};
@@ -34,7 +35,7 @@ use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapTotals;
-use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
+use crate::phases::{PhaseClock, PhaseTimes, Progress, stop_if_canceled};
 use crate::program::Build;
 use crate::remedy::Remedy;
 use crate::source::map_output;
@@ -45,13 +46,12 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// Bakes a graph file. No file is replaced before all are complete, and no model is loaded for a graph with a fault.
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
+    let clock = PhaseClock::start();
     // An unknown preset is reported before anything is read.
     set_options(request)?;
-    let mut load_time = PhaseTime::default();
-    let open =
-        load_time.time(|| OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph)))?;
-    let kinds = load_time.time(|| Kinds::beside(Some(&request.graph)));
-    bake_open(&open, kinds, (load_time, None), request, progress)
+    let open = OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph))?;
+    let kinds = Kinds::beside(Some(&request.graph));
+    bake_open(&open, kinds, (clock, None), request, progress)
 }
 
 /// Bakes a graph in memory, saved or not.
@@ -61,8 +61,9 @@ pub fn bake_graph(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
+    let clock = PhaseClock::start();
     let document = open.unsaved_text();
-    bake_open(open, kinds.clone(), (PhaseTime::default(), document), request, progress)
+    bake_open(open, kinds.clone(), (clock, document), request, progress)
 }
 
 /// Checks a request as a bake does before it reads the model.
@@ -76,22 +77,22 @@ pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest)
     Ok(options.refuse_same_names(&[("material", None)], &channels, request.evaluator.model.size)?)
 }
 
-/// Bakes a graph; `load_time` is the time it took to read it, and `document` its text where that is not what the file holds.
+/// Bakes a graph; `clock` runs since it began to be read, and `document` is its text where that is not what the file holds.
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
-    (mut load_time, document): (PhaseTime, Option<String>),
+    (mut clock, document): (PhaseClock, Option<String>),
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
-    let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
+    let graph = Evaluator::flat_graph(open, &kinds, &request.evaluator)?;
+    let outputs = checked_outputs(open, &graph, &kinds)?;
     let map_channels = map_channels(&graph, &outputs);
     let options = options_for(request, open, &map_channels)?;
     // A folder that cannot be written to is reported before the work.
     let mut writer = open_writer(request, &graph, &options)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
-    evaluator.times_mut().load.add(load_time.total());
+    evaluator.warn(open.unknown_keys());
     let read = evaluator.read_files(open);
     refuse_read_report(request, &read)?;
     let conventions = Conventions::of(&options.presets);
@@ -106,11 +107,17 @@ fn bake_open(
     if assignment.model_source.is_some() {
         evaluator.append_model_source();
     }
+    let mut times = times_of_loading(&evaluator, clock.lap());
     let mesh_targets = append_mesh_maps(&mut evaluator, &options);
     let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
     let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
+    times.compile.add(clock.lap());
     let evaluate = || evaluator.run_once(&plan, SUBMISSION, progress);
     let (mut run, pixels) = SetPixels::new_while(&linked, (sets.first(), request.map_padding()), evaluate)?;
+    let evaluated = clock.lap();
+    let compiled = run.report.compile.min(evaluated);
+    times.compile.add(compiled);
+    times.run.add(evaluated - compiled);
     let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
@@ -121,21 +128,35 @@ fn bake_open(
         seams: ModelSeams::new(request.seams, &linked),
         run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
-    let mut times = evaluator.times();
-    let encode = &mut times.encode;
-    let mut written = encode.time(|| map_writer.write(&mut run, (&sets, pixels), &mut writer, progress))?;
+    let mut written = map_writer.write(&mut run, (&sets, pixels), &mut writer, progress)?;
     stop_if_canceled(progress)?;
-    encode.time(|| write_copy(copy, &mut writer, &mut written))?;
-    let documents = || write_documents((request, &map_writer.options), &linked, &mut writer, &mut written);
-    encode.time(documents)?;
+    write_copy(copy, &mut writer, &mut written)?;
+    write_documents((request, &map_writer.options), &linked, &mut writer, &mut written)?;
+    tell_losses(request, &map_writer.options, &writer, &mut written);
     let warnings = evaluator.warnings().iter().chain(&written.warnings);
     let report = BakeReport {
         maps_cached: writer.kept().to_vec(),
         warnings: warnings.cloned().collect(),
         ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
     };
-    let report = encode.time(|| commit(writer, request, report))?;
+    // The record in the folder has the times up to here.
+    times.encode.add(clock.lap());
+    let report = commit(writer, request, BakeReport { times, ..report })?;
+    times.encode.add(clock.lap());
     Ok(BakeReport { times, ..report })
+}
+
+/// Times of a bake until everything was read and checked, which took `taken` in all: what neither the atlas nor opening the device took
+/// was loading.
+fn times_of_loading(evaluator: &Evaluator, taken: Duration) -> PhaseTimes {
+    let PhaseTimes { atlas, compile, .. } = evaluator.times();
+    let mut times = PhaseTimes {
+        atlas,
+        compile,
+        ..PhaseTimes::default()
+    };
+    times.load.add(taken.saturating_sub(times.total()));
+    times
 }
 
 /// Returns the sets of a bake; refuses files that cannot be written where they are to be, before anything is evaluated.
@@ -191,7 +212,7 @@ fn commit(writer: BakeWriter, request: &BakeRequest, report: BakeReport) -> Resu
         ..report
     };
     report.warnings.extend(leftover_warnings(&committed));
-    folder.record(&report)?;
+    folder.record(&mut report)?;
     Ok(report)
 }
 
@@ -370,6 +391,7 @@ fn report(
         outputs: written.outputs,
         constants: written.constants,
         documents: written.documents,
+        left_out: written.left_out,
         warnings: Vec::new(),
         model: written.copy,
         files: Vec::new(),

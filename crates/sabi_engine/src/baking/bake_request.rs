@@ -14,6 +14,7 @@ use crate::baking::presets::find_preset;
 use crate::baking::seams::Seams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::EvaluatorOptions;
+use crate::faults::Faults;
 use crate::opening::linked_model::ModelOptions;
 
 /// Default pattern of map names.
@@ -117,11 +118,19 @@ pub fn export_channels() -> Vec<String> {
     channels.into_iter().chain(outputs).collect()
 }
 
-/// Stem of the documents of a bake: the model, and what tells it from other bakes of that model. None for a part of the
-/// channels: documents of a part would replace complete ones.
-fn document_stem(request: &BakeRequest) -> Option<String> {
+/// Stem of the documents of a bake: the model, the material that alone is baked, and variant and seed where the names of the maps have
+/// them too: a document takes the place of another one together with the maps that it names. None for a part of the channels: documents
+/// of a part would replace complete ones.
+fn document_stem(request: &BakeRequest, presets: &[NamedPreset]) -> Option<String> {
     let words = Words::of(request);
-    let parts = [Some(words.mesh), request.material.clone(), words.variant, words.seed];
+    let is_in_names = |word: &str| {
+        let with_documents = presets.iter().filter(|named| !named.preset.documents.is_empty());
+        let mut patterns = with_documents.map(|named| request.names.as_deref().unwrap_or(&named.preset.names));
+        patterns.any(|pattern| pattern.contains(&format!("${word}")) || pattern.contains(&format!("{{{word}}}")))
+    };
+    let variant = words.variant.filter(|_| is_in_names("variant"));
+    let seed = words.seed.filter(|_| is_in_names("seed"));
+    let parts = [Some(words.mesh), request.material.clone(), variant, seed];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     let stem = match file_stem(&parts.join("_")) {
         stem if stem.is_empty() => "model".to_owned(),
@@ -181,9 +190,13 @@ pub fn name_pattern_fault(pattern: &str) -> Option<String> {
 /// Filters the maps of a preset by channels. Maps of the model itself are none of them, and stay.
 fn with_channels(mut preset: Preset, channels: &[String]) -> Result<Preset, EngineError> {
     let known = export_channels();
-    if let Some(unknown) = channels.iter().find(|name| !known.contains(name)) {
-        let why = format!("there is no channel '{unknown}'; there is: {}", known.join(", "));
-        return Err(EngineError::new(ErrorKind::Usage, why));
+    let unknown: Vec<String> = channels
+        .iter()
+        .filter(|name| !known.contains(name))
+        .map(|unknown| format!("there is no channel '{unknown}'; there is: {}", known.join(", ")))
+        .collect();
+    if !unknown.is_empty() {
+        return Err(EngineError::several(ErrorKind::Usage, unknown));
     }
     let is_named = |channel: &Channel| channels.iter().any(|name| *name == channel.name());
     let is_asked = |map: &Map| match &map.content {
@@ -217,23 +230,31 @@ pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineErr
         &request.presets
     };
     let words = Words::of(request);
-    let mut presets = Vec::new();
+    let (mut presets, mut faults) = (Vec::new(), Faults::default());
     for name in wanted {
-        let preset = find_preset(name, request.preset_folder.as_deref())?;
-        presets.push(with_channels(preset, &request.channels)?);
+        let preset = find_preset(name, request.preset_folder.as_deref());
+        match preset.and_then(|preset| with_channels(preset, &request.channels)) {
+            Ok(preset) => presets.push(preset),
+            Err(error) => faults.add(error),
+        }
     }
     if !request.mesh_maps.is_empty() {
-        presets.push(with_mesh_maps(find_preset(MESH_PRESET, None)?, &request.mesh_maps)?);
+        match find_preset(MESH_PRESET, None).and_then(|preset| with_mesh_maps(preset, &request.mesh_maps)) {
+            Ok(preset) => presets.push(preset),
+            Err(error) => faults.add(error),
+        }
     }
+    faults.into_result_of_first()?;
     let named = |preset: Preset| {
         let pattern = request.names.as_deref().unwrap_or(&preset.names);
         let names = words.parse(pattern, &preset.name)?;
         Ok(NamedPreset { preset, names })
     };
+    let presets: Vec<NamedPreset> = presets.into_iter().map(named).collect::<Result<_, EngineError>>()?;
     Ok(SetOptions {
-        presets: presets.into_iter().map(named).collect::<Result<_, EngineError>>()?,
+        document_stem: document_stem(request, &presets),
+        presets,
         all_maps: request.all_maps,
-        document_stem: document_stem(request),
         dither_seed: 0,
     })
 }

@@ -4,7 +4,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::{panic, thread};
 
 use sabi_export::{
-    BakeWriter, Channel, ChannelPixels, ConstantRecord, DocumentRecord, OutputRecord, SetLayout, SetOptions,
+    BakeWriter, Channel, ChannelPixels, ConstantRecord, DocumentRecord, LeftOut, OutputRecord, SetLayout, SetOptions,
 };
 
 use super::memory_budget::{MemoryBudget, Reserved};
@@ -22,6 +22,8 @@ pub(crate) struct WrittenMaps {
     pub(crate) warnings: Vec<Warning>,
     /// Documents of materials that name the maps.
     pub(crate) documents: Vec<DocumentRecord>,
+    /// Channels of materials that presets have no map for.
+    pub(crate) left_out: Vec<LeftOut>,
     /// Copy of the model that uses the maps.
     pub(crate) copy: Option<ModelCopyReport>,
     /// Kernels that only exports need.

@@ -2,6 +2,7 @@
 
 mod in_bands;
 mod material;
+mod peaks;
 mod sameness;
 mod set_pixels;
 
@@ -87,6 +88,9 @@ impl MapWriter<'_> {
         });
         let mut finish_passes = 0;
         run.drop_unused();
+        for (material, peak) in self.emission_peaks(run, sets)? {
+            encoder.writer.set_peak(material, &Channel::Emission, peak);
+        }
         let mut chunks = sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)).peekable();
         while let Some(together) = chunks.next() {
             let open: Vec<OpenSet<'_>> = together.iter().map(|work| self.open(work, first.take())).collect();

@@ -1,7 +1,7 @@
 //! A preset in words, for `sabi presets` and the window.
 
-use sabi_export::EngineFormat;
 use sabi_export::preset::{Content, Document, Format, Map, MapSize, NormalY, Preset, When};
+use sabi_export::{Channel, EngineFormat};
 use serde::Serialize;
 
 /// A preset in words; docs/report.md lists the keys.
@@ -19,6 +19,8 @@ pub struct PresetDescription {
     pub files: Vec<PresetFile>,
     /// Its documents.
     pub documents: Vec<PresetDocument>,
+    /// Channels of materials that none of its files has a part of, and that a bake leaves out.
+    pub left_out: Vec<String>,
 }
 
 /// A document of a preset in words; it has the name of the model.
@@ -49,6 +51,8 @@ pub struct PresetFile {
     pub color_space: &'static str,
     /// True if gradients are dithered.
     pub dither: bool,
+    /// True if the file holds 0 to 1 whatever its channel holds; the report of a bake says how to get back.
+    pub normalize: bool,
     /// Format that an engine has it in.
     pub engine_format: &'static str,
     /// Size, where it is not that of the bake: `1/2` or `2048x1024`.
@@ -102,6 +106,11 @@ pub fn describe_preset(preset: &Preset) -> PresetDescription {
         names: preset.names.clone(),
         files: preset.maps.iter().map(file).collect(),
         documents: preset.documents.iter().map(document).collect(),
+        left_out: match preset.left_out() {
+            // A preset without a map of materials leaves none out.
+            all if all.len() == Channel::ALL.len() => Vec::new(),
+            left_out => left_out.iter().map(|channel| channel.name().into_owned()).collect(),
+        },
     }
 }
 
@@ -129,6 +138,7 @@ fn file(map: &Map) -> PresetFile {
         components,
         color_space: if map.is_srgb { "srgb" } else { "linear" },
         dither: map.is_dithered,
+        normalize: map.is_normalized,
         engine_format: EngineFormat::of_map(map).name(),
         size: match map.size {
             MapSize::Divided(1) => None,
@@ -163,14 +173,37 @@ mod tests {
         assert_eq!(unity[1], "R metallic, G occlusion, B 0.5, A 1 - roughness");
         assert_eq!(unity[3], "height");
         assert_eq!(
-            unity[5..],
+            unity[8..],
             ["masks", "colors", "colors", "vectors"].map(|kind| format!("each of the graph's {kind}"))
         );
+        assert_eq!(unity[5], "R coat, G 1 - coat_roughness, B 0");
         let mesh = packing("mesh");
         assert_eq!(
             (mesh[0].as_str(), mesh[7].as_str()),
             ("RGB mesh(id)", "mesh(curvature)")
         );
         assert_eq!(packing("unreal")[1], "R occlusion, G roughness, B metallic");
+    }
+
+    #[test]
+    fn presets_take_all_channels_that_their_target_has_and_name_the_others() {
+        let left_out = |preset: &str| {
+            let preset = builtin(preset).expect("a preset").expect("that is read");
+            describe_preset(&preset).left_out.join(" ")
+        };
+        let cases = [
+            ("raw", ""),
+            ("blender", ""),
+            ("materialx", ""),
+            ("gltf", "height"),
+            ("unreal", "sheen_roughness transmission"),
+            ("unity", "sheen sheen_roughness subsurface transmission"),
+            ("godot", "sheen sheen_roughness transmission"),
+            ("usd", "anisotropy sheen sheen_roughness subsurface transmission"),
+            ("mesh", ""),
+        ];
+        for (preset, channels) in cases {
+            assert_eq!(left_out(preset), channels, "{preset}");
+        }
     }
 }

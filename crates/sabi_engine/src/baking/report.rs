@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_export::preset::NormalY;
-use sabi_export::{ConstantRecord, DocumentRecord, EngineMemory, LookChange, NamedPreset, OutputRecord};
+use sabi_export::{ConstantRecord, DocumentRecord, EngineMemory, LeftOut, LookChange, NamedPreset, OutputRecord};
 use sabi_files::{PathBase, absolute};
 use serde::{Deserialize, Serialize};
 
@@ -78,6 +78,8 @@ pub struct BakeReport {
     pub constants: Vec<ConstantRecord>,
     /// Documents of materials that name the maps.
     pub documents: Vec<DocumentRecord>,
+    /// Channels of materials that presets have no map for.
+    pub left_out: Vec<LeftOut>,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
     /// Copy of the model that uses the maps.
@@ -105,9 +107,12 @@ impl BakeReport {
     /// All files of the bake: their paths relative to the output folder, and the BLAKE3 of their bytes.
     pub fn written_files(&self) -> impl Iterator<Item = (&str, &str)> {
         let maps = self.outputs.iter().map(|output| (&*output.path, &*output.blake3));
+        let documents = self.documents.iter();
+        let documents = documents.map(|document| (&*document.path, &*document.blake3));
         let model = self.model.iter();
         let copied = model.flat_map(|model| std::iter::once(&model.copy).chain(&model.files));
-        maps.chain(copied.map(|file| (&*file.path, &*file.blake3)))
+        maps.chain(documents)
+            .chain(copied.map(|file| (&*file.path, &*file.blake3)))
     }
 }
 

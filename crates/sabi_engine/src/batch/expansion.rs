@@ -1,6 +1,6 @@
 //! Expansion of a matrix: one draft for each combination of its axes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -8,11 +8,11 @@ use glob::Pattern;
 use sabi_files::{PathBase, TrustedPaths};
 use sabi_graph::Value;
 
-use super::faults::Faults;
 use super::matrix::Matrix;
 use super::matrix_row::{Condition, Exclusion, ExclusionKey, MatrixRow, SeedChoice, VariantChoice};
 use super::written_files::{WrittenFile, written_files};
 use crate::error::{EngineError, ErrorKind};
+use crate::faults::Faults;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::set_file::SetFile;
@@ -87,33 +87,31 @@ struct RowValues {
     set: Vec<(String, Value)>,
 }
 
-/// All combinations of a matrix: models first, presets last, so that items which share work follow each other.
+/// All combinations of a matrix: models first, presets last, so that items which share work follow each other. Adds faults about files
+/// and variants that are not there, and gives the combinations of all others.
 ///
 /// # Errors
-/// Sentences about files and variants that are not there, or there are more items than the matrix allows.
-pub(super) fn expanded<'m>(matrix: &'m Matrix, graphs: &mut Graphs) -> Result<Vec<Draft<'m>>, EngineError> {
+/// There are more items than the matrix allows.
+pub(super) fn expanded<'m>(
+    matrix: &'m Matrix,
+    graphs: &mut Graphs,
+    faults: &mut Faults,
+) -> Result<Vec<Draft<'m>>, EngineError> {
     let mut drafts = Vec::new();
     let mut count = 0u64;
-    let mut faults = Faults::default();
     for row in &matrix.rows {
-        let expansion = Expansion::of(matrix, row, graphs);
-        match expansion {
-            Err(error) => faults.add(error),
-            Ok(expansion) => {
-                count = count.saturating_add(expansion.count());
-                if count > matrix.limit as u64 {
-                    let why = format!(
-                        "{}: the matrix gives {count} items or more, and its limit is {}; if that is meant, raise 'limit'",
-                        matrix.path.display(),
-                        matrix.limit
-                    );
-                    return Err(EngineError::new(ErrorKind::BadInput, why));
-                }
-                expansion.add_to(&mut drafts);
-            }
+        let expansion = Expansion::of(matrix, row, graphs, faults);
+        count = count.saturating_add(expansion.count());
+        if count > matrix.limit as u64 {
+            let why = format!(
+                "{}: the matrix gives {count} items or more, and its limit is {}; if that is meant, raise 'limit'",
+                matrix.path.display(),
+                matrix.limit
+            );
+            return Err(EngineError::new(ErrorKind::BadInput, why));
         }
+        expansion.add_to(&mut drafts);
     }
-    faults.into_result()?;
     drafts.retain(|draft| {
         let all = matrix.exclusions.iter().chain(&draft.row.exclusions);
         // Each that applies is used, and not the first alone.
@@ -133,31 +131,63 @@ struct Expansion<'m> {
 }
 
 impl<'m> Expansion<'m> {
-    fn of(matrix: &Matrix, row: &'m MatrixRow, graphs: &mut Graphs) -> Result<Expansion<'m>, EngineError> {
+    /// Axes of a table without what is not there, which is added to the faults.
+    fn of(matrix: &Matrix, row: &'m MatrixRow, graphs: &mut Graphs, faults: &mut Faults) -> Expansion<'m> {
         let base = matrix.base();
         let said = |why: String| {
             let why = format!("{}: {}: {why}", matrix.path.display(), row.words);
             EngineError::new(ErrorKind::BadInput, why)
         };
-        let values = RowValues::of(row, &base)?;
-        let mut faults = Faults::default();
-        let mut with_variants = Vec::new();
-        for file in written_files(&base, &row.graphs).map_err(said)? {
-            match graphs.open(&file.path) {
-                Err(error) => faults.add(error),
-                Ok(graph) => {
-                    let choices = variants(row, &values, &graph.open).map_err(said)?;
-                    with_variants.push((file, choices));
+        let values = RowValues::of(row, &base, faults);
+        let mut files = |patterns: &[String]| {
+            let mut found: Vec<WrittenFile> = Vec::new();
+            for pattern in patterns {
+                match written_files(&base, std::slice::from_ref(pattern)) {
+                    Ok(files) => found.extend(files),
+                    Err(why) => faults.add(said(why)),
                 }
             }
+            let mut known = BTreeSet::new();
+            found.retain(|file| known.insert(file.path.clone()));
+            found
+        };
+        let (graph_files, models) = (files(&row.graphs), files(&row.models));
+        let mut is_complete = true;
+        let mut with_variants = Vec::new();
+        let mut patterns = UnusedPatterns::of(row);
+        for file in graph_files {
+            match graphs.open(&file.path) {
+                Err(error) => {
+                    is_complete = false;
+                    faults.add(error);
+                }
+                Ok(graph) => match variants(row, &values, &graph.open, &mut patterns) {
+                    Ok(choices) => with_variants.push((file, choices)),
+                    Err(why) => faults.add(said(why)),
+                },
+            }
         }
-        faults.into_result()?;
-        Ok(Expansion {
+        // A graph that cannot be opened may have a variant that fits.
+        if is_complete {
+            patterns.sentences().for_each(|why| faults.add(said(why)));
+        }
+        with_variants.retain(|(file, choices)| {
+            // Without the variant of such a pattern, more is not known.
+            if choices.is_empty() && patterns.0.is_empty() {
+                let why = format!(
+                    "{} has no variant that is asked for; add \"\" to 'variants' for its own values, or leave the graph out",
+                    file.written
+                );
+                faults.add(said(why));
+            }
+            !choices.is_empty()
+        });
+        Expansion {
             row,
-            models: written_files(&base, &row.models).map_err(said)?,
+            models,
             graphs: with_variants,
             values,
-        })
+        }
     }
 
     fn count(&self) -> u64 {
@@ -206,25 +236,60 @@ impl<'m> Expansion<'m> {
 }
 
 impl RowValues {
-    fn of(row: &MatrixRow, base: &PathBase) -> Result<RowValues, EngineError> {
+    /// Values of a table and of its files; adds the faults of files.
+    fn of(row: &MatrixRow, base: &PathBase, faults: &mut Faults) -> RowValues {
         let mut values = RowValues {
             variant: None,
             seed: None,
             set: Vec::new(),
         };
         for written in &row.set_files {
-            let file = SetFile::open(&base.resolve(written))?;
+            let file = match SetFile::open(&base.resolve(written)) {
+                Ok(file) => file,
+                Err(error) => {
+                    faults.add(error);
+                    continue;
+                }
+            };
             values.variant = file.variant.or(values.variant);
             values.seed = file.seed.or(values.seed);
             values.set.extend(file.set);
         }
         values.set.extend(row.set.iter().cloned());
-        Ok(values)
+        values
     }
 }
 
-/// Variants of a graph that a table asks for; the error is a clause.
-fn variants(row: &MatrixRow, values: &RowValues, open: &OpenGraph) -> Result<Vec<VariantChoice>, String> {
+/// Pattern for all variants of a graph, which fits a graph without any as well.
+const ALL_VARIANTS: &str = "*";
+
+/// Patterns of a table that no variant of any of its graphs has fitted so far.
+struct UnusedPatterns<'m>(Vec<&'m str>);
+
+impl<'m> UnusedPatterns<'m> {
+    fn of(row: &'m MatrixRow) -> UnusedPatterns<'m> {
+        let named = row.variants.iter().filter_map(|choice| choice.variant.as_deref());
+        UnusedPatterns(named.filter(|text| is_pattern(text) && *text != ALL_VARIANTS).collect())
+    }
+
+    /// Clauses about them.
+    fn sentences(&self) -> impl Iterator<Item = String> {
+        let sentence = |pattern: &&str| format!("none of its graphs has a variant that fits '{pattern}'");
+        self.0.iter().map(sentence)
+    }
+}
+
+fn is_pattern(text: &str) -> bool {
+    text.contains(['*', '?'])
+}
+
+/// Variants of a graph that a table asks for, which may be none; the error is a clause. Takes the patterns that fit one out of `patterns`.
+fn variants(
+    row: &MatrixRow,
+    values: &RowValues,
+    open: &OpenGraph,
+    patterns: &mut UnusedPatterns<'_>,
+) -> Result<Vec<VariantChoice>, String> {
     if row.variants.is_empty() {
         return Ok(vec![VariantChoice {
             variant: values.variant.clone(),
@@ -233,7 +298,7 @@ fn variants(row: &MatrixRow, values: &RowValues, open: &OpenGraph) -> Result<Vec
     }
     let mut found = Vec::new();
     for choice in &row.variants {
-        let Some(pattern) = choice.variant.as_ref().filter(|text| text.contains(['*', '?'])) else {
+        let Some(pattern) = choice.variant.as_ref().filter(|text| is_pattern(text)) else {
             found.push(choice.clone());
             continue;
         };
@@ -247,8 +312,8 @@ fn variants(row: &MatrixRow, values: &RowValues, open: &OpenGraph) -> Result<Vec
         });
         let before = found.len();
         found.extend(fitting);
-        if found.len() == before {
-            return Err(format!("{} has no variant that fits '{pattern}'", open.path.display()));
+        if found.len() > before {
+            patterns.0.retain(|unused| *unused != pattern.as_str());
         }
     }
     Ok(found)

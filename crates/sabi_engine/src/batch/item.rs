@@ -7,12 +7,12 @@ use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::faults::Faults;
 use super::inputs::{InputHashes, ItemInput};
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::made_of::recipe::{Recipe, is_preset_file};
 use crate::baking::recorded::manifest::is_finished_on_any_machine;
 use crate::error::{EngineError, ErrorKind};
+use crate::faults::Faults;
 use crate::opening::memory::default_memory_bytes;
 use crate::program::Build;
 

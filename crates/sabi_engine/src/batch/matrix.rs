@@ -6,7 +6,7 @@ use sabi_files::PathBase;
 use sabi_graph::nearest;
 use toml::{Table, Value as Toml};
 
-use super::matrix_row::{Exclusion, MatrixRow, exclusions};
+use super::matrix_row::{Exclusion, MatrixRow, all, exclusions};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::toml_file::read_table;
 
@@ -40,7 +40,10 @@ impl Matrix {
     /// It cannot be read, is no TOML, or has keys or values that no matrix has.
     pub(super) fn open(path: &Path) -> Result<Matrix, EngineError> {
         let table = read_table(path, "matrix files")?;
-        let said = |why: String| EngineError::new(ErrorKind::BadInput, format!("{}: {why}", path.display()));
+        let said = |faults: Vec<String>| {
+            let sentences = faults.into_iter().map(|why| format!("{}: {why}", path.display()));
+            EngineError::several(ErrorKind::BadInput, sentences.collect())
+        };
         Matrix::of_table(path, table).map_err(said)
     }
 
@@ -49,49 +52,77 @@ impl Matrix {
         PathBase::of_file(&self.path)
     }
 
-    fn of_table(path: &Path, mut table: Table) -> Result<Matrix, String> {
-        if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
-            return Err(match nearest(key, KEYS) {
-                Some(near) => format!("there is no key '{key}'; did you mean '{near}'?"),
-                None => format!("there is no key '{key}'; there is: {}", KEYS.join(", ")),
-            });
-        }
-        match table.get("version") {
-            Some(Toml::Integer(VERSION)) => {}
-            Some(other) => {
-                return Err(format!(
-                    "version {other} of matrix files is not known; this Sabi reads {VERSION}"
-                ));
-            }
-            None => return Err(format!("there is no version; begin with version = {VERSION}")),
-        }
+    /// Reads the values of a file; the errors are clauses, one for each fault.
+    fn of_table(path: &Path, mut table: Table) -> Result<Matrix, Vec<String>> {
+        refuse_version(table.get("version")).map_err(|why| vec![why])?;
+        let mut faults: Vec<String> = table.keys().filter_map(|key| unknown_key(key)).collect();
         let mut defaults = MatrixRow::new("defaults");
         if let Some(out) = table.remove("out") {
-            defaults.take("out", out)?;
+            faults.extend(defaults.take("out", out).err().into_iter().flatten());
         }
         match table.remove("defaults") {
             None => {}
-            Some(Toml::Table(values)) => defaults.take_all(values)?,
-            Some(_) => return Err("'defaults' takes a table, which begins with [defaults]".to_owned()),
+            Some(Toml::Table(values)) => faults.extend(defaults.take_all(values).err().into_iter().flatten()),
+            Some(_) => faults.push("'defaults' takes a table, which begins with [defaults]".to_owned()),
         }
-        let limit = limit(table.get("limit"))?;
-        let exclusions = table.remove("exclude").map_or(Ok(Vec::new()), exclusions)?;
-        let rows = match table.remove("bake") {
-            Some(Toml::Array(rows)) => rows,
-            Some(_) => return Err("'bake' takes tables, each of which begins with [[bake]]".to_owned()),
-            None => return Err("there is nothing to bake; begin a table with [[bake]]".to_owned()),
-        };
+        let limit = limit(table.get("limit")).unwrap_or_else(|why| {
+            faults.push(why);
+            DEFAULT_LIMIT
+        });
+        let exclusions = table.remove("exclude").map_or(Ok(Vec::new()), exclusions);
+        let exclusions = exclusions.unwrap_or_else(|clauses| {
+            faults.extend(clauses);
+            Vec::new()
+        });
         let row = |(at, row): (usize, Toml)| match row {
             Toml::Table(values) => MatrixRow::read(values, at, &defaults),
-            _ => Err("'bake' takes tables, each of which begins with [[bake]]".to_owned()),
+            _ => Err(vec![
+                "'bake' takes tables, each of which begins with [[bake]]".to_owned(),
+            ]),
         };
-        Ok(Matrix {
-            path: path.to_owned(),
-            limit,
-            rows: rows.into_iter().enumerate().map(row).collect::<Result<_, _>>()?,
-            exclusions,
-        })
+        let rows = match table.remove("bake") {
+            Some(Toml::Array(rows)) => all(rows.into_iter().enumerate().map(row)),
+            Some(_) => Err(vec![
+                "'bake' takes tables, each of which begins with [[bake]]".to_owned(),
+            ]),
+            // A misspelled key was probably meant.
+            None if faults.is_empty() => Err(vec!["there is nothing to bake; begin a table with [[bake]]".to_owned()]),
+            None => Ok(Vec::new()),
+        };
+        match rows {
+            Ok(rows) if faults.is_empty() => Ok(Matrix {
+                path: path.to_owned(),
+                limit,
+                rows,
+                exclusions,
+            }),
+            rows => {
+                faults.extend(rows.err().into_iter().flatten());
+                Err(faults)
+            }
+        }
     }
+}
+
+/// Refuses a matrix of another version; the error is a clause.
+fn refuse_version(version: Option<&Toml>) -> Result<(), String> {
+    match version {
+        Some(Toml::Integer(VERSION)) => Ok(()),
+        Some(other) => Err(format!(
+            "version {other} of matrix files is not known; this Sabi reads {VERSION}"
+        )),
+        None => Err(format!("there is no version; begin with version = {VERSION}")),
+    }
+}
+
+/// A clause about a key that no matrix has.
+fn unknown_key(key: &str) -> Option<String> {
+    let advice = match nearest(key, KEYS) {
+        _ if KEYS.contains(&key) => return None,
+        Some(near) => format!("did you mean '{near}'?"),
+        None => format!("there is: {}", KEYS.join(", ")),
+    };
+    Some(format!("there is no key '{key}'; {advice}"))
 }
 
 fn limit(value: Option<&Toml>) -> Result<usize, String> {
@@ -108,7 +139,7 @@ mod tests {
     use super::Matrix;
 
     fn read(text: &str) -> Result<Matrix, String> {
-        Matrix::of_table(Path::new("m.toml"), text.parse().expect("TOML"))
+        Matrix::of_table(Path::new("m.toml"), text.parse().expect("TOML")).map_err(|faults| faults.join("; "))
     }
 
     #[test]
@@ -127,7 +158,7 @@ mod tests {
     }
 
     /// Matrices, and why each is refused.
-    const REFUSED: [(&str, &str); 16] = [
+    const REFUSED: [(&str, &str); 18] = [
         ("[[bake]]", "there is no version; begin with version = 1"),
         (
             "version = 2",
@@ -175,16 +206,26 @@ mod tests {
             "bake 1: 'padding' takes 0 to 8192 texels, or 'infinite', not \"x\"",
         ),
         (
-            "version = 1\n[defaults]\nname = \"x\"\n[[bake]]",
+            "version = 1\n[defaults]\nname = \"x\"\n[[bake]]\nmodels = \"a\"\ngraphs = \"b\"",
             "defaults: only a [[bake]] has a name",
         ),
         (
-            "version = 1\nexclude = [{ sizes = 64 }]\n[[bake]]",
+            "version = 1\nexclude = [{ sizes = 64 }]\n[[bake]]\nmodels = \"a\"\ngraphs = \"b\"",
             "'exclude' has no key 'sizes'; did you mean 'size'?",
         ),
         (
-            "version = 1\nexclude = [{}]\n[[bake]]",
+            "version = 1\nexclude = [{}]\n[[bake]]\nmodels = \"a\"\ngraphs = \"b\"",
             "'exclude' has an empty table, which would leave out everything",
+        ),
+        (
+            "version = 1\nlimit = 0\n[[bake]]\nsizes = 1\nset = { a = nan, b = inf }\n[[bake]]\nname = \"x\"",
+            "'limit' takes a whole number from 1 to 100000, not 0; bake 1: 'sizes' takes a whole number from 16 to \
+             8192, or a list of these; bake 1: 'a' is no finite number; bake 1: 'b' is no finite number; bake 'x': there are no models; write \
+             models = \"model.glb\", or a list; bake 'x': there are no graphs; write graphs = \"graph.sabi\", or a list",
+        ),
+        (
+            "version = 1\nexclude = [{ sizes = 64 }, { graphs = 1 }]\n[[bake]]\nmodels = \"a\"\ngraphs = \"b\"",
+            "'exclude' has no key 'sizes'; did you mean 'size'?; 'exclude' has no key 'graphs'; did you mean 'graph'?",
         ),
     ];
 

@@ -121,7 +121,7 @@ impl MatrixRow {
     }
 
     /// Reads a `[[bake]]` table with this index.
-    pub(super) fn read(values: Table, index: usize, defaults: &MatrixRow) -> Result<MatrixRow, String> {
+    pub(super) fn read(values: Table, index: usize, defaults: &MatrixRow) -> Result<MatrixRow, Vec<String>> {
         let mut row = defaults.clone();
         row.words = match values.get("name").and_then(Toml::as_str) {
             Some(name) => format!("bake '{name}'"),
@@ -134,25 +134,45 @@ impl MatrixRow {
                 row.words
             )
         };
-        if row.models.is_empty() {
-            return Err(lacks("models", "model.glb"));
-        }
-        if row.graphs.is_empty() {
-            return Err(lacks("graphs", "graph.sabi"));
-        }
-        Ok(row)
+        let missing = [
+            row.models.is_empty().then(|| lacks("models", "model.glb")),
+            row.graphs.is_empty().then(|| lacks("graphs", "graph.sabi")),
+        ];
+        let missing: Vec<String> = missing.into_iter().flatten().collect();
+        if missing.is_empty() { Ok(row) } else { Err(missing) }
     }
 
     /// Takes all values of a table.
-    pub(super) fn take_all(&mut self, values: Table) -> Result<(), String> {
+    pub(super) fn take_all(&mut self, values: Table) -> Result<(), Vec<String>> {
+        let mut faults = Vec::new();
         for (key, value) in values {
-            self.take(&key, value).map_err(|why| format!("{}: {why}", self.words))?;
+            if let Err(clauses) = self.take(&key, value) {
+                faults.extend(clauses.into_iter().map(|why| format!("{}: {why}", self.words)));
+            }
         }
-        Ok(())
+        match faults.is_empty() {
+            true => Ok(()),
+            false => Err(faults),
+        }
     }
 
-    /// Takes a value in place of what it has; the error is a clause.
-    pub(super) fn take(&mut self, key: &str, value: Toml) -> Result<(), String> {
+    /// Takes a value in place of what it has; the errors are clauses.
+    pub(super) fn take(&mut self, key: &str, value: Toml) -> Result<(), Vec<String>> {
+        match (key, value) {
+            ("set", Toml::Table(values)) => {
+                let faults = add_values(&mut self.set, "", values);
+                if faults.is_empty() { Ok(()) } else { Err(faults) }
+            }
+            ("exclude", value) => {
+                self.exclusions = exclusions(value)?;
+                Ok(())
+            }
+            (_, value) => self.take_plain(key, value).map_err(|why| vec![why]),
+        }
+    }
+
+    /// Takes a value that has one fault at most.
+    fn take_plain(&mut self, key: &str, value: Toml) -> Result<(), String> {
         match key {
             "name" if self.words == "defaults" => return Err("only a [[bake]] has a name".to_owned()),
             "name" => self.name = Some(text(key, &value, "a text")?),
@@ -189,11 +209,7 @@ impl MatrixRow {
                     .map(variant)
                     .collect::<Result<_, _>>()?;
             }
-            "set" => match value {
-                Toml::Table(values) => add_values(&mut self.set, "", values)?,
-                _ => return Err("'set' takes a table of values".to_owned()),
-            },
-            "exclude" => self.exclusions = exclusions(value)?,
+            "set" => return Err("'set' takes a table of values".to_owned()),
             name if option_names().any(|known| known == name) => {
                 let value = json(&value);
                 check_option(name, &value)?;
@@ -212,25 +228,41 @@ impl MatrixRow {
 }
 
 /// Reads tables of conditions.
-pub(super) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, String> {
+pub(super) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, Vec<String>> {
     let takes = "'exclude' takes a list of tables, such as [{ size = 2048, preset = \"gltf\" }]";
     let Toml::Array(tables) = value else {
-        return Err(takes.to_owned());
+        return Err(vec![takes.to_owned()]);
     };
     let exclusion = |table: Toml| {
         let Toml::Table(table) = table else {
-            return Err(takes.to_owned());
+            return Err(vec![takes.to_owned()]);
         };
         if table.is_empty() {
-            return Err("'exclude' has an empty table, which would leave out everything".to_owned());
+            return Err(vec![
+                "'exclude' has an empty table, which would leave out everything".to_owned(),
+            ]);
         }
-        let conditions = table.into_iter().map(|(key, value)| condition(&key, &value));
+        let conditions = table
+            .into_iter()
+            .map(|(key, value)| condition(&key, &value).map_err(|why| vec![why]));
         Ok(Exclusion {
-            conditions: conditions.collect::<Result<_, _>>()?,
+            conditions: all(conditions)?,
             is_used: Rc::new(Cell::new(false)),
         })
     };
-    tables.into_iter().map(exclusion).collect()
+    all(tables.into_iter().map(exclusion))
+}
+
+/// Collects values, or all faults of those that cannot be read.
+pub(super) fn all<T>(read: impl Iterator<Item = Result<T, Vec<String>>>) -> Result<Vec<T>, Vec<String>> {
+    let (mut values, mut faults) = (Vec::new(), Vec::new());
+    for read in read {
+        match read {
+            Ok(value) => values.push(value),
+            Err(clauses) => faults.extend(clauses),
+        }
+    }
+    if faults.is_empty() { Ok(values) } else { Err(faults) }
 }
 
 fn condition(key: &str, value: &Toml) -> Result<(ExclusionKey, Condition), String> {
@@ -310,7 +342,12 @@ fn variant(value: Toml) -> Result<VariantChoice, String> {
         match (key.as_str(), value) {
             ("name", Toml::String(text)) => choice.name = name(text),
             ("variant", Toml::String(text)) => choice.variant = name(text),
-            ("set", Toml::Table(values)) => add_values(&mut choice.set, "", values)?,
+            ("set", Toml::Table(values)) => {
+                let faults = add_values(&mut choice.set, "", values);
+                if !faults.is_empty() {
+                    return Err(faults.join(", and "));
+                }
+            }
             (key, _) => {
                 return Err(format!(
                     "a table of 'variants' has name and variant, which are texts, and set, which is a table, but no such '{key}'"

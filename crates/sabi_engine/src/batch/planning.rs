@@ -8,7 +8,6 @@ use sabi_files::{PathBase, TrustedPaths, canonical, stored_path};
 use sabi_graph::Value;
 
 use super::expansion::{Draft, GraphWithKinds, Graphs, expanded};
-use super::faults::Faults;
 use super::inputs::{InputHashes, ItemInput, NamedInputs, inputs_of_graph, inputs_of_model};
 use super::item::BakeItem;
 use super::matrix::Matrix;
@@ -21,6 +20,7 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::made_of::recipe::{Recipe, is_preset_file, moved};
 use crate::baking::presets::preset_files;
 use crate::error::{EngineError, ErrorKind};
+use crate::faults::Faults;
 use crate::packing::named_files::{named_path, whole_path};
 use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::program::Build;
@@ -50,8 +50,9 @@ pub fn plan_bakes(
 ) -> Result<PlannedBakes, EngineError> {
     let mut graphs = Graphs::new(trusted.clone().with_file(matrix));
     let matrix = Matrix::open(matrix)?;
-    let drafts = expanded(&matrix, &mut graphs)?;
-    if drafts.is_empty() {
+    let mut faults = Faults::default();
+    let drafts = expanded(&matrix, &mut graphs, &mut faults)?;
+    if drafts.is_empty() && faults.is_empty() {
         let why = format!("{}: 'exclude' leaves nothing to bake", matrix.path.display());
         return Err(EngineError::new(ErrorKind::BadInput, why));
     }
@@ -74,8 +75,10 @@ pub fn plan_bakes(
         hashes: InputHashes::default(),
         checked: BTreeSet::new(),
     };
-    refuse_clashes(&matrix, &drafts)?;
-    let (mut items, mut faults) = (Vec::new(), Faults::default());
+    let mut items = Vec::new();
+    if let Err(error) = refuse_clashes(&matrix, &drafts) {
+        faults.add(error);
+    }
     for (at, draft) in drafts.iter().enumerate() {
         stop_if_canceled(progress)?;
         match planner.item(at, draft) {
@@ -167,16 +170,24 @@ impl ItemPlanner<'_> {
         let graph = self.graphs.open(&draft.graph.path)?;
         let bad = |why: String| EngineError::new(ErrorKind::BadInput, why);
         let mut request = BakeRequest::plain(&draft.graph.path, &draft.model.path, draft.size);
-        apply_options(&mut request, &draft.row.options)
-            .map_err(|why| bad(format!("{}: {}: {why}", self.matrix.path.display(), draft.row.words)))?;
+        let mut faults = Faults::default();
+        if let Err(why) = apply_options(&mut request, &draft.row.options) {
+            faults.add(bad(format!(
+                "{}: {}: {why}",
+                self.matrix.path.display(),
+                draft.row.words
+            )));
+        }
         let overrides = &mut request.evaluator.overrides;
         overrides.variant.clone_from(&draft.variant);
         overrides.seed = draft.seed;
         overrides.set = values(draft);
-        let presets = self.presets(draft)?;
+        let presets = self.presets(draft, &mut faults);
         request.preset_folder = self.preset_folder.map(Path::to_owned);
         request.presets = presets.iter().map(|(shown, _)| shown.clone()).collect();
-        self.check(&graph, &request)?;
+        if let Err(error) = self.check(&graph, &request) {
+            faults.add(error);
+        }
         let whole = |(shown, file): &(String, Option<PathBuf>)| {
             file.as_ref()
                 .map_or_else(|| shown.clone(), |file| file.to_string_lossy().into_owned())
@@ -191,9 +202,15 @@ impl ItemPlanner<'_> {
             key: String::new(),
             out: self.path_text(&out),
             recipe: Recipe::of(&request, None).moved(&self.from, &self.to),
-            inputs: self.inputs(draft, &graph, presets.iter().filter_map(|(_, file)| file.as_ref()))?,
+            inputs: self
+                .inputs(draft, &graph, presets.iter().filter_map(|(_, file)| file.as_ref()))
+                .unwrap_or_else(|error| {
+                    faults.add(error);
+                    Vec::new()
+                }),
             build: Build::current().clone(),
         };
+        faults.into_result()?;
         item.key = item.hashed()?;
         Ok(item)
     }
@@ -203,8 +220,9 @@ impl ItemPlanner<'_> {
         moved(&stored_path(path), &self.from, &self.to)
     }
 
-    /// Presets of a draft as they are shown: names of those that come with Sabi, and files of all others.
-    fn presets(&self, draft: &Draft<'_>) -> Result<Vec<(String, Option<PathBuf>)>, EngineError> {
+    /// Presets of a draft as they are shown: names of those that come with Sabi, and files of all others. Adds the faults of those that
+    /// are not there.
+    fn presets(&self, draft: &Draft<'_>, faults: &mut Faults) -> Vec<(String, Option<PathBuf>)> {
         let found = draft.presets.iter().map(|name| {
             let shown = match is_preset_file(name) {
                 true => self.matrix.base().resolve(name).to_string_lossy().into_owned(),
@@ -214,7 +232,8 @@ impl ItemPlanner<'_> {
             let file = files.first().map(|file| named_path(file));
             Ok((shown, file))
         });
-        found.collect()
+        let told = found.filter_map(|found: Result<_, EngineError>| found.map_err(|error| faults.add(error)).ok());
+        told.collect()
     }
 
     /// Checks a request as its bake does before it reads the model, once for each graph and settings.

@@ -62,6 +62,7 @@ pub fn check_graph(open: &OpenGraph) -> Result<CheckReport, EngineError> {
         warnings: kinds.faults.iter().map(ToString::to_string).collect(),
         ..CheckReport::default()
     };
+    report.warnings.extend(open.unknown_keys());
     let graph = open.flatten(&Overrides::default())?;
     let (errors, warnings) = faults(open, &graph, &kinds);
     report.errors.extend(errors);
@@ -74,6 +75,8 @@ pub fn check_graph(open: &OpenGraph) -> Result<CheckReport, EngineError> {
     for variant in open.document.graph.variants().keys() {
         check_variant(open, &kinds, variant, &mut report);
     }
+    let errors = &report.errors;
+    report.warnings.retain(|warning| !errors.contains(warning));
     Ok(report)
 }
 

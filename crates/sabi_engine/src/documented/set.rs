@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{EngineMemory, LookChange, Treatment};
+use sabi_export::{Channel, EngineMemory, LeftOut, LookChange, Treatment};
 use sabi_gpu::{AdapterChoice, CasterChoice};
 use sabi_graph::Value;
 
@@ -129,6 +129,11 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         engine: EngineMemory::of(&[output()]),
         constants: vec![constant()],
         documents: vec![document()],
+        left_out: vec![LeftOut {
+            preset: text(),
+            material: text(),
+            channels: vec![Channel::Sheen],
+        }],
         warnings: vec![text().into()],
         model: Some(model_copy()),
         files: vec![text()],
@@ -147,6 +152,7 @@ fn a_verified_folder_has_the_documented_keys() {
             path: text(),
             message: text(),
         }],
+        error: Some(text()),
     };
     assert_eq!(written(&[verification]), documented("Verified folders"));
 }

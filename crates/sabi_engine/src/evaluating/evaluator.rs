@@ -17,7 +17,7 @@ use crate::evaluating::evaluated_surface::EvaluatedSurface;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::{FittedModel, LinkedModel, ModelOptions};
-use crate::opening::override_faults::refuse_bad_values;
+use crate::opening::override_faults::{all_override_faults, refuse_bad_values};
 use crate::opening::setting::read_typed;
 use crate::phases::{Phase, PhaseTimes, Progress, stop_if_canceled};
 use crate::program_cache::ProgramCache;
@@ -118,9 +118,10 @@ impl Evaluator {
             fit: options.fit.or(options.overrides.fit),
             ..options.overrides.clone()
         };
-        let overrides = read_typed(open, kinds, &overrides);
-        let (graph, found) = open.flatten_and_find(&overrides, wanted)?;
-        refuse_bad_values(open, &graph, kinds, &overrides)?;
+        let typed = read_typed(open, kinds, &overrides);
+        let flat = open.flatten_and_find(&typed, wanted);
+        let (graph, found) = flat.map_err(|first| all_override_faults(open, kinds, &overrides, first))?;
+        refuse_bad_values(open, &graph, kinds, &typed)?;
         Ok((graph, found))
     }
 
@@ -323,11 +324,6 @@ impl Evaluator {
     /// Times so far.
     pub fn times(&self) -> PhaseTimes {
         self.times
-    }
-
-    /// Times so far, to be added to.
-    pub(crate) fn times_mut(&mut self) -> &mut PhaseTimes {
-        &mut self.times
     }
 
     /// Warnings for the artist, each once.

@@ -63,18 +63,27 @@ pub(crate) fn missing_output(graph: &FlatGraph) -> Option<String> {
 
 /// Lists outputs whose maps would have the same file name, a sentence for each.
 pub(crate) fn duplicate_map_names(graph: &FlatGraph) -> Vec<String> {
-    let mut taken: BTreeMap<String, usize> = BTreeMap::new();
+    let mut taken: BTreeMap<String, (usize, String)> = BTreeMap::new();
     let mut sentences = Vec::new();
     for (node, channel) in map_outputs(graph, &outputs(graph)) {
         let name = channel.name().into_owned();
         // Many file systems ignore case.
         match taken.get(&name.to_lowercase()) {
-            Some(&first) => sentences.push(format!(
-                "nodes '{}' and '{}' ({}) both export a map named '{name}'; give one of them another name",
-                graph.nodes[first].id, graph.nodes[node].id, graph.nodes[node].kind
-            )),
+            Some((first, other)) => {
+                let export = match *other == name {
+                    true => format!("both export a map named '{name}'"),
+                    false => format!(
+                        "export maps named '{other}' and '{name}', which are one file on systems that ignore capital letters"
+                    ),
+                };
+                let [first, second] = [*first, node].map(|node| &graph.nodes[node]);
+                sentences.push(format!(
+                    "nodes '{}' and '{}' ({}) {export}; give one of them another name",
+                    first.id, second.id, second.kind
+                ));
+            }
             None => {
-                taken.insert(name.to_lowercase(), node);
+                taken.insert(name.to_lowercase(), (node, name));
             }
         }
     }

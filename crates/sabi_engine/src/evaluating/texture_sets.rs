@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_export::{SetKey, set_keys, set_names};
-use sabi_graph::FlatGraph;
+use sabi_graph::{FlatGraph, advice_on};
 use sabi_surface::atlas::Atlas;
 use sabi_surface::model::{Model, ModelMaterial};
 
@@ -13,6 +13,9 @@ use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
+
+/// Most materials that an error lists.
+const MOST_LISTED: usize = 12;
 
 /// Texture set of a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +65,11 @@ pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -
         Some(wanted) => {
             let mut known: Vec<&str> = keys.iter().map(|key| names(key)[1]).collect();
             known.dedup();
-            let why = format!("the model has no material '{wanted}'; it has {}", known.join(", "));
+            let advice = match known.len() {
+                ..=MOST_LISTED => format!("it has {}", known.join(", ")),
+                _ => advice_on(wanted, known),
+            };
+            let why = format!("the model has no material '{wanted}'; {advice}");
             Err(EngineError::new(ErrorKind::Usage, why))
         }
         None => Err(EngineError::new(

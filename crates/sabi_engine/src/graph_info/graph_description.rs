@@ -129,6 +129,7 @@ pub fn describe_graph(open: &OpenGraph) -> GraphDescription {
     }
     let flat = flat.ok();
     warnings.extend(files.warnings);
+    warnings.extend(open.unknown_keys());
     GraphDescription {
         graph: open.path.display().to_string(),
         name: document.name.clone(),

@@ -46,6 +46,7 @@ impl GraphFiles {
         files.extend(named.documents.iter().flat_map(strokes));
         files.sort();
         let mut warnings = warnings(&named);
+        warnings.extend(files.iter().filter_map(FileDescription::missing));
         warnings.extend(without_file);
         GraphFiles {
             files,
@@ -105,6 +106,23 @@ fn strokes(document: &NamedDocument) -> Vec<FileDescription> {
 }
 
 impl FileDescription {
+    /// A sentence about a model or strokes that are not there; other files are told by what names them.
+    fn missing(&self) -> Option<String> {
+        let path = &self.path;
+        let sentence = match (self.role, &self.written) {
+            _ if self.exists => return None,
+            ("model", Some(written)) if !is_local(written) => {
+                format!(
+                    "the graph is shown on the model {written}, which is not on this computer's disk and is not read"
+                )
+            }
+            ("model", _) => format!("the graph is shown on the model {path}, which is missing"),
+            ("strokes", _) => format!("what was painted by hand is missing: there are no strokes in {path}"),
+            _ => return None,
+        };
+        Some(sentence)
+    }
+
     fn new(role: &'static str, path: &Path, written: Option<String>) -> FileDescription {
         FileDescription {
             role,

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, io_reason, read_plain};
-use sabi_graph::{Document, FlatGraph, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find, locate};
+use sabi_graph::{
+    Document, FlatGraph, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find, locate, unknown_keys,
+};
 use sabi_plan::{FileContents, PlanError};
 
 use crate::error::{EngineError, ErrorKind};
@@ -153,6 +155,14 @@ impl OpenGraph {
     ) -> FileContents {
         self.pictures
             .contents((&self.base(), &self.trusted), graph, &kinds.sources, nodes)
+    }
+
+    /// Lists the keys of the file that nothing reads, as sentences with the file's path, line and column before them.
+    pub fn unknown_keys(&self) -> Vec<String> {
+        let keys = unknown_keys(&self.text).into_iter();
+        let path = self.path.display();
+        keys.map(|key| format!("{path}:{}:{}: {key}", key.line, key.column))
+            .collect()
     }
 
     /// Returns a sentence about the graph, with the file's path before it.

@@ -4,9 +4,11 @@ use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{FileContents, PlanError, Problem};
 
 use crate::error::{EngineError, ErrorKind};
+use crate::faults::Faults;
 use crate::opening::document::OpenGraph;
 use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
 use crate::opening::kinds::Kinds;
+use crate::opening::setting::read_typed;
 
 /// Refuses values that no node takes, and names that no node has. A file may contain such values, since it may be of a newer
 /// version of Sabi; a request may not. `graph` is the flat graph with the overrides.
@@ -32,6 +34,43 @@ pub(crate) fn refuse_bad_values(
         return Ok(());
     }
     Err(EngineError::several(ErrorKind::Usage, messages))
+}
+
+/// Returns an error with all faults of the values that a request sets, given the first one, which keeps the graph from being flattened:
+/// each name and value is tried alone, and those that remain together.
+pub(crate) fn all_override_faults(
+    open: &OpenGraph,
+    kinds: &Kinds,
+    overrides: &Overrides,
+    first: EngineError,
+) -> EngineError {
+    let mut good = Overrides {
+        set: Vec::new(),
+        ..overrides.clone()
+    };
+    let mut faults = Faults::default();
+    if let Err(error) = open.flatten(&good) {
+        good.variant = None;
+        if open.flatten(&good).is_err() {
+            // The file is at fault.
+            return first;
+        }
+        faults.add(error);
+    }
+    for setting in &overrides.set {
+        good.set.push(setting.clone());
+        if let Err(error) = open.flatten(&read_typed(open, kinds, &good)) {
+            good.set.pop();
+            faults.add(error);
+        }
+    }
+    let typed = read_typed(open, kinds, &good);
+    if let Ok(graph) = open.flatten(&typed)
+        && let Err(error) = refuse_bad_values(open, &graph, kinds, &typed)
+    {
+        faults.add(error);
+    }
+    faults.into_result_of_first().err().unwrap_or(first)
 }
 
 fn problems(graph: &FlatGraph, kinds: &Kinds) -> Vec<PlanError> {

@@ -29,24 +29,32 @@ impl SetFile {
     /// It cannot be read, is no TOML, or has keys or values of other sorts. Whether a graph has what it sets is not known here.
     pub fn open(path: &Path) -> Result<SetFile, EngineError> {
         let table = read_table(path, "files of values")?;
-        let said = |why: String| EngineError::new(ErrorKind::BadInput, format!("{}: {why}", path.display()));
+        let said = |faults: Vec<String>| {
+            let sentences = faults.into_iter().map(|why| format!("{}: {why}", path.display()));
+            EngineError::several(ErrorKind::BadInput, sentences.collect())
+        };
         SetFile::of_table(table).map_err(said)
     }
 
-    fn of_table(table: Table) -> Result<SetFile, String> {
+    /// Reads the values of a file; the errors are clauses, one for each fault.
+    fn of_table(table: Table) -> Result<SetFile, Vec<String>> {
         let mut file = SetFile::default();
+        let mut faults = Vec::new();
         for (key, value) in table {
             match (key.as_str(), value) {
                 ("variant", Toml::String(name)) => file.variant = Some(name),
-                ("variant", _) => return Err("'variant' takes the name of a variant, as a text".to_owned()),
+                ("variant", _) => faults.push("'variant' takes the name of a variant, as a text".to_owned()),
                 ("seed", Toml::Integer(seed)) if u32::try_from(seed).is_ok() => file.seed = u32::try_from(seed).ok(),
-                ("seed", _) => return Err(format!("'seed' takes a whole number from 0 to {}", u32::MAX)),
-                ("set", Toml::Table(values)) => add_values(&mut file.set, "", values)?,
-                ("set", _) => return Err("'set' takes a table of values, which begins with [set]".to_owned()),
-                (key, _) => return Err(unknown_key(key)),
+                ("seed", _) => faults.push(format!("'seed' takes a whole number from 0 to {}", u32::MAX)),
+                ("set", Toml::Table(values)) => faults.extend(add_values(&mut file.set, "", values)),
+                ("set", _) => faults.push("'set' takes a table of values, which begins with [set]".to_owned()),
+                (key, _) => faults.push(unknown_key(key)),
             }
         }
-        Ok(file)
+        match faults.is_empty() {
+            true => Ok(file),
+            false => Err(faults),
+        }
     }
 }
 
@@ -57,19 +65,20 @@ fn unknown_key(key: &str) -> String {
     }
 }
 
-/// Adds the values of a table. Without quotes, `node.param = 1` is a table in a table.
-pub(crate) fn add_values(set: &mut Vec<(String, Value)>, prefix: &str, values: Table) -> Result<(), String> {
+/// Adds the values of a table; returns a clause for each that nothing takes. Without quotes, `node.param = 1` is a table in a table.
+pub(crate) fn add_values(set: &mut Vec<(String, Value)>, prefix: &str, values: Table) -> Vec<String> {
+    let mut faults = Vec::new();
     for (key, value) in values {
         let name = format!("{prefix}{key}");
         match value {
-            Toml::Table(inner) => add_values(set, &format!("{name}."), inner)?,
-            value => {
-                let value = read_value(value).map_err(|why| format!("'{name}' {why}"))?;
-                set.push((name, value));
-            }
+            Toml::Table(inner) => faults.extend(add_values(set, &format!("{name}."), inner)),
+            value => match read_value(value) {
+                Ok(value) => set.push((name, value)),
+                Err(why) => faults.push(format!("'{name}' {why}")),
+            },
         }
     }
-    Ok(())
+    faults
 }
 
 fn read_value(value: Toml) -> Result<Value, &'static str> {
@@ -92,7 +101,7 @@ mod tests {
     use super::SetFile;
 
     fn read(text: &str) -> Result<SetFile, String> {
-        SetFile::of_table(text.parse().unwrap())
+        SetFile::of_table(text.parse().unwrap()).map_err(|faults| faults.join("; "))
     }
 
     #[test]
@@ -127,6 +136,11 @@ mod tests {
             ("seed = -1", "'seed' takes a whole number from 0 to 4294967295"),
             ("seed = 1.0", "'seed' takes a whole number from 0 to 4294967295"),
             ("set = 1", "'set' takes a table of values, which begins with [set]"),
+            (
+                "seed = -1\nvarient = \"x\"\n[set]\na = nan\nb = inf",
+                "'seed' takes a whole number from 0 to 4294967295; there is no key 'varient'; did you mean 'variant'?; 'a' is no \
+                 finite number; 'b' is no finite number",
+            ),
             ("[set]\na = nan", "'a' is no finite number"),
             (
                 "[set]\na.b = 2000-01-01",

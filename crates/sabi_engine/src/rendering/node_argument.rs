@@ -1,6 +1,6 @@
 //! Resolution of a node named on a command line.
 
-use sabi_graph::{FlatGraph, NodeRef, nearest};
+use sabi_graph::{FlatGraph, NodeRef, advice_on};
 use sabi_plan::Target;
 
 use crate::error::{EngineError, ErrorKind};
@@ -46,11 +46,7 @@ pub(crate) fn graph_and_target(
 }
 
 fn no_such_node(graph: &FlatGraph, text: &str) -> EngineError {
-    let ids = || graph.nodes.iter().map(|node| node.id.as_str());
-    let advice = match nearest(text, ids()) {
-        Some(near) => format!("did you mean '{near}'?"),
-        None => format!("there are: {}", ids().collect::<Vec<_>>().join(", ")),
-    };
+    let advice = advice_on(text, graph.nodes.iter().map(|node| node.id.as_str()));
     let why = format!("the graph has no node '{text}'; {advice}");
     EngineError::new(ErrorKind::Usage, why)
 }

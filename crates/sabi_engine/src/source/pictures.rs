@@ -387,7 +387,7 @@ pub(crate) fn allowed_path(
 ) -> Result<PathBuf, Fault> {
     let base = base_of(base, node);
     match trusted.check(&base, path) {
-        Err(Unread::Refused(refusal)) => Err((refusal.to_string(), FileFaultKind::Refused)),
+        Err(Unread::Refused(refusal)) => Err(refusal_fault(&refusal)),
         // Everything else is told when it is read.
         _ => Ok(base.resolve(path)),
     }
@@ -425,6 +425,14 @@ fn read(path: &Path, written: &str) -> Result<Vec<u8>, Fault> {
     read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| why_unread(path, unread))
 }
 
+fn refusal_fault(refusal: &Refusal) -> Fault {
+    let kind = match refusal.folder() {
+        Some(_) => FileFaultKind::Refused,
+        None => FileFaultKind::NeverOpened,
+    };
+    (refusal.to_string(), kind)
+}
+
 fn why_unread(path: &Path, unread: Unread) -> Fault {
     let shown = path.display();
     let why = match unread {
@@ -440,7 +448,7 @@ fn why_unread(path: &Path, unread: Unread) -> Fault {
             let why = format!("{shown} has {mib} MiB; pictures of up to 1024 MiB are read, so make it smaller");
             return (why, FileFaultKind::Unusable);
         }
-        Unread::Refused(refusal) => return (refusal.to_string(), FileFaultKind::Refused),
+        Unread::Refused(refusal) => return refusal_fault(&refusal),
         Unread::Other(reason) => format!("{shown} cannot be read: {reason}"),
     };
     (why, FileFaultKind::Missing)

@@ -26,6 +26,8 @@ pub(crate) struct FileFacts {
     pub(crate) name: String,
     /// Components that it has.
     pub(crate) components: Vec<Component>,
+    /// Divisor of its values.
+    pub(crate) scale: f32,
 }
 
 /// Values of a channel in one set.

@@ -180,7 +180,7 @@ impl Tiles<'_> {
         if channel.components() == 3 {
             let is_plain = |index: &usize| place(*index) == Some(*index) && !components[*index].is_inverted;
             let is_rgb = components.len() >= 3 && (0..3).all(|index| is_plain(&index));
-            if !is_rgb {
+            if !is_rgb || self.scale([self.files.index, at]).is_none() {
                 return None;
             }
             return self.map(at, map, &components).map(Look::Rgb);
@@ -189,7 +189,7 @@ impl Tiles<'_> {
         // Programs differ in where they find the alpha of a gray picture.
         let is_readable = components.len() != 2 || index == 0;
         let is_height = *channel == Channel::Height;
-        let is_one_range = !is_height || self.decoding(&components[index], map.format).is_some();
+        let is_one_range = !is_height || self.decoding(&components[index], at, map).is_some();
         if !is_readable || !is_one_range {
             return None;
         }
@@ -218,7 +218,7 @@ impl Tiles<'_> {
         let mut decoding = [[1.0, 0.0]; 4];
         for (place, component) in decoding.iter_mut().zip(components) {
             // A height without a single range is not read from the file.
-            *place = self.decoding(component, map.format).unwrap_or([1.0, 0.0]);
+            *place = self.decoding(component, at, map).unwrap_or([1.0, 0.0]);
         }
         let made = DocumentMap {
             id: self.map_identifiers.add(&map.name, "map"),
@@ -245,12 +245,25 @@ impl Tiles<'_> {
         Some(format!("{stem}.{}", map.format.ending()))
     }
 
+    /// Divisor of the values of a file; none if the tiles differ in it.
+    fn scale(&self, index: MapIndex) -> Option<f32> {
+        let mut scales = self.sets.iter().filter_map(|set| Some(set.files.get(&index)?.scale));
+        // A file that no tile has is not read.
+        let first = scales.next().unwrap_or(1.0);
+        scales.all(|scale| scale == first).then_some(first)
+    }
+
     /// Scale and bias of a component: whole numbers span the range of a height, and inverted ones are turned back. None if the
     /// ranges of the tiles differ where they matter.
-    fn decoding(&self, component: &Component, format: Format) -> Option<[f32; 2]> {
+    fn decoding(&self, component: &Component, at: usize, map: &Map) -> Option<[f32; 2]> {
         let is_height = matches!(component.source, ComponentSource::Channel(Channel::Height, _));
-        if !is_height || (!component.is_inverted && !format.is_whole()) {
-            return Some(if component.is_inverted { [-1.0, 1.0] } else { [1.0, 0.0] });
+        let spans_range = map.format.is_whole() || map.is_normalized;
+        if !is_height || (!component.is_inverted && !spans_range) {
+            let sign = if component.is_inverted { -1.0 } else { 1.0 };
+            return Some([
+                sign * self.scale([self.files.index, at])?,
+                if component.is_inverted { 1.0 } else { 0.0 },
+            ]);
         }
         let range = |set: &&SetFacts| set.channels.get(&Channel::Height).map(|facts| facts.range);
         let mut ranges = self.sets.iter().map(range);
@@ -258,7 +271,7 @@ impl Tiles<'_> {
         if !ranges.all(|range| range == Some([low, high])) {
             return None;
         }
-        Some(match (format.is_whole(), component.is_inverted) {
+        Some(match (spans_range, component.is_inverted) {
             (true, false) => [high - low, low],
             (true, true) => [low - high, high],
             (false, _) => [-1.0, low + high],
@@ -267,7 +280,7 @@ impl Tiles<'_> {
 }
 
 /// Returns true if a document says the same without the value.
-fn changes_nothing(channel: &Channel, value: Value) -> bool {
+pub(crate) fn changes_nothing(channel: &Channel, value: Value) -> bool {
     match channel {
         Channel::BaseColor
         | Channel::Roughness

@@ -73,7 +73,14 @@ fn facts(preset: &Preset, sets: &[TestSet]) -> BTreeMap<SetKey, SetFacts> {
                 size: [64; 2],
             };
             let name = map.file_name(&names, &parts);
-            facts.files.insert([0, at], FileFacts { name, components });
+            facts.files.insert(
+                [0, at],
+                FileFacts {
+                    name,
+                    components,
+                    scale: 1.0,
+                },
+            );
         }
         (set.key, facts)
     };

@@ -22,6 +22,10 @@ pub(crate) enum Codes {
     Signed,
     /// From the lowest to the highest value of the set; the report has them. Floats are written as they are.
     Range([f32; 2]),
+    /// The same, also in floats.
+    Normalized([f32; 2]),
+    /// 0..1 after a division by this; the report has it.
+    Scaled(f32),
 }
 
 /// Component of a file.
@@ -77,13 +81,14 @@ impl Plane<'_> {
         let (of, at) = ((*pixels, range), *index);
         match *codes {
             Codes::Unit => map_values(of, units, |values| values[at]),
+            Codes::Scaled(by) => map_values(of, units, |values| values[at] / by),
             Codes::Direction => map_values(of, units, |values| direction(values)[at] * 0.5 + 0.5),
             Codes::Signed => map_values(of, units, |values| values[at] * 0.5 + 0.5),
             Codes::Normal { is_down } => map_values(of, units, |values| normal(values, is_down)[at] * 0.5 + 0.5),
-            Codes::Range([low, high]) if high > low => {
+            Codes::Range([low, high]) | Codes::Normalized([low, high]) if high > low => {
                 map_values(of, units, |values| (values[at] - low) / (high - low))
             }
-            Codes::Range(_) => units.fill(0.0),
+            Codes::Range(_) | Codes::Normalized(_) => units.fill(0.0),
         }
         if *is_inverted {
             units.iter_mut().for_each(|unit| *unit = 1.0 - *unit);
@@ -105,7 +110,9 @@ impl Plane<'_> {
         };
         let (of, at) = ((*pixels, range.clone()), *index);
         let inverted = match *codes {
-            Codes::Unit | Codes::Normal { .. } => return self.units(range, floats),
+            Codes::Unit | Codes::Normal { .. } | Codes::Normalized(_) | Codes::Scaled(_) => {
+                return self.units(range, floats);
+            }
             Codes::Range([low, high]) => {
                 map_values(of, floats, |values| values[at]);
                 low + high

@@ -3,6 +3,7 @@
 use sabi_image::ImageError;
 
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
+use crate::preset::ComponentSource;
 use crate::{Channel, Value};
 
 /// A factor, and the map that it multiplies.
@@ -58,7 +59,18 @@ impl FinishCollector {
                 let codes = |pixel: usize| [coat.code(pixel), coded.code(pixel), 0];
                 (maps.coat, maps.coat_roughness) = match constants {
                     Some((factor, roughness)) => (Scaled { factor, map: None }, roughness),
-                    None => (with_map(1.0, packed(input, "coat_packed", codes)?), 1.0),
+                    None => {
+                        let sources = [
+                            of(Channel::Coat, 0),
+                            of(Channel::CoatRoughness, 0),
+                            ComponentSource::Constant(0.0),
+                        ];
+                        let map = match input.written(&sources, false, true) {
+                            Some(file) => file,
+                            None => packed(input, "coat_packed", codes)?,
+                        };
+                        (with_map(1.0, map), 1.0)
+                    }
                 };
             }
             Channel::SheenRoughness => {
@@ -70,7 +82,13 @@ impl FinishCollector {
                             let [r, g, b] = sheen.triple_code(pixel);
                             [r, g, b, coded.code(pixel)]
                         };
-                        (with_map([1.0; 3], packed(input, "sheen_packed", codes)?), 1.0)
+                        let mut sources: Vec<ComponentSource> = (0..3).map(|at| of(Channel::Sheen, at)).collect();
+                        sources.push(of(Channel::SheenRoughness, 0));
+                        let map = match input.written(&sources, true, false) {
+                            Some(file) => file,
+                            None => packed(input, "sheen_packed", codes)?,
+                        };
+                        (with_map([1.0; 3], map), 1.0)
                     }
                 };
             }
@@ -90,9 +108,13 @@ impl FinishCollector {
             Channel::Transmission => {
                 maps.transmission = match coded.number() {
                     Some(factor) => Scaled { factor, map: None },
+                    // Red of a gray picture is its gray.
                     None => with_map(
                         1.0,
-                        packed(input, "transmission_packed", |pixel| [coded.code(pixel), 0, 0])?,
+                        match input.written_plain(false, true) {
+                            Some(file) => file,
+                            None => packed(input, "transmission_packed", |pixel| [coded.code(pixel), 0, 0])?,
+                        },
                     ),
                 }
             }
@@ -100,6 +122,10 @@ impl FinishCollector {
         }
         Ok(())
     }
+}
+
+fn of(channel: Channel, component: usize) -> ComponentSource {
+    ComponentSource::Channel(channel, component)
 }
 
 fn with_map<T>(factor: T, map: MapFile) -> Scaled<T> {

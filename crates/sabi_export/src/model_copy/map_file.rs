@@ -29,6 +29,8 @@ pub(crate) struct ChannelInput<'a> {
     pub(crate) constant: Option<Value>,
     /// The highest of each component over the owned pixels, 0 without any.
     pub(crate) high: [f32; 3],
+    /// Highest value of all components, over all tiles of the material where its tiles share a scale.
+    pub(crate) peak: f32,
     /// Seed of the noise of dithered maps.
     pub(crate) dither_seed: u32,
     /// Files that it completed.
@@ -45,16 +47,16 @@ pub(crate) struct WrittenMap {
     /// True if it has the size of the bake.
     pub(crate) is_whole_size: bool,
     pub(crate) normal_y: NormalY,
+    /// Divisor of its values.
+    pub(crate) scale: f32,
     pub(crate) file: MapFile,
 }
 
 impl ChannelInput<'_> {
-    /// The file of the bake with exactly these components, as PNG of 8 bits.
-    pub(super) fn written(&self, sources: &[(&Channel, usize)], is_srgb: bool, is_dithered: bool) -> Option<MapFile> {
-        let is_same = |component: &Component, (channel, index): &(&Channel, usize)| {
-            let source = ComponentSource::Channel((*channel).clone(), *index);
-            !component.is_inverted && component.source == source
-        };
+    /// The file of the bake with exactly these components, as PNG of 8 bits, and its divisor.
+    fn find(&self, sources: &[ComponentSource], is_srgb: bool, is_dithered: bool) -> Option<(&MapFile, f32)> {
+        let is_same =
+            |component: &Component, source: &ComponentSource| !component.is_inverted && component.source == *source;
         let found = self.written.iter().find(|map| {
             map.format == Format::Png { bits: 8 }
                 && (map.is_srgb, map.is_dithered) == (is_srgb, is_dithered)
@@ -67,14 +69,31 @@ impl ChannelInput<'_> {
                     .zip(sources)
                     .all(|(held, asked)| is_same(held, asked))
         });
-        found.map(|map| map.file.clone())
+        found.map(|map| (&map.file, map.scale))
+    }
+
+    /// The file of the bake with exactly these components, as PNG of 8 bits.
+    pub(super) fn written(&self, sources: &[ComponentSource], is_srgb: bool, is_dithered: bool) -> Option<MapFile> {
+        let found = self.find(sources, is_srgb, is_dithered);
+        found.filter(|(_, scale)| *scale == 1.0).map(|(file, _)| file.clone())
     }
 
     /// The file of the bake with all components of the channel.
     pub(super) fn written_plain(&self, is_srgb: bool, is_dithered: bool) -> Option<MapFile> {
-        let sources: Vec<(&Channel, usize)> = (0..self.channel.components()).map(|at| (self.channel, at)).collect();
-        self.written(&sources, is_srgb, is_dithered)
+        self.written(&whole(self.channel), is_srgb, is_dithered)
     }
+
+    /// The file of the bake with a color that was divided by `scale`.
+    pub(super) fn written_scaled(&self, scale: f32) -> Option<MapFile> {
+        let found = self.find(&whole(self.channel), true, false);
+        found.filter(|(_, by)| *by == scale).map(|(file, _)| file.clone())
+    }
+}
+
+/// All components of a channel.
+fn whole(channel: &Channel) -> Vec<ComponentSource> {
+    let component = |at| ComponentSource::Channel(channel.clone(), at);
+    (0..channel.components()).map(component).collect()
 }
 
 /// 8-bit codes of a channel, or its constant value.

@@ -7,7 +7,7 @@ use sabi_image::ImageError;
 use super::finish_maps::{FinishCollector, FinishMaps};
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
 use crate::encode::{Codes, Encoding, Plane, codes_8, encode, planes};
-use crate::preset::Format;
+use crate::preset::{ComponentSource, Format};
 use crate::{Channel, ChannelPixels, SetKey, Value};
 
 /// Factors and maps of a glTF material. A constant channel is a factor; occlusion, which has none, is left out where it is
@@ -118,7 +118,7 @@ impl MapCollector {
                 };
                 self.of(input).normal = Some(file);
             }
-            Channel::Emission => self.emission(input, input.written_plain(true, false))?,
+            Channel::Emission => self.emission(input)?,
             Channel::Normal | Channel::Height | Channel::Mesh(_) => {}
             output if output.output_kind().is_some() => {}
             rare => {
@@ -190,11 +190,8 @@ impl MapCollector {
             let codes: Vec<u8> = (0..pixels)
                 .flat_map(|pixel| [occlusion, roughness, metallic].map(|held| held.code(pixel)))
                 .collect();
-            let sources = [
-                (&Channel::Occlusion, 0),
-                (&Channel::Roughness, 0),
-                (&Channel::Metallic, 0),
-            ];
+            let sources = [Channel::Occlusion, Channel::Roughness, Channel::Metallic]
+                .map(|channel| ComponentSource::Channel(channel, 0));
             packed = Some(match input.written(&sources, false, true) {
                 Some(file) => file,
                 None => {
@@ -214,14 +211,17 @@ impl MapCollector {
         Ok(())
     }
 
-    fn emission(&mut self, input: &ChannelInput<'_>, written: Option<MapFile>) -> Result<(), ImageError> {
-        let high = input.high;
-        let strength = high.into_iter().fold(1.0, f32::max);
-        let (factor, file) = match (input.constant, written) {
+    fn emission(&mut self, input: &ChannelInput<'_>) -> Result<(), ImageError> {
+        let highest = input.high.into_iter().fold(1.0, f32::max);
+        let strength = match input.constant {
+            Some(_) => highest,
+            None => input.peak.max(1.0),
+        };
+        let (factor, file) = match (input.constant, input.written_scaled(strength)) {
             (Some(Value::Triple(rgb)), _) => (rgb.map(|value| value.max(0.0) / strength), None),
             (Some(Value::Number(_)), _) => ([0.0; 3], None),
-            (None, Some(file)) if strength == 1.0 => ([1.0; 3], Some(file)),
-            (None, _) => {
+            (None, Some(file)) => ([1.0; 3], Some(file)),
+            (None, None) => {
                 let part = ChannelPixels {
                     components: 3,
                     data: input.pixels.data.iter().map(|value| value / strength).collect(),

@@ -4,9 +4,9 @@ use serde::Deserialize;
 
 use super::component::{channel, components};
 use super::{Component, ComponentSource, Content, Document, Format, Map, MapSize, NormalY, Preset, When};
-use crate::OutputKind;
 use crate::name_pattern::NamePattern;
 use crate::names::file_stem;
+use crate::{Channel, OutputKind};
 
 /// Version of the file format that is read.
 const VERSION: u32 = 1;
@@ -67,6 +67,8 @@ struct MapEntry {
     srgb: bool,
     #[serde(default)]
     dither: bool,
+    #[serde(default)]
+    normalize: bool,
     size: Option<SizeText>,
     when: Option<String>,
 }
@@ -245,15 +247,36 @@ fn map(entry: MapEntry) -> Result<Map, String> {
     if matches!((&content, format), (Content::Packed(components), Format::Tga) if components.len() == 2) {
         return Err("TGA files have one, three or four components".to_owned());
     }
+    if entry.normalize && !is_of_one_range(&content) {
+        return Err(
+            "`normalize` is for the height or the emission of a material, alone in its file; leave it out".to_owned(),
+        );
+    }
     Ok(Map {
         name,
         content,
         format,
         is_srgb: entry.srgb,
         is_dithered: entry.dither,
+        is_normalized: entry.normalize,
         size: entry.size.map_or(Ok(MapSize::Divided(1)), size)?,
         when: entry.when.map_or(Ok(When::Varies), |text| when(&text))?,
     })
+}
+
+/// Returns true for files of a channel that may exceed 0 to 1, alone and as it is.
+fn is_of_one_range(content: &Content) -> bool {
+    let Content::Packed(components) = content else {
+        return false;
+    };
+    let first = components.first().map(|component| &component.source);
+    let Some(ComponentSource::Channel(channel @ (Channel::Height | Channel::Emission), _)) = first else {
+        return false;
+    };
+    let is_same = |component: &Component| {
+        matches!(&component.source, ComponentSource::Channel(other, _) if other == channel) && !component.is_inverted
+    };
+    components.iter().all(is_same)
 }
 
 fn has_components(entry: &MapEntry) -> bool {

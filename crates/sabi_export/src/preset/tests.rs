@@ -181,6 +181,14 @@ fn faulty_files() -> Vec<(String, String)> {
             "map `a`: OpenEXR files are linear; leave `srgb` out".to_owned(),
         ),
         (
+            "name = \"a\"\ngray = \"roughness\"\nformat = \"png8\"\nnormalize = true".to_owned(),
+            "map `a`: `normalize` is for the height or the emission of a material, alone in its file; leave it out".to_owned(),
+        ),
+        (
+            "name = \"a\"\nr = \"height\"\ng = \"height\"\nb = \"roughness\"\nformat = \"png8\"\nnormalize = true".to_owned(),
+            "map `a`: `normalize` is for the height or the emission of a material, alone in its file; leave it out".to_owned(),
+        ),
+        (
             "name = \"a\"\ngray = \"height\"\na = \"opacity\"\nformat = \"tga\"".to_owned(),
             "map `a`: TGA files have one, three or four components".to_owned(),
         ),

@@ -8,7 +8,7 @@ use crate::held::{HeldChannel, HeldSet, is_whole_size};
 use crate::model_copy::{MapFile, WrittenMap};
 use crate::preset::{Component, ComponentSource, Map, NormalY, Preset};
 use crate::resize::resized;
-use crate::{Channel, ChannelPixels, EngineFormat, ExportError, MeshMap, OutputRecord, Value};
+use crate::{Channel, ChannelPixels, CutMap, EngineFormat, ExportError, MeshMap, OutputRecord, Value};
 
 /// The set of a file.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +37,8 @@ pub(super) struct WantedFile<'a> {
     pub(super) name: String,
     /// Components with the values of their channels.
     pub(super) sources: Vec<(Component, Values<'a>)>,
+    /// Divisor of its values; 1 but for normalized ones above 1.
+    pub(super) scale: f32,
 }
 
 impl WantedFile<'_> {
@@ -47,9 +49,7 @@ impl WantedFile<'_> {
         (dither_seed, keeps_bytes): (u32, bool),
         kept: Option<&dyn EncodedFiles>,
     ) -> Result<EncodedFile, ExportError> {
-        let WantedFile {
-            map, preset, sources, ..
-        } = self;
+        let WantedFile { map, sources, .. } = self;
         let size = map.pixels(set.size);
         let fitted: Vec<Option<ChannelPixels>> = sources
             .iter()
@@ -63,10 +63,9 @@ impl WantedFile<'_> {
             .map(|((component, values), fitted)| match values {
                 Values::Pixels(held) => {
                     let pixels = fitted.as_ref().unwrap_or(&held.pixels);
-                    let dither = map.is_dithered.then_some(dither_seed);
-                    plane(component, held, pixels, (preset.normal_y, dither))
+                    self.plane(component, held, pixels, dither_seed)
                 }
-                Values::Same(value) => Plane::Constant(code_of_value(component, *value, map.format.is_whole())),
+                Values::Same(value) => Plane::Constant(self.code_of_value(component, *value)),
             })
             .collect();
         let encoding = Encoding {
@@ -81,6 +80,30 @@ impl WantedFile<'_> {
         Ok((WrittenFile { record, file, was_kept }, bytes))
     }
 
+    /// What the file holds less than its channel has; `material` is the stem of its set.
+    pub(super) fn cut(&self, material: &str) -> Option<CutMap> {
+        let is_held = |channel: &Channel| {
+            let maps = self.preset.maps_of(channel);
+            maps.into_iter().any(|map| !map.format.is_whole() || map.is_normalized)
+        };
+        let cut = |(component, values): &(Component, Values<'_>)| match (&component.source, values) {
+            (ComponentSource::Channel(channel @ (Channel::Emission | Channel::Color(_)), _), Values::Pixels(held))
+                if held.is_above_one() && !is_held(channel) =>
+            {
+                Some((channel.clone(), held.peak))
+            }
+            _ => None,
+        };
+        let (channel, peak) = self.sources.iter().find_map(cut)?;
+        self.map.format.is_whole().then(|| CutMap {
+            path: self.name.clone(),
+            preset: self.preset.name.clone(),
+            channel,
+            material: material.to_owned(),
+            peak,
+        })
+    }
+
     /// The file with these bytes, for the copy of the model.
     fn written_map(&self, bytes: Arc<Vec<u8>>) -> WrittenMap {
         let map = self.map;
@@ -91,6 +114,7 @@ impl WantedFile<'_> {
             format: map.format,
             is_whole_size: is_whole_size(map),
             normal_y: self.preset.normal_y,
+            scale: self.scale,
             file: MapFile {
                 name: self.name.clone(),
                 bytes,
@@ -140,10 +164,66 @@ impl WantedFile<'_> {
             bits: map.format.bits(),
             color_space: if map.is_srgb { "srgb" } else { "linear" },
             range: height_range(map, sources),
+            scale: (self.scale > 1.0).then_some(self.scale),
             engine_format,
             engine_bytes: engine_format.bytes(size),
             blake3: blake3::hash(bytes).to_hex().to_string(),
         }
+    }
+
+    /// A component with pixels as the encoder takes it.
+    fn plane<'p>(
+        &self,
+        component: &Component,
+        held: &HeldChannel,
+        pixels: &'p ChannelPixels,
+        dither_seed: u32,
+    ) -> Plane<'p> {
+        let (channel, index) = match &component.source {
+            ComponentSource::Constant(value) => return Plane::Constant(*value),
+            // None, once the preset has the outputs of the graph.
+            ComponentSource::Output(..) => return Plane::Constant(if component.is_inverted { 1.0 } else { 0.0 }),
+            ComponentSource::Channel(channel, index) => (channel, *index),
+        };
+        let range = [held.low[0], held.high[0]];
+        Plane::Channel {
+            pixels,
+            index,
+            codes: match channel {
+                Channel::Normal => Codes::Normal {
+                    is_down: self.preset.normal_y == NormalY::Down,
+                },
+                Channel::Height if self.map.is_normalized => Codes::Normalized(range),
+                Channel::Height => Codes::Range(range),
+                Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal) => Codes::Direction,
+                Channel::Mesh(MeshMap::Curvature) => Codes::Signed,
+                _ if self.scale > 1.0 => Codes::Scaled(self.scale),
+                _ => Codes::Unit,
+            },
+            is_inverted: component.is_inverted,
+            dither: self.map.is_dithered.then(|| channel.dither_pattern(index, dither_seed)),
+        }
+    }
+
+    /// A component of one value everywhere as files have it. A height is the whole range of its file; whole numbers, and
+    /// normalized ones, count from its lowest.
+    fn code_of_value(&self, component: &Component, value: Value) -> f32 {
+        let (channel, index) = match &component.source {
+            ComponentSource::Constant(value) => return *value,
+            // None, once the preset has the outputs of the graph.
+            ComponentSource::Output(..) => return if component.is_inverted { 1.0 } else { 0.0 },
+            ComponentSource::Channel(channel, index) => (channel, *index),
+        };
+        let value = value.component(index);
+        let unit = match channel {
+            Channel::Normal | Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal | MeshMap::Curvature) => {
+                value * 0.5 + 0.5
+            }
+            Channel::Height if !(self.map.format.is_whole() || self.map.is_normalized) => return value,
+            Channel::Height => 0.0,
+            _ => value / self.scale,
+        };
+        if component.is_inverted { 1.0 - unit } else { unit }
     }
 }
 
@@ -189,57 +269,6 @@ pub(super) struct WrittenFile {
     pub(super) was_kept: bool,
 }
 
-/// A component with pixels as the encoder takes it.
-fn plane<'a>(
-    component: &Component,
-    held: &HeldChannel,
-    pixels: &'a ChannelPixels,
-    (normal_y, dither_seed): (NormalY, Option<u32>),
-) -> Plane<'a> {
-    let (channel, index) = match &component.source {
-        ComponentSource::Constant(value) => return Plane::Constant(*value),
-        // None, once the preset has the outputs of the graph.
-        ComponentSource::Output(..) => return Plane::Constant(if component.is_inverted { 1.0 } else { 0.0 }),
-        ComponentSource::Channel(channel, index) => (channel, *index),
-    };
-    Plane::Channel {
-        pixels,
-        index,
-        codes: match channel {
-            Channel::Normal => Codes::Normal {
-                is_down: normal_y == NormalY::Down,
-            },
-            Channel::Height => Codes::Range([held.low[0], held.high[0]]),
-            Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal) => Codes::Direction,
-            Channel::Mesh(MeshMap::Curvature) => Codes::Signed,
-            _ => Codes::Unit,
-        },
-        is_inverted: component.is_inverted,
-        dither: dither_seed.map(|seed| channel.dither_pattern(index, seed)),
-    }
-}
-
-/// A component of one value everywhere as files have it. A height is the whole range of its file; whole numbers count from its
-/// lowest.
-fn code_of_value(component: &Component, value: Value, is_whole: bool) -> f32 {
-    let (channel, index) = match &component.source {
-        ComponentSource::Constant(value) => return *value,
-        // None, once the preset has the outputs of the graph.
-        ComponentSource::Output(..) => return if component.is_inverted { 1.0 } else { 0.0 },
-        ComponentSource::Channel(channel, index) => (channel, *index),
-    };
-    let value = value.component(index);
-    let unit = match channel {
-        Channel::Normal | Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal | MeshMap::Curvature) => {
-            value * 0.5 + 0.5
-        }
-        Channel::Height if !is_whole => return value,
-        Channel::Height => 0.0,
-        _ => value,
-    };
-    if component.is_inverted { 1.0 - unit } else { unit }
-}
-
 /// Returns true if a component is an opacity of 1 everywhere.
 fn is_opaque((component, values): &(Component, Values<'_>)) -> bool {
     let constant = match values {
@@ -272,7 +301,7 @@ fn height_range(map: &Map, sources: &[(Component, Values<'_>)]) -> Option<[f32; 
     let is_height = |component: &Component| matches!(component.source, ComponentSource::Channel(Channel::Height, _));
     let (_, values) = sources.iter().find(|(component, _)| is_height(component))?;
     match values {
-        _ if !map.format.is_whole() => None,
+        _ if !(map.format.is_whole() || map.is_normalized) => None,
         Values::Pixels(held) => Some([held.low[0], held.high[0]]),
         Values::Same(value) => Some([value.component(0); 2]),
     }

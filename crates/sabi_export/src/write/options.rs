@@ -1,7 +1,7 @@
 //! Options of writing texture sets.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use crate::name_pattern::{NameParts, NamePattern};
 use crate::preset::{Content, Document, Preset, PresetError, raw};
@@ -72,9 +72,10 @@ impl SetOptions {
         outputs: &[Channel],
         size: u32,
     ) -> Result<(), ExportError> {
-        let mut taken = BTreeSet::new();
+        // Names by their small letters.
+        let mut taken: BTreeMap<String, String> = BTreeMap::new();
         for file_name in self.document_names() {
-            if !taken.insert(file_name.to_lowercase()) {
+            if taken.insert(file_name.to_lowercase(), file_name.clone()).is_some() {
                 return Err(ExportError::SameDocument { file_name });
             }
         }
@@ -96,8 +97,13 @@ impl SetOptions {
                             size: map.pixels(size),
                         };
                         let file_name = map.file_name(names, &parts);
-                        if !taken.insert(file_name.to_lowercase()) {
-                            return Err(ExportError::SameName { file_name });
+                        match taken.insert(file_name.to_lowercase(), file_name.clone()) {
+                            None => {}
+                            Some(first) if first == file_name => return Err(ExportError::SameName { file_name }),
+                            Some(first) => {
+                                let second = file_name;
+                                return Err(ExportError::SameLetters { first, second });
+                            }
                         }
                     }
                 }

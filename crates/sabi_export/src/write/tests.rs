@@ -7,6 +7,7 @@ mod outputs;
 use super::*;
 
 mod documents;
+mod losses;
 
 use crate::layout::{layouts, tests::atlas};
 use crate::preset::Preset;

@@ -71,9 +71,9 @@ impl BakeWriter {
         let material = set.name.clone();
         let values = |channel: &Channel| {
             let constant = set.constant(channel);
-            Values::Same(constant.unwrap_or_else(|| Value::neutral(channel)))
+            constant.unwrap_or_else(|| Value::neutral(channel))
         };
-        let sources = sources(components, values);
+        let sources = sources(components, |channel| Values::Same(values(channel)));
         let file_set = FileSet {
             name: &material,
             udim: key.udim,
@@ -86,15 +86,26 @@ impl BakeWriter {
             size: map.pixels(set.size),
         };
         let name = map.file_name(names, &parts);
+        // Of a tile without a shared peak, the value is all that it has.
+        let peak = match self.peaks.get(&(key.material, Channel::Emission)) {
+            Some(peak) => *peak,
+            None => (0..3)
+                .map(|at| values(&Channel::Emission).component(at))
+                .fold(1.0, f32::max),
+        };
+        let is_emission = map.is_normalized && map.has(&Channel::Emission);
+        let scale = if is_emission { peak.max(1.0) } else { 1.0 };
         let file = FileFacts {
             name: name.clone(),
             components: sources.iter().map(|(component, _)| component.clone()).collect(),
+            scale,
         };
         let wanted = WantedFile {
             map,
             preset,
             name,
             sources,
+            scale,
         };
         // One value everywhere, and no copy of the model reads it.
         let for_all = (0, false);

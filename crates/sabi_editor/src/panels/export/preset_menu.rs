@@ -65,6 +65,13 @@ impl PresetMenu {
                 .auto_shrink([false, true]);
             area.show(ui, |ui| table(&preset, ui, theme));
         });
+        if !preset.left_out.is_empty() {
+            let channels = preset.left_out.join(", ").replace('_', " ");
+            let label = ui.label(RichText::new(format!("Leaves out: {channels}")).color(theme.quiet));
+            label.on_hover_text(
+                "What this preset is for has no place for these; an export warns where the material has them",
+            );
+        }
     }
 
     fn read(&mut self) {
@@ -103,8 +110,9 @@ fn details(file: &PresetFile) -> String {
         .as_ref()
         .map_or(String::new(), |size| format!(", {size} pixels"));
     let (bits, engine) = (file.bits, file.engine_format);
+    let normalized = if file.normalize { ", as 0 to 1" } else { "" };
     format!(
-        "{bits} bits{color}{size}; {engine} in an engine; written: {}",
+        "{bits} bits{color}{normalized}{size}; {engine} in an engine; written: {}",
         file.when
     )
 }

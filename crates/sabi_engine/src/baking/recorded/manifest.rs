@@ -15,6 +15,7 @@ use crate::baking::made_of::recipe::{Recipe, moved};
 use crate::baking::report::{BakeReport, REPORT_VERSION};
 use crate::error::{EngineError, ErrorKind};
 use crate::program::Build;
+use crate::warning::Warning;
 
 /// Hidden folder in an output folder.
 pub(super) const FOLDER: &str = ".sabi";
@@ -50,11 +51,13 @@ impl FolderChange {
         }
     }
 
-    /// Records a bake whose files are in place.
-    pub(crate) fn record(self, report: &BakeReport) -> Result<(), EngineError> {
+    /// Records a bake whose files are in place. Warns of documents of earlier bakes that name maps of this one now.
+    pub(crate) fn record(self, report: &mut BakeReport) -> Result<(), EngineError> {
         // A damaged manifest describes no set.
         let mut manifest = Manifest::read(&self.folder).unwrap_or_default();
-        manifest.add(report, &base(&self.folder))?;
+        let stale = manifest.make_room(report, &base(&self.folder));
+        report.warnings.extend(stale.into_iter().map(Warning::from));
+        manifest.bakes.push(json_of(&report.placed(&base(&self.folder)))?);
         let json = json!({ "version": REPORT_VERSION, "bakes": manifest.bakes });
         let text = serde_json::to_string_pretty(&json).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
         let bytes = format!("{text}\n").into_bytes();
@@ -80,7 +83,7 @@ impl Manifest {
             Err(Unread::Missing) => return Ok(Manifest::default()),
             Err(Unread::Other(reason)) => return Err(reason),
             Err(Unread::Folder | Unread::NotPlain | Unread::TooLarge(_) | Unread::Refused(_)) => {
-                return Err("it is no manifest".to_owned());
+                return Err("it is no file of records".to_owned());
             }
         };
         let json: Json = serde_json::from_slice(&bytes).map_err(|error| error.to_string())?;
@@ -96,10 +99,12 @@ impl Manifest {
         self.bakes.iter().map(|bake| RecordedBake::of(bake, &base)).collect()
     }
 
-    /// Adds a bake. An earlier one of the same set makes room, and so do files of the same names of others.
-    fn add(&mut self, report: &BakeReport, base: &PathBase) -> Result<(), EngineError> {
+    /// Makes room for a bake: an earlier one of the same set goes, and so do files of the same names of others. Returns sentences about
+    /// documents that stay and name files of these names.
+    fn make_room(&mut self, report: &BakeReport, base: &PathBase) -> Vec<String> {
         let report = report.placed(base);
         let written: BTreeSet<&str> = report.written_files().map(|(path, _)| path).collect();
+        let mut stale = Vec::new();
         let recipe = report.recipe.clone();
         self.bakes.retain_mut(|earlier| {
             // A record that cannot be read describes nothing.
@@ -116,11 +121,16 @@ impl Manifest {
                 .count();
             if left < count {
                 without_files(earlier, &written);
+                stale.extend(known.documents().filter(|document| !written.contains(document)).map(|document| {
+                    format!(
+                        "{document} of an earlier bake names maps that this one has replaced; bake it again into a folder of its own, or \
+                         remove it"
+                    )
+                }));
             }
             left > 0
         });
-        self.bakes.push(json_of(&report)?);
-        Ok(())
+        stale
     }
 
     /// Returns a wanted bake whose files are all in place, made by this program.

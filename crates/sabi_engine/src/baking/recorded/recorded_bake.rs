@@ -70,11 +70,15 @@ impl RecordedBake {
         let bytes = read_plain(path, MOST_BYTES).map_err(|unread| match unread {
             Unread::Missing => fault(ErrorKind::MissingInput, "does not exist; check the path"),
             Unread::Folder | Unread::NotPlain => bad("is a folder or a device, not a file"),
-            Unread::TooLarge(_) => bad(&format!("is none: it has more than {} MiB", MOST_BYTES >> 20)),
+            Unread::TooLarge(_) => bad(&format!(
+                "is no report of a bake: it has more than {} MiB",
+                MOST_BYTES >> 20
+            )),
             Unread::Refused(refusal) => fault(ErrorKind::MissingInput, &format!("is not read: {refusal}")),
             Unread::Other(reason) => fault(ErrorKind::MissingInput, &format!("cannot be read: {reason}")),
         })?;
-        let json: Json = serde_json::from_slice(&bytes).map_err(|error| bad(&format!("is none: {error}")))?;
+        let json: Json =
+            serde_json::from_slice(&bytes).map_err(|error| bad(&format!("is no report of a bake: {error}")))?;
         if json.get("error").is_some() {
             return Err(bad("is one of a bake that failed; its command line may be run again"));
         }
@@ -110,6 +114,11 @@ impl RecordedBake {
             .iter()
             .flat_map(|model| std::iter::once(&model.copy).chain(&model.files));
         self.outputs.iter().chain(&self.documents).chain(copy)
+    }
+
+    /// Documents that the bake wrote, relative to the output folder.
+    pub(super) fn documents(&self) -> impl Iterator<Item = &str> {
+        self.documents.iter().map(|document| document.path.as_str())
     }
 
     /// Returns the files that the bake read and that are others by now, with a sentence each; none where all are the same.

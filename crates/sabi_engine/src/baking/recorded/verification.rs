@@ -22,6 +22,22 @@ pub struct Verification {
     pub files: usize,
     /// Things that are not as they should be.
     pub findings: Vec<Finding>,
+    /// Reason why the folder could not be checked, as a sentence.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+}
+
+impl Verification {
+    /// A folder that could not be checked.
+    pub fn failed(folder: &Path, error: &EngineError) -> Verification {
+        Verification {
+            folder: folder.display().to_string(),
+            bakes: 0,
+            files: 0,
+            findings: Vec::new(),
+            error: Some(error.messages.join("; ")),
+        }
+    }
 }
 
 /// Something in an output folder that is not as it should be.
@@ -86,6 +102,7 @@ pub fn verify_folder(folder: &Path) -> Result<Verification, EngineError> {
         bakes: bakes.len(),
         files: known.len(),
         findings,
+        error: None,
     })
 }
 

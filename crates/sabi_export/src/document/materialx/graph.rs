@@ -77,7 +77,10 @@ impl<'m> Graph<'m> {
             Look::Value(_) => None,
             Look::Rgb(map) => {
                 let picture = self.picture(map)?;
-                Some(match (channel, picture.ty) {
+                // Of a color, all components have one divisor.
+                let [[scale, _], ..] = self.material.maps.get(map)?.decoding;
+                let is_scaled = *channel != Channel::Normal && scale != 1.0;
+                let made = match (channel, picture.ty) {
                     (Channel::Normal, "vector4" | "color4" | "color3") => {
                         let plain = self.converted(&picture, "vector3");
                         self.normal(&plain)
@@ -85,6 +88,10 @@ impl<'m> Graph<'m> {
                     (Channel::Normal, _) => self.normal(&picture),
                     (_, "color4") => self.converted(&picture, "color3"),
                     _ => picture,
+                };
+                Some(match is_scaled {
+                    true => self.arithmetic("multiply", &made, scale),
+                    false => made,
                 })
             }
             Look::Component { map, index } => {
@@ -163,7 +170,7 @@ impl<'m> Graph<'m> {
     pub(super) fn arithmetic(&mut self, tag: &'static str, value: &Node, number: f32) -> Node {
         let number = Argument::Value("float", list(&[number]));
         let arguments = [("in1", Argument::Node(value)), ("in2", number)];
-        self.node(tag, &format!("{}_{tag}", value.name), "float", &arguments)
+        self.node(tag, &format!("{}_{tag}", value.name), value.ty, &arguments)
     }
 
     fn converted(&mut self, value: &Node, ty: &'static str) -> Node {

@@ -93,6 +93,34 @@ fn documents_are_listed_with_their_hashes_and_are_the_same_twice() {
 }
 
 #[test]
+fn documents_undo_what_normalized_maps_were_divided_by() {
+    let maps = "[[map]]\nname = \"Emission\"\nrgb = \"emission\"\nformat = \"png8\"\nsrgb = true\nnormalize = true\n\
+                [[map]]\nname = \"Height\"\ngray = \"height\"\nformat = \"exr16\"\nnormalize = true\n";
+    let options = own("[\"materialx\", \"usda\"]", maps);
+    let folder = tempfile::tempdir().unwrap();
+    let emission = (
+        Channel::Emission,
+        pixels(&Channel::Emission, |index| (index % 41) as f32 * 0.125),
+    );
+    let height = (
+        Channel::Height,
+        pixels(&Channel::Height, |index| (index % 9) as f32 * 0.25 - 0.5),
+    );
+    bake_tiles(folder.path(), &options, &[(layout(), vec![height, emission])]);
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    let usd = read("model.usda");
+    assert!(usd.contains("float4 inputs:scale = (5, 5, 5, 1)"), "{usd}");
+    assert!(usd.contains("float4 inputs:scale = (2, 1, 1, 1)"), "{usd}");
+    assert!(usd.contains("float4 inputs:bias = (-0.5, 0, 0, 0)"), "{usd}");
+    let text = read("model.mtlx");
+    let of_emission = text
+        .split("<multiply")
+        .find(|node| node.contains("type=\"color3\""))
+        .unwrap();
+    assert!(of_emission.contains("value=\"5\""), "{text}");
+}
+
+#[test]
 fn a_tile_gets_the_map_that_others_have() {
     let maps = "[[map]]\nname = \"Surface\"\nr = \"occlusion\"\ng = \"roughness\"\nb = \"metallic\"\nformat = \"png8\"\n\
                 [[map]]\nname = \"Opacity\"\ngray = \"opacity\"\nformat = \"png8\"\n\

@@ -5,7 +5,7 @@ use crate::remedy::Remedy;
 
 /// Sentences about several faults, each once.
 #[derive(Debug, Default)]
-pub(super) struct Faults {
+pub(crate) struct Faults {
     messages: Vec<String>,
     kinds: Vec<ErrorKind>,
     /// True if trust in a file helps.
@@ -13,7 +13,7 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    pub(super) fn add(&mut self, error: EngineError) {
+    pub(crate) fn add(&mut self, error: EngineError) {
         self.kinds.push(error.kind);
         self.is_refusal |= error.remedies.contains(&Remedy::TrustFile);
         for message in error.messages {
@@ -23,9 +23,23 @@ impl Faults {
         }
     }
 
+    /// Returns true without any fault.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.messages.is_empty()
+    }
+
+    /// One error with all sentences, of the kind of the first fault.
+    pub(crate) fn into_result_of_first(self) -> Result<(), EngineError> {
+        let remedy = self.is_refusal.then_some(Remedy::TrustFile);
+        match self.kinds.first() {
+            None => Ok(()),
+            Some(kind) => Err(EngineError::several(*kind, self.messages).with_remedies(remedy)),
+        }
+    }
+
     /// One error with all sentences: about missing files if all are, else about bad input, since what the command line could
     /// have wrong stands in a file here.
-    pub(super) fn into_result(self) -> Result<(), EngineError> {
+    pub(crate) fn into_result(self) -> Result<(), EngineError> {
         let kind = match self.kinds.iter().all(|kind| *kind == ErrorKind::MissingInput) {
             true => ErrorKind::MissingInput,
             false => ErrorKind::BadInput,
