@@ -20,7 +20,7 @@ mod stopping;
 mod terminal;
 mod usage;
 
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
@@ -47,6 +47,14 @@ fn start() -> Exit {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
+            if let Some(why) = usage::mistyped_command_line(error.kind()) {
+                // The standard streams may be closed, and then there is nowhere to say so.
+                let _ = writeln!(io::stderr().lock(), "error: {why}");
+                if usage::asks_for_json() {
+                    terminal::json_failure(&Failure::new(Exit::Usage, why), "");
+                }
+                return Exit::Usage;
+            }
             // The standard streams may be closed, and then there is nowhere to say so.
             let _ = error.print();
             if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {

@@ -1,13 +1,43 @@
 //! Command lines that cannot be understood.
 
 use std::env;
+use std::path::Path;
 
+use clap::error::ErrorKind;
+use sabi_engine::nearest;
+
+use crate::arguments::command_names;
 use crate::exit::{Exit, Failure};
 
 /// Returns whether a command line asks for JSON, also where it cannot be understood otherwise.
 pub(crate) fn asks_for_json() -> bool {
     let options = env::args_os().skip(1).take_while(|argument| argument != "--");
     options.into_iter().any(|argument| argument == "--json")
+}
+
+/// Returns a sentence about a first word that is neither a file nor a command, but nearly one.
+pub(crate) fn mistyped_command(typed: &Path) -> Option<String> {
+    let word = typed.to_str().filter(|_| !typed.exists())?;
+    let names = command_names();
+    let meant = nearest(word, names.iter().map(String::as_str)).filter(|meant| *meant != word)?;
+    Some(format!(
+        "there is no file '{word}' to edit, and no such command; did you mean 'sabi {meant}'?"
+    ))
+}
+
+/// Returns the sentence about a mistyped command, if that may be why a command line cannot be understood: what follows it is then no
+/// argument of the editor.
+pub(crate) fn mistyped_command_line(kind: ErrorKind) -> Option<String> {
+    if !matches!(
+        kind,
+        ErrorKind::UnknownArgument | ErrorKind::InvalidSubcommand | ErrorKind::ArgumentConflict
+    ) {
+        return None;
+    }
+    let first = env::args_os()
+        .skip(1)
+        .find(|word| !word.as_encoded_bytes().starts_with(b"-"))?;
+    mistyped_command(Path::new(&first))
 }
 
 /// The failure of a command line, given the text that is printed for people: a sentence, tips, and where to read on.

@@ -71,7 +71,7 @@ pub enum ExportError {
     /// Two maps of a bake would have files whose names differ by capital letters alone.
     #[error(
         "two maps would be written to {first} and {second}, which are one file on systems that ignore capital letters; rename the \
-         material or the output that one of them belongs to"
+         material or the output that one of them belongs to, or name maps with $material and $preset"
     )]
     SameLetters {
         /// A file, without its folder.
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!(
             letters.to_string(),
             "two maps would be written to Wood_normal.png and wood_normal.png, which are one file on systems that ignore capital \
-             letters; rename the material or the output that one of them belongs to"
+             letters; rename the material or the output that one of them belongs to, or name maps with $material and $preset"
         );
         let document = ExportError::SameDocument {
             file_name: "helmet.usda".into(),

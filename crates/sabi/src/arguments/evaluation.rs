@@ -191,8 +191,19 @@ impl EvaluationArguments {
             fit: self.fit,
             ..Overrides::default()
         };
+        let mut failure: Option<Failure> = None;
+        let mut fail = |other: Failure| match &mut failure {
+            None => failure = Some(other),
+            Some(first) => first.messages.extend(other.messages),
+        };
         for path in &self.set_file {
-            let file = SetFile::open(path)?;
+            let file = match SetFile::open(path) {
+                Ok(file) => file,
+                Err(error) => {
+                    fail(error.into());
+                    continue;
+                }
+            };
             overrides.variant = file.variant.or(overrides.variant);
             overrides.seed = file.seed.or(overrides.seed);
             overrides.set.extend(file.set);
@@ -200,11 +211,15 @@ impl EvaluationArguments {
         overrides.variant = self.variant.clone().or(overrides.variant);
         overrides.seed = self.seed.or(overrides.seed);
         for text in &self.set {
-            let setting = read_setting(text);
-            let setting = setting.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?;
-            overrides.set.push(setting);
+            match read_setting(text) {
+                Ok(setting) => overrides.set.push(setting),
+                Err(why) => fail(Failure::new(Exit::Usage, format!("--set: {why}"))),
+            }
         }
-        Ok(overrides)
+        match failure {
+            None => Ok(overrides),
+            Some(failure) => Err(failure),
+        }
     }
 }
 

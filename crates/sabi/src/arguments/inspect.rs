@@ -15,12 +15,15 @@ use crate::graph_argument::GraphArgument;
 Examples:
   sabi check graph.sabi
   sabi check graphs/*.sabi --json",
-    after_help = "Checks all files, then ends with 65 if one of them has an error."
+    after_help = "Checks all files, then ends with 65 if one of them has an error, or with --strict a warning."
 )]
 pub(crate) struct CheckArguments {
     /// Graph files (.sabi); - is standard input
     #[arg(value_name = "GRAPH", required = true)]
     pub(crate) graphs: Vec<GraphArgument>,
+    /// Let warnings count as errors
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Print what was found as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -97,7 +100,8 @@ Examples:
   sabi verify out/* --json",
     after_help = "\
 Finds files that are missing or were changed, maps whose graph, model or pictures have changed since,
-files that no bake wrote, and what killed bakes left. Ends with 3 if it finds any."
+files that no bake wrote, and what killed bakes left. Ends with 3 if it finds any, and with 65
+or 66 if a folder cannot be checked; the others are checked all the same."
 )]
 pub(crate) struct VerifyArguments {
     /// Folders that maps were baked into

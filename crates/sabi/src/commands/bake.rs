@@ -173,6 +173,17 @@ fn summarize(
         "  adapter    {} ({})",
         report.adapter.name, report.adapter.kind
     ));
+    for output in &report.outputs {
+        if let Some([low, high]) = output.range {
+            terminal.note(format_args!(
+                "  height     {} is {low} to {high} in the model's units",
+                output.path
+            ));
+        }
+        if let Some(scale) = output.scale {
+            terminal.note(format_args!("  emission   {} times {scale}", output.path));
+        }
+    }
     for constant in &report.constants {
         terminal.note(format_args!(
             "  constant   {} {} {}",

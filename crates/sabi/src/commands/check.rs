@@ -15,6 +15,7 @@ pub(crate) fn run(arguments: &CheckArguments, trusted: &TrustedPaths, terminal: 
         let path = graph.path();
         let checked = graph.open(trusted).and_then(|open| Ok(check_graph(&open)?));
         let (report, graph_exit) = match checked {
+            Ok(report) if arguments.strict => with_strictness(report),
             Ok(report) if report.errors.is_empty() => (report, Exit::Done),
             Ok(report) => (report, Exit::BadInput),
             Err(failure) => report_of_failure(failure),
@@ -31,6 +32,17 @@ pub(crate) fn run(arguments: &CheckArguments, trusted: &TrustedPaths, terminal: 
         terminal.json(&documents)?;
     }
     Ok(exit)
+}
+
+/// Returns the report, with the warnings among the errors, and the exit code of a graph that may have neither.
+fn with_strictness(mut report: CheckReport) -> (CheckReport, Exit) {
+    report.errors.append(&mut report.warnings);
+    let exit = if report.errors.is_empty() {
+        Exit::Done
+    } else {
+        Exit::BadInput
+    };
+    (report, exit)
 }
 
 /// Returns the report and exit code of a graph that could not be opened.
@@ -56,7 +68,12 @@ fn print_findings(path: &Path, report: &CheckReport, terminal: &Terminal) {
         terminal.line(format_args!("{}", with_path(path, error)));
     }
     for warning in &report.warnings {
-        terminal.note(with_path(path, &format!("warning: {warning}")));
+        // One with a position begins with the path.
+        let sentence = match warning.strip_prefix(&*path.to_string_lossy()) {
+            Some(_) => format!("warning: {warning}"),
+            None => with_path(path, &format!("warning: {warning}")),
+        };
+        terminal.note(sentence);
     }
 }
 

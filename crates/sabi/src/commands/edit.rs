@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use sabi_engine::{TrustedPaths, nearest};
+use sabi_engine::TrustedPaths;
 
-use crate::arguments::{EditArguments, command_names};
+use crate::arguments::EditArguments;
 use crate::exit::{Exit, Failure};
 use crate::graph_argument::GraphArgument;
 #[cfg(feature = "window")]
 use crate::stopping;
+use crate::usage::mistyped_command;
 
 pub(crate) fn run(arguments: &EditArguments, trusted: &TrustedPaths) -> Result<Exit, Failure> {
     refuse_mistyped_command(arguments)?;
@@ -40,20 +41,9 @@ fn open(_: &EditArguments, _: Option<&Path>, _: &TrustedPaths) -> Result<Exit, F
 
 /// A command that was mistyped looks like a graph.
 fn refuse_mistyped_command(arguments: &EditArguments) -> Result<(), Failure> {
-    let typed = arguments
-        .graph
-        .as_ref()
-        .map(GraphArgument::path)
-        .filter(|graph| !graph.exists());
-    let Some(typed) = typed.and_then(|graph| graph.to_str()) else {
-        return Ok(());
-    };
-    let names = command_names();
-    match nearest(typed, names.iter().map(String::as_str)) {
-        Some(meant) => {
-            let why = format!("there is no file '{typed}' to edit, and no such command; did you mean 'sabi {meant}'?");
-            Err(Failure::new(Exit::Usage, why))
-        }
+    let typed = arguments.graph.as_ref().map(GraphArgument::path);
+    match typed.and_then(mistyped_command) {
+        Some(why) => Err(Failure::new(Exit::Usage, why)),
         None => Ok(()),
     }
 }

@@ -8,8 +8,21 @@ use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &VerifyArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let mut verified = Vec::new();
+    let mut exit = Exit::Done;
     for folder in &arguments.folders {
-        let verification = verify_folder(folder)?;
+        let verification = match verify_folder(folder) {
+            Ok(verification) => verification,
+            Err(error) => {
+                // The other folders are checked all the same.
+                error.messages.iter().for_each(|message| terminal.error(message));
+                verified.push(Verification::failed(folder, &error));
+                exit = worse(exit, error.kind.into());
+                continue;
+            }
+        };
+        if !verification.findings.is_empty() {
+            exit = worse(exit, Exit::Mismatch);
+        }
         for finding in &verification.findings {
             terminal.line(format_args!("{}: {}", verification.folder, finding.message));
         }
@@ -21,8 +34,19 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &Terminal) -> Result<Ex
     if arguments.json {
         terminal.json(&verified)?;
     }
-    let is_good = verified.iter().all(|verification| verification.findings.is_empty());
-    Ok(if is_good { Exit::Done } else { Exit::Mismatch })
+    Ok(exit)
+}
+
+/// Returns the exit code of two folders that is more important: one that could not be checked counts more than one with findings, and
+/// one that is damaged more than one that is missing.
+fn worse(one: Exit, other: Exit) -> Exit {
+    let rank = |exit: Exit| match exit {
+        Exit::Done => 0,
+        Exit::Mismatch => 1,
+        Exit::MissingInput => 2,
+        _ => 3,
+    };
+    if rank(other) > rank(one) { other } else { one }
 }
 
 fn verdict(verification: &Verification) -> String {

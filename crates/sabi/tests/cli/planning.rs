@@ -172,7 +172,7 @@ const REFUSED: [(&str, i32, &str); 13] = [
     (
         "{}variants = \"x*\"",
         65,
-        "matrix.toml: bake 1: clouds.sabi has no variant that fits 'x*'",
+        "matrix.toml: bake 1: none of its graphs has a variant that fits 'x*'",
     ),
     (
         "{}presets = \"unrael\"",
@@ -205,8 +205,8 @@ const REFUSED: [(&str, i32, &str); 13] = [
     (
         "{}presets = [[\"raw\", \"gltf\"]]",
         65,
-        "two maps would be written to material_Normal.png; rename the material or the output that one of them belongs to, \
-             or name maps with $material and $preset",
+        "two maps would be written to material_normal.png and material_Normal.png, which are one file on systems that ignore \
+             capital letters; rename the material or the output that one of them belongs to, or name maps with $material and $preset",
     ),
     (
         "{}exclude = [{ size = 1024 }]",

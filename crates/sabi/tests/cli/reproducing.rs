@@ -156,7 +156,11 @@ fn what_is_no_report_to_bake_from_is_told() {
             65,
             "is one of a bake that failed; its command line may be run again",
         ),
-        ("none.json", 65, "is none: expected value at line 1 column 1"),
+        (
+            "none.json",
+            65,
+            "is no report of a bake: expected value at line 1 column 1",
+        ),
         ("damaged.json", 65, "is damaged: "),
         ("missing.json", 66, "does not exist; check the path"),
         (".", 65, "is a folder or a device, not a file"),

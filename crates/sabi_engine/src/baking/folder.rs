@@ -7,12 +7,13 @@ use sabi_export::preset::{Content, Format};
 use sabi_export::{Channel, NamedPreset, SetOptions};
 use sabi_graph::FlatGraph;
 
+use crate::baking::recorded::manifest::has_record;
 use crate::error::{EngineError, ErrorKind};
 use crate::source::map_output;
 
-/// Returns true if a folder has files, but none that look like maps or documents of an earlier bake of this graph with these
-/// options or the default preset. A missing or empty folder is not foreign; hidden files do not count, nor does the `report` that the bake
-/// replaces, since one that failed leaves nothing else.
+/// Returns true if a folder has files, but neither a record of earlier bakes nor files that look like maps or documents of an earlier
+/// bake of this graph with these options or the default preset. A missing or empty folder is not foreign; hidden files do not count, nor
+/// does the `report` that the bake replaces, since one that failed leaves nothing else.
 pub(crate) fn is_foreign_folder(
     folder: &Path,
     graph: &FlatGraph,
@@ -22,6 +23,10 @@ pub(crate) fn is_foreign_folder(
     let Ok(entries) = fs::read_dir(folder) else {
         return Ok(false);
     };
+    if has_record(folder) {
+        // Names may have the seed or the variant of the earlier bake.
+        return Ok(false);
+    }
     let names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
         .filter(|name| !name.starts_with('.') && report != Some(&folder.join(name)))

@@ -197,17 +197,18 @@ impl ItemPlanner<'_> {
         request.graph = whole_path(&self.from, &draft.graph.written);
         request.evaluator.model.path = whole_path(&self.from, &draft.model.written);
         let out = whole_path(&self.from, &out_folder(draft).map_err(bad)?);
+        // A missing one was told by the check.
+        let files_of_presets = presets.iter().filter_map(|(_, file)| file.as_ref());
+        let files_of_presets = files_of_presets.filter(|file| file.exists());
         let mut item = BakeItem {
             item: at,
             key: String::new(),
             out: self.path_text(&out),
             recipe: Recipe::of(&request, None).moved(&self.from, &self.to),
-            inputs: self
-                .inputs(draft, &graph, presets.iter().filter_map(|(_, file)| file.as_ref()))
-                .unwrap_or_else(|error| {
-                    faults.add(error);
-                    Vec::new()
-                }),
+            inputs: self.inputs(draft, &graph, files_of_presets).unwrap_or_else(|error| {
+                faults.add(error);
+                Vec::new()
+            }),
             build: Build::current().clone(),
         };
         faults.into_result()?;

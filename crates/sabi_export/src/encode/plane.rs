@@ -110,8 +110,11 @@ impl Plane<'_> {
         };
         let (of, at) = ((*pixels, range.clone()), *index);
         let inverted = match *codes {
-            Codes::Unit | Codes::Normal { .. } | Codes::Normalized(_) | Codes::Scaled(_) => {
-                return self.units(range, floats);
+            Codes::Unit | Codes::Normal { .. } => return self.units(range, floats),
+            Codes::Normalized(_) | Codes::Scaled(_) => {
+                self.units(range, floats);
+                // Ghosts beyond the charts may exceed the range, as they do in whole numbers.
+                return floats.iter_mut().for_each(|value| *value = value.clamp(0.0, 1.0));
             }
             Codes::Range([low, high]) => {
                 map_values(of, floats, |values| values[at]);

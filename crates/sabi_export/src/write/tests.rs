@@ -381,12 +381,21 @@ fn files_of_one_name_are_refused_before_anything_is_written() {
     assert_eq!(told(&preset("raw"), &["wear"]), Ok(()));
     let advice =
         "rename the material or the output that one of them belongs to, or name maps with $material and $preset";
+    let same = "which are one file on systems that ignore capital letters";
     assert_eq!(
         told(&options, &[]),
-        Err(format!("two maps would be written to wood_Roughness.png; {advice}"))
+        Err(format!(
+            "two maps would be written to wood_roughness.png and wood_Roughness.png, {same}; {advice}"
+        ))
     );
     assert_eq!(
         told(&preset("raw"), &["wear", "Wear"]),
-        Err(format!("two maps would be written to wood_Wear.png; {advice}"))
+        Err(format!(
+            "two maps would be written to wood_wear.png and wood_Wear.png, {same}; {advice}"
+        ))
+    );
+    assert_eq!(
+        told(&preset("raw"), &["wear", "wear"]),
+        Err(format!("two maps would be written to wood_wear.png; {advice}"))
     );
 }

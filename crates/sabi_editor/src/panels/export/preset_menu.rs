@@ -57,6 +57,13 @@ impl PresetMenu {
                 return;
             }
         };
+        if !preset.left_out.is_empty() {
+            let channels = preset.left_out.join(", ").replace('_', " ");
+            let label = ui.label(RichText::new(format!("Leaves out: {channels}")).color(theme.quiet));
+            label.on_hover_text(
+                "What this preset is for has no place for these; an export warns where the material has them",
+            );
+        }
         ui.collapsing(format!("Files of {chosen}"), |ui| {
             ui.label(RichText::new(&preset.about).color(theme.quiet));
             // The button that exports stays in sight.
@@ -65,13 +72,6 @@ impl PresetMenu {
                 .auto_shrink([false, true]);
             area.show(ui, |ui| table(&preset, ui, theme));
         });
-        if !preset.left_out.is_empty() {
-            let channels = preset.left_out.join(", ").replace('_', " ");
-            let label = ui.label(RichText::new(format!("Leaves out: {channels}")).color(theme.quiet));
-            label.on_hover_text(
-                "What this preset is for has no place for these; an export warns where the material has them",
-            );
-        }
     }
 
     fn read(&mut self) {

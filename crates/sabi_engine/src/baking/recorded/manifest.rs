@@ -252,6 +252,11 @@ fn without_files(bake: &mut Json, written: &BTreeSet<&str>) {
     bake["partly_replaced"] = Json::Bool(true);
 }
 
+/// Returns true if bakes into a folder were recorded.
+pub(crate) fn has_record(folder: &Path) -> bool {
+    path(folder).is_file()
+}
+
 /// The manifest's file.
 pub(super) fn path(folder: &Path) -> PathBuf {
     folder.join(FOLDER).join(FILE)
