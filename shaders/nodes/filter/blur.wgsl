@@ -16,19 +16,19 @@ struct Params {
 }
 
 /// How heat flows along u.
-/// @pass 1 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 1 @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn across(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_across(at, round, params.space == 1u);
 }
 
 /// How heat flows along v.
-/// @pass 2 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 2 @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn along(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred.
-/// @pass 3 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 3 @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 /// @input source The mask to blur.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
@@ -36,7 +36,7 @@ fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The blur, on the level that suits its radius.
-/// @pass 4 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 4 @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 /// @repeat max(5.1 * params.radius / texel, 10.2)
 fn heat(
     at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, across: texture_2d_array<f32>,
@@ -55,25 +55,25 @@ fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>
 }
 
 /// How heat flows along u, for a radius of one half; on a level twice as coarse for its size, since smaller radii are only mixed.
-/// @pass 6 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 6 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn half_across(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_across(at, round, params.space == 1u);
 }
 
 /// How it flows along v.
-/// @pass 7 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 7 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn half_along(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one half of the radius.
-/// @pass 8 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 8 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn half_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one half of the radius.
-/// @pass 9 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 9 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 /// @repeat max(5.1 * params.radius / 2 / texel, 10.2)
 fn half_heat(
     at: Surface, round: Round, params: Params, half_start: texture_2d_array<f32>, half_across: texture_2d_array<f32>,
@@ -93,25 +93,25 @@ fn half_finish(
 }
 
 /// How heat flows along u, for a radius of one quarter.
-/// @pass 11 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+/// @pass 11 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 fn quarter_across(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_across(at, round, params.space == 1u);
 }
 
 /// How it flows along v.
-/// @pass 12 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+/// @pass 12 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 fn quarter_along(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one quarter of the radius.
-/// @pass 13 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+/// @pass 13 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 fn quarter_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one quarter of the radius.
-/// @pass 14 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+/// @pass 14 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 /// @repeat max(5.1 * params.radius / 4 / texel, 10.2)
 fn quarter_heat(
     at: Surface, round: Round, params: Params, quarter_start: texture_2d_array<f32>, quarter_across: texture_2d_array<f32>,
@@ -131,25 +131,25 @@ fn quarter_finish(
 }
 
 /// How heat flows along u, for a radius of one eighth.
-/// @pass 16 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+/// @pass 16 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 fn eighth_across(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_across(at, round, params.space == 1u);
 }
 
 /// How it flows along v.
-/// @pass 17 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+/// @pass 17 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 fn eighth_along(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one eighth of the radius.
-/// @pass 18 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+/// @pass 18 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 fn eighth_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one eighth of the radius.
-/// @pass 19 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+/// @pass 19 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 /// @repeat max(5.1 * params.radius / 8 / texel, 10.2)
 fn eighth_heat(
     at: Surface, round: Round, params: Params, eighth_start: texture_2d_array<f32>, eighth_across: texture_2d_array<f32>,

@@ -13,19 +13,19 @@ struct Params {
 }
 
 /// How heat flows along u.
-/// @pass 1 @vector @texel params.radius / 3.2 @points params.radius / 3
+/// @pass 1 @vector @texel params.radius / 2.4 @points params.radius / 3
 fn across(at: Surface, round: Round) -> vec3f {
     return heat_across(at, round, false);
 }
 
 /// How heat flows along v.
-/// @pass 2 @vector @texel params.radius / 3.2 @points params.radius / 3
+/// @pass 2 @vector @texel params.radius / 2.4 @points params.radius / 3
 fn along(at: Surface, round: Round) -> vec3f {
     return heat_along(at, round, false);
 }
 
 /// What is blurred.
-/// @pass 3 @vector @texel params.radius / 3.2 @points params.radius / 3
+/// @pass 3 @vector @texel params.radius / 2.4 @points params.radius / 3
 /// @input source The mask to sharpen.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
@@ -33,7 +33,7 @@ fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The surroundings.
-/// @pass 4 @vector @texel params.radius / 3.2 @points params.radius / 3
+/// @pass 4 @vector @texel params.radius / 2.4 @points params.radius / 3
 /// @repeat max(5.1 * params.radius / texel, 10.2)
 fn heat(
     at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, across: texture_2d_array<f32>,

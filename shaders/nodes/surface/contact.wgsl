@@ -24,7 +24,7 @@ struct Params {
 
 /// The rays of a place, evenly over the half of all directions that is outside.
 /// @rays params.rays @finds nearest @reach params.distance
-/// @texel min(params.distance / 12, 2 * finest)
+/// @texel max(min(params.distance / 12, 2 * finest), min(params.distance / 24, 4 * finest))
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     let sample = ray_sample(at, index, params.seed);
     let turn = turn_of(vec3f(6.2831853 * sample.x, 0.0, 0.0));

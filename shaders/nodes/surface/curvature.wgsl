@@ -21,7 +21,7 @@ struct Params {
 
 /// The rays of a place, to all sides alike.
 /// @rays params.rays @finds any @reach params.radius
-/// @texel min(params.radius / 10, 2 * finest)
+/// @texel max(min(params.radius / 10, 2 * finest), min(params.radius / 20, 4 * finest))
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_around(at, index, params.seed, params.radius);
 }

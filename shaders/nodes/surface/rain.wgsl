@@ -29,6 +29,7 @@ struct Params {
 
 /// The rays of a place, against the rain.
 /// @rays params.rays @finds any @reach params.distance
+/// @texel min(params.spread * params.distance / 200, 2 * finest)
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     let sample = ray_sample(at, index, params.seed);
     let wind = turn_of(vec3f(params.wind, params.slant, params.spread));

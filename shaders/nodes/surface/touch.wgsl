@@ -20,7 +20,7 @@ struct Params {
 
 /// The rays of a place: chords of the ball, from the place where it touches to its other side.
 /// @rays params.rays @finds any @reach params.diameter
-/// @texel min(params.diameter / 24, 2 * finest)
+/// @texel max(min(params.diameter / 24, 2 * finest), min(params.diameter / 48, 4 * finest))
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     // The ball lies on the triangle: on shading that bends away from it, it would cut into flat sides.
     let direction = cosine_direction(at.face_normal, ray_sample(at, index, params.seed));
