@@ -49,6 +49,7 @@ mod channels;
 mod error;
 mod field;
 mod fuse;
+mod group_order;
 mod inputs;
 mod kernel_builder;
 mod keys;

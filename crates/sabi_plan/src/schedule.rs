@@ -32,11 +32,9 @@ impl Planner<'_> {
         let readers = fuse::readers(&resolved);
         let groups = fuse::groups(&resolved, &readers, &values, self.mode, &self.limits);
         let builder = StepBuilder::new(self, &resolved, &groups, readers);
-        let order = builder.order(&groups, &values);
-        let mut steps: Vec<UnassignedStep> = order
-            .into_iter()
-            .flat_map(|group| builder.steps(&groups[group], &values))
-            .collect();
+        let built: Vec<Vec<UnassignedStep>> = groups.iter().map(|group| builder.steps(group, &values)).collect();
+        let order = builder.order(&groups, &built, &values);
+        let mut steps = in_order(built, &order);
         keep_first_moves(&mut steps);
         (builder.assign_slots(steps, wanted), errors)
     }
@@ -80,6 +78,16 @@ impl Planner<'_> {
     }
 }
 
+/// The steps of groups in an order of the groups; those of groups that are not in it are left out.
+fn in_order(built: Vec<Vec<UnassignedStep>>, order: &[usize]) -> Vec<UnassignedStep> {
+    let mut built: Vec<Option<Vec<UnassignedStep>>> = built.into_iter().map(Some).collect();
+    order
+        .iter()
+        .filter_map(|group| built[*group].take())
+        .flatten()
+        .collect()
+}
+
 /// Removes moves of the same plane to the same level but the first.
 fn keep_first_moves(steps: &mut Vec<UnassignedStep>) {
     let mut moved = BTreeSet::new();
@@ -90,28 +98,6 @@ fn keep_first_moves(steps: &mut Vec<UnassignedStep>) {
 }
 
 impl StepBuilder<'_, '_> {
-    /// Groups that the wanted values need, depth first, so that few results are alive at a time.
-    fn order(&self, groups: &[Group], wanted: &[Value]) -> Vec<usize> {
-        let mut seen = BTreeSet::new();
-        let mut order = Vec::new();
-        for value in wanted {
-            let mut stack = vec![(self.producer[value], false)];
-            while let Some((group, inputs_done)) = stack.pop() {
-                if inputs_done {
-                    order.push(group);
-                } else if seen.insert(group) {
-                    stack.push((group, true));
-                    let nodes: BTreeSet<usize> = groups[group].values().into_iter().map(|(node, _)| node).collect();
-                    let inputs = nodes.iter().flat_map(|node| self.node(*node).inputs.iter().flatten());
-                    let from = inputs.map(|input| self.producer[&(input.node, input.output)]);
-                    let fresh: Vec<usize> = from.filter(|from| !seen.contains(from)).collect();
-                    stack.extend(fresh.into_iter().rev().map(|from| (from, false)));
-                }
-            }
-        }
-        order
-    }
-
     /// Builds the steps of a group.
     fn steps(&self, group: &Group, wanted: &[Value]) -> Vec<UnassignedStep> {
         match group {
