@@ -1,9 +1,9 @@
-//! Steps of a plan that have to run, and the last uses of their results.
+//! Steps of a plan that have to run, and how long their results are needed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_nodes::link::Plane;
-use sabi_plan::{Level, Plan, SlotRef, Step};
+use sabi_nodes::link::{KernelSpec, Plane};
+use sabi_plan::{KernelStep, Level, Plan, SlotRef, Step};
 
 use crate::result_key::ResultKey;
 
@@ -92,18 +92,81 @@ pub(crate) fn written_by(plan: &Plan, steps: &[usize]) -> BTreeSet<SlotRef> {
     steps.iter().flat_map(|at| writes(&plan.steps[*at])).collect()
 }
 
-/// Last one of these steps that uses each slot; `usize::MAX` for results.
-pub(crate) fn last_uses(plan: &Plan, steps: &[usize]) -> BTreeMap<SlotRef, usize> {
-    let mut last = BTreeMap::new();
+/// Slots whose values no later one of these steps reads, by the step after which that is so. A slot that holds several values one
+/// after the other is in the list of each. Results of the plan are in none.
+pub(crate) fn dead_after(plan: &Plan, steps: &[usize]) -> BTreeMap<usize, BTreeSet<SlotRef>> {
+    let mut needed: BTreeSet<SlotRef> = plan.results.iter().flat_map(|result| &result.slots).copied().collect();
+    let mut dead = BTreeMap::new();
+    for at in steps.iter().rev() {
+        let (reads, writes) = (reads(&plan.steps[*at]), writes(&plan.steps[*at]));
+        let used = reads.iter().chain(&writes);
+        let unneeded: BTreeSet<SlotRef> = used.filter(|slot| !needed.contains(slot)).copied().collect();
+        dead.insert(*at, unneeded);
+        writes.iter().for_each(|slot| {
+            needed.remove(slot);
+        });
+        needed.extend(reads);
+    }
+    dead
+}
+
+/// The slot that the first run of a repeated kernel reads and no other one does, if nothing reads it afterwards: its texture is free
+/// for the second run.
+pub(crate) fn free_after_first_run(kernel: &KernelStep, dead: &BTreeSet<SlotRef>) -> Option<SlotRef> {
+    let feedback = kernel.feedback.as_ref().filter(|feedback| feedback.run_count > 1)?;
+    let start = *kernel.reads.get(feedback.read)?.as_ref()?;
+    let is_read_once = kernel.reads.iter().flatten().filter(|slot| **slot == start).count() == 1;
+    (is_read_once && dead.contains(&start)).then_some(start)
+}
+
+/// Most bytes of slots whose values are alive at once in a run of these steps, by the bytes of each slot.
+pub(crate) fn most_alive(
+    plan: &Plan,
+    steps: &[usize],
+    dead: &BTreeMap<usize, BTreeSet<SlotRef>>,
+    bytes: impl Fn(SlotRef) -> u64,
+) -> u64 {
+    let none = BTreeSet::new();
+    let mut alive: BTreeSet<SlotRef> = BTreeSet::new();
+    let mut most = 0;
     for at in steps {
         let step = &plan.steps[*at];
-        last.extend(reads(step).into_iter().chain(writes(step)).map(|slot| (slot, *at)));
+        let dead = dead.get(at).unwrap_or(&none);
+        alive.extend(reads(step).into_iter().chain(writes(step)));
+        let sum: u64 = alive.iter().map(|slot| bytes(*slot)).sum();
+        let shared = match step {
+            Step::Kernel(kernel) => free_after_first_run(kernel, dead).map(|start| {
+                let second = second_written(kernel);
+                second.map_or(0, |second| bytes(start).min(bytes(second)))
+            }),
+            _ => None,
+        };
+        most = most.max(sum - shared.unwrap_or(0)); // Nothing is shared.
+        alive.retain(|slot| !dead.contains(slot));
     }
-    last.extend(
-        plan.results
-            .iter()
-            .flat_map(|result| &result.slots)
-            .map(|slot| (*slot, usize::MAX)),
-    );
+    most
+}
+
+/// Those of these steps whose kernels no later one has.
+pub(crate) fn last_of_kernels(plan: &Plan, steps: &[usize]) -> BTreeSet<usize> {
+    let mut seen: Vec<&KernelSpec> = Vec::new();
+    let mut last = BTreeSet::new();
+    for at in steps.iter().rev() {
+        if let Step::Kernel(kernel) = &plan.steps[*at]
+            && !seen.contains(&&kernel.spec)
+        {
+            seen.push(&kernel.spec);
+            last.insert(*at);
+        }
+    }
     last
+}
+
+/// The slot that a repeated kernel writes in its second run; the last run writes that of the result.
+fn second_written(kernel: &KernelStep) -> Option<SlotRef> {
+    let feedback = kernel.feedback.as_ref()?;
+    match feedback.run_count.is_multiple_of(2) {
+        true => kernel.writes.first().copied().flatten(),
+        false => Some(feedback.scratch),
+    }
 }

@@ -60,6 +60,13 @@ impl PipelineCache {
         }
     }
 
+    /// Forgets a kernel of nodes. It is compiled again if it is needed again.
+    pub(crate) fn forget_kernel(&self, kernel: &Arc<CompiledKernel>) {
+        if let Ok(mut kernels) = self.kernels.lock() {
+            kernels.retain(|_, known| !Arc::ptr_eq(known, kernel));
+        }
+    }
+
     /// The kernel of a fixed shader.
     pub(crate) fn fixed_kernel(&self, shader: FixedShader) -> Option<Arc<FixedKernel>> {
         self.fixed.lock().ok()?.get(&shader).cloned()

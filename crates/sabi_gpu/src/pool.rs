@@ -28,6 +28,8 @@ pub struct PoolReport {
 #[derive(Debug)]
 pub(crate) struct TexturePool {
     budget_bytes: u64,
+    /// Bytes beyond which free textures are dropped before another one is made.
+    aim_bytes: u64,
     free: BTreeMap<(Format, Extent), Vec<wgpu::Texture>>,
     report: PoolReport,
 }
@@ -37,6 +39,7 @@ impl TexturePool {
     pub(crate) fn new(budget_bytes: u64, used_bytes: u64) -> TexturePool {
         TexturePool {
             budget_bytes,
+            aim_bytes: budget_bytes,
             free: BTreeMap::new(),
             report: PoolReport {
                 bytes: used_bytes,
@@ -49,16 +52,42 @@ impl TexturePool {
         self.report
     }
 
+    /// Sets the bytes of textures that are needed at once: free ones are kept as long as there are no more in all.
+    pub(crate) fn aim_at(&mut self, needed_bytes: u64) {
+        self.aim_bytes = (self.report.bytes + needed_bytes).min(self.budget_bytes);
+    }
+
+    /// Drops free textures, the largest first, as far as another one that has to be made would not fit otherwise. Returns true if
+    /// any was dropped.
+    pub(crate) fn make_room(&mut self, format: Format, extent: Extent) -> bool {
+        if self.free.get(&(format, extent)).is_some_and(|free| !free.is_empty()) {
+            return false;
+        }
+        let needed = bytes_of(format, extent);
+        let mut dropped = false;
+        while self.report.bytes + needed > self.aim_bytes {
+            let of = self.free.iter().filter(|(_, textures)| !textures.is_empty());
+            let Some(largest) = of
+                .map(|(key, _)| *key)
+                .max_by_key(|(format, extent)| bytes_of(*format, *extent))
+            else {
+                break;
+            };
+            if let Some(texture) = self.free.get_mut(&largest).and_then(Vec::pop) {
+                self.discard(largest.0, &texture);
+                dropped = true;
+            }
+        }
+        dropped
+    }
+
     /// Takes a texture with undefined content.
     pub(crate) fn take(&mut self, gpu: &Gpu, format: Format, extent: Extent) -> Result<wgpu::Texture, GpuError> {
         if let Some(texture) = self.free.get_mut(&(format, extent)).and_then(Vec::pop) {
             return Ok(texture);
         }
+        self.make_room(format, extent);
         let bytes = bytes_of(format, extent);
-        if self.report.bytes + bytes > self.budget_bytes {
-            // Free textures of other formats make room.
-            self.drop_free();
-        }
         let needed = self.within_budget(bytes)?;
         let texture = texture(gpu, extent, format)?;
         self.report.bytes = needed;
@@ -107,7 +136,8 @@ impl TexturePool {
     }
 }
 
-fn bytes_of(format: Format, extent: Extent) -> u64 {
+/// Bytes of a texture.
+pub(crate) fn bytes_of(format: Format, extent: Extent) -> u64 {
     extent.iter().map(|side| u64::from(*side)).product::<u64>() * format.texel_bytes()
 }
 

@@ -21,8 +21,10 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
 use crate::levels::Surfaces;
-use crate::needed_steps::{last_uses, needed_steps, reads, written_by};
-use crate::pool::{TexturePool, texture};
+use crate::needed_steps::{
+    dead_after, free_after_first_run, last_of_kernels, most_alive, needed_steps, reads, written_by,
+};
+use crate::pool::{TexturePool, bytes_of, texture};
 use crate::rays::{HitCache, Hits};
 use crate::run_options::RunOptions;
 use crate::run_result::{Run, RunReport, StepTime};
@@ -164,6 +166,10 @@ struct Runner<'a> {
     coverages: Coverages<'a>,
     /// Index of the present step.
     at: usize,
+    /// Slots whose textures are free again after each step; none where all results are cached.
+    dead_after: BTreeMap<usize, BTreeSet<SlotRef>>,
+    /// Steps after which their kernels are forgotten.
+    last_of_kernels: BTreeSet<usize>,
 }
 
 /// Returns whether a step is a kernel over tiles, of which quick ones are not waited for.
@@ -197,6 +203,8 @@ impl<'a> Runner<'a> {
             part: None,
             coverages,
             at: 0,
+            dead_after: BTreeMap::new(),
+            last_of_kernels: BTreeSet::new(),
         }
     }
 
@@ -230,7 +238,13 @@ impl<'a> Runner<'a> {
 impl Runner<'_> {
     /// Runs steps in order; with `releases`, textures return to the pool after their last use.
     fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
-        let last_use = last_uses(self.plan, steps);
+        if releases {
+            self.dead_after = dead_after(self.plan, steps);
+            self.pool.aim_at(self.most_alive_bytes(steps)?);
+        }
+        if self.options.forgets_kernels {
+            self.last_of_kernels = last_of_kernels(self.plan, steps);
+        }
         for (done, at) in steps.iter().enumerate() {
             self.at = *at;
             self.part = self.parts.remove(at);
@@ -242,9 +256,7 @@ impl Runner<'_> {
             if self.gpu.in_flight.is_empty() {
                 self.done = done + 1;
             }
-            if releases {
-                self.release_after(*at, &last_use);
-            }
+            self.release_after(*at);
             (self.options.progress)(done + 1, steps.len());
         }
         let results: Vec<SlotRef> = self
@@ -319,7 +331,12 @@ impl Runner<'_> {
             return Ok(texture.clone());
         }
         let format = self.plan.slots[slot].format;
-        let texture = self.pool.take(self.gpu, format, self.extent(slot)?)?;
+        let extent = self.extent(slot)?;
+        if self.pool.make_room(format, extent) {
+            // The memory of what was dropped is given back once the device is done with it.
+            self.wait()?;
+        }
+        let texture = self.pool.take(self.gpu, format, extent)?;
         self.textures[slot] = Some(texture.clone());
         Ok(texture)
     }
@@ -335,13 +352,26 @@ impl Runner<'_> {
         })
     }
 
-    fn release_after(&mut self, at: usize, last_use: &BTreeMap<SlotRef, usize>) {
-        for (slot, last) in last_use {
-            if *last == at
-                && let Some(texture) = self.textures[*slot].take()
-            {
-                self.pool.release(self.plan.slots[*slot].format, texture);
-            }
+    /// Most bytes of textures that these steps need at once.
+    fn most_alive_bytes(&self, steps: &[usize]) -> Result<u64, GpuError> {
+        let slots = 0..self.plan.slots.len();
+        let bytes = slots.map(|slot| Ok(bytes_of(self.plan.slots[slot].format, self.extent(slot)?)));
+        let bytes = bytes.collect::<Result<Vec<u64>, GpuError>>()?;
+        Ok(most_alive(self.plan, steps, &self.dead_after, |slot| bytes[slot]))
+    }
+
+    /// Returns textures to the pool that no step after this one reads.
+    fn release_after(&mut self, at: usize) {
+        for slot in self.dead_after.remove(&at).unwrap_or_default() {
+            // All results are kept.
+            self.release(slot);
+        }
+    }
+
+    /// Returns the texture of a slot to the pool.
+    fn release(&mut self, slot: SlotRef) {
+        if let Some(texture) = self.textures[slot].take() {
+            self.pool.release(self.plan.slots[slot].format, texture);
         }
     }
 
@@ -361,6 +391,8 @@ impl Runner<'_> {
         self.report.compile += compiling.elapsed();
         let block = block_buffer(self.gpu, &compiled, step, None);
         let run_count = step.feedback.as_ref().map_or(1, |feedback| feedback.run_count);
+        let dead = self.dead_after.get(&self.at);
+        let free_after_first = dead.and_then(|dead| free_after_first_run(step, dead));
         let mut last: Option<SlotRef> = None;
         let mut sum = Some(Duration::ZERO);
         for index in 0..run_count {
@@ -383,6 +415,12 @@ impl Runner<'_> {
             };
             let taken = self.dispatch(step, &compiled, &block, slots, repetition, sources)?;
             sum = sum.zip(taken).map(|(sum, taken)| sum + taken);
+            if let Some(start) = free_after_first.filter(|_| index == 0) {
+                self.release(start);
+            }
+        }
+        if self.last_of_kernels.contains(&self.at) {
+            self.gpu.pipelines.forget_kernel(&compiled);
         }
         Ok(sum)
     }

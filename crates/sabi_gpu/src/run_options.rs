@@ -24,6 +24,9 @@ pub struct RunOptions<'a> {
     pub hits: Hits,
     /// True if the time of filling ghosts is measured, which costs a little time itself.
     pub times_ghosts: bool,
+    /// True if kernels are forgotten after their last step: what a software driver compiles takes two megabytes each, and a run whose
+    /// plan is the only one of a device needs none again.
+    pub forgets_kernels: bool,
     /// Time of computing from which a small result is kept for later runs. A larger one takes longer to write and read, and is
     /// kept if its time is that much longer.
     pub keeps_from: Duration,
@@ -43,6 +46,7 @@ impl RunOptions<'_> {
             caster: CasterChoice::Auto,
             hits: Hits::Cast,
             times_ghosts: false,
+            forgets_kernels: false,
             keeps_from: DEFAULT_KEEPS_FROM,
             shown: None,
         }

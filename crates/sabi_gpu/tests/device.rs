@@ -258,6 +258,48 @@ fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
     assert!(matches!(limited(all - 1), Some(GpuError::OverBudget { .. })));
 }
 
+/// Masks of one number and a filter of vectors, which is repeated.
+const MIXED: &str = r#"
+    "clouds": { "kind": "noise/simplex" },
+    "soft": { "kind": "filter/blur", "inputs": { "source": "clouds" }, "params": { "radius": 0.03 } },
+    "cut": { "kind": "adjust/threshold", "inputs": { "source": "soft" } },
+    "softer": { "kind": "filter/blur", "inputs": { "source": "cut" }, "params": { "radius": 0.04 } },
+    "last": { "kind": "blend/mask", "inputs": { "below": "softer", "above": "clouds" } }"#;
+
+#[test]
+fn a_run_holds_no_more_textures_than_are_needed_at_once() {
+    let bench = Bench::new(64);
+    for plan in [
+        bench.plan(MIXED, Mode::Bake { fuse: false }),
+        bench.plan(MIXED, Mode::Bake { fuse: false }).with_own_slots(),
+    ] {
+        let run = bench.run(&plan, &options(), None).unwrap();
+        // During a blur: clouds and what is blurred, the flow along u and v, and two states of the heat, whose start is one of them.
+        let texel_bytes = 4 + 4 + 4 * 16;
+        let expected = bench.surface.texture_bytes() + texel_bytes * bench.surface.texels();
+        assert_eq!(run.report.pool.peak_bytes, expected, "{plan}");
+        let limited = RunOptions {
+            budget_bytes: expected,
+            ..options()
+        };
+        let within = bench.run(&plan, &limited, None).unwrap();
+        assert_eq!(bench.bytes(&plan, &run), bench.bytes(&plan, &within));
+    }
+}
+
+#[test]
+fn kernels_that_are_forgotten_change_no_result_and_are_compiled_again() {
+    let bench = Bench::new(64);
+    let plan = bench.plan(MIXED, FUSED);
+    let forgetful = RunOptions {
+        forgets_kernels: true,
+        ..options()
+    };
+    let first = bench.run(&plan, &forgetful, None).unwrap();
+    let again = bench.run(&plan, &options(), None).unwrap();
+    assert_eq!(bench.bytes(&plan, &first), bench.bytes(&plan, &again));
+}
+
 #[test]
 fn a_kernel_that_cannot_be_compiled_blames_no_one_alone() {
     let error = GpuError::Kernel {

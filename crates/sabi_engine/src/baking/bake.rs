@@ -188,6 +188,7 @@ fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -
 /// Plans a bake of what is shown; the evaluator takes results from the cache and keeps new ones there.
 fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeRequest) -> Result<Plan, EngineError> {
     evaluator.evaluate_shown_alone();
+    evaluator.forget_kernels();
     let plan = evaluator.plan(wanted, Mode::Bake { fuse: request.fuse })?;
     let Some(cache_dir) = &request.evaluator.model.cache_dir else {
         return Ok(plan);

@@ -59,6 +59,11 @@ const DISCRETE_PIXEL_BUDGET_BYTES: usize = 384 << 20;
 /// Bytes per pixel of a layout's source and cover, and at most of the padding's sources.
 const LAYOUT_PIXEL_BYTES: usize = 9;
 
+/// Bytes of the layout and the padding of a set of maps of a size, at most.
+fn layout_bytes(size: u32) -> usize {
+    (size as usize).pow(2) * LAYOUT_PIXEL_BYTES
+}
+
 impl MapWriter<'_> {
     /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together. The pixels of the
     /// first set may have been laid out before.
@@ -70,7 +75,7 @@ impl MapWriter<'_> {
         progress: &dyn Progress,
     ) -> Result<WrittenMaps, EngineError> {
         let atlas = &self.evaluator.linked().atlas;
-        let set_bytes = (atlas.size as usize).pow(2) * LAYOUT_PIXEL_BYTES;
+        let set_bytes = layout_bytes(atlas.size);
         let mut encoder = MapEncoder {
             writer,
             options: &self.options,

@@ -62,6 +62,8 @@ pub struct Evaluator {
     kept_results: Option<ProgramCache>,
     budget_bytes: u64,
     times_ghosts: bool,
+    /// True if kernels are forgotten once no step needs them.
+    forgets_kernels: bool,
     /// True if results are read where they are shown, and nowhere else.
     shows_alone: bool,
     times: PhaseTimes,
@@ -209,6 +211,7 @@ impl Evaluator {
             kept_results: None,
             budget_bytes: options.budget_bytes,
             times_ghosts: false,
+            forgets_kernels: false,
             shows_alone: false,
             times,
             warnings: Vec::new(),

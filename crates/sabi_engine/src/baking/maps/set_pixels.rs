@@ -4,10 +4,15 @@ use std::{panic, thread};
 
 use sabi_export::{Padding, PaddingMap, SetKey, SetLayout};
 
+use super::layout_bytes;
 use crate::error::EngineError;
 use crate::evaluating::texture_sets::TextureSet;
 use crate::evaluating::texture_space::set_layout;
 use crate::opening::linked_model::LinkedModel;
+
+/// Most bytes of the pixels of a set that are laid out while something else is evaluated, when textures take most memory: those of
+/// 2048².
+const BYTES_BESIDE: usize = 64 << 20;
 
 /// Pixels of a texture set: where each takes its values from.
 pub(crate) struct SetPixels {
@@ -26,13 +31,14 @@ impl SetPixels {
         }
     }
 
-    /// Lays out the pixels of a set, if there is one, while something else is evaluated: the processor has time as long as the device
-    /// compiles kernels.
+    /// Lays out the pixels of a set, if there is one and it is no larger than 2048², while something else is evaluated: the processor
+    /// has time as long as the device compiles kernels.
     pub(crate) fn new_while<T>(
         linked: &LinkedModel,
         (set, padding): (Option<&TextureSet>, Padding),
         evaluate: impl FnOnce() -> Result<T, EngineError>,
     ) -> Result<(T, Option<SetPixels>), EngineError> {
+        let set = set.filter(|_| layout_bytes(linked.atlas.size) <= BYTES_BESIDE);
         thread::scope(|scope| {
             let pixels = scope.spawn(|| set.map(|set| SetPixels::new(linked, set.key, padding)));
             let evaluated = evaluate();

@@ -70,6 +70,11 @@ impl Evaluator {
         self.kept_results = ProgramCache::open(cache_dir, "results", "result", limit_bytes);
     }
 
+    /// Lets runs forget the kernels that no later step needs. The device has to be this evaluator's alone.
+    pub(crate) fn forget_kernels(&mut self) {
+        self.forgets_kernels = true;
+    }
+
     /// Runs the only plan of this evaluator, and drops the decoded pictures afterwards.
     pub(crate) fn run_once(
         &mut self,
@@ -123,6 +128,7 @@ impl Evaluator {
             caster: self.rays.caster,
             hits: self.rays.hits,
             times_ghosts: self.times_ghosts,
+            forgets_kernels: self.forgets_kernels,
             keeps_from: DEFAULT_KEEPS_FROM,
             shown: self.shown(),
         };
