@@ -209,7 +209,8 @@ pub struct Pass {
     /// The function: its arguments and the type it stores.
     pub function: Output,
     /// Index in [`Kind::inputs`] of the input that the pass is for (`@with`): it does not run, and its readers read another
-    /// texture in its place, while nothing is connected there and the parameter of the input has its default.
+    /// texture in its place, or 0 where they read no other, while nothing is connected there and the parameter of the input
+    /// has its default.
     pub with: Option<usize>,
     /// Way to average away the grain of a mean over rays before results read it (`@denoise`).
     pub denoise: Option<Denoise>,

@@ -182,7 +182,7 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Loads of the passes that a function reads, and of the first texture that it reads, which stands in for passes that are
-    /// left out.
+    /// left out; where it reads no other, nothing does, and it finds 0.
     fn pass_loads(
         &self,
         node: usize,
@@ -206,12 +206,11 @@ impl StepBuilder<'_, '_> {
             },
             _ => None,
         });
-        let stand_in = |pass: usize| first.filter(|_| is_read(pass));
-        let loads = loads.into_iter().enumerate();
-        (
-            loads.map(|(pass, load)| load.or_else(|| stand_in(pass))).collect(),
-            first,
-        )
+        let with_stand_ins = loads.into_iter().enumerate().map(|(pass, load)| {
+            let stand_in = || first.unwrap_or_else(|| kernel.load_nothing(kind.passes[pass].function.ty));
+            is_read(pass).then(|| load.unwrap_or_else(stand_in))
+        });
+        (with_stand_ins.collect(), first)
     }
 
     /// Bindings of the inputs of a function: values at the place, or textures.

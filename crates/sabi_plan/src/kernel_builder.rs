@@ -110,6 +110,12 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         self.load_stored(resource, stored)
     }
 
+    /// Adds a load of one plane that is 0 everywhere: no slot is bound to it.
+    pub(crate) fn load_nothing(&mut self, ty: PortType) -> usize {
+        let channels = Vec::new();
+        self.add_load(None, Stored { ty, channels }, vec![None])
+    }
+
     /// Adds a load of all planes of stored content.
     fn load_stored(&mut self, resource: Resource, stored: Stored) -> usize {
         let planes = stored.planes().into_iter();

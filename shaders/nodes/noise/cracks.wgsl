@@ -49,7 +49,7 @@ struct Params {
 
 /// The way from each place to where the noise is read there. Its differences from texel to texel tell how much a
 /// connected position stretches the pattern.
-/// @pass 1 @vector
+/// @pass 1 @vector @with position
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
 fn moved(at: Surface, position: vec3f) -> vec3f {
     return position - at.position;

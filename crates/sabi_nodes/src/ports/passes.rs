@@ -67,8 +67,8 @@ impl<'a> PortReader<'a> {
             let Some((name, range)) = draft.annotations.with.clone() else {
                 continue;
             };
-            let has_knob = |input: &Input| input.name == name && matches!(input.default, InputDefault::Knob(_));
-            let input = self.inputs.iter().position(has_knob);
+            let is_optional = |input: &Input| input.name == name && input.default != InputDefault::Required;
+            let input = self.inputs.iter().position(is_optional);
             let pass = ports
                 .passes
                 .iter_mut()

@@ -61,6 +61,60 @@ fn a_slot_is_reused_once_its_last_reader_has_run() {
 }
 
 #[test]
+fn what_needs_most_memory_runs_while_little_else_is_stored() {
+    // The blur takes five textures of vectors while it runs, and each noise leaves one of numbers behind.
+    let lines = "
+        a noise/simplex
+        b noise/cells
+        c noise/spots
+        soft filter/blur source=d radius=0.001
+        d noise/white
+        ab blend/mask below=a above=b
+        abc blend/mask below=ab above=c
+        all blend/mask below=abc above=soft
+        out output/mask source=all";
+    let (bake, _) = Bench::new().plan(&graph(lines), UNFUSED);
+    let places = |plan: &Plan, node: &str| -> Vec<usize> {
+        let steps = plan.steps.iter().enumerate();
+        let of_node = steps.filter(|(_, step)| matches!(step, Step::Kernel(kernel) if kernel.nodes == [node]));
+        of_node.map(|(at, _)| at).collect()
+    };
+    let last_of_blur = places(&bake, "soft").pop();
+    assert!(
+        ["a", "b", "c"]
+            .iter()
+            .all(|noise| places(&bake, noise).first().copied() > last_of_blur),
+        "{bake}"
+    );
+    // While an artist works, all results are kept and run in the order of their inputs.
+    let (live, _) = Bench::new().plan(&graph(lines), Mode::Interactive);
+    assert!(places(&live, "a").first() < places(&live, "soft").first(), "{live}");
+}
+
+#[test]
+fn a_pass_for_a_position_runs_once_something_moves_it() {
+    let bench = Bench::new();
+    let (still, errors) = bench.plan(&graph("net noise/cracks\nout output/mask source=net"), FUSED);
+    assert_eq!(errors, []);
+    assert_eq!(
+        still.to_string(),
+        "pass net -> s0 halo\npass net <- s0 -> s1 halo\nresult mask s1\n"
+    );
+    let Step::Kernel(net) = &still.steps[0] else {
+        panic!("{still}")
+    };
+    assert_eq!(net.reads, [None], "the way to where the noise is read is 0 everywhere");
+    let moved = "warped vector/warp\nnet noise/cracks position=warped\nout output/mask source=net";
+    let (moved, errors) = bench.plan(&graph(moved), FUSED);
+    assert_eq!(errors, []);
+    let of_net = moved
+        .steps
+        .iter()
+        .filter(|step| matches!(step, Step::Kernel(kernel) if kernel.nodes == ["net"]));
+    assert_eq!(of_net.count(), 3, "{moved}");
+}
+
+#[test]
 fn a_hundred_nodes_in_a_chain_need_two_slots() {
     let mut lines = "n0 noise/simplex\n".to_owned();
     for node in 1..100 {
