@@ -362,8 +362,7 @@ impl Runner<'_> {
 
     /// Returns textures to the pool that no step after this one reads.
     fn release_after(&mut self, at: usize) {
-        for slot in self.dead_after.remove(&at).unwrap_or_default() {
-            // All results are kept.
+        for slot in self.dead_after.remove(&at).into_iter().flatten() {
             self.release(slot);
         }
     }
