@@ -240,7 +240,7 @@ impl Runner<'_> {
     fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
         if releases {
             self.dead_after = dead_after(self.plan, steps);
-            self.pool.aim_at(self.most_alive_bytes(steps)?);
+            self.pool.aim_at(self.most_alive_bytes(steps));
         }
         if self.options.forgets_kernels {
             self.last_of_kernels = last_of_kernels(self.plan, steps);
@@ -353,11 +353,12 @@ impl Runner<'_> {
     }
 
     /// Most bytes of textures that these steps need at once.
-    fn most_alive_bytes(&self, steps: &[usize]) -> Result<u64, GpuError> {
-        let slots = 0..self.plan.slots.len();
-        let bytes = slots.map(|slot| Ok(bytes_of(self.plan.slots[slot].format, self.extent(slot)?)));
-        let bytes = bytes.collect::<Result<Vec<u64>, GpuError>>()?;
-        Ok(most_alive(self.plan, steps, &self.dead_after, |slot| bytes[slot]))
+    fn most_alive_bytes(&self, steps: &[usize]) -> u64 {
+        most_alive(self.plan, steps, &self.dead_after, |slot| {
+            let extent = self.extent(slot);
+            // A level that is missing is reported by the step that runs on it.
+            extent.map_or(0, |extent| bytes_of(self.plan.slots[slot].format, extent))
+        })
     }
 
     /// Returns textures to the pool that no step after this one reads.
