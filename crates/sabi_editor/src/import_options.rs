@@ -52,7 +52,7 @@ impl Default for ImportOptions {
             smooth: None,
             scene: None,
             udim: Udim::Auto,
-            overlap: Overlap::First,
+            overlap: Overlap::Auto,
         }
     }
 }
@@ -120,6 +120,7 @@ enum Tiles {
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Overlap", rename_all = "snake_case")]
 enum Sharing {
+    Auto,
     First,
     Merge,
     Unwrap,

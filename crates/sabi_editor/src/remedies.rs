@@ -2,7 +2,7 @@
 
 use egui::{Color32, Label, RichText, Ui};
 use sabi_editing::command::DocumentCommand;
-use sabi_engine::{Overlap, Remedy, advised};
+use sabi_engine::{Overlap, Remedy, Udim, advised};
 
 use crate::action::{Action, ExportAction, ModelAction};
 use crate::bars::WORKING_SIZES;
@@ -48,6 +48,7 @@ pub(crate) fn show(
 /// Label and action of the button that applies a remedy to a request; none where the window has no such action.
 fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option<(String, Action)> {
     let read = |overlap: Overlap| Action::Model(ModelAction::Read(ImportOptions { overlap, ..import }));
+    let tiles = |udim: Udim| Action::Model(ModelAction::Read(ImportOptions { udim, ..import }));
     match (remedy, request) {
         (Remedy::SmallerSize, Request::Evaluation { size }) => smaller_working_size(size),
         (Remedy::LargerSize, Request::Evaluation { size }) => {
@@ -63,6 +64,9 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             larger.map(|size| export_size(size, choices))
         }
         (Remedy::UnwrapModel, _) => Some(("Unwrap the model".to_owned(), read(Overlap::Unwrap))),
+        (Remedy::KeepOwnUvs, _) => Some(("Keep the model's UVs".to_owned(), read(Overlap::First))),
+        (Remedy::TilesAsUdim, _) => Some(("Maps for each UV tile".to_owned(), tiles(Udim::On))),
+        (Remedy::TilesRepeat, _) => Some(("One set of maps for all UV tiles".to_owned(), tiles(Udim::Off))),
         (Remedy::MergeOverlaps, _) => Some(("Average overlapping UVs".to_owned(), read(Overlap::Merge))),
         (Remedy::IntoThisFolderAnyway, Request::Export(_)) => {
             let action = ExportAction::Start { force: true };

@@ -153,7 +153,11 @@ impl From<GpuError> for EngineError {
             GpuError::Canceled => (ErrorKind::Interrupted, &[]),
             GpuError::Scene(_) | GpuError::Node { .. } => (ErrorKind::BadInput, &[]),
             GpuError::TooLong { .. } => (ErrorKind::BadInput, &[Remedy::OtherAdapter]),
-            GpuError::TooLarge { .. } => (ErrorKind::BadInput, &[Remedy::ReduceTriangles, Remedy::OtherAdapter]),
+            // Tables grow with the triangles or with the texels.
+            GpuError::TooLarge { .. } => (
+                ErrorKind::BadInput,
+                &[Remedy::SmallerSize, Remedy::ReduceTriangles, Remedy::OtherAdapter],
+            ),
             GpuError::TooDeep { .. } => (ErrorKind::BadInput, &[Remedy::ProcessorRays]),
             GpuError::OverBudget { .. } => (ErrorKind::OutOfMemory, &[Remedy::RaiseBudget, Remedy::SmallerSize]),
             GpuError::OutOfMemory { .. } => (ErrorKind::OutOfMemory, &[Remedy::SmallerSize, Remedy::SoftwareAdapter]),
@@ -259,6 +263,7 @@ impl From<LoadError> for EngineError {
 impl From<AtlasError> for EngineError {
     fn from(error: AtlasError) -> Self {
         let remedies: &[Remedy] = match &error {
+            AtlasError::NoUdimNumber { .. } => &[Remedy::EditUvs, Remedy::TilesRepeat],
             AtlasError::UvTooFar { .. } => &[Remedy::EditUvs, Remedy::UnwrapModel],
             AtlasError::ChartTooLarge { .. } | AtlasError::TooManyTexels { .. } => {
                 &[Remedy::SmallerSize, Remedy::EditUvs, Remedy::UnwrapModel]

@@ -18,5 +18,6 @@ pub(crate) mod set_file;
 pub(crate) mod setting;
 pub(crate) mod solidity;
 pub(crate) mod stroke_report;
+mod tiles;
 pub(crate) mod toml_file;
 pub(crate) mod unread;

@@ -43,6 +43,12 @@ pub enum Remedy {
     SaveUnderOtherName,
     /// The model with a UV layout made by Sabi, in which no charts overlap.
     UnwrapModel,
+    /// The model with its own UVs, although they repeat.
+    KeepOwnUvs,
+    /// Maps of its own for each UV tile.
+    TilesAsUdim,
+    /// One set of maps for all UV tiles.
+    TilesRepeat,
     /// The mean of all charts that share a place on the maps.
     MergeOverlaps,
     /// Other UVs, made in a modeling program.
@@ -71,7 +77,7 @@ pub enum Remedy {
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 30] = [
+    pub const ALL: [Remedy; 33] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -90,6 +96,9 @@ impl Remedy {
         Remedy::AllowWriting,
         Remedy::SaveUnderOtherName,
         Remedy::UnwrapModel,
+        Remedy::KeepOwnUvs,
+        Remedy::TilesAsUdim,
+        Remedy::TilesRepeat,
         Remedy::MergeOverlaps,
         Remedy::EditUvs,
         Remedy::WithoutModelCopy,
@@ -126,6 +135,9 @@ impl fmt::Display for Remedy {
             Remedy::AllowWriting => "allow writing to it",
             Remedy::SaveUnderOtherName => "save under another name",
             Remedy::UnwrapModel => "unwrap the model",
+            Remedy::KeepOwnUvs => "keep the model's own UVs",
+            Remedy::TilesAsUdim => "make maps for each UV tile",
+            Remedy::TilesRepeat => "take the UV tiles for a texture that repeats",
             Remedy::MergeOverlaps => "take the mean of overlapping charts",
             Remedy::EditUvs => "change the UVs in a modeling program",
             Remedy::WithoutModelCopy => "do without the copy of the model",

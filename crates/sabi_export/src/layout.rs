@@ -5,7 +5,7 @@ mod grid;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_surface::atlas::{Atlas, Chart, EMPTY, GHOST_BIT};
+use sabi_surface::atlas::{Atlas, Chart, EMPTY, GHOST_BIT, udim_number};
 
 pub(crate) use grid::{Grid, MappedTexel};
 
@@ -60,12 +60,6 @@ pub struct SetLayout {
     pub collisions: u64,
 }
 
-/// The UDIM number of a tile, where it has one: ten columns, rows upward.
-fn udim([u, v]: [i32; 2]) -> Option<u32> {
-    // v grows downward, so the tile above the unit square is −1; numbers of four digits end at row 899.
-    ((0..10).contains(&u) && (-899..=0).contains(&v)).then(|| 1001 + u as u32 + 10 * v.unsigned_abs())
-}
-
 /// The texture sets of an atlas, by material and tile. A material whose charts lie in several UDIM tiles has a set for
 /// each. Otherwise it has one, and charts outside the unit square wrap onto it as renderers repeat a texture.
 pub fn set_keys(atlas: &Atlas) -> Vec<SetKey> {
@@ -78,7 +72,7 @@ pub fn set_keys(atlas: &Atlas) -> Vec<SetKey> {
     }
     let mut keys = Vec::new();
     for (material, tiles) in tiles {
-        let numbers: Option<Vec<u32>> = tiles.iter().map(|&tile| udim(tile)).collect();
+        let numbers: Option<Vec<u32>> = tiles.iter().map(|&tile| udim_number(tile)).collect();
         match numbers {
             Some(numbers) if numbers.len() > 1 && atlas.udim_sheets.contains(&material) => {
                 let of_tile = |(uv_tile, number)| SetKey {

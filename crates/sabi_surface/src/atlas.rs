@@ -5,7 +5,7 @@
 //! The steps from a mesh to an atlas, one file each: `topology` (half-edges and their twins), `charts` (connected in UV),
 //! `raster` and `mask` (texel centers that a chart covers), `split` (charts that overlap themselves), `place` and `pack`
 //! (positions of charts), `fill` (owners), `ring` (ghosts), `walk` and `links` (surface points of ghosts), `leap`, `overlap`
-//! and `report`. `level` builds coarser levels, and `width` limits their number.
+//! and `report`. `repeats` finds UVs that cost more than they show. `level` builds coarser levels, and `width` limits their number.
 
 mod build;
 mod cache;
@@ -25,6 +25,7 @@ pub(crate) mod pack;
 mod place;
 mod plan;
 pub(crate) mod raster;
+mod repeats;
 mod report;
 mod ring;
 mod split;
@@ -42,6 +43,8 @@ use serde::{Deserialize, Serialize};
 pub use cache::{atlas_key, cached};
 pub use error::AtlasError;
 pub use level::{AtlasLevel, Orphan};
+pub use repeats::{Repeats, repeats};
+pub use udim::udim_number;
 
 /// A texel that nothing owns.
 pub const EMPTY: u32 = u32::MAX;

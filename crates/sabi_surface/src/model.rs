@@ -119,6 +119,14 @@ impl Mesh {
         areas.filter(|area| area.is_finite()).sum()
     }
 
+    /// Area of a triangle in UV, in tiles; 0 for one with coordinates that are no numbers.
+    pub fn uv_area(&self, triangle: u32) -> f64 {
+        let corners = self.triangles[triangle as usize];
+        let [a, b, c] = corners.map(|vertex| glam::DVec2::from(self.uvs[vertex as usize].map(f64::from)));
+        let area = (b - a).perp_dot(c - a).abs() / 2.0;
+        if area.is_finite() { area } else { 0.0 }
+    }
+
     /// Positions of the corners of a triangle, model units.
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         let corners = self.triangles[triangle as usize];

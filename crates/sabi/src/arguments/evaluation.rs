@@ -41,11 +41,12 @@ pub(crate) struct ModelArguments {
     /// UV set of the file: TEXCOORD_N of glTF, the N-th of a mesh in FBX and Collada, counted from 0
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
     pub(crate) uv: u32,
-    /// Result for mirrored or stacked UVs: that of the first chart, the mean, or a second UV set for the whole model
-    #[arg(long, value_enum, default_value_t = OverlapChoice::First, help_heading = "Model")]
+    /// Result for mirrored, stacked or repeating UVs: that of the first chart (first), the mean (merge), a second UV set for the whole
+    /// model (unwrap), or that of the first chart and a second UV set for materials whose UVs repeat more than eight times (auto)
+    #[arg(long, value_enum, default_value_t = OverlapChoice::Auto, help_heading = "Model")]
     pub(crate) overlap: OverlapChoice,
     /// UVs in several tiles: UDIM with maps for each tile (on), a texture that repeats (off), or UDIM unless charts span tiles,
-    /// lie alike in different tiles, or have a texture that repeats (auto)
+    /// most lie alike in different tiles, tiles have no UDIM number, or a texture of the model repeats (auto)
     #[arg(long, value_enum, default_value_t = UdimChoice::Auto, help_heading = "Model")]
     pub(crate) udim: UdimChoice,
     /// Memory for the files of the model and its pictures, MiB; half of this machine's if it is not given. A model that takes more is
@@ -82,6 +83,7 @@ impl ModelArguments {
             scene: self.scene,
             smooth_degrees: self.smooth,
             overlap: match self.overlap {
+                OverlapChoice::Auto => Overlap::Auto,
                 OverlapChoice::First => Overlap::First,
                 OverlapChoice::Merge => Overlap::Merge,
                 OverlapChoice::Unwrap => Overlap::Unwrap,
@@ -234,6 +236,7 @@ pub(crate) enum Axis {
 /// Result for charts that share a place on the maps.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum OverlapChoice {
+    Auto,
     First,
     Merge,
     Unwrap,

@@ -229,6 +229,7 @@ fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
     ui.separator();
     ui.label("Where UVs overlap");
     for (overlap, name) in [
+        (Overlap::Auto, "use the first, and unwrap what repeats often"),
         (Overlap::First, "use the first"),
         (Overlap::Merge, "take the average"),
         (Overlap::Unwrap, "unwrap to a new UV set"),

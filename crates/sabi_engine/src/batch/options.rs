@@ -84,8 +84,9 @@ const OPTIONS: [ItemOption; 19] = [
         request.evaluator.overrides.left_out = left_out.into_iter().collect();
         Some(())
     }),
-    option("overlap", "'first', 'merge' or 'unwrap'", |request, value| {
+    option("overlap", "'auto', 'first', 'merge' or 'unwrap'", |request, value| {
         request.evaluator.model.overlap = match value.as_str()? {
+            "auto" => Overlap::Auto,
             "first" => Overlap::First,
             "merge" => Overlap::Merge,
             "unwrap" => Overlap::Unwrap,

@@ -33,7 +33,7 @@ fn recipe() -> Recipe {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
-            overlap: Overlap::First,
+            overlap: Overlap::Auto,
             udim: Udim::Auto,
         },
         variant: None,

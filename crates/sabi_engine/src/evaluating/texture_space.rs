@@ -97,7 +97,7 @@ impl TextureSpace {
 pub(crate) fn set_layout(linked: &LinkedModel, key: SetKey) -> SetLayout {
     match linked.overlap {
         Overlap::Merge => SetLayout::merged(&linked.atlas, key),
-        Overlap::First | Overlap::Unwrap => SetLayout::new(&linked.atlas, key),
+        Overlap::Auto | Overlap::First | Overlap::Unwrap => SetLayout::new(&linked.atlas, key),
     }
 }
 

@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 use sabi_files::TrustedPaths;
 use sabi_graph::Fit;
 use sabi_paint::SurfaceIndex;
-use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, Udim, cached};
+use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, Repeats, Udim, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
 use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load_trusting};
@@ -58,8 +58,11 @@ pub struct ModelOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Overlap {
-    /// Writes the result of the first chart.
+    /// Writes the result of the first chart. Surfaces whose UVs repeat so often that their maps would show little of them are
+    /// unwrapped, each onto a sheet of its own.
     #[default]
+    Auto,
+    /// Writes the result of the first chart.
     First,
     /// Writes the mean of the results of all charts.
     Merge,
@@ -77,7 +80,7 @@ impl ModelOptions {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
-            overlap: Overlap::First,
+            overlap: Overlap::Auto,
             udim: Udim::Auto,
             size,
             cache_dir: None,
@@ -106,6 +109,10 @@ pub struct LinkedModel {
     pub unwrapped: Option<Unwrapping>,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
+    /// Treatment of UVs in several tiles.
+    pub(crate) udim: Udim,
+    /// Materials that were unwrapped since their own UVs repeat too often.
+    pub(crate) repeats: Vec<Repeats>,
     /// Linked atlas.
     pub atlas: Atlas,
     /// Connected pieces of its parts.
@@ -198,7 +205,8 @@ impl LinkedModel {
             made.map_err(|error| refused(options, EngineError::of(ErrorKind::BadInput, error)))
         };
         let mut unwrapped = None;
-        if let Some(what) = unwrapping(&mut model, options) {
+        let (what, repeats) = unwrapping(&mut model, options);
+        if let Some(what) = what {
             unwrapped = Some(unwrapped_anew(&mut model, &what)?);
             stop_if_canceled(progress)?;
         }
@@ -220,6 +228,8 @@ impl LinkedModel {
             model: Arc::new(model),
             unwrapped,
             overlap: options.overlap,
+            udim: options.udim,
+            repeats,
             atlas,
             atlas_was_cached,
             pieces,
@@ -249,7 +259,7 @@ impl LinkedModel {
         Ok(LinkedModel {
             model: self.model.clone(),
             unwrapped: self.unwrapped.clone(),
-            overlap: self.overlap,
+            repeats: self.repeats.clone(),
             atlas,
             atlas_was_cached,
             pieces: self.pieces.clone(),

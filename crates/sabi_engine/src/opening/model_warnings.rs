@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::opening::coverage;
 use crate::opening::linked_model::LinkedModel;
 use crate::opening::overlap::OverlapTotals;
+use crate::opening::tiles;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
@@ -14,7 +15,8 @@ impl LinkedModel {
         let sentences = self.model.warnings.iter().chain(&self.atlas.report.warnings);
         let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
         let shares = OverlapTotals::of(self).warning(self).into_iter();
-        let all = sentences.chain(shares).chain(coverage::warnings(self));
+        let all = sentences.chain(tiles::warnings(self)).chain(shares);
+        let all = all.chain(coverage::warnings(self));
         all.chain(self.refused_files()).collect()
     }
 

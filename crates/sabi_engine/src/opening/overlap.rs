@@ -195,7 +195,7 @@ impl OverlapTotals {
         let copies = total.tiling == 0 && total.partial == 0;
         let hold = match linked.overlap {
             Overlap::Merge => "the mean of all results",
-            Overlap::First | Overlap::Unwrap => "the result of the first chart",
+            Overlap::Auto | Overlap::First | Overlap::Unwrap => "the result of the first chart",
         };
         let sentence = format!(
             "{share} ({least}{}), most of them in '{name}': the maps have {hold} there",
@@ -210,8 +210,8 @@ impl OverlapTotals {
 fn remedies(overlap: Overlap, was_unwrapped: bool, copies: bool) -> &'static [Remedy] {
     match overlap {
         _ if was_unwrapped => &[Remedy::LargerSize, Remedy::EditUvs],
-        Overlap::First | Overlap::Unwrap if copies => &[Remedy::MergeOverlaps, Remedy::UnwrapModel],
-        Overlap::First | Overlap::Merge | Overlap::Unwrap => &[Remedy::UnwrapModel],
+        Overlap::Auto | Overlap::First | Overlap::Unwrap if copies => &[Remedy::MergeOverlaps, Remedy::UnwrapModel],
+        Overlap::Auto | Overlap::First | Overlap::Merge | Overlap::Unwrap => &[Remedy::UnwrapModel],
     }
 }
 
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn only_a_model_with_uvs_of_its_own_is_advised_to_be_unwrapped() {
-        for overlap in [Overlap::First, Overlap::Merge, Overlap::Unwrap] {
+        for overlap in [Overlap::Auto, Overlap::First, Overlap::Merge, Overlap::Unwrap] {
             for copies in [false, true] {
                 let told = |was_unwrapped| remedies(overlap, was_unwrapped, copies);
                 assert!(told(false).contains(&Remedy::UnwrapModel), "{overlap:?}");

@@ -193,13 +193,13 @@ fn tiles_without_a_udim_number_wrap_onto_one_set() {
     let layout = &layouts(&atlas)[0];
     // uv texels −12..−8 wrap to 4..8.
     assert_eq!((layout.source[0], layout.source[4]), (0, 28));
-    assert_eq!(udim([0, 1]), None);
-    assert_eq!(udim([9, 0]), Some(1010));
-    assert_eq!(udim([10, 0]), None);
+    assert_eq!(udim_number([0, 1]), None);
+    assert_eq!(udim_number([9, 0]), Some(1010));
+    assert_eq!(udim_number([10, 0]), None);
 }
 
 /// A ghost that leads nowhere.
-fn loose_ghost(texel: [u32; 3], chart: u32) -> Ghost {
+pub(crate) fn loose_ghost(texel: [u32; 3], chart: u32) -> Ghost {
     Ghost {
         texel,
         chart,

@@ -11,7 +11,7 @@ use super::fixed::{UNIT, Uvs};
 use super::links::{Links, Pages, link};
 use super::mask::Mask;
 use super::overlap::overlap;
-use super::place::{Placement, place};
+use super::place::{Placement, TEXELS_LIMIT, place, too_many_texels};
 use super::plan::{ChartSet, Origin, Plan};
 use super::report::ReportInputs;
 use super::ring::Occupancy;
@@ -44,7 +44,8 @@ impl Atlas {
             page_limit,
         };
         let mut partition = partition(mesh, &topology, &orientations);
-        let udims = udim_sheets(mesh, &partition, udim);
+        let udims = udim_sheets(mesh, &partition, udim)?;
+        plan.check_area(&partition)?;
         let mut masks = plan.masks(&partition)?;
         if let Some(split) = plan.split(&partition, &masks) {
             masks = plan.masks(&split)?;
@@ -101,7 +102,7 @@ impl Atlas {
 }
 
 /// Returns the winding of each triangle in UV.
-fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
+pub(super) fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
     (0..mesh.triangles.len() as u32)
         .into_par_iter()
         .map(|triangle| uvs.orientation(triangle))
@@ -113,6 +114,17 @@ const GAPS_WARNING: &str = "Parts of UV charts lie so close to each other that f
     take too many texels. More space between them helps.";
 
 impl Plan<'_> {
+    /// Refuses charts that would take more texels than an atlas may have, before any texel is covered.
+    fn check_area(&self, partition: &Partition) -> Result<(), AtlasError> {
+        let triangles = 0..self.mesh.triangles.len() as u32;
+        let tiles: f64 = triangles.map(|triangle| self.mesh.uv_area(triangle)).sum();
+        let texels = tiles * f64::from(self.size).powi(2);
+        if texels > TEXELS_LIMIT as f64 {
+            return Err(too_many_texels(self.size, partition.len(), texels as u64));
+        }
+        Ok(())
+    }
+
     /// Builds the atlas of charts with narrow gaps, since their parts would take too many texels.
     fn assemble_with_gaps(&self, whole: &ChartSet, udims: BTreeSet<u32>) -> Result<Atlas, AtlasError> {
         let mut atlas = self.assemble(whole, whole, udims)?;

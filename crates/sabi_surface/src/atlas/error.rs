@@ -54,6 +54,21 @@ pub enum AtlasError {
         /// Texels for the unit square.
         size: u32,
     },
+    /// UDIM is asked for and a tile has no number.
+    #[error(
+        "a UV chart (the one with triangle {triangle}) lies in the UV tile with u from {u} to {} and v, counted upward, from {v} to {}, \
+         which has no UDIM number: those have u from 0 to 10, and v from 0 to 900",
+        u + 1,
+        v + 1
+    )]
+    NoUdimNumber {
+        /// One of its triangles.
+        triangle: u32,
+        /// Column of the tile.
+        u: i32,
+        /// Row of the tile, upward.
+        v: i32,
+    },
     /// A chart does not fit on a page.
     #[error(
         "a UV chart (the one with triangle {triangle}) is {width} × {height} texels large at size {size}, but a page \

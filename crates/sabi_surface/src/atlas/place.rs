@@ -9,7 +9,12 @@ use super::{AtlasError, RINGS, TILE};
 /// Most pages: texture array layers that every adapter supports.
 const PAGES_LIMIT: u32 = 256;
 /// Most texels: 2 GiB of owners.
-const TEXELS_LIMIT: u64 = 1 << 29;
+pub(super) const TEXELS_LIMIT: u64 = 1 << 29;
+
+/// About the most cells that charts cover where they are packed: those of eight unit squares.
+const MOST_CELLS: f64 = 8.0 * 256.0 * 256.0;
+/// Least cells along a chart of mean area, where cells are made larger for the sake of [`MOST_CELLS`].
+const LEAST_CHART_CELLS: f64 = 16.0;
 
 /// Pages and the place of each chart.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,14 +36,6 @@ pub(super) struct Place {
 
 /// Places all charts so that no two rings of ghosts touch.
 pub(super) fn place(masks: &[Mask], size: u32, page_limit: u32) -> Result<Placement, AtlasError> {
-    let refuse = |needed: String, limit: String| {
-        Err(AtlasError::TooManyTexels {
-            size,
-            charts: masks.len(),
-            needed,
-            limit,
-        })
-    };
     let placement = match keep(masks, size, page_limit) {
         Some(placement) => placement,
         None => repack(masks, size, page_limit),
@@ -46,12 +43,27 @@ pub(super) fn place(masks: &[Mask], size: u32, page_limit: u32) -> Result<Placem
     let [width, height] = placement.page_size.map(u64::from);
     let texels = width * height * u64::from(placement.pages);
     if placement.pages > PAGES_LIMIT {
-        return refuse(format!("{} pages", placement.pages), format!("{PAGES_LIMIT} pages"));
+        return Err(AtlasError::TooManyTexels {
+            size,
+            charts: masks.len(),
+            needed: format!("{} pages", placement.pages),
+            limit: format!("{PAGES_LIMIT} pages"),
+        });
     }
     if texels > TEXELS_LIMIT {
-        return refuse(format!("{texels} texels"), format!("{TEXELS_LIMIT} texels"));
+        return Err(too_many_texels(size, masks.len(), texels));
     }
     Ok(placement)
+}
+
+/// Error about charts that take more texels than an atlas may have.
+pub(super) fn too_many_texels(size: u32, charts: usize, texels: u64) -> AtlasError {
+    AtlasError::TooManyTexels {
+        size,
+        charts,
+        needed: format!("{texels} texels"),
+        limit: format!("{TEXELS_LIMIT} texels"),
+    }
 }
 
 /// Keeps the user's own layout; `None` unless all charts lie inside the unit square with room for their rings.
@@ -94,13 +106,27 @@ fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
     })
 }
 
-/// Packs the charts in cells, the largest first.
-fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
-    // About 256 cells along the unit square: fine enough to waste little space, coarse enough to be fast at any size.
-    let mut cell = (size / 256).clamp(1, 64).next_power_of_two();
+/// Returns the side of the cells that charts are packed in, texels.
+fn cell_side(size: u32, masks: &[Mask], page_limit: u32) -> u32 {
+    let of_charts = masks.iter().map(Mask::count).filter(|texels| *texels > 0);
+    let (charts, texels) = of_charts.fold((0.0, 0.0), |(charts, sum), texels| (charts + 1.0, sum + texels as f64));
+    // About 256 cells along the unit square: fine enough to waste little space, coarse enough to be fast at any size. Large charts that
+    // cover it many times over are packed in as few cells as if they covered it a few times.
+    let of_area = (texels / MOST_CELLS).sqrt();
+    let of_chart = (texels / f64::max(charts, 1.0)).sqrt() / LEAST_CHART_CELLS;
+    let mut cell = (size / 256)
+        .max(of_area.min(of_chart) as u32)
+        .clamp(1, 64)
+        .next_power_of_two();
     while cell > 1 && (!page_limit.is_multiple_of(cell) || cell * 32 > page_limit) {
         cell /= 2;
     }
+    cell
+}
+
+/// Packs the charts in cells, the largest first.
+fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
+    let cell = cell_side(size, masks, page_limit);
     let grown: Vec<([i64; 2], Mask)> = masks
         .par_iter()
         .map(|mask| {
@@ -135,5 +161,36 @@ fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
         pages: packer.pages().max(1),
         charts,
         kept: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cell_side;
+    use crate::atlas::mask::Mask;
+
+    /// Square charts, all covered.
+    fn squares(count: usize, side: u32) -> Vec<Mask> {
+        let mut mask = Mask::empty([0, 0], side, side);
+        for y in 0..i64::from(side) {
+            mask.set(y, 0, i64::from(side));
+        }
+        vec![mask; count]
+    }
+
+    #[test]
+    fn large_charts_that_cover_many_maps_are_packed_in_few_cells_and_small_ones_as_finely_as_ever() {
+        for size in [256, 1024] {
+            assert_eq!(cell_side(size, &squares(4, size), 8192), size / 256, "a few maps");
+            assert_eq!(
+                cell_side(size, &squares(40_000, size / 16), 8192),
+                size / 256,
+                "small charts"
+            );
+            let cell = u64::from(cell_side(size, &squares(100, 4 * size), 8192));
+            let cells = 100 * u64::from(4 * size / cell as u32).pow(2);
+            assert!(cells <= 8 * 256 * 256, "1600 maps in cells of {cell} texels");
+        }
+        assert_eq!(cell_side(256, &[], 8192), 1);
     }
 }

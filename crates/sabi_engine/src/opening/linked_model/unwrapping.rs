@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use sabi_surface::atlas::{Repeats, repeats};
 use sabi_surface::model::{Model, ModelMaterial};
 use sabi_surface::unwrap::{UnwrapError, unwrap_cached, unwrap_materials};
 
@@ -15,9 +16,26 @@ pub(super) enum Unwrap {
     Materials(BTreeSet<u32>),
 }
 
+/// Returns the part of a model that has to be unwrapped: what was asked for, else what has no UVs, for which it adds a warning, and
+/// what repeats too often, which is listed apart.
+pub(super) fn unwrapping(model: &mut Model, options: &ModelOptions) -> (Option<Unwrap>, Vec<Repeats>) {
+    let asked = without_uvs(model, options);
+    if options.overlap != Overlap::Auto || matches!(asked, Some(Unwrap::All)) {
+        return (asked, Vec::new());
+    }
+    let mut materials = match asked {
+        Some(Unwrap::Materials(materials)) => materials,
+        _ => BTreeSet::new(),
+    };
+    let mut repeats = repeats(&model.mesh, options.udim);
+    repeats.retain(|repeats| !materials.contains(&repeats.material));
+    materials.extend(repeats.iter().map(|repeats| repeats.material));
+    ((!materials.is_empty()).then_some(Unwrap::Materials(materials)), repeats)
+}
+
 /// Returns the part of a model that has to be unwrapped: what was asked for, else what has no UVs. Adds a warning for the
 /// latter.
-pub(super) fn unwrapping(model: &mut Model, options: &ModelOptions) -> Option<Unwrap> {
+fn without_uvs(model: &mut Model, options: &ModelOptions) -> Option<Unwrap> {
     if options.overlap == Overlap::Unwrap {
         return Some(Unwrap::All);
     }

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::atlas::Udim;
-use crate::atlas::{Atlas, AtlasOptions};
+use crate::atlas::{Atlas, AtlasError, AtlasOptions, Udim, repeats, udim_number};
 use crate::model::Mesh;
 
 /// Squares of one material, each with its lower UV corner and its side.
@@ -67,6 +66,33 @@ fn several_tiles_are_udim_unless_something_tells_of_a_repeating_texture() {
             false,
         ),
         (
+            "two equal bolts at the same place of two of three tiles",
+            squares(&[
+                ([0.1, 0.1], 0.5),
+                ([0.8, 0.8], 0.1),
+                ([1.2, 0.1], 0.5),
+                ([1.8, 0.8], 0.1),
+                ([2.1, 0.3], 0.4),
+            ]),
+            true,
+        ),
+        (
+            "most of the area alike modulo 1",
+            squares(&[
+                ([0.1, 0.1], 0.4),
+                ([0.8, 0.8], 0.1),
+                ([1.1, 0.1], 0.4),
+                ([2.1, 0.1], 0.4),
+                ([2.6, 0.6], 0.3),
+            ]),
+            false,
+        ),
+        (
+            "a tile without a number",
+            squares(&[([0.1, 0.1], 0.5), ([-0.8, 0.1], 0.6)]),
+            false,
+        ),
+        (
             "tiny and alike modulo 1",
             squares(&[([0.1, 0.1], 0.002), ([1.1, 0.1], 0.002), ([2.2, 0.3], 0.3)]),
             true,
@@ -105,6 +131,81 @@ fn udim_can_be_asked_for_and_refused() {
     assert!(is_udim(&alike, Udim::On));
     let different = squares(&[([0.1, 0.1], 0.5), ([1.2, 0.1], 0.6)]);
     assert!(!is_udim(&different, Udim::Off));
+}
+
+#[test]
+fn udim_that_is_asked_for_refuses_tiles_without_a_number() {
+    // v grows downward; programs that show tiles count it upward.
+    for (place, u, v) in [
+        ([-0.8, 0.1], -1, 0),
+        ([10.2, 0.1], 10, 0),
+        ([0.2, 1.1], 0, -1),
+        ([-2.9, -3.9], -3, 4),
+    ] {
+        let mesh = squares(&[([0.1, 0.1], 0.5), (place, 0.3)]);
+        let options = AtlasOptions {
+            udim: Udim::On,
+            ..AtlasOptions::new(64)
+        };
+        let error = Atlas::build(&mesh, &options).unwrap_err();
+        assert_eq!(error, AtlasError::NoUdimNumber { triangle: 2, u, v });
+        assert_eq!(udim_number([u, -v]), None);
+    }
+    let error = AtlasError::NoUdimNumber {
+        triangle: 2,
+        u: -1,
+        v: 0,
+    };
+    assert_eq!(
+        error.to_string(),
+        "a UV chart (the one with triangle 2) lies in the UV tile with u from -1 to 0 and v, counted upward, from 0 to 1, which has no \
+         UDIM number: those have u from 0 to 10, and v from 0 to 900"
+    );
+}
+
+#[test]
+fn uvs_that_repeat_too_often_are_found_and_udim_and_stacks_are_not() {
+    let times = |mesh: &Mesh, udim: Udim| {
+        let found = repeats(mesh, udim);
+        found
+            .iter()
+            .map(|repeats| repeats.times.round() as u32)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(times(&squares(&[([-1.0, 2.0], 5.0)]), Udim::Auto), [25]);
+    assert_eq!(
+        times(&squares(&[([0.0, 0.0], 2.5)]), Udim::Auto),
+        [0_u32; 0],
+        "a few times"
+    );
+    let stacked: Vec<([f32; 2], f32)> = (0..40).map(|_| ([0.05, 0.05], 0.9)).collect();
+    assert_eq!(times(&squares(&stacked), Udim::Auto), [0_u32; 0], "stacked copies");
+    let tiles: Vec<([f32; 2], f32)> = (0..10)
+        .map(|tile| ([tile as f32 + 0.01, 0.01], 0.98 - 0.01 * tile as f32))
+        .collect();
+    assert_eq!(times(&squares(&tiles), Udim::Auto), [0_u32; 0], "tiles with numbers");
+    assert_eq!(
+        times(&squares(&tiles), Udim::Off),
+        [9],
+        "which repeat if that is asked for"
+    );
+    let mut two = squares(&[([0.0, 0.0], 4.0), ([0.1, 0.1], 0.5)]);
+    two.triangle_material = vec![0, 0, 1, 1];
+    let found = repeats(&two, Udim::Auto);
+    assert_eq!(found.iter().map(|repeats| repeats.material).collect::<Vec<_>>(), [0]);
+    two.is_one_sheet = true;
+    assert!(repeats(&two, Udim::Auto).is_empty());
+}
+
+#[test]
+fn charts_that_cover_more_than_an_atlas_holds_are_refused_before_a_texel_is_covered() {
+    // 256 charts of a whole map of 2048² are twice what an atlas holds.
+    let stacked: Vec<([f32; 2], f32)> = (0..256).map(|_| ([0.0, 0.0], 1.0)).collect();
+    let error = Atlas::build(&squares(&stacked), &AtlasOptions::new(2048)).unwrap_err();
+    let AtlasError::TooManyTexels { charts, needed, .. } = error else {
+        panic!("{error}");
+    };
+    assert_eq!((charts, needed.as_str()), (256, "1073741824 texels"));
 }
 
 #[test]
