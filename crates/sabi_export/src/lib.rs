@@ -21,6 +21,7 @@
 //! ```
 
 mod bands;
+mod borders;
 mod channel;
 mod constant;
 mod document;
@@ -45,6 +46,7 @@ mod shown;
 mod write;
 
 pub use bands::BandGather;
+pub use borders::{BorderRule, ChartBorders};
 pub use channel::{Channel, ChannelPixels, OutputKind};
 pub use constant::Value;
 pub use encoded_files::EncodedFiles;

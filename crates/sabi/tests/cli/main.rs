@@ -8,6 +8,7 @@ mod bad_models;
 mod bad_places;
 mod baking;
 mod batches;
+mod borders;
 mod copies;
 mod display;
 mod documentation;

@@ -134,7 +134,7 @@ impl MapEncoder<'_> {
                 // A large map takes seconds to encode.
                 stop_if_canceled(self.progress)?;
                 if let Some(seams) = &seams {
-                    seams.erase(layout, &channel, &mut pixels);
+                    seams.settle(layout, &channel, &mut pixels);
                 }
                 self.write(layout, set, &channel, (pixels, seams.is_some()))?;
                 drop(memory);

@@ -11,7 +11,8 @@ use std::sync::OnceLock;
 
 use sabi_color::luminance;
 use sabi_export::{
-    BakeWriter, BandGather, Channel, ChannelPixels, Padding, PaddingMap, SeamSamples, SetKey, SetLayout, SetOptions,
+    BakeWriter, BandGather, Channel, ChannelPixels, ChartBorders, Padding, PaddingMap, SeamSamples, SetKey, SetLayout,
+    SetOptions,
 };
 use sabi_gpu::{AdapterKind, PlaneData, Run, RunOptions};
 use sabi_graph::PortType;
@@ -129,6 +130,7 @@ impl MapWriter<'_> {
             padding,
             bands: OnceLock::new(),
             seams: OnceLock::new(),
+            borders: OnceLock::new(),
         }
     }
 
@@ -150,6 +152,7 @@ struct OpenSet<'a> {
     /// Texels that its pixels take values from, found on first use.
     bands: OnceLock<BandGather>,
     seams: OnceLock<SeamSamples>,
+    borders: OnceLock<ChartBorders>,
 }
 
 /// Maps that are read back and laid out, and handed over as steps.
@@ -281,6 +284,7 @@ impl<'s> Maps<'_, 's> {
         let seams = is_connected.then_some(SetSeams {
             of_model: &self.from.seams,
             samples: &set.seams,
+            borders: &set.borders,
             padding: &set.padding,
         });
         self.steps.send(MapStep::Write {

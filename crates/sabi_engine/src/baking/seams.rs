@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use sabi_export::{Channel, ChannelPixels, PaddingMap, SeamSamples, SetLayout};
+use sabi_export::{Channel, ChannelPixels, ChartBorders, PaddingMap, SeamSamples, SetLayout};
 use sabi_surface::seams::{Seam, seams};
 use serde::{Deserialize, Serialize};
 
@@ -19,19 +19,25 @@ pub enum Seams {
     Keep,
 }
 
-/// Seams of a texture set of a model.
+/// Seams and borders of a texture set of a model.
 pub(super) struct SetSeams<'s> {
     pub(super) of_model: &'s ModelSeams<'s>,
     /// Found on first use.
     pub(super) samples: &'s OnceLock<SeamSamples>,
+    /// Found on first use.
+    pub(super) borders: &'s OnceLock<ChartBorders>,
     pub(super) padding: &'s PaddingMap,
 }
 
 impl SetSeams<'_> {
-    /// Adjusts both sides of the set's seams in channels whose differences are visible: a step in the height is a crack, and one in
-    /// the normal is a line in every highlight.
-    pub(super) fn erase(&self, layout: &SetLayout, channel: &Channel, pixels: &mut ChannelPixels) {
-        if self.of_model.erase(layout, self.samples, channel, pixels) {
+    /// Lets the texels around charts repeat their charts where the data jumps, and adjusts both sides of the set's seams in channels
+    /// whose differences are visible: a step in the height is a crack, and one in the normal is a line in every highlight.
+    pub(super) fn settle(&self, layout: &SetLayout, channel: &Channel, pixels: &mut ChannelPixels) {
+        let atlas = &self.of_model.linked.atlas;
+        let borders = self.borders.get_or_init(|| ChartBorders::new(atlas, layout));
+        let are_repeated = borders.repeat_charts(channel, pixels);
+        let are_erased = self.of_model.erase(layout, self.samples, channel, pixels);
+        if are_repeated || are_erased {
             self.padding.pad(channel, pixels);
         }
     }

@@ -1,6 +1,6 @@
 //! Results in texture space: values laid out like the maps of a texture set.
 
-use sabi_export::{Channel, Cover, Padding, PaddingMap, SetKey, SetLayout};
+use sabi_export::{BorderRule, Channel, ChartBorders, Cover, NONE, Padding, PaddingMap, SetKey, SetLayout};
 use sabi_gpu::Run;
 use sabi_graph::PortType;
 use sabi_image::{quantize_u8, srgb8_from_linear};
@@ -19,6 +19,7 @@ const PADDING: Padding = Padding::Texels(4);
 pub(crate) struct TextureSpace {
     pub(crate) layout: SetLayout,
     padding: PaddingMap,
+    borders: ChartBorders,
 }
 
 /// Meaning of the numbers of a plane, which decides how they are displayed.
@@ -50,7 +51,35 @@ impl TextureSpace {
         let layout = set_layout(linked, key);
         TextureSpace {
             padding: PaddingMap::new(&layout, PADDING),
+            borders: ChartBorders::new(&linked.atlas, &layout),
             layout,
+        }
+    }
+
+    /// Lets the texels around charts repeat their charts, as those of exported maps do.
+    fn settle(&self, plane: Plane, values: &mut [f32]) {
+        let (_, holds, components) = shape_of(plane);
+        let rule = match plane {
+            Plane::Material(Stored::Height) => BorderRule::Meet,
+            _ => BorderRule::AtJumps,
+        };
+        // Values that are written to one map; a fourth one is written to another.
+        let together = match holds {
+            PlaneKind::Numbers => 1,
+            PlaneKind::Color | PlaneKind::Signed => 3,
+        };
+        let mut are_changed = false;
+        for first in (0..components).step_by(together) {
+            let parts = first..components.min(first + together);
+            are_changed |= self.borders.repeat_values(rule, components, parts, values);
+        }
+        if are_changed {
+            for (pixel, from) in self.padding.sources().enumerate() {
+                let from = from as usize;
+                if from != pixel && from != NONE as usize {
+                    values.copy_within(from * components..(from + 1) * components, pixel * components);
+                }
+            }
         }
     }
 
@@ -80,13 +109,15 @@ impl TextureSpace {
             };
             let parts: Vec<Vec<f32>> = (0..components).map(one).collect();
             let pixels = 0..self.padding.pixels();
+            let mut values: Vec<f32> = pixels
+                .flat_map(|pixel| parts.iter().map(move |part| part[pixel]))
+                .collect();
+            self.settle(plane, &mut values);
             Ok(ResultPlane {
                 name,
                 holds,
                 components,
-                values: pixels
-                    .flat_map(|pixel| parts.iter().map(move |part| part[pixel]))
-                    .collect(),
+                values,
             })
         });
         laid_out.collect()

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use sabi_export::set_names;
 use sabi_surface::atlas::{Udim, UvChart, udim_number};
 
-use crate::evaluating::outputs::quoted;
 use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
@@ -25,7 +24,8 @@ pub(super) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
 /// Warns about surfaces that were unwrapped since their UVs repeat.
 fn unwrapped<'n>(linked: &LinkedModel, name: impl Fn(u32) -> &'n str) -> Option<Warning> {
     let most = linked.repeats.iter().map(|repeats| repeats.times).reduce(f64::max)?;
-    let which = quoted(linked.repeats.iter().map(|repeats| name(repeats.material)));
+    let names = linked.repeats.iter().map(|repeats| format!("'{}'", name(repeats.material)));
+    let which = names.collect::<Vec<_>>().join(", ");
     let onto = match linked.repeats.len() {
         1 => "the surface was unwrapped onto a sheet of its own",
         _ => "the surfaces were unwrapped, each onto a sheet of its own",

@@ -1,0 +1,222 @@
+//! Borders of charts: ghosts that repeat their own chart where the surface's data jumps.
+//!
+//! A ghost holds what lies beyond its seam, which is right for filters, and for maps of what goes on over the seam: a renderer then
+//! reads the same on both sides. Where the data jumps, at the border of a material, a part or a color, a renderer that interpolates
+//! near the border would read the neighbor's value, and padding and mip levels would spread it. There a ghost repeats the nearest texel
+//! of its own chart. A jump is told by the variation beside it, as limiters of finite volume schemes do (after Cockburn and Shu 1989,
+//! "TVB Runge-Kutta local projection discontinuous Galerkin finite element method").
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
+
+use crate::layout::{Cover, NONE, SetLayout};
+use crate::{Channel, ChannelPixels, MeshMap};
+
+/// Texels on each side of a place that belong to its neighborhood: as many as there are rings of ghosts.
+const REACH: i64 = sabi_surface::atlas::RINGS as i64;
+/// Texels along a side of a neighborhood.
+const SIDE: usize = 2 * REACH as usize + 1;
+/// Multiple of the largest step between neighboring texels of the chart up to which a ghost, for each texel of its distance, may differ
+/// from them: twice, since what is smooth may be steeper there.
+const STEEPER: f32 = 2.0;
+
+/// Ghosts of a texture set with the texels of their charts around them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChartBorders {
+    /// Pixels along a side of the set.
+    size: usize,
+    ghosts: Vec<BorderGhost>,
+}
+
+/// Ghost that gives a pixel its value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct BorderGhost {
+    /// Its pixel.
+    pixel: u32,
+    /// Pixel of the nearest texel that its chart owns.
+    anchor: u32,
+    /// Texels from the anchor to the ghost, across and down.
+    step: [i8; 2],
+    /// Neighborhood of the anchor, a bit a texel, row by row: set where the chart owns the texel and its pixel shows it.
+    own: u32,
+}
+
+/// Treatment of the ghosts of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BorderRule {
+    /// Ghosts beyond a jump repeat the nearest texel of their chart.
+    AtJumps,
+    /// As [`BorderRule::AtJumps`], except for the ghosts directly beside the chart: both sides of a seam have to meet.
+    Meet,
+    /// All ghosts repeat the nearest texel of their chart: numbers that only mean themselves, and have nothing between them.
+    Always,
+}
+
+impl BorderRule {
+    /// Returns the rule for a channel. Two sides that differ in height would be a crack.
+    pub fn of(channel: &Channel) -> BorderRule {
+        match channel {
+            Channel::Height => BorderRule::Meet,
+            Channel::Mesh(MeshMap::Id | MeshMap::MaterialId) => BorderRule::Always,
+            _ => BorderRule::AtJumps,
+        }
+    }
+}
+
+impl ChartBorders {
+    /// Finds the ghosts of a set; `layout` is made of `atlas`.
+    pub fn new(atlas: &Atlas, layout: &SetLayout) -> ChartBorders {
+        let pages = Pages { atlas, layout };
+        let pixels = layout.cover.par_iter().enumerate();
+        let ghosts = pixels
+            .filter(|(_, cover)| **cover == Cover::Ghost)
+            .filter_map(|(pixel, _)| pages.ghost(pixel))
+            .collect();
+        ChartBorders {
+            size: layout.size as usize,
+            ghosts,
+        }
+    }
+
+    /// Lets the ghosts of a channel repeat their own charts, and returns whether any changed. Padding is not touched; see
+    /// [`crate::PaddingMap::pad`].
+    pub fn repeat_charts(&self, channel: &Channel, pixels: &mut ChannelPixels) -> bool {
+        let ChannelPixels { components, data } = pixels;
+        self.repeat_values(BorderRule::of(channel), *components, 0..*components, data)
+    }
+
+    /// Does the same to some of the values of pixels with several, which belong together.
+    pub fn repeat_values(&self, rule: BorderRule, components: usize, parts: Range<usize>, data: &mut [f32]) -> bool {
+        let values = |pixel: usize| &data[pixel * components..][parts.clone()];
+        let ghosts = self.ghosts.par_iter();
+        let changed: Vec<&BorderGhost> = ghosts.filter(|ghost| self.is_changed(ghost, rule, &values)).collect();
+        for ghost in &changed {
+            let from = ghost.anchor as usize * components;
+            let to = ghost.pixel as usize * components;
+            data.copy_within(from + parts.start..from + parts.end, to + parts.start);
+        }
+        !changed.is_empty()
+    }
+
+    /// Returns whether a ghost repeats its chart in place of its own value.
+    fn is_changed<'v>(&self, ghost: &BorderGhost, rule: BorderRule, values: &impl Fn(usize) -> &'v [f32]) -> bool {
+        let (own, nearest) = (values(ghost.pixel as usize), values(ghost.anchor as usize));
+        let is_beside = ghost.step.iter().all(|step| step.abs() <= 1);
+        if own == nearest || (rule == BorderRule::Meet && is_beside) {
+            return false;
+        }
+        let distance = f32::from(ghost.step[0]).hypot(f32::from(ghost.step[1]));
+        // One of the values that belong together is enough; one that is no number jumps nowhere.
+        let jumps = || {
+            let steps = self.steepest(ghost, values);
+            let mut parts = own.iter().zip(nearest).zip(steps);
+            parts.any(|((own, nearest), step)| (own - nearest).abs() > STEEPER * distance * step)
+        };
+        rule == BorderRule::Always || jumps()
+    }
+
+    /// Returns the largest differences between texels of the chart that lie side by side around the anchor of a ghost.
+    fn steepest<'v>(&self, ghost: &BorderGhost, values: &impl Fn(usize) -> &'v [f32]) -> [f32; MOST_PARTS] {
+        let mut steepest = [0.0_f32; MOST_PARTS];
+        for [x, y] in offsets().filter(|offset| ghost.is_own(*offset)) {
+            let here = values(self.pixel(ghost, [x, y]));
+            for next in [[x + 1, y], [x, y + 1]].into_iter().filter(|next| ghost.is_own(*next)) {
+                let pairs = here.iter().zip(values(self.pixel(ghost, next)));
+                for (most, (one, other)) in steepest.iter_mut().zip(pairs) {
+                    *most = most.max((one - other).abs());
+                }
+            }
+        }
+        steepest
+    }
+
+    /// Returns the pixel of a texel in the neighborhood of a ghost's anchor.
+    fn pixel(&self, ghost: &BorderGhost, offset: [i64; 2]) -> usize {
+        wrapped(ghost.anchor as usize, offset, self.size)
+    }
+}
+
+/// Most values of a pixel that belong together.
+const MOST_PARTS: usize = 4;
+
+impl BorderGhost {
+    /// Returns whether the pixel at an offset from the anchor shows a texel that the chart owns.
+    fn is_own(&self, [x, y]: [i64; 2]) -> bool {
+        let is_near = x.abs() <= REACH && y.abs() <= REACH;
+        is_near && self.own >> bit([x, y]) & 1 == 1
+    }
+}
+
+/// Atlas and layout of a set.
+struct Pages<'a> {
+    atlas: &'a Atlas,
+    layout: &'a SetLayout,
+}
+
+impl Pages<'_> {
+    /// Returns the ghost that gives a pixel its value; `None` where no texel of its chart is shown near it.
+    fn ghost(&self, pixel: usize) -> Option<BorderGhost> {
+        let texel = *self.layout.source.get(pixel)? as usize;
+        let owner = *self.atlas.owners.get(texel)?;
+        let chart = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?.chart;
+        let at = (texel, pixel);
+        // Of texels that are equally near the first one is taken, as when ghosts are anchored.
+        let near = offsets().filter(|offset| self.is_own(chart, at, *offset));
+        let nearest = near.min_by_key(|[x, y]| (x * x + y * y, *y, *x))?;
+        let anchor = (
+            self.moved(texel, nearest)?,
+            wrapped(pixel, nearest, self.layout.size as usize),
+        );
+        let own = offsets().filter(|offset| self.is_own(chart, anchor, *offset));
+        Some(BorderGhost {
+            pixel: pixel as u32,
+            anchor: anchor.1 as u32,
+            step: nearest.map(|step| -step as i8),
+            own: own.fold(0, |bits, offset| bits | 1 << bit(offset)),
+        })
+    }
+
+    /// Returns whether the texel at an offset from another is owned by a chart and shown by its pixel.
+    fn is_own(&self, chart: u32, (texel, pixel): (usize, usize), offset: [i64; 2]) -> bool {
+        let Some(texel) = self.moved(texel, offset) else {
+            return false;
+        };
+        let owner = self.atlas.owners[texel];
+        let is_owned = owner != EMPTY && owner & GHOST_BIT == 0;
+        let pixel = wrapped(pixel, offset, self.layout.size as usize);
+        is_owned
+            && self.atlas.triangle_chart.get(owner as usize) == Some(&chart)
+            && self.layout.source[pixel] != NONE
+            && self.layout.source[pixel] as usize == texel
+    }
+
+    /// Returns the texel at an offset from another on the same page.
+    fn moved(&self, texel: usize, [x, y]: [i64; 2]) -> Option<usize> {
+        let [width, height] = self.atlas.page_size.map(i64::from);
+        let (column, row) = (texel as i64 % width + x, texel as i64 / width % height + y);
+        let is_on_page = (0..width).contains(&column) && (0..height).contains(&row);
+        is_on_page.then(|| (texel as i64 + y * width + x) as usize)
+    }
+}
+
+/// Offsets of a neighborhood, row by row.
+fn offsets() -> impl Iterator<Item = [i64; 2]> {
+    (-REACH..=REACH).flat_map(|y| (-REACH..=REACH).map(move |x| [x, y]))
+}
+
+/// Index of an offset in a neighborhood.
+fn bit([x, y]: [i64; 2]) -> usize {
+    (y + REACH) as usize * SIDE + (x + REACH) as usize
+}
+
+/// Returns the pixel at an offset from another, in a map that repeats.
+fn wrapped(pixel: usize, [x, y]: [i64; 2], size: usize) -> usize {
+    let side = size as i64;
+    let at = pixel as i64;
+    ((at / side + y).rem_euclid(side) * side + (at % side + x).rem_euclid(side)) as usize
+}
+
+#[cfg(test)]
+mod tests;
