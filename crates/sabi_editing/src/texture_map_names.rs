@@ -1,43 +1,76 @@
-//! Sets and channels that the names of texture files denote. Follows the conventions of ambientCG, Poly Haven,
-//! cgbookcase and the exports of common tools.
+//! Sets and channels that the names of texture files denote: those that the export presets write, and the conventions of
+//! ambientCG, Poly Haven, cgbookcase and other tools.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::OnceLock;
 
-/// Content of a picture of a texture set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Map {
-    Color,
-    Roughness,
-    Metallic,
-    Occlusion,
-    Height,
-    /// `is_down` where green points down, as in DirectX.
-    Normal {
-        is_down: bool,
-    },
-    Alpha,
-    Emission,
-    /// Several channels in one picture.
-    Packed,
+use sabi_engine::{PicturePart, PresetPicture, preset_pictures};
+
+/// Channel of a material that a picture gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Reading {
+    /// Input of *Combine material*.
+    pub(crate) channel: String,
+    /// Output of the image node, unless that is the first.
+    pub(crate) output: Option<&'static str>,
+    /// True if the picture holds 1 minus the value.
+    pub(crate) is_inverted: bool,
+    /// True for normals whose green points down, as in DirectX.
+    pub(crate) is_green_down: bool,
 }
 
-/// Words that name a map, in lower case and without spaces.
-const WORDS: [(Map, &[&str]); 9] = [
+/// Set and map that the name of a file denotes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct MapName {
+    /// Name of the set in lower case.
+    pub(crate) set: String,
+    /// Channels in the picture; none for a map that is no part of a material, such as a position.
+    pub(crate) readings: Vec<Reading>,
+    /// Number of the UDIM tile, if the name has one.
+    pub(crate) tile: Option<u32>,
+}
+
+const COLOR: Option<&str> = None;
+const GRAY: Option<&str> = Some("mask");
+const RED: Option<&str> = Some("r");
+const GREEN: Option<&str> = Some("g");
+const BLUE: Option<&str> = Some("b");
+
+/// Words of other tools that name a picture, in lower case and without spaces, and the channels in it with the outputs of the
+/// image node.
+type Convention = (&'static [&'static str], &'static [(&'static str, Option<&'static str>)]);
+const CONVENTIONS: [Convention; 12] = [
     (
-        Map::Color,
         &["color", "col", "basecolor", "albedo", "diff", "diffuse", "base"],
+        &[("base_color", COLOR)],
     ),
-    (Map::Roughness, &["roughness", "rough", "rgh"]),
-    (Map::Metallic, &["metallic", "metalness", "metal", "mtl"]),
-    (Map::Occlusion, &["ambientocclusion", "occlusion", "ao"]),
-    (Map::Height, &["displacement", "displace", "disp", "height", "bump"]),
+    (&["roughness", "rough", "rgh"], &[("roughness", GRAY)]),
+    (&["metallic", "metalness", "metal", "mtl"], &[("metallic", GRAY)]),
+    (&["ambientocclusion", "occlusion", "ao"], &[("occlusion", GRAY)]),
     (
-        Map::Normal { is_down: false },
-        &["normal", "normals", "normalmap", "nor", "norm", "nrm"],
+        &["displacement", "displace", "disp", "height", "bump"],
+        &[("height", GRAY)],
     ),
-    (Map::Alpha, &["opacity", "alpha", "transparency"]),
-    (Map::Emission, &["emission", "emissive", "emit"]),
-    (Map::Packed, &["arm", "orm", "ord", "rma", "mra"]),
+    (
+        &["normal", "normals", "normalmap", "nor", "norm", "nrm"],
+        &[("slope", Some("slope"))],
+    ),
+    (&["opacity", "alpha", "transparency"], &[("alpha", GRAY)]),
+    (&["emission", "emissive", "emit"], &[("emission", COLOR)]),
+    (
+        &["arm", "orm"],
+        &[("occlusion", RED), ("roughness", GREEN), ("metallic", BLUE)],
+    ),
+    (&["ord"], &[("occlusion", RED), ("roughness", GREEN), ("height", BLUE)]),
+    (
+        &["rma"],
+        &[("roughness", RED), ("metallic", GREEN), ("occlusion", BLUE)],
+    ),
+    (
+        &["mra"],
+        &[("metallic", RED), ("roughness", GREEN), ("occlusion", BLUE)],
+    ),
 ];
 
 /// Words for normal maps whose green points up.
@@ -46,110 +79,299 @@ const UP: [&str; 3] = ["gl", "opengl", "ogl"];
 const DOWN: [&str; 3] = ["dx", "directx", "d3d"];
 /// Words for the format of a file.
 const STORED: [&str; 6] = ["jpg", "jpeg", "png", "exr", "tif", "tiff"];
-
-/// Set and map that the name of a file denotes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct MapName {
-    /// Name of the set in lower case.
-    pub(crate) set: String,
-    pub(crate) map: Map,
-}
+/// Most words of a file name that name its map together.
+const MOST_WORDS: usize = 3;
+/// Numbers of UDIM tiles.
+const TILES: std::ops::RangeInclusive<u32> = 1001..=1999;
 
 impl MapName {
     /// Parses the name of a file; none if it does not name a map.
     pub(crate) fn of(file: &Path) -> Option<MapName> {
         let stem = file.file_stem()?.to_string_lossy().to_lowercase();
-        let words: Vec<&str> = stem
+        let (stem, tile) = split_tile(&stem);
+        let mut words: Vec<&str> = stem
             .split(|letter: char| !letter.is_alphanumeric())
             .filter(|word| !word.is_empty() && !is_stored(word))
             .collect();
-        let (last, mut rest) = words.split_last()?;
-        let (mut word, mut is_down) = (*last, None);
-        if UP.contains(&word) || DOWN.contains(&word) {
-            is_down = Some(DOWN.contains(&word));
-            let (before, others) = rest.split_last()?;
-            (word, rest) = (*before, others);
-        } else if let Some((known, down)) = directed(word) {
-            (word, is_down) = (known, Some(down));
-        }
-        let map = match rest.split_last() {
-            // Base color and ambient occlusion are often written as two words.
-            Some((before, others)) if map_of(&format!("{before}{word}")).is_some() => {
-                let both = map_of(&format!("{before}{word}"));
-                rest = others;
-                both?
-            }
-            _ => map_of(word)?,
-        };
-        let map = match (map, is_down) {
-            (Map::Normal { .. }, Some(is_down)) => Map::Normal { is_down },
-            (map, None) => map,
+        let known = KnownNames::get();
+        // A prefix stands before the name of a material.
+        let has_prefix = words.len() > 2 && known.prefixes.iter().any(|prefix| prefix == words[0]);
+        let prefix = if has_prefix { words.remove(0) } else { "" };
+        let direction = take_direction(&mut words, known);
+        let most = words.len().min(MOST_WORDS);
+        let found = (1..=most).rev().find_map(|count| {
+            let (set, map) = words.split_at(words.len() - count);
+            Some((set, known.readings(&map.concat(), prefix)?))
+        });
+        let (set, mut readings) = found?;
+        if let Some(is_down) = direction {
             // Only normal maps have a direction.
-            (_, Some(_)) => return None,
-        };
-        Some(MapName {
-            set: rest.join("_"),
-            map,
-        })
+            let [reading] = &mut readings[..] else { return None };
+            if reading.channel != "slope" {
+                return None;
+            }
+            reading.is_green_down = is_down;
+        }
+        let set = set.join("_");
+        Some(MapName { set, readings, tile })
     }
 }
 
-fn map_of(word: &str) -> Option<Map> {
-    let (map, _) = WORDS.iter().find(|(_, words)| words.contains(&word))?;
-    Some(*map)
+/// Pictures by the words that name them.
+struct KnownNames {
+    /// Pictures of presets by their names, in lower case and without spaces, with the words before the name of the material.
+    of_presets: BTreeMap<String, Vec<(String, Vec<Reading>)>>,
+    /// Words before the name of the material.
+    prefixes: Vec<String>,
 }
 
-/// Splits a word such as `normalgl` into the map and its direction.
-fn directed(word: &str) -> Option<(&str, bool)> {
-    let cut = |ends: &[&str]| ends.iter().find_map(|end| word.strip_suffix(end));
-    let is_normal = |word: &&str| matches!(map_of(word), Some(Map::Normal { .. }));
-    let up = cut(&UP).filter(is_normal).map(|word| (word, false));
-    up.or_else(|| cut(&DOWN).filter(is_normal).map(|word| (word, true)))
+impl KnownNames {
+    fn get() -> &'static KnownNames {
+        static KNOWN: OnceLock<KnownNames> = OnceLock::new();
+        KNOWN.get_or_init(|| {
+            let mut known = KnownNames {
+                of_presets: BTreeMap::new(),
+                prefixes: Vec::new(),
+            };
+            for picture in preset_pictures() {
+                let prefix = plain(&picture.before);
+                if !prefix.is_empty() && !known.prefixes.contains(&prefix) {
+                    known.prefixes.push(prefix.clone());
+                }
+                let readings = picture.parts.iter().filter_map(|part| reading(&picture, part));
+                let readings = readings.collect();
+                let same_name = known.of_presets.entry(plain(&picture.name)).or_default();
+                same_name.push((prefix, readings));
+            }
+            known
+        })
+    }
+
+    /// Channels of the picture that a word names in a file with a prefix. What presets of one name add to each other counts
+    /// together, such as the opacity that some of them have beside the base color.
+    fn readings(&self, word: &str, prefix: &str) -> Option<Vec<Reading>> {
+        let of_presets = self.of_presets.get(word).map_or(&[][..], Vec::as_slice);
+        // A single letter says little without the prefix that its preset writes.
+        let is_clear = |(own, _): &&(String, Vec<Reading>)| own == prefix || word.chars().count() > 1;
+        let (own, others): (Vec<_>, Vec<_>) = of_presets
+            .iter()
+            .filter(is_clear)
+            .partition(|(own, _)| !own.is_empty() && own == prefix);
+        let convention = CONVENTIONS.iter().find(|(words, _)| words.contains(&word));
+        if own.is_empty() && others.is_empty() && convention.is_none() {
+            return None;
+        }
+        let convention = convention.into_iter().flat_map(|(_, channels)| *channels);
+        let conventional = convention.map(|(channel, output)| Reading {
+            channel: (*channel).to_owned(),
+            output: *output,
+            is_inverted: false,
+            is_green_down: false,
+        });
+        let own = own.into_iter().flat_map(|(_, readings)| readings.clone());
+        let others = others.into_iter().flat_map(|(_, readings)| readings.clone());
+        let mut all: Vec<Reading> = Vec::new();
+        for reading in own.chain(conventional).chain(others) {
+            let is_taken = |known: &Reading| known.channel == reading.channel || known.output == reading.output;
+            if !all.iter().any(is_taken) {
+                all.push(reading);
+            }
+        }
+        Some(all)
+    }
 }
 
-/// Returns whether a word describes how a file is stored: its format, or its size as in `2k`.
+/// How a part of a preset's picture is read; none where it is no channel of *Combine material*.
+fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
+    let channel = match part.channel.as_deref()? {
+        "opacity" => "alpha",
+        "normal" => "slope",
+        // A direction in the tangent frame, which an image node gives for normals alone.
+        "anisotropy" => return None,
+        channel => channel,
+    };
+    let output = match (part.components.start, part.components.len()) {
+        (0, 3) if channel == "slope" => Some("slope"),
+        (0, 3) => COLOR,
+        (_, 1) if part.is_alpha => Some("alpha"),
+        (0, 1) if picture.is_gray => GRAY,
+        (0, 1) => RED,
+        (1, 1) => GREEN,
+        (2, 1) => BLUE,
+        _ => return None,
+    };
+    Some(Reading {
+        channel: channel.to_owned(),
+        output,
+        is_inverted: part.is_inverted,
+        is_green_down: part.is_green_down,
+    })
+}
+
+/// Letters and digits of a text, in lower case.
+fn plain(text: &str) -> String {
+    let letters = text.chars().filter(|letter| letter.is_alphanumeric());
+    letters.flat_map(char::to_lowercase).collect()
+}
+
+/// Takes the direction of green off the words, where the last one names it, alone or as in `normalgl`. Returns whether it
+/// points down.
+fn take_direction(words: &mut Vec<&str>, known: &KnownNames) -> Option<bool> {
+    let last = *words.last()?;
+    let is_named = |ends: &[&str]| ends.contains(&last);
+    if is_named(&UP) || is_named(&DOWN) {
+        words.pop();
+        return Some(is_named(&DOWN));
+    }
+    let is_normal = |word: &str| {
+        let readings = known.readings(word, "");
+        readings.is_some_and(|readings| readings.iter().any(|reading| reading.channel == "slope"))
+    };
+    let cut = |ends: &[&str]| {
+        let mut cut = ends.iter().filter_map(|end| last.strip_suffix(end));
+        cut.find(|word| is_normal(word))
+    };
+    let (word, is_down) = match (cut(&UP), cut(&DOWN)) {
+        (Some(word), _) => (word, false),
+        (None, Some(word)) => (word, true),
+        (None, None) => return None,
+    };
+    words.pop();
+    words.push(word);
+    Some(is_down)
+}
+
+/// Splits the number of a UDIM tile off a name, as in `brick_color.1002`.
+fn split_tile(stem: &str) -> (&str, Option<u32>) {
+    let split = stem.rsplit_once('.').and_then(|(before, number)| {
+        let number = Some(number).filter(|number| number.len() == 4)?;
+        let tile = number.parse().ok().filter(|tile| TILES.contains(tile))?;
+        Some((before, Some(tile)))
+    });
+    split.unwrap_or((stem, None))
+}
+
+/// Returns whether a word describes how a file is stored: its format, or its size as in `2k`, `2048` and `2048x1024`.
 fn is_stored(word: &str) -> bool {
-    let size = word.strip_suffix('k').unwrap_or("");
-    let is_size = !size.is_empty() && size.chars().all(|letter| letter.is_ascii_digit());
-    is_size || STORED.contains(&word)
+    let is_number = |text: &str| !text.is_empty() && text.chars().all(|letter| letter.is_ascii_digit());
+    let is_pixels = |text: &str| {
+        let pixels: Option<u32> = text.parse().ok();
+        pixels.is_some_and(|pixels| pixels.is_power_of_two() && (128..=16384).contains(&pixels))
+    };
+    let is_size = word.strip_suffix('k').is_some_and(is_number) || is_pixels(word);
+    let is_rectangle = word
+        .split_once('x')
+        .is_some_and(|(width, height)| is_pixels(width) && is_pixels(height));
+    is_size || is_rectangle || STORED.contains(&word)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn told(name: &str) -> Option<(String, Map)> {
-        MapName::of(Path::new(name)).map(|name| (name.set, name.map))
+    /// Set and channels of a name: `occlusion=r`, with `!` for what is inverted and `↓` for green that points down.
+    fn told(name: &str) -> Option<(String, String)> {
+        let name = MapName::of(Path::new(name))?;
+        let readings = name.readings.iter().map(|reading| {
+            let output = reading.output.unwrap_or("color");
+            let inverted = if reading.is_inverted { "!" } else { "" };
+            let down = if reading.is_green_down { "↓" } else { "" };
+            format!("{}={inverted}{output}{down}", reading.channel)
+        });
+        Some((name.set, readings.collect::<Vec<_>>().join(" ")))
     }
 
     #[test]
     fn names_of_common_libraries_say_set_and_map() {
-        let up = Map::Normal { is_down: false };
-        let down = Map::Normal { is_down: true };
         let known = [
-            ("Bricks001_2K-JPG_Color.jpg", "bricks001", Map::Color),
-            ("Bricks001_2K-JPG_NormalGL.jpg", "bricks001", up),
-            ("Bricks001_2K-JPG_NormalDX.jpg", "bricks001", down),
-            ("Bricks001_2K-JPG_AmbientOcclusion.jpg", "bricks001", Map::Occlusion),
-            ("Metal032_1K_Metalness.png", "metal032", Map::Metallic),
-            ("Metal032_1K_Displacement.png", "metal032", Map::Height),
-            ("rusty_metal_02_diff_4k.jpg", "rusty_metal_02", Map::Color),
-            ("rusty_metal_02_nor_gl_4k.exr", "rusty_metal_02", up),
-            ("rusty_metal_02_nor_dx_4k.exr", "rusty_metal_02", down),
-            ("rusty_metal_02_rough_4k.exr", "rusty_metal_02", Map::Roughness),
-            ("rusty_metal_02_ao_4k.jpg", "rusty_metal_02", Map::Occlusion),
-            ("rusty_metal_02_arm_4k.jpg", "rusty_metal_02", Map::Packed),
-            ("Floor_Base_Color.png", "floor", Map::Color),
-            ("Floor_Normal_OpenGL.png", "floor", up),
-            ("Floor_Ambient_occlusion.png", "floor", Map::Occlusion),
-            ("old-planks-height.png", "old_planks", Map::Height),
-            ("leaf opacity.png", "leaf", Map::Alpha),
-            ("lamp_emissive.png", "lamp", Map::Emission),
-            ("albedo.png", "", Map::Color),
+            ("Bricks001_2K-JPG_Color.jpg", "bricks001", "base_color=color"),
+            ("Bricks001_2K-JPG_NormalGL.jpg", "bricks001", "slope=slope"),
+            ("Bricks001_2K-JPG_NormalDX.jpg", "bricks001", "slope=slope↓"),
+            ("Bricks001_2K-JPG_AmbientOcclusion.jpg", "bricks001", "occlusion=mask"),
+            ("Metal032_1K_Metalness.png", "metal032", "metallic=mask"),
+            ("Metal032_1K_Displacement.png", "metal032", "height=mask"),
+            ("rusty_metal_02_diff_4k.jpg", "rusty_metal_02", "base_color=color"),
+            ("rusty_metal_02_nor_gl_4k.exr", "rusty_metal_02", "slope=slope"),
+            ("rusty_metal_02_nor_dx_4k.exr", "rusty_metal_02", "slope=slope↓"),
+            ("rusty_metal_02_rough_4k.exr", "rusty_metal_02", "roughness=mask"),
+            ("rusty_metal_02_ao_4k.jpg", "rusty_metal_02", "occlusion=mask"),
+            (
+                "rusty_metal_02_arm_4k.jpg",
+                "rusty_metal_02",
+                "occlusion=r roughness=g metallic=b",
+            ),
+            ("wall_rma.png", "wall", "roughness=r metallic=g occlusion=b"),
+            ("Floor_Normal_OpenGL.png", "floor", "slope=slope"),
+            ("Floor_Ambient_occlusion.png", "floor", "occlusion=mask"),
+            ("old-planks-height-2048.png", "old_planks", "height=mask"),
+            ("leaf opacity.png", "leaf", "alpha=mask"),
+            ("lamp_emissive.png", "lamp", "emission=color"),
         ];
         for (name, set, map) in known {
-            assert_eq!(told(name), Some((set.to_owned(), map)), "{name}");
+            assert_eq!(told(name), Some((set.to_owned(), map.to_owned())), "{name}");
         }
+        assert_eq!(
+            MapName::of(Path::new("albedo.png")).map(|name| name.set),
+            Some(String::new())
+        );
+    }
+
+    #[test]
+    fn names_and_packings_of_the_presets_are_known() {
+        let known = [
+            ("T_old_crate_BC.png", "base_color=color alpha=alpha"),
+            ("T_old_crate_ORM.png", "occlusion=r roughness=g metallic=b"),
+            ("T_old_crate_N.png", "slope=slope↓"),
+            ("T_old_crate_H.png", "height=mask"),
+            ("T_old_crate_E.png", "emission=color"),
+            ("old_crate_BaseMap.png", "base_color=color alpha=alpha"),
+            ("old_crate_MaskMap.png", "metallic=r occlusion=g roughness=!alpha"),
+            (
+                "old_crate_OcclusionRoughnessMetallic.png",
+                "occlusion=r roughness=g metallic=b",
+            ),
+            ("old_crate_base_color.png", "base_color=color alpha=alpha"),
+            ("old_crate_coat_roughness.png", "coat_roughness=mask"),
+            ("old_crate_ClearcoatRoughness.png", "coat_roughness=mask"),
+            ("old_crate_sheen.png", "sheen=color"),
+            ("old_crate_transmission.png", "transmission=mask"),
+            ("old_crate_world_normal.png", ""),
+            ("old_crate_anisotropy.png", ""),
+        ];
+        for (name, map) in known {
+            assert_eq!(told(name), Some(("old_crate".to_owned(), map.to_owned())), "{name}");
+        }
+    }
+
+    #[test]
+    fn every_picture_of_every_preset_is_known_by_its_name() {
+        for PresetPicture {
+            before, name, parts, ..
+        } in preset_pictures()
+        {
+            let file = format!("{before}old_crate_{name}.png");
+            let found = MapName::of(Path::new(&file)).unwrap_or_else(|| panic!("{file} is not known"));
+            assert_eq!(found.set, "old_crate", "{file}");
+            let wanted = parts.iter().filter_map(|part| part.channel.as_deref());
+            for channel in wanted.filter(|channel| *channel != "anisotropy") {
+                let input = match channel {
+                    "opacity" => "alpha",
+                    "normal" => "slope",
+                    channel => channel,
+                };
+                assert!(
+                    found.readings.iter().any(|reading| reading.channel == input),
+                    "{file}: {channel}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn tiles_are_told_by_their_number() {
+        let tile = |name: &str| MapName::of(Path::new(name)).and_then(|name| name.tile);
+        assert_eq!(tile("T_old_crate_BC.1012.png"), Some(1012));
+        assert_eq!(tile("old_crate_color_1024.png"), None, "a size");
     }
 
     #[test]
@@ -158,6 +380,8 @@ mod tests {
             "preview.png",
             "color_chart_photo.jpg",
             "bricks_color_gl.png",
+            "letter_e.png",
+            "plan_n.png",
             "2k.png",
             ".png",
             "gl.png",

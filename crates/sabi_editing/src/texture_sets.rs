@@ -8,32 +8,30 @@ use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
 
 use crate::node_size::{NODE_WIDTH, size_of};
 use crate::open_document::OpenDocument;
-use crate::texture_map_names::{Map, MapName};
+use crate::texture_map_names::{MapName, Reading};
 use crate::{new_nodes, relative_paths};
 
 const IMAGE: &str = "source/image";
 const COMBINE: &str = "material/combine";
 const REMAP: &str = "adjust/remap";
+const INVERT: &str = "adjust/invert";
 /// Space between nodes, canvas points.
 const GAP: f32 = 60.0;
 /// Height of white above black in a height map, in working units. Texture files do not specify it.
 const RELIEF: f64 = 0.02;
 
-/// Image files of one set by map.
-type Set = BTreeMap<Map, PathBuf>;
+/// Picture of a set, with the channels that are read from it.
+struct SetPicture {
+    file: PathBuf,
+    readings: Vec<Reading>,
+}
 
 /// Adds the texture sets that these image files form by their names, as one step: for each set a material of all its maps,
 /// which is selected.
 pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> bool {
-    let mut sets = sets_of(files);
-    let packed = sets.values_mut().filter_map(|set| set.remove(&Map::Packed));
-    let packed: Vec<String> = packed.map(|file| name_of(&file)).collect();
-    sets.retain(|_, set| !set.is_empty());
-    if !packed.is_empty() {
-        let names = packed.join(", ");
-        document.notify(format!(
-            "{names} holds several channels in one picture and is left out; use a file for each"
-        ));
+    let Sets { sets, left_out } = Sets::of(files);
+    for sentence in left_out {
+        document.notify(sentence);
     }
     if sets.is_empty() {
         let count = files.len();
@@ -65,22 +63,31 @@ struct SetBuilder<'d> {
 
 impl SetBuilder<'_> {
     /// Adds one set. Returns its material and the vertical position of its lower end, canvas points.
-    fn add_set(&mut self, name: &str, set: &Set, [x, y]: [f32; 2]) -> (NodeId, f32) {
+    fn add_set(&mut self, name: &str, set: &[SetPicture], [x, y]: [f32; 2]) -> (NodeId, f32) {
         let step = NODE_WIDTH + GAP;
         let mut below = y;
         let mut inputs = BTreeMap::new();
-        for (map, file) in set {
-            let (input, output) = ports(*map);
-            let image = self.add_image(*map, file, [x, below]);
-            let mut from = OutputRef {
-                node: image,
-                port: output.map(str::to_owned),
-            };
-            if *map == Map::Height {
-                from = self.add_relief(from, [x + step, below]);
+        for picture in set {
+            let image = self.add_image(picture, [x, below]);
+            let mut converted_below = below;
+            for reading in &picture.readings {
+                let mut from = OutputRef {
+                    node: image.clone(),
+                    port: reading.output.map(str::to_owned),
+                };
+                let mut at = [x + step, converted_below];
+                if reading.is_inverted {
+                    from = self.add_inverted(from, at);
+                    at[1] += self.height(INVERT) + GAP / 2.0;
+                }
+                if reading.channel == "height" {
+                    from = self.add_relief(from, at);
+                    at[1] += self.height(REMAP) + GAP / 2.0;
+                }
+                converted_below = at[1];
+                inputs.insert(reading.channel.clone(), from);
             }
-            inputs.insert(input.to_owned(), from);
-            below += self.height(IMAGE) + GAP / 2.0;
+            below = (below + self.height(IMAGE) + GAP / 2.0).max(converted_below);
         }
         let mut material = Node::new(COMBINE);
         material.label = Some(label_of(name)).filter(|label| !label.is_empty());
@@ -90,22 +97,43 @@ impl SetBuilder<'_> {
         (id, below.max(middle + self.height(COMBINE)))
     }
 
-    fn add_image(&mut self, map: Map, file: &Path, pos: [f32; 2]) -> NodeId {
+    fn add_image(&mut self, picture: &SetPicture, pos: [f32; 2]) -> NodeId {
         let mut image = Node::new(IMAGE);
-        let (input, _) = ports(map);
-        image.label = Some(label_of(input));
-        match relative_paths::chosen(self.document, file) {
+        // The first channel names a picture of a color with alpha; one that packs several is named by its file.
+        let packs_several = picture
+            .readings
+            .iter()
+            .filter(|reading| reading.output != Some("alpha"))
+            .count()
+            > 1;
+        let stem = match picture.readings.first() {
+            Some(reading) if !packs_several => reading.channel.clone(),
+            _ => "packed".to_owned(),
+        };
+        image.label = Some(match packs_several {
+            true => stem_of(&picture.file),
+            false => label_of(&stem),
+        });
+        match relative_paths::chosen(self.document, &picture.file) {
             Ok(path) => {
                 image.params.insert("file".to_owned(), Value::Text(path));
             }
             Err(refused) => self.document.notify(refused.to_string()),
         }
-        if map == (Map::Normal { is_down: true }) {
+        if picture.readings.iter().any(|reading| reading.is_green_down) {
             image
                 .params
                 .insert("normal_y".to_owned(), Value::Text("down".to_owned()));
         }
-        self.add_node(input, image, pos)
+        self.add_node(&stem, image, pos)
+    }
+
+    /// Adds a node that gives 1 minus a mask, such as the roughness from a smoothness.
+    fn add_inverted(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
+        let mut invert = Node::new(INVERT);
+        invert.inputs.insert("source".to_owned(), from);
+        let node = self.add_node("inverted", invert, pos);
+        OutputRef { node, port: None }
     }
 
     /// Adds a node that converts a height map, 0 to 1 with its middle on the model's surface, to heights in working units.
@@ -135,42 +163,91 @@ impl SetBuilder<'_> {
     }
 }
 
-/// Image files by set and map: the first of several files for one map, and normal maps whose green points up before others.
-fn sets_of(files: &[PathBuf]) -> BTreeMap<String, Set> {
-    let mut sorted: Vec<&PathBuf> = files.iter().collect();
-    sorted.sort();
-    let mut sets: BTreeMap<String, Set> = BTreeMap::new();
-    for file in sorted {
-        let Some(name) = MapName::of(file) else { continue };
-        let set = sets.entry(name.set).or_default();
-        set.entry(name.map).or_insert_with(|| file.clone());
-    }
-    for set in sets.values_mut() {
-        if set.contains_key(&Map::Normal { is_down: false }) {
-            set.remove(&Map::Normal { is_down: true });
-        }
-    }
-    sets
+/// Texture sets of some files.
+struct Sets {
+    /// Pictures by the names of their sets.
+    sets: BTreeMap<String, Vec<SetPicture>>,
+    /// Sentences about files that are left out.
+    left_out: Vec<String>,
 }
 
-/// Channel that a map is connected to, and the output of the image node that it is read from, unless that is the first.
-fn ports(map: Map) -> (&'static str, Option<&'static str>) {
-    match map {
-        Map::Color => ("base_color", None),
-        Map::Roughness => ("roughness", Some("mask")),
-        Map::Metallic => ("metallic", Some("mask")),
-        Map::Occlusion => ("occlusion", Some("mask")),
-        Map::Height => ("height", Some("mask")),
-        Map::Normal { .. } => ("slope", Some("slope")),
-        Map::Alpha => ("alpha", Some("mask")),
-        // Packed maps are removed from the sets before.
-        Map::Emission | Map::Packed => ("emission", None),
+impl Sets {
+    /// Sorts image files into sets. Of several pictures for one channel, one that holds it alone goes before one that packs several,
+    /// and normals whose green points up before others.
+    fn of(files: &[PathBuf]) -> Sets {
+        let mut named: Vec<(&PathBuf, MapName)> = files
+            .iter()
+            .filter_map(|file| Some((file, MapName::of(file)?)))
+            .collect();
+        named.sort_by_key(|(file, name)| {
+            let is_down = name.readings.iter().any(|reading| reading.is_green_down);
+            (name.tile, name.readings.len(), is_down, *file)
+        });
+        let first_tiles = named
+            .iter()
+            .filter_map(|(_, name)| Some((name.set.clone(), name.tile?)));
+        // The list is sorted, and the last one that is collected counts.
+        let first_tiles: BTreeMap<String, u32> = first_tiles.rev().collect();
+        let (mut tiles, mut unread) = (Vec::new(), Vec::new());
+        let mut sets: BTreeMap<String, Vec<SetPicture>> = BTreeMap::new();
+        for (file, name) in named {
+            if name.tile.is_some() && name.tile.as_ref() != first_tiles.get(&name.set) {
+                tiles.push(name_of(file));
+            } else if name.readings.is_empty() {
+                unread.push(name_of(file));
+            } else {
+                let set = sets.entry(name.set).or_default();
+                let is_given = |channel: &str| {
+                    let mut known = set.iter().flat_map(|picture| &picture.readings);
+                    known.any(|known| known.channel == channel)
+                };
+                let new = name.readings.into_iter();
+                let readings: Vec<Reading> = new.filter(|reading| !is_given(&reading.channel)).collect();
+                if !readings.is_empty() {
+                    let file = file.clone();
+                    set.push(SetPicture { file, readings });
+                }
+            }
+        }
+        for set in sets.values_mut() {
+            set.sort_by_key(|picture| picture.readings.first().map(|reading| place_of(&reading.channel)));
+        }
+        let told = |files: Vec<String>, why: &str| (!files.is_empty()).then(|| format!("{}: {why}", files.join(", ")));
+        let left_out = [
+            told(
+                tiles,
+                "left out, since an Image reads one picture, and not the tiles of a UDIM layout",
+            ),
+            told(unread, "left out, since Combine material has no such channel"),
+        ];
+        Sets {
+            sets,
+            left_out: left_out.into_iter().flatten().collect(),
+        }
     }
+}
+
+/// Place of a channel among the pictures of a set; those that few sets have come last.
+fn place_of(channel: &str) -> usize {
+    let usual = [
+        "base_color",
+        "roughness",
+        "metallic",
+        "occlusion",
+        "height",
+        "slope",
+        "alpha",
+        "emission",
+    ];
+    usual.iter().position(|known| *known == channel).unwrap_or(usual.len())
 }
 
 fn name_of(file: &Path) -> String {
-    file.file_name()
-        .unwrap_or(file.as_os_str())
-        .to_string_lossy()
-        .into_owned()
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+fn stem_of(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or(file.as_os_str());
+    stem.to_string_lossy().into_owned()
 }

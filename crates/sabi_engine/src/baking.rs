@@ -15,6 +15,7 @@ mod memory_budget;
 mod mesh_maps;
 pub(crate) mod model_copy;
 pub(crate) mod preset_description;
+pub(crate) mod preset_pictures;
 pub(crate) mod presets;
 pub(crate) mod recorded;
 pub(crate) mod report;

@@ -90,6 +90,7 @@ pub use baking::bake_request::{
     BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
 };
 pub use baking::preset_description::{PresetDescription, PresetDocument, PresetFile, describe_preset};
+pub use baking::preset_pictures::{PicturePart, PresetPicture, preset_pictures};
 pub use baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
 pub use baking::report::{
     BakeAdapter, BakeReport, BakedMesh, Conventions, CopiedFileReport, ModelCopyReport, REPORT_VERSION,

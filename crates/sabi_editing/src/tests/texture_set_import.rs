@@ -93,8 +93,68 @@ fn each_set_of_a_folder_is_a_material_and_none_lies_over_another() {
     }
 }
 
+/// Node that gives a channel of the selected material, and the output.
+fn source_of(document: &OpenDocument, channel: &str) -> (NodeId, Option<String>) {
+    let material = document.selected_one().expect("the material");
+    let from = connections::wire_into(document, &slot(material, channel)).expect("a wire");
+    (from.node.clone(), from.port.clone())
+}
+
 #[test]
-fn pictures_that_are_no_maps_and_packed_ones_are_told() {
+fn maps_of_the_preset_for_unreal_are_unpacked_with_green_downward() {
+    let mut document = opened("", "");
+    let set = files(&["T_crate_BC.png", "T_crate_ORM.png", "T_crate_N.png", "T_crate_H.png"]);
+    assert!(step(&mut document, |document| texture_sets::add(
+        document, &set, [0.0; 2]
+    )));
+    let material = document.selected_one().cloned().expect("one material");
+    assert_eq!(document.title(&material), "Crate");
+    let packed = source_of(&document, "occlusion").0;
+    assert_eq!(source_of(&document, "occlusion").1.as_deref(), Some("r"));
+    assert_eq!(
+        source_of(&document, "roughness"),
+        (packed.clone(), Some("g".to_owned()))
+    );
+    assert_eq!(source_of(&document, "metallic"), (packed, Some("b".to_owned())));
+    let color = source_of(&document, "base_color").0;
+    assert_eq!(source_of(&document, "alpha"), (color, Some("alpha".to_owned())));
+    let normal = source_of(&document, "slope").0;
+    let down = Some(Value::Text("down".to_owned()));
+    assert_eq!(param(&document, normal.as_str(), "normal_y"), down);
+    assert_eq!(reads(&document, "height"), Some(("adjust/remap".to_owned(), None)));
+    flat(&document);
+}
+
+#[test]
+fn the_smoothness_of_a_mask_map_is_inverted_to_a_roughness() {
+    let mut document = opened("", "");
+    let set = files(&["crate_BaseMap.png", "crate_MaskMap.png", "crate_Normal.png"]);
+    texture_sets::add(&mut document, &set, [0.0; 2]);
+    let (inverted, _) = source_of(&document, "roughness");
+    assert_eq!(document.node(&inverted).expect("a node").kind, "adjust/invert");
+    let from = connections::wire_into(&document, &slot(&inverted, "source")).cloned();
+    let (mask_map, red) = source_of(&document, "metallic");
+    assert_eq!(red.as_deref(), Some("r"));
+    let alpha = OutputRef {
+        node: mask_map,
+        port: Some("alpha".to_owned()),
+    };
+    assert_eq!(from, Some(alpha));
+}
+
+#[test]
+fn a_map_of_its_own_goes_before_one_that_packs_several() {
+    let mut document = opened("", "");
+    let set = files(&["wall_arm.png", "wall_rough.png", "wall_diff.png"]);
+    texture_sets::add(&mut document, &set, [0.0; 2]);
+    assert_eq!(source_of(&document, "roughness").1.as_deref(), Some("mask"));
+    assert_eq!(source_of(&document, "metallic").1.as_deref(), Some("b"));
+    // Three pictures and their material.
+    assert_eq!(document.graph().len(), 4);
+}
+
+#[test]
+fn pictures_that_are_no_maps_or_no_channels_are_told() {
     let mut document = opened("", "");
     let said = refused(&mut document, |document| {
         texture_sets::add(document, &files(&["cat.png", "dog.jpg"]), [0.0; 2])
@@ -103,14 +163,14 @@ fn pictures_that_are_no_maps_and_packed_ones_are_told() {
         said,
         "none of these 2 files is named as a map of a texture set, as bricks_color.png or bricks_nor_gl.png are"
     );
-    texture_sets::add(
-        &mut document,
-        &files(&["wall_arm_2k.png", "wall_diff_2k.png"]),
-        [0.0; 2],
-    );
+    let set = files(&["wall_color.1001.png", "wall_color.1002.png", "wall_world_normal.png"]);
+    texture_sets::add(&mut document, &set, [0.0; 2]);
     assert_eq!(
         document.take_notices(),
-        ["wall_arm_2k.png holds several channels in one picture and is left out; use a file for each"]
+        [
+            "wall_color.1002.png: left out, since an Image reads one picture, and not the tiles of a UDIM layout",
+            "wall_world_normal.png: left out, since Combine material has no such channel"
+        ]
     );
     assert_eq!(document.graph().len(), 2);
 }
