@@ -55,6 +55,7 @@ pub mod layers;
 pub mod library;
 pub mod library_folder;
 pub mod linked_groups;
+pub mod missing_files;
 mod names;
 pub mod navigation;
 mod new_ids;

@@ -44,3 +44,58 @@ pub fn in_shown_graph(document: &OpenDocument, full_id: &str) -> Option<NodeId> 
     let own = full_id.rsplit('/').next()?.parse::<NodeId>().ok()?;
     (document.full_id(&own) == full_id).then_some(own)
 }
+
+/// Words behind which an error names a node by its full id in quotation marks.
+const BEFORE_IDS: [&str; 5] = ["node ", "nodes ", "instance ", "asks ", "but "];
+/// Words before the ids of nodes that feed each other, and what is between these.
+const BEFORE_CIRCLE: &str = "in a circle: ";
+const IN_CIRCLE: &str = " → ";
+
+/// Sentence of an error or a warning in which nodes are named by their titles. Errors name them by their full ids, as graph files
+/// have them, with their kinds in parentheses.
+pub fn with_titles(document: &OpenDocument, sentence: &str) -> String {
+    let mut told = String::with_capacity(sentence.len());
+    let mut rest = sentence;
+    let mut is_list = false;
+    while let Some(at) = rest.find(['\'', '"']) {
+        let (before, quoted) = rest.split_at(at);
+        let (mark, quoted) = quoted.split_at(1);
+        told.push_str(&with_titles_in_circle(document, before));
+        let Some((id, after)) = quoted.split_once(mark) else {
+            told.push_str(mark);
+            rest = quoted;
+            continue;
+        };
+        let follows = is_list && [", ", " and "].contains(&before);
+        is_list = (follows || BEFORE_IDS.iter().any(|word| told.ends_with(word))) && exists(document, id);
+        let name = if is_list { title(document, id) } else { id.to_owned() };
+        told.push_str(&format!("{mark}{name}{mark}"));
+        rest = if is_list { without_kind(after) } else { after };
+    }
+    told.push_str(&with_titles_in_circle(document, rest));
+    told
+}
+
+/// Text in which nodes of the shown graph that feed each other are named by their titles.
+fn with_titles_in_circle(document: &OpenDocument, text: &str) -> String {
+    let Some((before, circle)) = text.split_once(BEFORE_CIRCLE) else {
+        return text.to_owned();
+    };
+    let (ids, after) = circle.split_at(circle.find(';').unwrap_or(circle.len()));
+    let titles = ids.split(IN_CIRCLE).map(|id| match id.parse::<NodeId>() {
+        Ok(id) if document.node(&id).is_some() => document.title(&id),
+        _ => id.to_owned(),
+    });
+    let titles: Vec<String> = titles.collect();
+    format!("{before}{BEFORE_CIRCLE}{}{after}", titles.join(IN_CIRCLE))
+}
+
+/// The text without the kind of a node in parentheses at its beginning.
+fn without_kind(text: &str) -> &str {
+    let inner = text.strip_prefix(" (").and_then(|text| text.split_once(')'));
+    let is_kind = |kind: &str| {
+        let is_letter = |letter: char| letter.is_ascii_alphanumeric() || "_/@-".contains(letter);
+        kind.contains('/') && kind.chars().all(is_letter)
+    };
+    inner.filter(|(kind, _)| is_kind(kind)).map_or(text, |(_, rest)| rest)
+}

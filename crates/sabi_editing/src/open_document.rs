@@ -252,6 +252,14 @@ impl OpenDocument {
         made.is_ok()
     }
 
+    /// Applies an edit that is no step: it is not undone, and steps that can be redone stay.
+    pub fn edit_aside(&mut self, edit: Edit) {
+        match self.session.edit_aside(edit) {
+            Ok(()) => self.refresh(),
+            Err(error) => self.notify(error.to_string()),
+        }
+    }
+
     /// Applies an edit that may be refused, in which case it changes nothing and adds no notice.
     pub(crate) fn edit_quietly(&mut self, step: &str, edit: Edit) {
         if self.session.edit(step, edit).is_ok() {

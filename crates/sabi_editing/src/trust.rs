@@ -10,7 +10,10 @@ use crate::open_document::OpenDocument;
 impl OpenDocument {
     /// Lets the document open a file that the user chose.
     pub fn trust_chosen(&mut self, file: &Path) {
-        if self.session.graph().base().is_above(file) || self.session.graph().trusted.contains(file) {
+        let graph = self.session.graph();
+        // A graph without a file has no place yet: it may be saved far from the folder that the program was started in.
+        let is_below = self.session.file().is_some() && graph.base().is_above(file);
+        if is_below || graph.trusted.contains(file) {
             return;
         }
         self.session.trust(&TrustedPaths::default().with_path(file));

@@ -167,6 +167,10 @@ pub(crate) enum FileAction {
     AllowSaving,
     /// Write the graph with all files that it uses into an archive.
     Pack(PathBuf),
+    /// Ask where a file is that the graph names by this path, where there is none.
+    AskForMissing(String),
+    /// Name a file in place of one that is missing, and those beside it in place of others.
+    Find { lost: String, file: PathBuf },
     /// Read the graph again from its file, which another program has changed.
     Reload,
     /// Keep the open graph although another program has changed its file.
@@ -203,6 +207,8 @@ pub(crate) enum ModelAction {
     Show(PathBuf),
     /// Read the shown model with other options.
     Read(ImportOptions),
+    /// Read the model no further that takes the place of another one, which stays.
+    CancelReading,
     /// Remove a model from the strip.
     Remove(PathBuf),
     /// Ask for a model file to show beside the main model.

@@ -4,6 +4,7 @@ mod documents;
 mod flows;
 mod opening;
 mod perform;
+mod recoveries;
 mod shell;
 #[cfg(test)]
 mod tests;
@@ -14,6 +15,7 @@ use std::time::Instant;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Context, RawInput, Ui, ViewportCommand};
+use sabi_editing::node_paths;
 use sabi_engine::Gpu;
 
 use crate::action::Action;
@@ -25,6 +27,7 @@ use crate::exports::Exports;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
 use crate::node_tips::NodeTips;
+use crate::notices::Work;
 use crate::packing::Packing;
 use crate::pen::Pens;
 use crate::trials::{TrialSource, Trials};
@@ -78,7 +81,7 @@ impl Editor {
             fault,
         } = Opened::new(initial, &shell.settings, context, &handover);
         for fault in fault {
-            shell.notify(fault);
+            shell.fail(fault);
         }
         let model = (model.as_path(), shell.settings.reading(&model));
         let mut editor = Editor {
@@ -99,7 +102,7 @@ impl Editor {
             is_leaving: false,
             may_close: false,
         };
-        editor.recall_export();
+        editor.recall_choices();
         editor.claim_file();
         beside.iter().for_each(|model| editor.show_beside(model));
         editor
@@ -124,6 +127,7 @@ impl Editor {
             document: &documents.document,
             evaluation,
             row,
+            models: &documents.models.files,
             examples: documents.folders.examples.as_deref(),
             looks,
             exports,
@@ -132,7 +136,7 @@ impl Editor {
             brushes: &documents.brushes,
             trials,
             candidates: documents.candidates(),
-            recoveries: &documents.recoveries,
+            recoveries: &documents.recoveries.found,
             settings: &shell.settings,
             theme: &shell.theme,
             keys: &shell.keys,
@@ -160,16 +164,19 @@ impl Editor {
         self.mute_what_takes_too_long();
         self.follow_model();
         self.follow_row(&context);
-        self.exports.poll(&context);
+        self.follow_exports(&context);
         self.take_node_tip();
-        if let Some(told) = self.packing.take() {
-            self.shell.notify(told);
+        match self.packing.take() {
+            Some(Ok(told)) => self.shell.notify(told),
+            Some(Err(refused)) => self.shell.fail(refused),
+            None => {}
         }
         if self.evaluation.lost.is_some() {
             self.hand_over(&context);
             return;
         }
         self.follow_files();
+        self.follow_recoveries(&context);
         self.cancel_color_target(&context);
         let is_dragging = self.documents.is_dragging;
         let mut actions = self.shell.keys_pressed(ui, &self.views, is_dragging);
@@ -178,7 +185,9 @@ impl Editor {
         self.keep_open(ui);
         actions.extend(self.show(ui));
         self.shell.leave_hidden_panel(&mut self.views);
-        self.shell.notices.show(ui);
+        let document = &self.documents.document;
+        let said = |sentence: &str| node_paths::with_titles(document, sentence);
+        self.shell.notices.show(ui, &self.shell.theme, &said);
         self.perform_all(actions, ui);
         self.remember_chosen();
         self.set_title();
@@ -254,7 +263,7 @@ impl Editor {
         if self.documents.is_autosave_due() {
             let drafts = self.views.page.unsaved();
             let saved = self.documents.autosave(&drafts, drafts_revision);
-            self.shell.report(saved);
+            self.shell.report_on(Work::Autosave, saved);
             self.save_settings();
         }
         self.documents.schedule_autosave(context, drafts_revision);
@@ -262,7 +271,7 @@ impl Editor {
 
     /// Saves the settings, with the choices of views and exports.
     fn save_settings(&mut self) {
-        self.remember_export();
+        self.remember_choices();
         self.shell.settings.view = self.views.model.choices();
         self.shell.save_settings();
     }

@@ -113,8 +113,8 @@ impl crate::context::View for Canvas {
             NodeState {
                 picture: context.result_picture(&result),
                 time: evaluation.results.time(&result.node),
-                fault: evaluation.faults.of(&result.node).cloned(),
-                waits: evaluation.faults.waits(&result.node).cloned(),
+                fault: evaluation.faults.of(&result.node).map(|fault| context.said(fault)),
+                waits: evaluation.faults.waits(&result.node).map(|waits| context.said(waits)),
             }
         };
         let shown = |result: &NodeRef| node_paths::in_shown_graph(document, &result.node);

@@ -1,13 +1,13 @@
 //! State that views read while a frame is drawn, and the trait that all views implement.
 
 use std::collections::VecDeque;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{TextureHandle, TextureId, Ui};
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::Recovery;
 use sabi_graph::{LibrarySource, NodeId, NodeRef};
 
@@ -40,6 +40,8 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) evaluation: &'a Evaluation,
     /// Models beside the main one.
     pub(crate) row: &'a ModelRow,
+    /// Models on the strip above the viewport.
+    pub(crate) models: &'a [PathBuf],
     /// Folder of Sabi's own models, written when they are used.
     pub(crate) examples: Option<&'a Path>,
     pub(crate) looks: &'a Looks,
@@ -88,6 +90,11 @@ impl ViewContext<'_> {
         Lengths::on(self.evaluation.model.received.as_deref())
     }
 
+    /// Sentence with nodes named as the window names them.
+    pub(crate) fn said(&self, sentence: &str) -> String {
+        node_paths::with_titles(self.document, sentence)
+    }
+
     /// Picture of a node's result, if it has arrived.
     pub(crate) fn node_picture(&self, id: &NodeId) -> Option<TextureId> {
         self.result_picture(&self.looks.chosen(self.document, id))
@@ -119,6 +126,13 @@ impl ViewContext<'_> {
         self.evaluation.problem_count() + self.document.kinds().0.faults.len()
     }
 
+    /// Number of warnings: about the graph, the model, and the models beside it.
+    pub(crate) fn warning_count(&self) -> usize {
+        let beside = self.row.beside().iter();
+        let of_beside: usize = beside.map(|evaluation| evaluation.model.warnings().len()).sum();
+        self.evaluation.faults.all.warnings.len() + of_beside
+    }
+
     /// Sentence about why the outputs do not show the graph as it is.
     pub(crate) fn fault_of_outputs(&self) -> Option<String> {
         let evaluation = self.evaluation;
@@ -126,10 +140,11 @@ impl ViewContext<'_> {
         let mut outputs = outputs.filter(|(_, node)| node.kind.starts_with("output/"));
         let failure = evaluation.model.failure.as_ref().or(evaluation.failure.as_ref());
         let failure = failure.map(ToString::to_string);
-        failure.or_else(|| {
+        let fault = failure.or_else(|| {
             outputs
                 .find_map(|(id, _)| evaluation.faults.sentence(id.as_str()))
                 .cloned()
-        })
+        });
+        fault.map(|sentence| self.said(&sentence))
     }
 }

@@ -70,12 +70,10 @@ impl Exports {
         self.result = None;
     }
 
-    /// Takes over the result of an export that has ended, and starts the next one.
-    pub(crate) fn poll(&mut self, context: &Context) {
-        let Some(done) = self.running.as_ref().and_then(Running::poll) else {
-            return;
-        };
-        let Some(running) = self.running.take() else { return };
+    /// Takes over the result of an export that has ended, and starts the next one. Returns the folder of the one that has ended.
+    pub(crate) fn poll(&mut self, context: &Context) -> Option<PathBuf> {
+        let done = self.running.as_ref().and_then(Running::poll)?;
+        let running = self.running.take()?;
         let failed = "The export stopped unexpectedly, which is a bug in the program; nothing was changed.";
         let done = done.unwrap_or_else(|Failed| Err(EngineError::new(ErrorKind::Defect, failed)));
         let before = self.result.take().filter(|_| running.continues);
@@ -93,6 +91,7 @@ impl Exports {
         if let Some(bake) = self.queued.pop_front() {
             self.running = Some(Running::start(context, bake));
         }
+        Some(running.folder.clone())
     }
 
     /// Cancels the running export and those that wait for it.

@@ -18,8 +18,8 @@ use crate::context::{View, ViewContext};
 use crate::paths::{canonical_if_present, file_name, with_ending, with_graph_ending};
 use folder_list::FolderList;
 use path_question::{PathAnswer, PathQuestion};
-use sabi_editing::OpenDocument;
 use sabi_editing::knob_target::KnobTarget;
+use sabi_editing::{OpenDocument, missing_files};
 use system_dialog::{PathFor, SystemDialog};
 
 /// Button that leads to the question for a path.
@@ -45,6 +45,8 @@ pub(crate) enum Question {
     Unsaved { next: Next },
     /// Replacement of a file whose content is not the open graph's.
     Replace { file: PathBuf, reason: ReplaceReason },
+    /// Recovery of unsaved work on the open graph's file, by its index.
+    Recover { at: usize },
     /// Use of the graph's own file, which another window has open.
     OpenElsewhere { file: PathBuf },
     /// Creation of the folder for a file.
@@ -70,6 +72,7 @@ impl View for Questions {
             Some(Question::Path(question)) => self.path(ui, context, question),
             Some(Question::Unsaved { next }) => self.unsaved(ui, next),
             Some(Question::Replace { file, reason }) => self.replace(ui, context, file, reason),
+            Some(Question::Recover { at }) => self.recover(ui, context, at),
             Some(Question::OpenElsewhere { file }) => self.open_elsewhere(ui, file),
             Some(Question::NewFolder { file }) => self.new_folder(ui, file),
             Some(Question::Exporting) => self.exporting(ui, context),
@@ -108,6 +111,12 @@ impl Questions {
     /// Asks for an archive to pack the graph into, with a free name beside the graph.
     pub(crate) fn ask_for_archive(&mut self, document: &OpenDocument) {
         self.ask_path(PathFor::Archive, document.session.file(), free_name(document, "zip"));
+    }
+
+    /// Asks where a file is that the graph names by a path that leads to none.
+    pub(crate) fn ask_for_missing(&mut self, document: &OpenDocument, lost: String) {
+        let name = missing_files::name_of(&lost).to_owned();
+        self.ask_path(PathFor::Missing(lost), document.session.file(), name);
     }
 
     /// Asks for an image file for a parameter.
@@ -218,6 +227,24 @@ impl Questions {
             (Answer::Button(_), _) => self.ask_for_name(Some(&file)),
             (Answer::Closed, _) => self.after_save = None,
             (Answer::None, _) => self.open = Some(Question::Replace { file, reason }),
+        }
+        None
+    }
+
+    fn recover(&mut self, ui: &Ui, context: &ViewContext<'_>, at: usize) -> Option<Action> {
+        let recovery = context.recoveries.get(at)?;
+        let text = format!(
+            "Sabi ended before changes of {} were saved: {}. Without them the file is open as it was saved last, and they stay \
+             on the start page.",
+            context.file_or_empty().display(),
+            recovery_list::dates_text(recovery)
+        );
+        let buttons = ["Recover the changes", "Open the file as it was saved"];
+        let title = "There is unsaved work on this graph";
+        match buttons_question(ui, "recovery question", 460.0, title, &text, &buttons) {
+            Answer::Button(0) => return Some(Action::File(FileAction::Ask(Next::Recover(at)))),
+            Answer::Button(_) | Answer::Closed => {}
+            Answer::None => self.open = Some(Question::Recover { at }),
         }
         None
     }
@@ -353,6 +380,7 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::Archive => Action::File(FileAction::Pack(with_ending(path, "zip"))),
         PathFor::Model => Action::Model(ModelAction::Show(path)),
         PathFor::ModelBeside => Action::Model(ModelAction::ShowBeside(path)),
+        PathFor::Missing(lost) => Action::File(FileAction::Find { lost, file: path }),
         PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),
         PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
         PathFor::Gradient(parameter) => Action::File(FileAction::PickGradient { parameter, file: path }),

@@ -13,10 +13,12 @@ use egui::{
     Align2, Color32, ColorImage, FontId, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui,
     Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
+use egui_phosphor::regular as icon;
 use sabi_engine::{Inspected, SetKey};
 use sabi_graph::NodeRef;
 
 use crate::action::{Action, ClickedColor, LookAction};
+use crate::activity_text::activity_text;
 use crate::brush::{BrushTool, PaintSubject, ShownPath};
 use crate::command::TextureCommand;
 use crate::context::{View, ViewContext};
@@ -73,6 +75,8 @@ struct Subject<'a> {
     wanted: Option<&'a NodeRef>,
     /// Title of the result.
     title: &'a str,
+    /// Sentence about why there is no result.
+    fault: Option<String>,
     /// True if the result is pinned.
     is_pinned: bool,
     /// True if a click picks a color.
@@ -119,9 +123,11 @@ impl View for FlatView {
         let wanted = looks.inspected();
         let title = wanted.map_or_else(String::new, |result| title_of(context.document, result));
         let painted = PaintSubject::of(context);
+        let fault = wanted.and_then(|node| context.evaluation.faults.sentence(&node.node));
         let subject = Subject {
             wanted,
             title: &title,
+            fault: fault.map(|sentence| context.said(sentence)),
             is_pinned: looks.pinned_2d.is_some(),
             is_picking_color: looks.color_target.is_some(),
             painted: painted.as_ref(),
@@ -146,10 +152,11 @@ impl FlatView {
         let values = values.map(|(_, values)| values.clone());
         output.unpins = self.bar(ui, evaluation, subject, values.as_deref());
         let Some(values) = values else {
-            let fault = wanted.and_then(|node| evaluation.faults.sentence(&node.node));
-            let sentence = match (wanted, fault) {
+            let doing = evaluation.activity().map(|activity| activity_text(&activity));
+            let doing = doing.unwrap_or_else(|| "Evaluating…".to_owned());
+            let sentence = match (wanted, subject.fault.as_deref()) {
                 (_, Some(fault)) => fault,
-                (Some(_), None) => "Evaluating…",
+                (Some(_), None) => &doing,
                 (None, None) => "Click a node to see its result as a texture.",
             };
             ui.centered_and_justified(|ui| ui.colored_label(theme.quiet, sentence));
@@ -185,6 +192,11 @@ impl FlatView {
         }
         if evaluation.is_inspected_outdated() {
             outdated::cover(&painter, rect, evaluation, theme);
+        } else if let Some(activity) = evaluation.activity().filter(|_| evaluation.is_busy()) {
+            let text = format!("{} {}", icon::HOURGLASS_MEDIUM, activity_text(&activity));
+            let corner = rect.right_bottom() - vec2(8.0, 6.0);
+            let font = FontId::proportional(type_size::SMALL);
+            painter.text(corner, Align2::RIGHT_BOTTOM, text, font, theme.quiet);
         }
         if subject.is_picking_color {
             output.color = self.clicked_color(&response, square, &values);

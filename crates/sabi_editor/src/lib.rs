@@ -36,6 +36,7 @@ mod library;
 mod looks;
 mod model_row;
 mod model_view;
+mod model_warnings;
 mod mouse;
 mod node_tips;
 mod notices;

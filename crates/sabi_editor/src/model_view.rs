@@ -26,6 +26,7 @@ use sabi_engine::ViewSubject;
 use sabi_engine::view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
 
 use crate::action::Action;
+use crate::activity_text::activity_text;
 use crate::brush::BrushTool;
 use crate::command::{Scope, ViewportCommand};
 use crate::evaluation::{Evaluation, Picture};
@@ -163,7 +164,8 @@ impl ModelView {
             ui.painter().set(background, painted);
         }
         if picture.as_ref().is_some_and(|picture| evaluation.is_outdated(picture)) {
-            outdated::cover(&ui.painter_at(rect), rect, evaluation, subject.theme);
+            let cancel = outdated::cover_with_cancel(ui, rect, evaluation, subject.theme);
+            output.actions.extend(cancel);
         }
         self.paint_beside(ui, &cells, render, picture.as_ref(), subject, &mut output.actions);
         self.last = picture;
@@ -202,11 +204,13 @@ impl ModelView {
         subject: &Subject<'_>,
     ) -> bool {
         let failure = evaluation.model.failure.as_ref().map(ToString::to_string);
+        let activity = evaluation.activity().map(|activity| activity_text(&activity));
+        let reading = activity.unwrap_or_else(|| "Reading the model…".to_owned());
         let reason = match (render, picture) {
             (Some(render), Some(picture)) => return self.paint(ui, rect, evaluation, render, picture, subject),
             (None, _) => "This window has no graphics device to draw the model with.",
             // Without an error, the model is still being read.
-            (Some(_), None) => failure.as_deref().unwrap_or("Reading the model…"),
+            (Some(_), None) => failure.as_deref().unwrap_or(&reading),
         };
         painting::sentence(ui, rect, subject.theme, reason);
         false

@@ -1,23 +1,48 @@
-//! Sentences that are shown for a few seconds.
+//! Sentences that are shown over the window: for a few seconds, or until they are read where something has failed.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use egui::{Align2, Area, Frame, Order, Ui, vec2};
+use egui::{
+    Align, Align2, Area, Button, Context, Frame, Layout, Order, RichText, Stroke, Ui, WidgetInfo, WidgetType, vec2,
+};
+use egui_phosphor::regular as icon;
+
+use crate::theme::Theme;
 
 /// Time that a sentence is shown.
 const SHOWN_FOR: Duration = Duration::from_secs(6);
-/// Sentences that are shown at once.
+/// Sentences that are shown at once, of those that go by themselves and of failures.
 const MOST: usize = 4;
+/// Width of the sentences, points.
+const WIDTH: f32 = 560.0;
+/// Way from the lower edge of the window to the sentences, points.
+const ABOVE_EDGE: f32 = 40.0;
 
-/// Sentences that are shown for a few seconds, the oldest first.
+/// Work that can fail. Its next success removes the sentence about the failure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Work {
+    Save,
+    Autosave,
+    Export,
+    Other,
+}
+
+/// Failure that nobody has closed yet.
+struct Failure {
+    work: Work,
+    sentence: String,
+}
+
+/// Sentences that are shown over the window, the oldest first.
 #[derive(Default)]
 pub(crate) struct Notices {
     shown: VecDeque<(Instant, String)>,
+    failures: Vec<Failure>,
 }
 
 impl Notices {
-    /// Shows a sentence; one that is shown already is shown again for the whole time.
+    /// Shows a sentence for a while; one that is shown already is shown again for the whole time.
     pub(crate) fn notify(&mut self, sentence: impl Into<String>) {
         let sentence = sentence.into();
         self.shown.retain(|(_, known)| *known != sentence);
@@ -27,33 +52,104 @@ impl Notices {
         }
     }
 
-    /// Draws the sentences over everything else, and removes those whose time is over.
-    pub(crate) fn show(&mut self, ui: &Ui) {
-        self.shown.retain(|(said, _)| said.elapsed() < SHOWN_FOR);
+    /// Shows why some work has failed, until that is closed or the work succeeds.
+    pub(crate) fn fail(&mut self, work: Work, sentence: impl Into<String>) {
+        let sentence = sentence.into();
+        let is_known = |failure: &Failure| {
+            let is_replaced = work != Work::Other && failure.work == work;
+            is_replaced || failure.sentence == sentence
+        };
+        self.failures.retain(|failure| !is_known(failure));
+        self.failures.push(Failure { work, sentence });
+    }
+
+    /// Removes what was said about a failure of some work, since it has succeeded.
+    pub(crate) fn succeed(&mut self, work: Work) {
+        self.failures.retain(|failure| failure.work != work);
+    }
+
+    /// Draws the sentences over everything else, as `said` writes them, and removes those whose time is over or that were closed.
+    pub(crate) fn show(&mut self, ui: &Ui, theme: &Theme, said: &dyn Fn(&str) -> String) {
+        let context = ui.ctx();
+        let top = self.show_failures(context, theme, said);
+        self.shown.retain(|(since, _)| since.elapsed() < SHOWN_FOR);
         let Some((oldest, _)) = self.shown.front() else {
             return;
         };
-        ui.ctx()
-            .request_repaint_after(SHOWN_FOR.saturating_sub(oldest.elapsed()));
+        context.request_repaint_after(SHOWN_FOR.saturating_sub(oldest.elapsed()));
         let area = Area::new("notices".into()).order(Order::Tooltip).interactable(false);
-        let corner = ui.ctx().content_rect().center_bottom() - vec2(0.0, 40.0);
-        area.fixed_pos(corner)
-            .pivot(Align2::CENTER_BOTTOM)
-            .show(ui.ctx(), |ui| {
-                for (_, sentence) in &self.shown {
-                    Frame::popup(ui.style()).show(ui, |ui| {
-                        ui.set_max_width(560.0);
-                        ui.label(with_capital(sentence));
-                    });
-                }
-            });
+        let corner = context.content_rect().center_bottom() - vec2(0.0, top);
+        area.fixed_pos(corner).pivot(Align2::CENTER_BOTTOM).show(context, |ui| {
+            for (_, sentence) in &self.shown {
+                Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_max_width(WIDTH);
+                    ui.label(with_capital(&said(sentence)));
+                });
+            }
+        });
+    }
+
+    /// Draws the failures. Returns the way from the lower edge of the window to what is above them, points.
+    fn show_failures(&mut self, context: &Context, theme: &Theme, said: &dyn Fn(&str) -> String) -> f32 {
+        if self.failures.is_empty() {
+            return ABOVE_EDGE;
+        }
+        let area = Area::new("failures".into()).order(Order::Foreground);
+        let corner = context.content_rect().center_bottom() - vec2(0.0, ABOVE_EDGE);
+        let mut closed = None;
+        let shown = area.fixed_pos(corner).pivot(Align2::CENTER_BOTTOM).show(context, |ui| {
+            let hidden = self.failures.len().saturating_sub(MOST);
+            if hidden > 0 {
+                ui.colored_label(theme.quiet, format!("and {hidden} more"));
+            }
+            // The newest, of which more than one is rare.
+            for (at, failure) in self.failures.iter().enumerate().skip(hidden) {
+                let frame = Frame::popup(ui.style()).stroke(Stroke::new(1.0, theme.fault));
+                frame.show(ui, |ui| {
+                    if failure_row(ui, theme, &with_capital(&said(&failure.sentence))) {
+                        closed = Some(at);
+                    }
+                });
+            }
+        });
+        if let Some(at) = closed {
+            self.failures.remove(at);
+            context.request_repaint();
+        }
+        ABOVE_EDGE + shown.response.rect.height() + 4.0
+    }
+
+    /// Lets the sentences grow older.
+    #[cfg(test)]
+    pub(crate) fn age(&mut self, by: Duration) {
+        for (since, _) in &mut self.shown {
+            *since = since.checked_sub(by).unwrap_or(*since);
+        }
     }
 
     /// Returns whether a sentence that contains this text is shown.
     #[cfg(test)]
     pub(crate) fn has(&self, part: &str) -> bool {
-        self.shown.iter().any(|(_, sentence)| sentence.contains(part))
+        let failures = self.failures.iter().map(|failure| &failure.sentence);
+        let mut all = self.shown.iter().map(|(_, sentence)| sentence).chain(failures);
+        all.any(|sentence| sentence.contains(part))
     }
+}
+
+/// Draws a sentence about a failure with a button that closes it. Returns whether it was pressed.
+fn failure_row(ui: &mut Ui, theme: &Theme, sentence: &str) -> bool {
+    ui.set_width(WIDTH);
+    ui.with_layout(Layout::right_to_left(Align::TOP), |ui| {
+        let close = ui.add(Button::new(icon::X).frame(false)).on_hover_text("Close");
+        close.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Close the message"));
+        ui.with_layout(Layout::left_to_right(Align::TOP).with_main_wrap(true), |ui| {
+            ui.colored_label(theme.fault, icon::WARNING);
+            // Text that can be selected, since its paths may be needed elsewhere.
+            ui.add(egui::Label::new(RichText::new(sentence)).wrap().selectable(true));
+        });
+        close.clicked()
+    })
+    .inner
 }
 
 /// The sentence with a capital at its beginning: reasons of refusals are written so that they fit behind a colon, too.
@@ -72,5 +168,21 @@ mod tests {
         assert_eq!(with_capital("no node is muted"), "No node is muted");
         assert_eq!(with_capital("'Blur' is read"), "'Blur' is read");
         assert_eq!(with_capital(""), "");
+    }
+
+    #[test]
+    fn a_failure_stays_until_the_work_succeeds() {
+        let mut notices = Notices::default();
+        notices.fail(Work::Save, "the disk is full");
+        notices.fail(Work::Other, "no such model");
+        notices.fail(Work::Save, "the disk is read-only");
+        assert!(
+            !notices.has("full") && notices.has("read-only"),
+            "the newer one of a save"
+        );
+        notices.succeed(Work::Export);
+        assert!(notices.has("read-only"));
+        notices.succeed(Work::Save);
+        assert!(!notices.has("read-only") && notices.has("no such model"));
     }
 }

@@ -1,7 +1,8 @@
 //! Cover over results that are still of the model before.
 
-use egui::{Align2, FontId, Painter, Rect};
+use egui::{Align2, Button, FontId, Painter, Rect, Ui, Vec2, WidgetInfo, WidgetType, vec2};
 
+use crate::action::{Action, ModelAction};
 use crate::activity_text::activity_text;
 use crate::evaluation::Evaluation;
 use crate::paths::file_stem;
@@ -9,6 +10,25 @@ use crate::theme::{Theme, type_size};
 
 /// Opacity of the cover.
 const COVER: f32 = 0.7;
+
+/// Way from the middle of a result to the button that cancels, points.
+const BUTTON_BELOW: f32 = 36.0;
+/// Size of that button, points.
+const BUTTON: Vec2 = vec2(90.0, 24.0);
+
+/// Covers a result while the model that it is of is replaced, with a button that keeps the one before.
+pub(crate) fn cover_with_cancel(ui: &mut Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) -> Option<Action> {
+    cover(&ui.painter_at(rect), rect, evaluation, theme);
+    if !evaluation.model.is_replacing() {
+        return None;
+    }
+    let place = Rect::from_center_size(rect.center() + vec2(0.0, BUTTON_BELOW), BUTTON);
+    let button = ui
+        .put(place, Button::new("Cancel"))
+        .on_hover_text("Keep the model that was there before");
+    button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Cancel reading the model"));
+    button.clicked().then_some(Action::Model(ModelAction::CancelReading))
+}
 
 /// Dims a result, and says which model is awaited and what is being done.
 pub(crate) fn cover(painter: &Painter, rect: Rect, evaluation: &Evaluation, theme: &Theme) {

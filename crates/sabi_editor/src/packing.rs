@@ -48,13 +48,13 @@ impl Packing {
     }
 
     /// Sentence for the artist once the archive is written, or why it is not.
-    pub(crate) fn take(&mut self) -> Option<String> {
+    pub(crate) fn take(&mut self) -> Option<Result<String, String>> {
         let packed = self.task.as_ref()?.poll()?;
         self.task = None;
         Some(match packed {
-            Ok(Ok(report)) => told(&report),
-            Ok(Err(refused)) => format!("Not packed: {refused}"),
-            Err(_) => "Not packed: the work broke off.".to_owned(),
+            Ok(Ok(report)) => Ok(told(&report)),
+            Ok(Err(refused)) => Err(format!("Not packed: {refused}")),
+            Err(_) => Err("Not packed: the work broke off.".to_owned()),
         })
     }
 }

@@ -35,7 +35,7 @@ const MOST_COLORS: usize = 8;
 const MOST_BACKUPS: usize = 9;
 /// Files and folders that are trusted.
 const MOST_TRUSTED: usize = 256;
-/// Models on the strip.
+/// Models on a strip, and among those that are remembered.
 pub(crate) const MOST_MODELS: usize = 24;
 
 /// Settings that are kept between runs.
@@ -54,9 +54,12 @@ pub(crate) struct Settings {
     /// Recent graph files, the last one first.
     #[serde(with = "stored::list")]
     pub(crate) recent: Vec<PathBuf>,
-    /// Models on the strip above the viewport.
+    /// Models that were shown, the last ones last.
     #[serde(with = "stored::list")]
     pub(crate) models: Vec<PathBuf>,
+    /// Models on the strip above the viewport, by the file of the graph that they are shown with.
+    #[serde(with = "stored::map")]
+    pub(crate) model_strips: BTreeMap<PathBuf, ModelStrip>,
     /// Files and folders that graphs and models may open, the last ones first.
     #[serde(with = "stored::list")]
     pub(crate) trusted: Vec<PathBuf>,
@@ -90,6 +93,26 @@ pub(crate) struct Settings {
     pub(crate) tries_effects: Option<bool>,
 }
 
+/// Models on the strip above the viewport, in its order.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct ModelStrip {
+    #[serde(with = "stored::list")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+impl ModelStrip {
+    /// Puts a model at the end, unless it is on the strip already.
+    pub(crate) fn add(&mut self, model: &Path) {
+        if !self.files.iter().any(|known| known == model) {
+            self.files.push(model.to_owned());
+        }
+        if self.files.len() > MOST_MODELS {
+            self.files.remove(0);
+        }
+    }
+}
+
 impl Default for Settings {
     fn default() -> Settings {
         Settings {
@@ -100,6 +123,7 @@ impl Default for Settings {
             keys: BTreeMap::new(),
             recent: Vec::new(),
             models: Vec::new(),
+            model_strips: BTreeMap::new(),
             trusted: Vec::new(),
             trusted_nodes: Vec::new(),
             readings: BTreeMap::new(),
@@ -218,6 +242,30 @@ impl Settings {
             .retain(|graph, _| *graph == file || recent.contains(graph));
     }
 
+    /// Models that are shown with a graph; none where it was never open here.
+    pub(crate) fn model_strip(&self, graph: &Path) -> ModelStrip {
+        let strip = self.model_strips.get(&canonical_if_present(graph));
+        strip.cloned().unwrap_or_default() // Then it begins with the model that the graph names.
+    }
+
+    /// Remembers the models that are shown with a graph, and forgets those of graphs that are no longer recent.
+    pub(crate) fn remember_model_strip(&mut self, graph: &Path, strip: &ModelStrip) {
+        let file = canonical_if_present(graph);
+        self.model_strips.insert(file.clone(), strip.clone());
+        let recent = &self.recent;
+        self.model_strips
+            .retain(|graph, _| *graph == file || recent.contains(graph));
+    }
+
+    /// Remembers a model as the last one that was shown.
+    pub(crate) fn remember_model(&mut self, model: &Path) {
+        self.models.retain(|known| known != model);
+        self.models.push(model.to_owned());
+        if self.models.len() > MOST_MODELS {
+            self.models.remove(0);
+        }
+    }
+
     /// Trusts a file or folder from now on; of very many, those that were trusted long ago are forgotten.
     pub(crate) fn trust(&mut self, path: &Path) {
         remember_path(&mut self.trusted, path);
@@ -253,6 +301,9 @@ impl Settings {
         };
         self.backups = self.backups.min(MOST_BACKUPS);
         self.models.truncate(MOST_MODELS);
+        self.model_strips
+            .values_mut()
+            .for_each(|strip| strip.files.truncate(MOST_MODELS));
         self.recent.truncate(MOST_RECENT);
         self.brush_colors
             .retain(|color| color.iter().all(|channel| channel.is_finite()));

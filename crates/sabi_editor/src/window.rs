@@ -186,7 +186,7 @@ fn folders() -> Folders {
         effects,
         recovery: settings.as_ref().map(|folder| folder.join("unsaved")),
         library: settings.as_ref().map(|folder| folder.join("library")),
-        examples: settings.as_ref().map(|folder| folder.join("examples")),
+        examples: settings.as_ref().map(|folder| folder.join(examples::EXAMPLES_FOLDER)),
         cache: default_cache_dir(),
         settings,
     }

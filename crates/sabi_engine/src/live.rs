@@ -10,6 +10,7 @@ mod flattened_request;
 mod graph_update;
 mod groups;
 mod loaded_model;
+mod model_reading;
 mod precedence;
 mod queue;
 mod request;

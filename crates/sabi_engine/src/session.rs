@@ -25,9 +25,9 @@ use file_lock::FileMark;
 pub use file_lock::is_open_in_a_window;
 pub use free_file::free_graph_file;
 use known_contents::KnownContents;
-pub use path_rewrite::{relocate_paths, with_absolute_paths};
+pub use path_rewrite::{document_with_paths, relocate_paths, with_absolute_paths};
 use recovery::UnsavedWork;
-pub use recovery::{Keeping, Recovery, recoveries};
+pub use recovery::{Keeping, Recovery, recoveries, recoveries_in_use};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
@@ -242,6 +242,19 @@ impl Session {
         if self.recent.len() > RECENT_EDITS {
             self.recent.drain(..RECENT_EDITS / 2);
         }
+        Ok(())
+    }
+
+    /// Applies an edit that is no step: it is not undone, and steps that can be redone stay.
+    ///
+    /// # Errors
+    /// The edit is refused; nothing changes.
+    pub fn edit_aside(&mut self, edit: Edit) -> Result<(), EditError> {
+        if self.open.document.is_unchanged_by(&edit) {
+            return Ok(());
+        }
+        self.open.document.apply(edit)?;
+        self.changed_otherwise();
         Ok(())
     }
 

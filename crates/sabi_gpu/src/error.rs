@@ -123,6 +123,9 @@ fn of(nodes: &[String]) -> String {
     match nodes {
         [] => "one step".to_owned(),
         [node] => format!("node '{node}'"),
-        _ => format!("the nodes {}", nodes.join(", ")),
+        _ => {
+            let quoted: Vec<String> = nodes.iter().map(|node| format!("'{node}'")).collect();
+            format!("the nodes {}", quoted.join(", "))
+        }
     }
 }

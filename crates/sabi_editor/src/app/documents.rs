@@ -10,18 +10,20 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{FileState, Keeping, NodeDraft, Recovery, Session, TrustedPaths, recoveries};
+use sabi_engine::{FileState, Keeping, NodeDraft, Session, TrustedPaths};
 
+use super::recoveries::Recoveries;
 use crate::action::LibraryKind;
 use crate::brush_shelf::BrushShelf;
 use crate::evaluation::Evaluation;
+use crate::files::examples;
 use crate::kinds_reading::KindsReading;
 use crate::library::Library;
 use crate::model_row::ModelRow;
 use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::SavedPictures;
 use crate::search::{Candidate, LibraryGroup, candidates};
-use crate::settings::Settings;
+use crate::settings::{ModelStrip, Settings};
 use crate::watching::{WatchedFiles, Watching};
 
 /// Time between two autosaves.
@@ -42,18 +44,29 @@ pub(crate) struct Folders {
     pub(crate) examples: Option<PathBuf>,
 }
 
+impl Folders {
+    /// Folders below which every graph may open files.
+    pub(super) fn trusted(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.effects, &self.library, &self.examples].into_iter().flatten()
+    }
+}
+
 /// The open graph with everything that belongs to it.
 pub(crate) struct Documents {
     pub(crate) document: OpenDocument,
     pub(crate) folders: Folders,
     /// Graphs and node files that were not saved when the program ended.
-    pub(crate) recoveries: Vec<Recovery>,
+    pub(crate) recoveries: Recoveries,
+    /// Models on the strip above the viewport.
+    pub(crate) models: ModelStrip,
     pub(crate) library: Library,
     pub(crate) pictures: SavedPictures,
     /// Brushes that are kept.
     pub(crate) brushes: BrushShelf,
     pub(crate) watching: Watching,
     pub(crate) kinds_reading: KindsReading,
+    /// True once the user has chosen a model for the open graph, which it names from then on.
+    pub(crate) is_model_chosen: bool,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
     /// True while a parameter is dragged: an undo step is open, and fast results are preferred.
@@ -113,12 +126,14 @@ impl Documents {
         let recovery = folders.recovery.as_deref().filter(|_| has_recoveries);
         Documents {
             document,
-            recoveries: recovery.map_or_else(Vec::new, recoveries),
+            recoveries: Recoveries::in_folder(recovery),
+            models: ModelStrip::default(),
             library: Library::default(),
             pictures: SavedPictures::new(folders.cache.clone()),
             brushes: BrushShelf::open(folders.settings.as_deref()),
             watching,
             kinds_reading: KindsReading::default(),
+            is_model_chosen: false,
             is_file_foreign: false,
             is_dragging: false,
             autosave: Autosave::default(),
@@ -130,6 +145,11 @@ impl Documents {
         }
     }
 
+    /// Index of the unsaved work on the file of the open graph, if there is any.
+    pub(super) fn recovery_of_open_graph(&self) -> Option<usize> {
+        self.recoveries.of_file(self.document.session.file()?)
+    }
+
     /// Folder of copies of graphs that are not saved yet.
     pub(crate) fn recovery_folder(&self) -> Option<&Path> {
         self.folders.recovery.as_deref()
@@ -137,9 +157,7 @@ impl Documents {
 
     /// Trusts what the command line and the settings name, and the folders of the program.
     pub(crate) fn trust_at_start(&mut self, named: &TrustedPaths, settings: &Settings) {
-        let own = [&self.folders.effects, &self.folders.library, &self.folders.examples];
-        let own = own.into_iter().flatten();
-        let all = own.chain(&settings.trusted);
+        let all = self.folders.trusted().chain(&settings.trusted);
         let trusted = all.fold(named.clone(), |trusted, path| trusted.with_path(path));
         let nodes = settings.trusted_nodes.iter();
         self.trusted_nodes = nodes.fold(TrustedPaths::default(), |trusted, path| trusted.with_path(path));
@@ -169,7 +187,14 @@ impl Documents {
         self.kinds_reading.read_opened(context, &mut self.document);
         self.autosave.invalidate();
         self.leaves_nodes = false;
-        model_of(&self.document.session)?.ok()
+        self.is_model_chosen = false;
+        self.named_model()
+    }
+
+    /// File of the model that the open graph names and may open.
+    pub(crate) fn named_model(&self) -> Option<PathBuf> {
+        let named = model_of(&self.document.session)?.ok()?;
+        Some(examples::at_home(self.folders.examples.as_deref(), named))
     }
 
     /// Takes the open graph, with an empty one in its place, since the window ends.
@@ -284,26 +309,22 @@ impl Documents {
         }
     }
 
-    /// Names the shown model in the graph before it is saved, so that the graph opens on that model again. The model of an
-    /// example is not named for a graph without one, since the artist has not chosen it. While there are steps to redo the
-    /// graph is not edited, since an edit would remove them.
+    /// Names the shown model in the graph before it is saved, so that the graph opens on that model again. That is no step to undo, as
+    /// the choice of a model is none.
     pub(crate) fn name_model(&mut self, evaluation: &Evaluation) {
         let model = evaluation.model.file();
-        let named = model_of(&self.document.session).and_then(Result::ok);
+        let named = match model_of(&self.document.session) {
+            // Another one stands in for one that may not be opened.
+            Some(Err(_)) if !self.is_model_chosen => return,
+            named => named.and_then(Result::ok),
+        };
         let is_named = named
             .as_ref()
             .is_some_and(|named| canonical_if_present(named) == canonical_if_present(model));
-        let examples = self.folders.examples.as_ref();
-        let is_example =
-            examples.is_some_and(|folder| canonical_if_present(model).starts_with(canonical_if_present(folder)));
-        let has_redo = self.document.session.redo_names().next().is_some();
         // The graph's own model may only be missing for now, and another one stands in for it.
         let refused = evaluation.model.refused().map(canonical_if_present);
         let is_substitute = refused.is_some() && refused == named.as_deref().map(canonical_if_present);
-        if is_substitute {
-            return;
-        }
-        if is_named || named.is_none() && is_example || has_redo || evaluation.model.failure.is_some() {
+        if is_substitute || is_named || evaluation.model.failure.is_some() {
             return;
         }
         let mesh = match relative_paths::from_own_folder(&self.document, model) {
@@ -311,7 +332,7 @@ impl Documents {
             Err(refused) => return self.document.notify(refused.to_string()),
         };
         let edit = changed_preview(&self.document, |preview| preview.mesh = Some(mesh));
-        self.document.edit("Set the model", vec![edit]);
+        self.document.edit_aside(edit);
     }
 
     /// Watches the files that the window depends on now.

@@ -2,6 +2,7 @@
 
 mod dropped;
 mod models;
+mod recovering;
 mod saving;
 mod trust;
 
@@ -10,7 +11,7 @@ use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::{library, node_paths, nodes};
-use sabi_engine::{NodeDraft, Session};
+use sabi_engine::{ErrorKind, NodeDraft, Session, io_reason};
 
 use super::Editor;
 use crate::action::{LibraryKind, Next};
@@ -18,6 +19,7 @@ use crate::dock::Panel;
 use crate::exports::ExportSource;
 use crate::files::Question;
 use crate::files::examples;
+use crate::notices::Work;
 use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::{OF_GRAPH, OF_GROUP};
 
@@ -49,6 +51,7 @@ impl Editor {
         if let Some(session) = self.shell.report(opened) {
             self.shell.settings.remember(path);
             self.take_session(session);
+            self.documents.recoveries.look();
         }
     }
 
@@ -62,16 +65,18 @@ impl Editor {
             Ok(None) => {}
             Err(error) => self
                 .shell
-                .notify(format!("{} cannot be written: {error}", folder.display())),
+                .fail(format!("{} cannot be written: {}", folder.display(), io_reason(&error))),
         }
     }
 
     /// Opens the recovery file of a graph that was not saved when the program ended.
     fn recover(&mut self, at: usize) {
-        if at >= self.documents.recoveries.len() {
+        let recoveries = &mut self.documents.recoveries;
+        if at >= recoveries.found.len() {
             return;
         }
-        let recovery = self.documents.recoveries.remove(at);
+        let recovery = recoveries.found.remove(at);
+        recoveries.is_offer_due = false;
         let drafts = recovery.drafts().to_vec();
         let recovered = Session::recover(recovery);
         if let Some(session) = self.shell.report(recovered) {
@@ -83,10 +88,10 @@ impl Editor {
 
     /// Opens another graph, on the model that it names.
     pub(crate) fn take_session(&mut self, session: Session) {
-        self.remember_export();
+        self.remember_choices();
         let model = self.documents.replace(&self.shell.context, session);
         self.claim_file();
-        self.recall_export();
+        self.recall_choices();
         self.views.canvas = Default::default();
         self.views.export.forget_dialog();
         self.looks.clear();
@@ -95,8 +100,9 @@ impl Editor {
         self.row.drop_nodes();
         self.trials.forget_variants();
         let shown = canonical_if_present(self.evaluation.model.file());
-        if let Some(model) = model.filter(|model| canonical_if_present(model) != shown) {
-            self.take_model(&model);
+        match model.filter(|model| canonical_if_present(model) != shown) {
+            Some(model) => self.take_model(&model),
+            None => self.documents.models.add(&self.evaluation.model.file().to_owned()),
         }
     }
 
@@ -122,21 +128,43 @@ impl Editor {
             choices: &self.shell.settings.export,
         };
         let started = self.exports.start(&self.shell.context, source, force);
-        self.shell.report(started);
+        self.shell.report_on(Work::Export, started);
     }
 
-    /// Restores the export target that the open graph had before.
-    pub(super) fn recall_export(&mut self) {
+    /// Takes over what became of exports, and says why one has failed, whichever panel is in front.
+    pub(super) fn follow_exports(&mut self, context: &Context) {
+        let Some(folder) = self.exports.poll(context) else {
+            return;
+        };
+        match &self.exports.result {
+            Some(Err(error)) if error.kind != ErrorKind::Interrupted => {
+                let folder = folder.display();
+                self.shell.notices.fail(
+                    Work::Export,
+                    format!("The textures were not exported to {folder}: {error}"),
+                );
+            }
+            Some(Ok(_)) => self.shell.notices.succeed(Work::Export),
+            _ => {}
+        }
+    }
+
+    /// Restores the export target and the strip of models that the open graph had before.
+    pub(super) fn recall_choices(&mut self) {
         let file = self.documents.document.session.file();
         let place = file.map(|file| self.shell.settings.export_place(file));
+        let models = file.map(|file| self.shell.settings.model_strip(file));
+        // A graph without a file has an empty strip; the shown model joins it.
+        self.documents.models = models.unwrap_or_default();
         // A graph without a file has an empty target.
         self.exports.turn_to(place.unwrap_or_default());
     }
 
-    /// Remembers the export target of the open graph.
-    pub(super) fn remember_export(&mut self) {
+    /// Remembers the export target and the strip of models of the open graph.
+    pub(super) fn remember_choices(&mut self) {
         if let Some(file) = self.documents.document.session.file() {
             self.shell.settings.remember_export(file, &self.exports.place);
+            self.shell.settings.remember_model_strip(file, &self.documents.models);
         }
     }
 
@@ -272,8 +300,7 @@ impl Editor {
         if self.shell.report(read).is_some() {
             self.documents.is_file_foreign = false;
             let model = model_of(&self.documents.document.session);
-            let is_another = before != model;
-            if let Some(Ok(model)) = model.filter(|_| is_another) {
+            if let Some(model) = self.documents.named_model().filter(|_| before != model) {
                 self.take_model(&model);
             }
         }

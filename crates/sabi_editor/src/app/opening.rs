@@ -9,9 +9,9 @@ use sabi_engine::{Session, TrustedPaths};
 
 use super::documents::{Documents, Folders};
 use crate::canvas::Canvas;
-use crate::files::Questions;
 use crate::files::key_list::KeyList;
 use crate::files::start::StartPage;
+use crate::files::{Questions, examples};
 use crate::flat_view::FlatView;
 use crate::gradient_picker::GradientPicker;
 use crate::model_view::ModelView;
@@ -96,8 +96,11 @@ impl Opened {
         }
         let named = model_of(&documents.document.session).and_then(Result::ok);
         let named = named.filter(|_| is_new && !initial.is_model_given);
-        let model = named.map_or(lost.model, |model| in_canonical_folder(&model));
-        let is_start = is_new && initial.is_start || !documents.recoveries.is_empty();
+        let examples = documents.folders.examples.as_deref();
+        let model = named.map_or(lost.model, |model| {
+            in_canonical_folder(&examples::at_home(examples, model))
+        });
+        let is_start = is_new && initial.is_start || !documents.recoveries.found.is_empty();
         Opened {
             views: Views {
                 canvas: lost.canvas,

@@ -145,6 +145,10 @@ impl Editor {
             FileAction::SaveBesideTheirs => self.save_beside_theirs(),
             FileAction::AllowSaving => self.documents.document.session.set_read_only(false),
             FileAction::Pack(file) => self.pack_into(file),
+            FileAction::AskForMissing(lost) => {
+                self.views.questions.ask_for_missing(&self.documents.document, lost);
+            }
+            FileAction::Find { lost, file } => self.find_missing(&lost, &file),
             FileAction::Reload => self.reload(),
             FileAction::KeepOpen => {
                 self.documents.is_file_foreign = false;
@@ -152,7 +156,7 @@ impl Editor {
                 self.documents.autosave.invalidate();
             }
             FileAction::DeleteRecovery(at) => {
-                let recoveries = &mut self.documents.recoveries;
+                let recoveries = &mut self.documents.recoveries.found;
                 if at < recoveries.len() {
                     recoveries.remove(at).forget();
                 }
@@ -172,6 +176,7 @@ impl Editor {
             ModelAction::Ask => self.views.questions.ask_for_model(self.evaluation.model.file()),
             ModelAction::Show(path) => self.take_chosen_model(&path),
             ModelAction::Read(reading) => self.read_model(reading),
+            ModelAction::CancelReading => self.cancel_reading(),
             ModelAction::Remove(path) => self.remove_model(&path),
             ModelAction::AskBeside => self.views.questions.ask_for_model_beside(self.evaluation.model.file()),
             ModelAction::ShowBeside(path) => self.show_chosen_beside(&path),
@@ -329,7 +334,7 @@ impl Editor {
 
     /// Sets what waits for a color. Without a color, it waits for another click.
     fn take_color(&mut self, color: ClickedColor) {
-        let Some([red, green, blue]) = self.shell.report(color) else {
+        let Some([red, green, blue]) = self.shell.allow(color) else {
             return;
         };
         match self.looks.color_target.take() {

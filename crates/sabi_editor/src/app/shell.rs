@@ -13,7 +13,7 @@ use egui::{Context, FontDefinitions, ViewportCommand};
 use crate::action::SettingAction;
 use crate::dock::Dock;
 use crate::key_map::KeyMap;
-use crate::notices::Notices;
+use crate::notices::{Notices, Work};
 use crate::settings::Settings;
 use crate::theme::Theme;
 use keys::Keyboard;
@@ -53,7 +53,7 @@ impl Shell {
         apply_looks(context, &theme, settings.scale);
         let mut notices = Notices::default();
         for fault in faults.into_iter().chain(fault) {
-            notices.notify(fault);
+            notices.fail(Work::Other, fault);
         }
         Shell {
             saved_settings: settings.to_json(),
@@ -77,9 +77,35 @@ impl Shell {
         self.notices.notify(sentence);
     }
 
-    /// Shows the sentence of an error for a while. Returns the value if there is none.
+    /// Shows why something has failed, until that is read.
+    pub(crate) fn fail(&mut self, sentence: impl Into<String>) {
+        self.notices.fail(Work::Other, sentence);
+    }
+
+    /// Shows why something cannot be done for a while. Returns the value if it can.
+    pub(crate) fn allow<T>(&mut self, result: Result<T, impl ToString>) -> Option<T> {
+        result.map_err(|refused| self.notices.notify(refused.to_string())).ok()
+    }
+
+    /// Shows the sentence of an error until it is read. Returns the value if there is none.
     pub(crate) fn report<T>(&mut self, result: Result<T, impl ToString>) -> Option<T> {
-        result.map_err(|error| self.notices.notify(error.to_string())).ok()
+        self.report_on(Work::Other, result)
+    }
+
+    /// Shows the sentence of an error of some work until it is read or the work succeeds. Returns the value if there is none.
+    pub(crate) fn report_on<T>(&mut self, work: Work, result: Result<T, impl ToString>) -> Option<T> {
+        match result {
+            Ok(value) => {
+                if work != Work::Other {
+                    self.notices.succeed(work);
+                }
+                Some(value)
+            }
+            Err(error) => {
+                self.notices.fail(work, error.to_string());
+                None
+            }
+        }
     }
 
     /// Changes a setting.
@@ -119,7 +145,7 @@ impl Shell {
         let (keys, faults) = KeyMap::new(self.settings.input_preset, &self.settings.keys);
         self.keys = keys;
         for fault in faults {
-            self.notify(fault);
+            self.fail(fault);
         }
     }
 
@@ -142,11 +168,11 @@ impl Shell {
         match self.settings.save(folder, &self.saved_settings) {
             Ok(told) => {
                 self.saved_settings = now;
-                told.into_iter().for_each(|sentence| self.notify(sentence));
+                told.into_iter().for_each(|sentence| self.fail(sentence));
             }
             Err(why) => {
                 self.unsaved_settings = Some(now);
-                self.notify(why);
+                self.fail(why);
             }
         }
     }

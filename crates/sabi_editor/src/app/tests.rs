@@ -33,6 +33,7 @@ mod paths;
 mod pens;
 mod pictures;
 mod ports;
+mod recovering;
 mod reroutes;
 mod safety;
 mod second_window;
@@ -40,6 +41,7 @@ mod sizes;
 mod snapshots;
 mod stencils;
 mod stroke_list;
+mod telling;
 mod trials;
 mod trust;
 mod views;
@@ -54,7 +56,7 @@ use std::time::{Duration, Instant};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::{AdapterChoice, Gpu, Session, TrustedPaths};
 
 use super::{Editor, Folders, Handover, InitialState};
@@ -175,9 +177,10 @@ impl Window {
         self.harness.query_all_by_label_contains(part).next().is_some()
     }
 
-    /// Sentence about the fault of a node, by its id in the evaluation.
+    /// Sentence about the fault of a node, by its id in the evaluation, as the window says it.
     fn fault_of(&self, node: &str) -> String {
-        self.editor().evaluation.faults.of(node).expect("a sentence").clone()
+        let fault = self.editor().evaluation.faults.of(node).expect("a sentence");
+        node_paths::with_titles(self.document(), fault)
     }
 
     fn undo(&mut self, times: usize) {

@@ -12,13 +12,15 @@ use sabi_engine::{Overlap, Udim, Up};
 use super::{bar, stay_open};
 use crate::action::{Action, ModelAction};
 use crate::context::ViewContext;
+use crate::dock::Panel;
 use crate::files::examples;
 use crate::import_options::{ImportOptions, LAST_SCENE, LAST_UV, SCALES, SMOOTH_ANGLES, USUAL_SMOOTH_ANGLE};
+use crate::model_warnings;
 use crate::paths::file_stem;
 use crate::theme::space;
 
-/// Width of the buttons after the models, and of the one for those that do not fit, points.
-const OTHER_BUTTONS: f32 = 6.0 * space::ROW;
+/// Width of the badge and the buttons after the models, and of the one for those that do not fit, points.
+const OTHER_BUTTONS: f32 = 8.0 * space::ROW;
 const MORE: f32 = 2.0 * space::ROW;
 /// Height of the list of models that can be shown beside the main one, points.
 const LONGEST_MENU: f32 = 420.0;
@@ -32,6 +34,10 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         .show(ui, |ui| {
             ui.horizontal(|ui| {
                 strip(ui, context, &mut actions);
+                let model = &context.evaluation.model;
+                if model_warnings::badge(ui, context.theme, &file_stem(model.file()), model.warnings()) {
+                    actions.push(Action::ShowPanel(Panel::Problems));
+                }
                 let add = ui.button(icon::PLUS).on_hover_text("Add a model");
                 add.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Add a model"));
                 if add.clicked() {
@@ -47,7 +53,7 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
 /// The models, as many as there is room for. The others are in a menu; the shown one never is.
 fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let requested = context.evaluation.model.file();
-    let known = context.settings.models.iter().map(PathBuf::as_path);
+    let known = context.models.iter().map(PathBuf::as_path);
     // A model joins the list once it could be read, and has its place there from the beginning.
     let new = (!known.clone().any(|model| model == requested)).then_some(requested);
     let mut models: Vec<&Path> = known.chain(new).collect();
@@ -130,7 +136,7 @@ fn beside(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
 fn beside_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let main = context.evaluation.model.file();
     let own: Vec<PathBuf> = context.examples.into_iter().flat_map(examples::models).collect();
-    let known = context.settings.models.iter().map(PathBuf::as_path);
+    let known = context.models.iter().map(PathBuf::as_path);
     let beside = context.row.beside().iter().map(|evaluation| evaluation.model.file());
     // A file that could not be read is not on the strip.
     let beside = beside.filter(|model| !own.iter().any(|own| own == model));

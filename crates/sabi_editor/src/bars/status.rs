@@ -10,6 +10,7 @@ use crate::action::Action;
 use crate::activity_text::activity_text;
 use crate::context::ViewContext;
 use crate::dock::Panel;
+use crate::model_warnings::counted;
 use crate::theme::type_size;
 use crate::time_text::time_text;
 
@@ -48,6 +49,14 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
         let text = format!("{} {count}", icon::WARNING);
         let problems = ui.link(RichText::new(text).color(theme.fault).size(type_size::SMALL));
         if problems.clicked() {
+            actions.push(Action::ShowPanel(Panel::Problems));
+        }
+    }
+    let warnings = context.warning_count();
+    if warnings > 0 {
+        let text = format!("{} {}", icon::WARNING_CIRCLE, counted(warnings));
+        let link = ui.link(RichText::new(text).color(theme.warning).size(type_size::SMALL));
+        if link.on_hover_text("Show the warnings").clicked() {
             actions.push(Action::ShowPanel(Panel::Problems));
         }
     }

@@ -21,7 +21,9 @@ impl NodeFaults {
         let blocked = all.blocked.iter();
         NodeFaults {
             by_node: with_group_instances(faults.map(|fault| (&*fault.node, fault.sentence.clone()))),
-            waiting: with_group_instances(blocked.map(|it| (&*it.node, format!("waiting for {}", it.blocked_by)))),
+            waiting: with_group_instances(
+                blocked.map(|it| (&*it.node, format!("waiting for node '{}'", it.blocked_by))),
+            ),
             all,
         }
     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_engine::{EngineError, LiveModel, ModelOptions, TrustedPaths};
+use sabi_engine::{EngineError, LiveModel, ModelOptions, TrustedPaths, Warning};
 
 use crate::import_options::ImportOptions;
 
@@ -74,6 +74,12 @@ impl RequestedModel {
     /// File of the model.
     pub(crate) fn file(&self) -> &Path {
         &self.options.path
+    }
+
+    /// Warnings about the model at its full size; a coarse one, which nobody asked for, has none.
+    pub(crate) fn warnings(&self) -> &[Warning] {
+        let full = self.received.as_ref().filter(|model| model.size == self.size());
+        full.map_or(&[], |model| &model.warnings)
     }
 
     /// Texels along a side of full-resolution results.
@@ -148,6 +154,35 @@ impl RequestedModel {
         self.revision = self.last_revision;
     }
 
+    /// Returns whether the requested model is being read while another one is there to be shown.
+    pub(crate) fn is_replacing(&self) -> bool {
+        let is_another = |good: &Good| good.file_since != self.file_since;
+        self.failure.is_none() && self.good.as_ref().is_some_and(is_another)
+    }
+
+    /// Requests the model again that was there before the one that is being read. Returns its file and how it is read; none where
+    /// there was none.
+    pub(crate) fn cancel(&mut self) -> Option<(PathBuf, ImportOptions)> {
+        if !self.is_replacing() {
+            return None;
+        }
+        let left = self.file().to_owned();
+        self.return_to_good();
+        let is_another = self.file() != left;
+        self.refused = is_another.then_some(left);
+        Some((self.file().to_owned(), self.import))
+    }
+
+    /// Requests the last model again that could be shown.
+    fn return_to_good(&mut self) {
+        if let Some(good) = &self.good {
+            self.options = good.options.clone();
+            self.import = good.import;
+            self.revision = good.revision;
+            self.file_since = good.file_since;
+        }
+    }
+
     /// File that could not be shown, where the model before it is shown instead.
     pub(crate) fn refused(&self) -> Option<&Path> {
         self.refused.as_deref()
@@ -179,10 +214,7 @@ impl RequestedModel {
             Err(error) => match &self.good {
                 Some(good) if good.options.path != self.options.path && error.remedies.is_empty() => {
                     let file = self.file().to_owned();
-                    self.options = good.options.clone();
-                    self.import = good.import;
-                    self.revision = good.revision;
-                    self.file_since = good.file_since;
+                    self.return_to_good();
                     self.refused = Some(file.clone());
                     self.outcome = Some(ModelOutcome::Refused { file, error });
                 }

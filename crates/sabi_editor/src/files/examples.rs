@@ -88,6 +88,8 @@ const MODELS: [(&str, &[u8]); 11] = models![
 /// Folders of graphs, models and groups in the folder of examples, as in the project.
 const GRAPHS: &str = "graphs/examples";
 const MESHES: &str = "assets/meshes";
+/// Name of the folder of examples of every user.
+pub(crate) const EXAMPLES_FOLDER: &str = "examples";
 const LIBRARY: &str = "graphs/library";
 /// File that makes the folder of examples a project, whose graphs may open all files in it.
 const MARK: &str = "sabi.toml";
@@ -138,6 +140,24 @@ pub(crate) fn models(folder: &Path) -> impl Iterator<Item = PathBuf> {
     MODELS.iter().map(move |(name, _)| folder.join(name))
 }
 
+/// File of a model that a graph names: where there is none and it is a built-in model of another computer or user, the one here, which
+/// is written if it is missing.
+pub(crate) fn at_home(folder: Option<&Path>, file: PathBuf) -> PathBuf {
+    let Some(folder) = folder.filter(|_| !file.exists()) else {
+        return file;
+    };
+    let is_same = |(name, _): &(&str, &[u8])| file.ends_with(Path::new(EXAMPLES_FOLDER).join(MESHES).join(name));
+    let Some((name, bytes)) = MODELS.into_iter().find(is_same) else {
+        return file;
+    };
+    let own = folder.join(MESHES).join(name);
+    match write_where_none(&own, bytes) {
+        Ok(()) => own,
+        // That the model is missing is told when it is read.
+        Err(_) => file,
+    }
+}
+
 /// Writes a built-in model if it is missing; nothing for other files.
 pub(crate) fn write_model(folder: &Path, file: &Path) -> io::Result<()> {
     let known = models(folder).zip(MODELS).find(|(known, _)| known == file);
@@ -168,6 +188,19 @@ mod tests {
             assert!(found.is_ok_and(|file| file.is_file()), "{}: {mesh}", example.name);
             open.flatten(&sabi_graph::Overrides::default())
                 .expect("its groups may be opened");
+        }
+    }
+
+    #[test]
+    fn a_built_in_model_of_another_computer_is_the_one_here() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let home = |path: &str| at_home(Some(folder.path()), PathBuf::from(path));
+        let own = folder.path().join("assets/meshes/crate.glb");
+        let theirs = "/home/ann/.config/sabi/examples/assets/meshes/crate.glb";
+        assert_eq!(home(theirs), own);
+        assert!(own.is_file());
+        for other in ["/home/ann/crate.glb", "/home/ann/examples/assets/meshes/hero.glb"] {
+            assert_eq!(home(other), Path::new(other));
         }
     }
 

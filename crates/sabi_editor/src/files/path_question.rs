@@ -156,7 +156,9 @@ impl PathQuestion {
     fn enter(&mut self, folder: PathBuf) {
         let name = self.listed().1;
         self.text = match self.what {
-            PathFor::Save | PathFor::Archive | PathFor::Picture if !folder.ends_with(&name) => name,
+            PathFor::Save | PathFor::Archive | PathFor::Picture | PathFor::Missing(_) if !folder.ends_with(&name) => {
+                name
+            }
             _ => String::new(),
         };
         self.typed.clear();

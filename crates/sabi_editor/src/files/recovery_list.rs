@@ -1,6 +1,6 @@
 //! Graphs and node files that were not saved when the program last ended: their dates and sizes, and drawings of the graphs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use egui::{Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
@@ -23,8 +23,8 @@ const MOST_NAMES: usize = 4;
 /// Rows of what can be recovered.
 #[derive(Default)]
 pub(super) struct RecoveryList {
-    /// Drawings of the graphs, in the order of the rows.
-    drawings: Vec<Option<Drawing>>,
+    /// Drawings of the graphs, in the order of the rows, with the files that they were made of.
+    drawings: Vec<(PathBuf, Option<Drawing>)>,
 }
 
 /// A graph as rectangles and lines, and in words.
@@ -42,15 +42,18 @@ impl RecoveryList {
         if context.recoveries.is_empty() {
             return None;
         }
-        // Rows are only ever removed.
-        if self.drawings.len() != context.recoveries.len() {
-            let graphs = context.recoveries.iter().map(Recovery::document);
-            self.drawings = graphs.map(|graph| graph.as_ref().map(Drawing::new)).collect();
+        let drawn = self.drawings.iter().map(|(path, _)| path.as_path());
+        if !drawn.eq(context.recoveries.iter().map(Recovery::path)) {
+            let drawing = |recovery: &Recovery| {
+                let graph = recovery.document();
+                (recovery.path().to_owned(), graph.as_ref().map(Drawing::new))
+            };
+            self.drawings = context.recoveries.iter().map(drawing).collect();
         }
         let theme = context.theme;
         let mut chosen = None;
         ui.colored_label(theme.warning, "The program ended before this was saved:");
-        for (at, (recovery, drawing)) in context.recoveries.iter().zip(&self.drawings).enumerate() {
+        for (at, (recovery, (_, drawing))) in context.recoveries.iter().zip(&self.drawings).enumerate() {
             ui.horizontal(|ui| {
                 if let Some(drawing) = drawing {
                     drawing.show(ui, theme);
@@ -171,7 +174,7 @@ impl Drawing {
 }
 
 /// Ages and sizes of what was recovered and of the file that it belongs to, so that the newer one is seen.
-fn dates_text(recovery: &Recovery) -> String {
+pub(super) fn dates_text(recovery: &Recovery) -> String {
     let with_size = |age: String, bytes: Option<u64>| match bytes {
         Some(bytes) => format!("{age}, {}", size_text(bytes)),
         None => age,

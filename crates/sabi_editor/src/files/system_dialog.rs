@@ -10,7 +10,7 @@ use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::MODEL_ENDINGS;
 
 use crate::brush_shelf;
-use crate::paths::IMAGES;
+use crate::paths::{IMAGES, lowercase_ending};
 
 /// Purpose of a requested path.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub(crate) enum PathFor {
     Model,
     /// Model beside the main one.
     ModelBeside,
+    /// File that the graph names by this path, where there is none.
+    Missing(String),
     /// File for a picture of the model's view.
     Picture,
     /// Parameter that names an image file.
@@ -44,6 +46,7 @@ impl PathFor {
             PathFor::Archive => "Pack the graph with all files that it uses",
             PathFor::Model => "Add a model",
             PathFor::ModelBeside => "Show a model beside the first one",
+            PathFor::Missing(_) => "Find a missing file",
             PathFor::Picture => "Save a picture of the view",
             PathFor::Image(_) => "Choose an image",
             PathFor::Gradient(_) => "Choose a picture to pick colors from",
@@ -60,7 +63,11 @@ impl PathFor {
             PathFor::Save | PathFor::Picture => "Save",
             PathFor::Archive => "Pack",
             PathFor::Model | PathFor::ModelBeside => "Add",
-            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => "Choose",
+            PathFor::Image(_)
+            | PathFor::Gradient(_)
+            | PathFor::BrushPicture
+            | PathFor::Stencil
+            | PathFor::Missing(_) => "Choose",
         }
     }
 
@@ -71,6 +78,7 @@ impl PathFor {
             PathFor::Open
             | PathFor::Model
             | PathFor::ModelBeside
+            | PathFor::Missing(_)
             | PathFor::Image(_)
             | PathFor::Gradient(_)
             | PathFor::BrushPicture
@@ -84,6 +92,11 @@ impl PathFor {
         match self {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
             PathFor::Model | PathFor::ModelBeside => &MODEL_ENDINGS,
+            PathFor::Missing(lost) => match lowercase_ending(Path::new(lost)).as_deref() {
+                Some(GRAPH_EXTENSION) => &[GRAPH_EXTENSION],
+                Some(ending) if MODEL_ENDINGS.contains(&ending) => &MODEL_ENDINGS,
+                _ => &IMAGES,
+            },
             PathFor::Picture => &["png"],
             PathFor::Archive => &["zip"],
             PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => &IMAGES,
@@ -113,6 +126,7 @@ impl SystemDialog {
                 "Pictures"
             }
             PathFor::Brush => "Brushes",
+            PathFor::Missing(_) => "Files of this kind",
         };
         let dialog = dialog.add_filter(kind, what.endings());
         if what.is_written() {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Weak};
+use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Align2, Color32, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, WidgetInfo, WidgetType, pos2, vec2};
@@ -16,12 +17,17 @@ use super::painting::{self, shot_of};
 use super::pictures::{FIRST_BESIDE, Lighting, PictureRequest};
 use super::{ModelView, Subject, showing};
 use crate::action::{Action, ModelAction};
+use crate::activity_text::activity_text;
+use crate::dock::Panel;
 use crate::evaluation::{Evaluation, Picture};
+use crate::model_warnings;
 use crate::paths::file_stem;
 use crate::theme::{space, type_size};
 
 /// Height of the row with the name of a model, points.
 const NAMES: f32 = 20.0;
+/// Time after which the progress of a model is drawn again.
+const DRAWN_AGAIN: Duration = Duration::from_millis(500);
 /// Smallest change of a cell's shape for which the camera moves.
 const SAME_ASPECT: f32 = 1e-3;
 
@@ -196,7 +202,10 @@ impl ModelView {
                 _ => None,
             };
             ui.painter().rect_stroke(*cell, 0.0, line, egui::StrokeKind::Inside);
-            name_row(ui, *cell, evaluation.model.file(), state, subject, actions);
+            if evaluation.is_busy() {
+                ui.ctx().request_repaint_after(DRAWN_AGAIN);
+            }
+            name_row(ui, *cell, evaluation, state, subject, actions);
         }
     }
 
@@ -208,14 +217,15 @@ impl ModelView {
         (evaluation, render): (&Evaluation, &RenderState),
         (main, first): (&Picture, Rect),
         subject: &Subject<'_>,
-    ) -> Option<&'static str> {
+    ) -> Option<String> {
         let newest = evaluation.results.picture(subject.shown).cloned();
         let state = state_of(evaluation, newest.is_some());
         let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
         let picture = newest.or_else(|| own.last.take());
         own.last.clone_from(&picture);
         let Some(picture) = picture else {
-            sentence_in_cell(ui, cell, subject, "Reading the model…");
+            let doing = doing(evaluation).unwrap_or_else(|| "Reading the model…".to_owned());
+            sentence_in_cell(ui, cell, subject, &doing);
             return None;
         };
         let framing = own.framing(&picture.model, aspect(cell));
@@ -250,12 +260,19 @@ fn sentence_in_cell(ui: &Ui, cell: Rect, subject: &Subject<'_>, text: &str) {
     painting::sentence(ui, cell, subject.theme, text);
 }
 
-/// A word about what is going on with a model, while what it shows is not the wanted result.
-fn state_of(evaluation: &Evaluation, has_picture: bool) -> Option<&'static str> {
-    if !has_picture {
-        return Some("evaluating");
+/// Words about what is going on with a model, while what it shows is not the wanted result.
+fn state_of(evaluation: &Evaluation, has_picture: bool) -> Option<String> {
+    let doing = doing(evaluation);
+    match (has_picture, evaluation.is_busy()) {
+        (false, _) => doing.or_else(|| Some("waiting".to_owned())),
+        (true, true) => doing.or_else(|| Some("updating".to_owned())),
+        (true, false) => None,
     }
-    evaluation.is_busy().then_some("updating")
+}
+
+/// What the evaluation on a model is doing; none while it waits for its turn.
+fn doing(evaluation: &Evaluation) -> Option<String> {
+    evaluation.activity().map(|activity| activity_text(&activity))
 }
 
 /// Sentence about why a model cannot be shown.
@@ -270,8 +287,8 @@ fn failure_of(evaluation: &Evaluation) -> Option<String> {
 fn name_row(
     ui: &mut Ui,
     cell: Rect,
-    model: &Path,
-    state: Option<&str>,
+    evaluation: &Evaluation,
+    state: Option<String>,
     subject: &Subject<'_>,
     actions: &mut Vec<Action>,
 ) {
@@ -279,6 +296,7 @@ fn name_row(
         pos2(cell.left() + space::USUAL, cell.bottom() - NAMES - 4.0),
         pos2(cell.right() - space::USUAL, cell.bottom() - 4.0),
     );
+    let model = evaluation.model.file();
     let name = file_stem(model).into_owned();
     ui.scope_builder(UiBuilder::new().max_rect(row).id_salt(("beside", model)), |ui| {
         ui.set_clip_rect(cell);
@@ -296,6 +314,10 @@ fn name_row(
                 }
                 if let Some(state) = state {
                     ui.label(RichText::new(state).size(type_size::SMALL).color(subject.theme.quiet));
+                }
+                let warnings = evaluation.model.warnings();
+                if model_warnings::badge(ui, subject.theme, &name, warnings) {
+                    actions.push(Action::ShowPanel(Panel::Problems));
                 }
                 let remove = ui.add(egui::Button::new(RichText::new(icon::X).size(type_size::SMALL)).frame(false));
                 remove.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Remove {name}")));

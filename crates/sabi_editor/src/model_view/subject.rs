@@ -73,7 +73,10 @@ impl Showing {
             ViewSubject::Node(result) => format!("Follows: {}", title(result)),
         };
         let fault = match shown {
-            ViewSubject::Node(result) => context.evaluation.faults.sentence(&result.node).cloned(),
+            ViewSubject::Node(result) => {
+                let fault = context.evaluation.faults.sentence(&result.node);
+                fault.map(|sentence| context.said(sentence))
+            }
             ViewSubject::Outputs => context.fault_of_outputs(),
         };
         Showing {

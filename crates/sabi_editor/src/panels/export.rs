@@ -85,8 +85,8 @@ impl ExportPanel {
                 }
                 // Above the files, since a long list would hide them.
                 let warnings = written.warnings.iter().filter_map(|warning| {
-                    let said = (warning.sentence.as_str(), warning.remedies.as_slice());
-                    remedies::show(ui, theme.warning, said, request, import)
+                    let sentence = context.said(&warning.sentence);
+                    remedies::show(ui, theme.warning, (&sentence, &warning.remedies), request, import)
                 });
                 let chosen = warnings.collect();
                 for memory in &written.memory {
@@ -103,7 +103,7 @@ impl ExportPanel {
                 chosen
             }
             Some(Err(error)) => {
-                let sentences = error.messages.join("\n");
+                let sentences = context.said(&error.messages.join("\n"));
                 let action = remedies::show(ui, theme.fault, (&sentences, &error.remedies), request, import);
                 if error.remedies.contains(&Remedy::OtherFolder) && ui.button("Choose a folder").clicked() {
                     self.dialog = Some(SystemDialog::folder(ui.ctx()));

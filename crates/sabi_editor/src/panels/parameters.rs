@@ -139,7 +139,7 @@ fn heading(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) {
     });
     ui.colored_label(context.theme.quiet, &face.summary);
     if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
-        ui.colored_label(context.theme.fault, fault);
+        ui.colored_label(context.theme.fault, context.said(fault));
     }
 }
 

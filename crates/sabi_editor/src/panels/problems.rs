@@ -1,12 +1,14 @@
 //! Errors and warnings; a click goes to the node.
 
-use egui::{RichText, Ui};
+use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
+use sabi_editing::missing_files;
 use sabi_engine::EngineError;
 
 use super::update;
-use crate::action::Action;
+use crate::action::{Action, FileAction};
 use crate::context::{View, ViewContext};
+use crate::paths::file_stem;
 use crate::remedies::{self, Request};
 
 /// Panel of errors and warnings.
@@ -29,7 +31,13 @@ impl View for Problems {
             .collect();
         actions.extend(update::all(ui, context));
         let others: Vec<&String> = faults.other.iter().chain(&of_kinds).collect();
-        if faults.faults.is_empty() && failures.is_empty() && others.is_empty() && faults.warnings.is_empty() {
+        let is_model_missing = evaluation.model.refused().is_some();
+        let count = usize::from(is_model_missing)
+            + faults.faults.len()
+            + failures.len()
+            + others.len()
+            + context.warning_count();
+        if count == 0 {
             ui.colored_label(theme.good, format!("{} Nothing is wrong.", icon::CHECK_CIRCLE));
             return actions;
         }
@@ -38,12 +46,13 @@ impl View for Problems {
         };
         let import = evaluation.model.import_options();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            actions.extend(missing(ui, context));
             for fault in &faults.faults {
-                let text = format!("{} {}", icon::WARNING, fault.sentence);
+                let text = format!("{} {}", icon::WARNING, context.said(&fault.sentence));
                 actions.extend(at_node(ui, RichText::new(text).color(theme.fault), &fault.node));
             }
             for error in failures {
-                let sentences = error.messages.join("\n");
+                let sentences = context.said(&error.messages.join("\n"));
                 actions.extend(remedies::show(
                     ui,
                     theme.fault,
@@ -53,18 +62,51 @@ impl View for Problems {
                 ));
             }
             for sentence in others {
-                ui.add(egui::Label::new(RichText::new(sentence).color(theme.fault)).wrap());
+                ui.add(egui::Label::new(RichText::new(context.said(sentence)).color(theme.fault)).wrap());
             }
             for warning in &faults.warnings {
-                let said = (warning.sentence.as_str(), warning.remedies.as_slice());
+                let sentence = context.said(&warning.sentence);
                 actions.extend(match &warning.node {
-                    Some(node) => at_node(ui, RichText::new(warning.to_string()).color(theme.warning), node),
-                    None => remedies::show(ui, theme.warning, said, request, import),
+                    Some(node) => at_node(
+                        ui,
+                        RichText::new(context.said(&warning.to_string())).color(theme.warning),
+                        node,
+                    ),
+                    None => remedies::show(ui, theme.warning, (&sentence, &warning.remedies), request, import),
                 });
+            }
+            for beside in context.row.beside() {
+                let model = &beside.model;
+                for warning in model.warnings() {
+                    // What helps is offered once it is the first model of the view, which the buttons are about.
+                    let text = format!("{}: {warning}", file_stem(model.file()));
+                    ui.add(egui::Label::new(RichText::new(text).color(theme.warning)).wrap());
+                }
             }
         });
         actions
     }
+}
+
+/// Files that the graph names and that are not there, each with a button that asks where it is.
+fn missing(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
+    let mut asked = None;
+    for lost in missing_files::missing(context.document) {
+        ui.horizontal_wrapped(|ui| {
+            let text = format!("{} There is no file {lost}", icon::FILE_X);
+            ui.add(egui::Label::new(RichText::new(text).color(context.theme.fault)).wrap());
+            let name = missing_files::name_of(&lost);
+            let button = ui.button("Find it…");
+            button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Find {name}")));
+            if button
+                .on_hover_text("Others that lie beside it are found, too")
+                .clicked()
+            {
+                asked = Some(Action::File(FileAction::AskForMissing(lost.clone())));
+            }
+        });
+    }
+    asked
 }
 
 /// Shows a text; a click on it goes to a node.

@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 /// Settings that are lists of items, of which each is added or removed by itself.
 const LISTS: [&str; 4] = ["recent", "models", "favorites", "brush_colors"];
 /// Settings that are maps, of which each entry is changed by itself.
-const MAPS: [&str; 3] = ["keys", "readings", "export_places"];
+const MAPS: [&str; 4] = ["keys", "readings", "export_places", "model_strips"];
 
 /// Settings of this window, with what another window has changed in `theirs` since both were `before`.
 pub(super) fn merged(before: &Json, ours: Json, theirs: serde_json::Map<String, Json>) -> Json {

@@ -130,6 +130,8 @@ pub struct LiveModel {
     pub placement: Placement,
     /// Fit: the unit of lengths and heights.
     pub fit: Fit,
+    /// Warnings about the model and its atlas at this size.
+    pub warnings: Vec<Warning>,
     /// Texture sets; empty where its UVs cover no texel at this size.
     pub sets: Vec<TextureSet>,
 }

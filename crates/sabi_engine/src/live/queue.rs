@@ -125,7 +125,7 @@ impl WorkerQueue {
     }
 
     /// Returns true if loading this model is obsolete: another model is requested, or the queue is closed.
-    fn is_other_model_requested(&self, model_revision: u64) -> bool {
+    pub(super) fn is_other_model_requested(&self, model_revision: u64) -> bool {
         let state = self.lock();
         let requested = state.request.as_ref().map(|(request, _)| request.model_revision);
         state.is_closed || requested.is_some_and(|requested| requested != model_revision)
@@ -199,22 +199,5 @@ impl Progress for WorkProgress<'_> {
         } else {
             self.queue.is_closed()
         }
-    }
-}
-
-/// Publishes the progress of loading a model, which waits for its turn and is canceled once another one is requested.
-pub(super) struct LoadProgress<'m> {
-    pub(super) queue: &'m WorkerQueue,
-    pub(super) model_revision: u64,
-}
-
-impl Progress for LoadProgress<'_> {
-    fn advance(&self, phase: Phase, done: usize, of: usize) {
-        self.queue.activity.set(phase, done, of);
-    }
-
-    fn is_canceled(&self) -> bool {
-        self.queue.wait_for_turn();
-        self.queue.is_other_model_requested(self.model_revision)
     }
 }

@@ -302,6 +302,7 @@ fn live_model(evaluator: &Evaluator, model_revision: u64) -> Result<Arc<LiveMode
         placement: view.placement,
         view,
         fit: evaluator.fit(),
+        warnings: linked.warnings(),
         // A model without any has an empty list; an error is reported where a set is wanted.
         sets: texture_sets(&linked.model, &linked.atlas, None).unwrap_or_default(),
     }))

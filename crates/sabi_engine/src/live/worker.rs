@@ -21,6 +21,7 @@ use super::evaluation_error::EvaluationError;
 use super::event::{Faults, LiveEvent, LiveModel, LiveTimes};
 use super::flattened_request::FailedNode;
 use super::loaded_model::LoadedModel;
+use super::model_reading::ModelReading;
 use super::queue::WorkerQueue;
 use super::request::{LiveOptions, LiveRequest, ViewSubject};
 use super::sized_model::RunTotals;
@@ -41,6 +42,7 @@ pub(super) struct Worker {
     graph: Arc<OpenGraph>,
     /// Last model that was loaded successfully.
     pub(super) loaded: Option<LoadedModel>,
+    pub(super) reading: ModelReading,
     /// Revision of the last model that was tried.
     pub(super) tried: Option<u64>,
     pub(super) sent: Sent,
@@ -101,6 +103,7 @@ impl Worker {
             wake,
             graph: Arc::new(OpenGraph::empty("")),
             loaded: None,
+            reading: ModelReading::default(),
             tried: None,
             sent: Sent::default(),
             failed_nodes: BTreeMap::new(),

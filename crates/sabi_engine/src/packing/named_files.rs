@@ -10,7 +10,7 @@ use sabi_graph::{Document, Graph, Node, NodeId, Overrides, Value};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::session::path_rewrite::with_paths;
+use crate::session::path_rewrite::document_with_paths;
 use crate::source::pictures::{base_of, named_file};
 
 /// Most group files, as when a graph is opened.
@@ -223,7 +223,7 @@ pub(crate) fn without_model(document: &Document) -> Document {
 /// Paths of pictures and group files in a document.
 fn paths_in(document: &Document) -> BTreeSet<String> {
     let paths = RefCell::new(BTreeSet::new());
-    with_paths(&without_model(document), &|path| {
+    document_with_paths(&without_model(document), &|path| {
         if !path.trim().is_empty() {
             paths.borrow_mut().insert(path.to_owned());
         }

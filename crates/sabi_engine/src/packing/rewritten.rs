@@ -7,7 +7,7 @@ use sabi_graph::{Document, Preview};
 
 use super::named_files::{NamedDocument, whole_path, without_model};
 use super::places::Places;
-use crate::session::path_rewrite::with_paths;
+use crate::session::path_rewrite::document_with_paths;
 
 /// Folder that stands for the archive where paths are computed.
 const ROOT: &str = "/archive";
@@ -42,7 +42,7 @@ pub(super) fn rewritten(
         target.map_or_else(|| written.to_owned(), |target| path_to(target, name, written))
     };
     let original = &named.open.document;
-    let mut document = with_paths(&without_model(original), &|written| match written.trim().is_empty() {
+    let mut document = document_with_paths(&without_model(original), &|written| match written.trim().is_empty() {
         true => written.to_owned(),
         false => moved(written),
     });

@@ -2,9 +2,10 @@
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
+use std::io::ErrorKind as ErrorKindOfSystem;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{Disk, StagedSet, Unread, behind_links, read_plain};
+use sabi_files::{Disk, StagedError, StagedSet, Unread, behind_links, read_plain};
 
 use super::known_contents::KnownContents;
 use crate::error::{EngineError, ErrorKind};
@@ -40,13 +41,15 @@ impl GraphWrite<'_> {
             return Err(EngineError::new(ErrorKind::CannotWrite, why));
         };
         let before = self.replaced(path)?;
-        let mut staged = StagedSet::create_on(self.disk, path.parent().unwrap_or(Path::new(".")))?;
-        if let Some(before) = before.filter(|before| before.bytes != text.as_bytes()) {
-            self.stage_backups(&mut staged, path, before)?;
-        }
-        staged.stage(name, text.as_bytes())?;
-        staged.commit()?;
-        Ok(())
+        let written = || {
+            let mut staged = StagedSet::create_on(self.disk, path.parent().unwrap_or(Path::new(".")))?;
+            if let Some(before) = before.filter(|before| before.bytes != text.as_bytes()) {
+                self.stage_backups(&mut staged, path, before)?;
+            }
+            staged.stage(name, text.as_bytes())?;
+            staged.commit()
+        };
+        written().map(drop).map_err(|error| not_saved(path, error))
     }
 
     /// Content of the file that is replaced; none where there is no file.
@@ -63,7 +66,7 @@ impl GraphWrite<'_> {
     }
 
     /// Stages the backups: the oldest first, so that a process which ends in between leaves each of them once at least.
-    fn stage_backups(self, staged: &mut StagedSet, path: &Path, before: Earlier) -> Result<(), EngineError> {
+    fn stage_backups(self, staged: &mut StagedSet, path: &Path, before: Earlier) -> Result<(), StagedError> {
         let mut moved = Some(before);
         let mut backups: Vec<(OsString, Earlier)> = Vec::new();
         for number in 1..=self.backups {
@@ -108,6 +111,26 @@ fn refuse_write_protected(path: &Path) -> Result<(), EngineError> {
         return Err(refused.with_remedies([Remedy::AllowWriting, Remedy::SaveUnderOtherName]));
     }
     Ok(())
+}
+
+/// Error of a disk that refuses a graph: it names the graph, and not the temporary file that could not be written.
+pub(super) fn not_saved(path: &Path, error: StagedError) -> EngineError {
+    let (reason, is_full) = match &error {
+        StagedError::File(error) | StagedError::Commit { error, .. } => (
+            error.reason(),
+            matches!(
+                error.kind(),
+                ErrorKindOfSystem::StorageFull | ErrorKindOfSystem::QuotaExceeded
+            ),
+        ),
+        StagedError::Protected { .. } | StagedError::NotAFile { .. } | StagedError::SameName { .. } => {
+            (error.to_string(), false)
+        }
+    };
+    let why = format!("{} cannot be saved: {reason}", path.display());
+    let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
+    let free = is_full.then_some(Remedy::FreeSpace);
+    refused.with_remedies(free.into_iter().chain([Remedy::SaveUnderOtherName]))
 }
 
 fn written_by_another(path: &Path) -> EngineError {

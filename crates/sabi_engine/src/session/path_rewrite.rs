@@ -30,11 +30,11 @@ pub fn relocate_paths(document: &Document, from: &Path, to: &Path) -> Document {
 /// Returns a graph whose paths are absolute; relative ones start from `folder`.
 pub fn with_absolute_paths(document: &Document, folder: &Path) -> Document {
     let base = canonical_base(folder);
-    with_paths(document, &|path| or_unchanged(base.rewrite_absolute(path), path))
+    document_with_paths(document, &|path| or_unchanged(base.rewrite_absolute(path), path))
 }
 
 /// Returns a graph with the paths that `moved` gives for those of its model, pictures and group files.
-pub(crate) fn with_paths(document: &Document, moved: &dyn Fn(&str) -> String) -> Document {
+pub fn document_with_paths(document: &Document, moved: &dyn Fn(&str) -> String) -> Document {
     let files = PathRewrite::files();
     let is_file = |kind: &str, param: &str| is_file(&files, kind, param);
     document.relocated(Relocation {

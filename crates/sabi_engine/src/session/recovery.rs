@@ -54,39 +54,39 @@ pub enum Keeping {
 }
 
 /// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
-/// program are left out. A file that cannot be read is listed with its error. Files that were not complete yet are removed.
+/// program are left out, see [`recoveries_in_use`]. A file that cannot be read is listed with its error. Files that were not
+/// complete yet are removed.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     // A file that was being written when a program ended is in no list.
     sweep(folder);
-    let Ok(entries) = fs::read_dir(folder) else {
-        return Vec::new();
-    };
-    let mut found: Vec<(SystemTime, PathBuf)> = entries
-        .filter_map(|entry| {
-            let path = entry.ok()?.path();
-            let is_kept = path.extension().is_some_and(|ending| ending == ENDING);
-            let when = fs::metadata(&path).and_then(|metadata| metadata.modified()).ok()?;
-            (is_kept && !is_locked(&lock_of(&path))).then_some((when, path))
-        })
+    let mut found: Vec<(SystemTime, PathBuf)> = recovery_files(folder)
+        .filter(|(_, path)| !is_locked(&lock_of(path)))
         .collect();
     found.sort();
-    let left = found.into_iter().rev().map(|(_, path)| Recovery {
-        path,
-        file: None,
-        kept: None,
-        fault: None,
-        lock: None,
-        disk: Disk::default(),
-        writing: None,
-    });
-    left.map(|mut recovery| {
-        match recovery.read() {
-            Ok((kept, file)) => (recovery.kept, recovery.file) = (Some(kept), file),
-            Err(fault) => recovery.fault = Some(fault),
-        }
-        recovery
+    found
+        .into_iter()
+        .rev()
+        .map(|(_, path)| Recovery::read_from(path))
+        .collect()
+}
+
+/// Finds the recovery files in a folder that running programs use. A program that is killed uses its own until the system has
+/// ended it, which may take a moment.
+pub fn recoveries_in_use(folder: &Path) -> Vec<PathBuf> {
+    let in_use = recovery_files(folder).filter(|(_, path)| is_locked(&lock_of(path)));
+    in_use.map(|(_, path)| path).collect()
+}
+
+/// Recovery files of a folder, with the times at which they were written.
+fn recovery_files(folder: &Path) -> impl Iterator<Item = (SystemTime, PathBuf)> {
+    // A folder that cannot be read has none.
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    entries.filter_map(|entry| {
+        let path = entry.ok()?.path();
+        let is_kept = path.extension().is_some_and(|ending| ending == ENDING);
+        let when = fs::metadata(&path).and_then(|metadata| metadata.modified()).ok()?;
+        is_kept.then_some((when, path))
     })
-    .collect()
 }
 
 /// Returns the path of the lock file that marks a recovery file as in use.
@@ -113,6 +113,30 @@ impl Recovery {
         }
     }
 
+    /// Reads a recovery file; none while a running program uses it, and where there is none any more.
+    pub fn of_file(path: &Path) -> Option<Recovery> {
+        let is_free = path.is_file() && !is_locked(&lock_of(path));
+        is_free.then(|| Recovery::read_from(path.to_owned()))
+    }
+
+    /// Reads a recovery file; one that cannot be read has a fault.
+    fn read_from(path: PathBuf) -> Recovery {
+        let mut recovery = Recovery {
+            path,
+            file: None,
+            kept: None,
+            fault: None,
+            lock: None,
+            disk: Disk::default(),
+            writing: None,
+        };
+        match recovery.read() {
+            Ok((kept, file)) => (recovery.kept, recovery.file) = (Some(kept), file),
+            Err(fault) => recovery.fault = Some(fault),
+        }
+        recovery
+    }
+
     /// Writes to this disk from now on.
     pub(super) fn turn_to_disk(&mut self, disk: &Disk) {
         self.disk = disk.clone();
@@ -129,7 +153,7 @@ impl Recovery {
     }
 
     /// Path of the recovery file.
-    pub(super) fn path(&self) -> &Path {
+    pub fn path(&self) -> &Path {
         &self.path
     }
 

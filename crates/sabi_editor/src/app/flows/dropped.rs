@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use egui::Ui;
 use sabi_editing::command::NodeCommand;
-use sabi_engine::{MODEL_ENDINGS, path_text};
+use sabi_engine::{MODEL_ENDINGS, io_reason, path_text};
 
 use super::super::Editor;
 use crate::action::Next;
@@ -40,9 +40,8 @@ impl Editor {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(error) => {
-                return self
-                    .shell
-                    .notify(format!("{} cannot be read: {error}", folder.display()));
+                let why = io_reason(&error);
+                return self.shell.fail(format!("{} cannot be read: {why}", folder.display()));
             }
         };
         let files = entries.filter_map(|entry| Some(entry.ok()?.path()));

@@ -1,16 +1,17 @@
 //! Models: which one is shown, and which ones beside it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use egui::Context;
 
 use super::super::Editor;
+use sabi_engine::io_reason;
+
 use crate::evaluation::ModelOutcome;
 use crate::files::examples;
 use crate::import_options::ImportOptions;
 use crate::paths::{file_stem, in_canonical_folder};
-use crate::settings::MOST_MODELS;
 
 /// Time after the last input for which evaluations that nobody waits for rest.
 const REST: Duration = Duration::from_millis(250);
@@ -31,12 +32,12 @@ impl Editor {
             None => {}
             Some(ModelOutcome::Shown) => {
                 let model = self.evaluation.model.file().to_owned();
-                self.remember_model(model);
+                self.remember_model(&model);
             }
             Some(ModelOutcome::Refused { file, error }) => {
                 self.row.remove(self.evaluation.model.file(), &self.shell.context);
                 let stays = file_stem(self.evaluation.model.file());
-                self.shell.notify(format!(
+                self.shell.fail(format!(
                     "{} could not be loaded; still showing {stays}: {error}",
                     file.display()
                 ));
@@ -46,7 +47,7 @@ impl Editor {
 
     /// Takes a model off the strip. If it is shown, the next one is shown; the only one stays.
     pub(in crate::app) fn remove_model(&mut self, model: &Path) {
-        let models = &mut self.shell.settings.models;
+        let models = &mut self.documents.models.files;
         let Some(at) = models.iter().position(|known| known == model) else {
             return;
         };
@@ -67,15 +68,17 @@ impl Editor {
         self.evaluation.model.replace(&file, reading);
     }
 
+    /// Shows the model again that was there before the one that is being read.
+    pub(in crate::app) fn cancel_reading(&mut self) {
+        if let Some((file, reading)) = self.evaluation.model.cancel() {
+            self.shell.settings.remember_reading(&file, reading);
+        }
+    }
+
     /// Puts a model on the strip.
-    fn remember_model(&mut self, model: PathBuf) {
-        let models = &mut self.shell.settings.models;
-        if !models.contains(&model) {
-            models.push(model);
-        }
-        if models.len() > MOST_MODELS {
-            models.remove(0);
-        }
+    fn remember_model(&mut self, model: &Path) {
+        self.documents.models.add(model);
+        self.shell.settings.remember_model(model);
     }
 
     /// Shows a model beside the main one, with the same graph.
@@ -86,12 +89,12 @@ impl Editor {
             None => Ok(()),
         };
         if let Err(error) = written {
-            let sentence = format!("{} could not be written: {error}", path.display());
-            return self.shell.notify(sentence);
+            let sentence = format!("{} could not be written: {}", path.display(), io_reason(&error));
+            return self.shell.fail(sentence);
         }
         let model = (path.as_path(), self.shell.settings.reading(&path));
         let added = self.row.add(&self.evaluation, model, &self.shell.context);
-        self.shell.report(added);
+        self.shell.allow(added);
     }
 
     /// Returns whether a model is one of Sabi's own, which are offered without being on the strip.
@@ -105,11 +108,11 @@ impl Editor {
     pub(in crate::app) fn follow_row(&mut self, context: &Context) {
         for (model, outcome) in self.row.take_events(context) {
             match outcome {
-                ModelOutcome::Shown if !self.is_own_model(&model) => self.remember_model(model),
+                ModelOutcome::Shown if !self.is_own_model(&model) => self.remember_model(&model),
                 ModelOutcome::Shown => {}
                 ModelOutcome::Refused { file, error } => {
                     self.shell
-                        .notify(format!("{} could not be loaded: {error}", file.display()));
+                        .fail(format!("{} could not be loaded: {error}", file.display()));
                 }
             }
         }

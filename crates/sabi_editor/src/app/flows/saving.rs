@@ -7,6 +7,7 @@ use sabi_engine::{EngineError, Remedy, is_open_in_a_window};
 use super::super::Editor;
 use crate::exports::ExportSource;
 use crate::files::ReplaceReason;
+use crate::notices::Work;
 use crate::paths::canonical_if_present;
 
 impl Editor {
@@ -15,9 +16,14 @@ impl Editor {
         let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
             return self.views.questions.ask_to_save(&self.documents.document);
         };
-        if self.documents.document.session.is_read_only() {
-            self.views.questions.ask_about_open_file(file);
-            return;
+        let session = &mut self.documents.document.session;
+        if session.is_read_only() {
+            // The other window may be closed by now.
+            if is_open_in_a_window(&file) || !session.claim_file() {
+                self.views.questions.ask_about_open_file(file);
+                return;
+            }
+            session.set_read_only(false);
         }
         // That the file is gone is no reason to ask: it is written again.
         let _ = self.documents.check_file();
@@ -105,7 +111,7 @@ impl Editor {
     }
 
     fn report_saved(&mut self, file: &Path, saved: Result<(), EngineError>) {
-        if self.shell.report(saved).is_none() {
+        if self.shell.report_on(Work::Save, saved).is_none() {
             return;
         }
         let session = &mut self.documents.document.session;
@@ -116,6 +122,7 @@ impl Editor {
         // A save deletes the copies of the graph, but node files may still need theirs.
         self.documents.autosave.invalidate();
         self.shell.settings.remember(file);
+        self.remember_named();
         self.shell.notify(format!("Saved to {}", file.display()));
         self.store_picture_of_graph(file);
         let source = ExportSource {
@@ -124,7 +131,7 @@ impl Editor {
             choices: &self.shell.settings.export,
         };
         let exported = self.exports.after_save(&self.shell.context, source);
-        self.shell.report(exported);
+        self.shell.report_on(Work::Export, exported);
     }
 
     /// Saves to another file, and asks first where that would replace one or where its folder is missing.

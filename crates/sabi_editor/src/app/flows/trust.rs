@@ -1,10 +1,10 @@
 //! Trust in files that lie outside of the folder of the graph or model that names them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{knob_target, relative_paths};
-use sabi_engine::{TrustedPaths, Value};
+use sabi_editing::{knob_target, missing_files, relative_paths};
+use sabi_engine::{PathBase, TrustedPaths, Value};
 
 use super::super::Editor;
 use crate::action::TrustAction;
@@ -32,7 +32,7 @@ impl Editor {
     /// Shows the model that the graph names, if it may be opened and is not shown.
     fn take_named_model(&mut self) {
         let shown = canonical_if_present(self.evaluation.model.file());
-        let named = model_of(&self.documents.document.session).and_then(Result::ok);
+        let named = self.documents.named_model();
         if let Some(model) = named.filter(|model| canonical_if_present(model) != shown) {
             self.take_model(&model);
         }
@@ -48,6 +48,7 @@ impl Editor {
     /// Shows a model that the user chose.
     pub(in crate::app) fn take_chosen_model(&mut self, file: &Path) {
         self.trust_model(file);
+        self.documents.is_model_chosen = true;
         self.take_model(file);
     }
 
@@ -59,15 +60,68 @@ impl Editor {
 
     /// Lets every graph open a model that the user chose: a graph that is saved names it.
     fn trust_model(&mut self, file: &Path) {
-        let graph = self.documents.document.session.graph();
-        if !graph.base().is_above(file) && !graph.trusted.contains(file) {
+        if !self.opens_again(file) {
             self.remember_file(file);
         }
+    }
+
+    /// Remembers the files that the graph names where it was saved, and those that its model was read from, so that it opens them the
+    /// next time. It may have been saved in another folder, or been opened with files that the command line named.
+    pub(in crate::app) fn remember_named(&mut self) {
+        let named = missing_files::named(&self.documents.document);
+        let model = self.evaluation.model.received.as_ref();
+        let of_model = model.into_iter().flat_map(|model| {
+            let files = &model.linked.model.files;
+            let beside = files.first().map(|file| PathBase::of_file(file));
+            let is_beside = move |file: &&PathBuf| beside.as_ref().is_some_and(|beside| beside.is_above(file));
+            files.iter().filter(move |file| !is_beside(file)).cloned()
+        });
+        // Another model may stand in for one that was not found.
+        let has_own_model = self.evaluation.model.loaded().1 && self.evaluation.model.refused().is_none();
+        let of_model: Vec<PathBuf> = of_model.filter(|_| has_own_model).collect();
+        for file in named.into_iter().chain(of_model) {
+            if !self.opens_again(&file) {
+                self.remember_file(&file);
+            }
+        }
+    }
+
+    /// Returns whether the graph opens a file the next time, with nothing but its place and the settings to go by.
+    fn opens_again(&self, file: &Path) -> bool {
+        let place = self.documents.document.session.file();
+        let by_place = place.is_some_and(|place| TrustedPaths::of_file(place).contains(file));
+        let own = self.documents.folders.trusted();
+        let kept = own.chain(&self.shell.settings.trusted);
+        let kept = kept.fold(TrustedPaths::default(), |trusted, path| trusted.with_path(path));
+        by_place || kept.contains(file)
     }
 
     fn remember_file(&mut self, file: &Path) {
         self.shell.settings.trust(file);
         self.documents.trust(&TrustedPaths::default().with_path(file));
+    }
+
+    /// Names a file in place of one that is missing, and those beside it in place of others.
+    pub(in crate::app) fn find_missing(&mut self, lost: &str, file: &Path) {
+        let before = model_of(&self.documents.document.session);
+        let found = missing_files::relocate(&mut self.documents.document, lost, file);
+        if model_of(&self.documents.document.session) != before {
+            self.take_named_model();
+        }
+        let sentence = match found {
+            0 => return,
+            1 => format!("{} is used from now on.", file.display()),
+            2 => format!(
+                "{} is used from now on, and one more that lies beside it.",
+                file.display()
+            ),
+            _ => format!(
+                "{} is used from now on, and {} more that lie beside it.",
+                file.display(),
+                found - 1
+            ),
+        };
+        self.shell.notify(sentence);
     }
 
     pub(in crate::app) fn set_image(&mut self, parameter: &KnobTarget, file: &Path) {

@@ -224,7 +224,7 @@ impl Editor {
     /// Stores the strokes, and has the graph that names them stored soon.
     pub(super) fn keep_strokes(&mut self) {
         if let Err(error) = self.documents.document.session.keep_strokes() {
-            self.shell.notify(error.to_string());
+            self.shell.fail(error.to_string());
         }
         self.documents.autosave.invalidate();
     }

@@ -40,7 +40,7 @@ fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
     assert_eq!(window.editor().evaluation.model.file(), model);
     window.until("the model", |editor| editor.evaluation.model.loaded().1);
     assert!(
-        window.editor().shell.settings.models.contains(&model),
+        window.editor().documents.models.files.contains(&model),
         "it is on the strip"
     );
     let other = window.path("other.sabi");

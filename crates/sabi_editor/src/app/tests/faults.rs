@@ -31,9 +31,9 @@ fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictu
     window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
     let fault = window.fault_of("blur");
-    assert!(fault.contains("source"), "{fault}");
+    assert_eq!(fault, "input 'source' of node 'Blur' must be connected to a mask");
     assert_eq!(told_of(&window, "blur"), fault);
-    assert_eq!(told_of(&window, "invert"), "waiting for blur");
+    assert_eq!(told_of(&window, "invert"), "waiting for node 'Blur'");
     assert_eq!(told_of(&window, "clouds"), "");
     assert!(window.editor().thumbnail_of(&id("invert")).is_none());
     window.click_at(window.title(&id("blur")));
@@ -64,7 +64,7 @@ fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
     });
     window.until("the fault", |editor| editor.problem_count() == 1);
     window.open(Panel::Problems);
-    let fault = window.editor().evaluation.faults.all.faults[0].sentence.clone();
+    let fault = window.fault_of("worn/blur");
     let at = window.harness.get_by_label_contains(&fault).rect().center();
     window.click_at(at);
     assert_eq!(navigation::breadcrumb(window.document()).len(), 1);
@@ -135,7 +135,7 @@ fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
     window.until("the fault", |editor| editor.evaluation.faults.of("worn").is_some());
     let fault = window.fault_of("worn/blur");
     assert_eq!(told_of(&window, "worn"), fault);
-    assert_eq!(told_of(&window, "after"), "waiting for worn/blur");
+    assert_eq!(told_of(&window, "after"), "waiting for node 'Worn › Blur'");
     window.click_at(window.title(&id("worn")));
     assert!(window.says(&fault), "in the panel of parameters too");
     window
@@ -166,7 +166,7 @@ fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
     assert!(fault.contains("needs the group file \"gone.sabi\""), "{fault}");
     assert_eq!(
         window.editor().evaluation.faults.waits("after").map(String::as_str),
-        Some("waiting for gone")
+        Some("waiting for node 'gone'")
     );
     window.open(Panel::Problems);
     window.click_at(window.harness.get_by_label_contains(&fault).rect().center());

@@ -61,7 +61,7 @@ fn bars_have_room_for_everything_on_usual_screens() {
     window.until_model();
     for name in MODELS {
         let file = window.path(&format!("{name}.glb"));
-        window.harness.state_mut().shell.settings.models.push(file);
+        window.harness.state_mut().documents.models.files.push(file);
     }
     for shown in ["n", "m"] {
         window.harness.state_mut().look_at(&id(shown), None);

@@ -114,3 +114,56 @@ fn nodes_that_come_with_a_graph_are_used_once_the_user_wants_them() {
     assert!(!asks(&window) && has_own(&window), "it is asked once");
     assert!(Path::new(&window.editor().shell.settings.trusted_nodes[0]).ends_with("shared/nodes"));
 }
+
+/// A glTF file of one triangle whose buffer is a file beside it.
+fn gltf_beside(folder: &Path) -> PathBuf {
+    fs::create_dir_all(folder).expect("a folder");
+    let corners: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    let bytes: Vec<u8> = corners.iter().flat_map(|number| number.to_le_bytes()).collect();
+    fs::write(folder.join("hero.bin"), bytes).expect("a buffer");
+    let text = r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [0] } ], "nodes": [ { "mesh": 0 } ],
+        "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+        "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+            "min": [0, 0, 0], "max": [1, 1, 0] } ],
+        "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+        "buffers": [ { "uri": "hero.bin", "byteLength": 36 } ] }"#;
+    let file = folder.join("hero.gltf");
+    fs::write(&file, text).expect("a model");
+    file
+}
+
+#[test]
+fn a_file_that_is_chosen_before_the_first_save_is_remembered_wherever_the_program_was_started() {
+    let mut window = Window::untitled();
+    // Below the folder that the program was started in, which is that of a graph without a file. It is no model, and refused.
+    let chosen = canonical_if_present(&Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml"));
+    window.harness.state_mut().take_chosen_model(&chosen);
+    assert_eq!(window.editor().shell.settings.trusted, [chosen]);
+}
+
+#[test]
+fn a_model_of_several_files_that_the_command_line_named_is_shown_again_once_the_graph_is_saved() {
+    let mut window = Window::opened("");
+    let hero = gltf_beside(&window.path("models"));
+    let kept = tempfile::tempdir().expect("a folder");
+    let file = kept.path().join("graph.sabi");
+    let editor = window.harness.state_mut();
+    // As at the start with a model; this is not kept.
+    editor.documents.trust(&sabi_engine::TrustedPaths::of_file(&hero));
+    editor.take_model(&hero);
+    window.until("the model", |editor| {
+        editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.gltf")
+    });
+    window.harness.state_mut().save_to(&file);
+    window.settle();
+    window.harness.state_mut().save_settings();
+    let folder = window.folder;
+    drop(window.harness);
+    let mut next = Window::in_folder(folder, |_| Session::new(None));
+    assert_eq!(next.editor().shell.settings.trusted, [canonical_if_present(&hero)]);
+    next.harness.state_mut().open_file(&file);
+    next.until("the model", |editor| {
+        editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.gltf")
+    });
+    assert!(!next.says(OUTSIDE));
+}

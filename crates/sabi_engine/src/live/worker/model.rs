@@ -8,7 +8,7 @@ use crate::live::evaluation_error::EvaluationError;
 use crate::live::event::LiveEvent;
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::loaded_model::LoadedModel;
-use crate::live::queue::LoadProgress;
+use crate::live::model_reading::LoadProgress;
 use crate::live::sized_model::SizedModel;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::phases::{Phase, Progress};
@@ -36,11 +36,11 @@ impl Worker {
             cache_dir: self.options.cache_dir.clone(),
             ..(*request.model).clone()
         };
-        let progress = LoadProgress {
-            queue: &self.queue,
-            model_revision: request.model_revision,
-        };
-        let opened = LinkedModel::open(&options, &progress).and_then(|linked| {
+        let progress = Arc::new(LoadProgress::new(&self.queue, request.model_revision));
+        let opened = self
+            .reading
+            .read(&progress, move |progress| LinkedModel::open(&options, progress));
+        let opened = opened.and_then(|linked| {
             progress.advance(Phase::Upload, 0, 1);
             let model = (Arc::new(linked), request.model_revision);
             SizedModel::new(&self.gpu, &self.options, (request, &job.graph), model, is_coarse)
@@ -81,11 +81,11 @@ impl Worker {
             cache_dir: self.options.cache_dir.clone(),
             ..(*loaded.options).clone()
         };
-        let progress = LoadProgress {
-            queue: &self.queue,
-            model_revision: loaded.revision,
-        };
-        let resized = coarse.model.linked.resized(&options, &progress);
+        let progress = Arc::new(LoadProgress::new(&self.queue, loaded.revision));
+        let linked = coarse.model.linked.clone();
+        let resized = self
+            .reading
+            .read(&progress, move |progress| linked.resized(&options, progress));
         let sized = resized.and_then(|linked| {
             progress.advance(Phase::Upload, 0, 1);
             let model = (Arc::new(linked), loaded.revision);

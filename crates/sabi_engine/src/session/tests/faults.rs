@@ -1,5 +1,7 @@
 //! Every fault of the disk at every step of a save and of an autosave: nothing half, and nothing lost that was told as saved.
 
+use std::io::ErrorKind;
+
 use sabi_files::Disk;
 
 use super::strokes::{known, paint};
@@ -209,4 +211,33 @@ fn a_copy_that_is_being_written_when_the_graph_is_saved_does_not_come_back() {
     session.save().unwrap();
     crash(session);
     assert!(recoveries(place.kept.path()).is_empty());
+}
+
+#[test]
+fn a_refused_save_names_the_graph_and_what_can_be_done() {
+    let faults = [
+        (
+            ErrorKind::StorageFull,
+            "the disk is full; free some space on the disk, or save under another name",
+        ),
+        (
+            ErrorKind::PermissionDenied,
+            "you have no permission; save under another name",
+        ),
+        (
+            ErrorKind::ReadOnlyFilesystem,
+            "the disk is read-only; save under another name",
+        ),
+    ];
+    for (kind, told) in faults {
+        let place = Place::new();
+        let file = place.file();
+        let error = sabi_files::StagedError::File(sabi_files::FileError {
+            operation: sabi_files::Operation::Write,
+            path: place.desk.path().join("new/.sabi-4711.tmp"),
+            source: kind.into(),
+        });
+        let said = super::super::graph_write::not_saved(&file, error).to_string();
+        assert_eq!(said, format!("{} cannot be saved: {told}", file.display()));
+    }
 }

@@ -20,7 +20,7 @@ impl Window {
 
     /// Names on the strip of models.
     fn strip(&self) -> Vec<String> {
-        let models = self.editor().shell.settings.models.iter();
+        let models = self.editor().documents.models.files.iter();
         models
             .map(|model| model.file_stem().unwrap_or_default().to_string_lossy().into_owned())
             .collect()

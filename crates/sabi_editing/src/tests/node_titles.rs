@@ -1,0 +1,50 @@
+//! Sentences that name nodes by their titles.
+
+use super::*;
+use crate::node_paths::with_titles;
+
+#[test]
+fn a_sentence_names_nodes_by_their_titles_and_without_their_kinds() {
+    let document = opened(
+        r#""groups": { "Worn": { "outputs": { "mask": "blur.mask" }, "nodes": { "blur": { "kind": "filter/blur" } } } },"#,
+        r#""image_2": { "kind": "source/image", "label": "Rust photo" },
+           "octaves": { "kind": "noise/simplex" },
+           "worn": { "kind": "graph/group", "group": "Worn" }"#,
+    );
+    let clouds = document.title(&id("octaves"));
+    let worn = document.title(&id("worn"));
+    let told = [
+        (
+            "parameter 'file' of node 'image_2' (source/image): rust.png is missing",
+            "parameter 'file' of node 'Rust photo': rust.png is missing".to_owned(),
+        ),
+        (
+            "parameter 'octaves' of node 'octaves' (noise/simplex) takes a whole number, not 'image_2'",
+            format!("parameter 'octaves' of node '{clouds}' takes a whole number, not 'image_2'"),
+        ),
+        (
+            "input 'in' of node 'image_2' takes a mask, but 'octaves' gives a material; connect a mask",
+            format!("input 'in' of node 'Rust photo' takes a mask, but '{clouds}' gives a material; connect a mask"),
+        ),
+        (
+            "waiting for node 'worn/blur'",
+            format!("waiting for node '{worn} › Blur'"),
+        ),
+        (
+            "the nodes 'image_2', 'octaves' took too long",
+            format!("the nodes 'Rust photo', '{clouds}' took too long"),
+        ),
+        (
+            "node \"image_2\" needs the group file \"image_2\", which cannot be read",
+            "node \"Rust photo\" needs the group file \"image_2\", which cannot be read".to_owned(),
+        ),
+        (
+            "the nodes feed each other in a circle: image_2 → octaves; remove one of these links",
+            format!("the nodes feed each other in a circle: Rust photo → {clouds}; remove one of these links"),
+        ),
+        ("node 'gone' isn't there", "node 'gone' isn't there".to_owned()),
+    ];
+    for (sentence, expected) in told {
+        assert_eq!(with_titles(&document, sentence), expected);
+    }
+}

@@ -1,0 +1,49 @@
+//! Work that was not saved when a program ended: it is offered again, also where that program is only just ending.
+
+use std::time::Duration;
+
+use egui::Context;
+use sabi_engine::is_open_in_a_window;
+
+use super::super::Editor;
+use crate::files::Question;
+
+/// Time between two looks at whether the graph's file is still open in another window.
+const LOOK_AGAIN: Duration = Duration::from_millis(200);
+
+impl Editor {
+    /// Offers unsaved work that belongs to the open graph's file, and shows other work that was found meanwhile.
+    pub(in crate::app) fn follow_recoveries(&mut self, context: &Context) {
+        self.claim_file_again(context);
+        let is_new = self.documents.recoveries.take_freed(context);
+        if is_new && !self.documents.document.session.is_dirty() {
+            // Not over work that was begun meanwhile; what is found stays on the start page.
+            self.views.start.is_open |= self.documents.recovery_of_open_graph().is_none();
+        }
+        let is_asked = self.views.questions.open.is_some() || self.views.start.is_open;
+        if is_asked || !std::mem::take(&mut self.documents.recoveries.is_offer_due) {
+            return;
+        }
+        if let Some(at) = self.documents.recovery_of_open_graph() {
+            self.views.questions.open = Some(Question::Recover { at });
+        }
+    }
+
+    /// Uses the graph's file once no other window has it open, while that is asked about: a program that was killed holds it until
+    /// the system has ended it.
+    fn claim_file_again(&mut self, context: &Context) {
+        let Some(Question::OpenElsewhere { file }) = &self.views.questions.open else {
+            return;
+        };
+        context.request_repaint_after(LOOK_AGAIN);
+        let session = &mut self.documents.document.session;
+        if is_open_in_a_window(file) || !session.claim_file() {
+            return;
+        }
+        session.set_read_only(false);
+        self.views.questions.open = None;
+        // The other window may have saved meanwhile.
+        let deleted = self.documents.check_file();
+        deleted.into_iter().for_each(|sentence| self.shell.notify(sentence));
+    }
+}

@@ -1,0 +1,160 @@
+//! Reading of a model on a thread of its own, so that one which is no longer wanted is not waited for.
+
+use std::panic::resume_unwind;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread::{Builder, JoinHandle, sleep};
+use std::time::Duration;
+
+use super::queue::WorkerQueue;
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::linked_model::LinkedModel;
+use crate::phases::{Phase, Progress};
+
+/// Time between two looks at whether a model is still wanted.
+const LOOK_AGAIN: Duration = Duration::from_millis(20);
+
+/// Reading of models, one after the other. A model that is left ends at its next step, on its own thread; the next one is read
+/// once that has ended if another one was left before, so that memory is taken by two at most.
+#[derive(Default)]
+pub(super) struct ModelReading {
+    left: Option<JoinHandle<()>>,
+}
+
+/// Progress of reading a model, which is canceled once another one is requested.
+pub(super) struct LoadProgress {
+    queue: Arc<WorkerQueue>,
+    model_revision: u64,
+    is_left: AtomicBool,
+}
+
+impl LoadProgress {
+    pub(super) fn new(queue: &Arc<WorkerQueue>, model_revision: u64) -> LoadProgress {
+        LoadProgress {
+            queue: queue.clone(),
+            model_revision,
+            is_left: AtomicBool::new(false),
+        }
+    }
+
+    fn is_unwanted(&self) -> bool {
+        self.is_left.load(Ordering::Relaxed) || self.queue.is_other_model_requested(self.model_revision)
+    }
+}
+
+impl Progress for LoadProgress {
+    fn advance(&self, phase: Phase, done: usize, of: usize) {
+        if !self.is_left.load(Ordering::Relaxed) {
+            self.queue.activity.set(phase, done, of);
+        }
+    }
+
+    fn is_canceled(&self) -> bool {
+        if !self.is_left.load(Ordering::Relaxed) {
+            self.queue.wait_for_turn();
+        }
+        self.is_unwanted()
+    }
+}
+
+impl ModelReading {
+    /// Reads a model by `work`.
+    ///
+    /// # Errors
+    /// That of the work, or one of kind `Interrupted` as soon as another model is requested.
+    pub(super) fn read(
+        &mut self,
+        progress: &Arc<LoadProgress>,
+        work: impl FnOnce(&dyn Progress) -> Result<LinkedModel, EngineError> + Send + 'static,
+    ) -> Result<LinkedModel, EngineError> {
+        progress.advance(Phase::Load, 0, 1);
+        while self.left.as_ref().is_some_and(|left| !left.is_finished()) {
+            if progress.is_unwanted() {
+                return Err(interrupted());
+            }
+            sleep(LOOK_AGAIN);
+        }
+        self.left = None;
+        let (sender, result) = channel();
+        let shared = progress.clone();
+        let read = move || {
+            // Fails where the model was left.
+            let _ = sender.send(work(shared.as_ref()));
+        };
+        let thread = Builder::new().name("sabi model".to_owned()).spawn(read);
+        let thread = thread.map_err(|error| {
+            let why = format!("the system gives no thread to read the model on ({error})");
+            EngineError::new(ErrorKind::OutOfMemory, why)
+        })?;
+        loop {
+            match result.recv_timeout(LOOK_AGAIN) {
+                Ok(read) => return read,
+                Err(RecvTimeoutError::Disconnected) => match thread.join() {
+                    // The worker reports a panic.
+                    Err(panic) => resume_unwind(panic),
+                    Ok(()) => return Err(interrupted()),
+                },
+                Err(RecvTimeoutError::Timeout) if progress.is_unwanted() => {
+                    progress.is_left.store(true, Ordering::Relaxed);
+                    self.left = Some(thread);
+                    return Err(interrupted());
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+        }
+    }
+}
+
+fn interrupted() -> EngineError {
+    EngineError::new(ErrorKind::Interrupted, "another model was requested")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::Receiver;
+
+    use super::*;
+    use crate::live::request::LiveOptions;
+
+    fn no_model() -> EngineError {
+        EngineError::new(ErrorKind::BadInput, "no model")
+    }
+
+    /// Work that ends once it is told to.
+    fn waiting(go: Receiver<()>) -> impl FnOnce(&dyn Progress) -> Result<LinkedModel, EngineError> + Send {
+        move |_| {
+            let _ = go.recv();
+            Err(no_model())
+        }
+    }
+
+    #[test]
+    fn a_model_that_is_no_longer_wanted_is_not_waited_for() {
+        let queue = Arc::new(WorkerQueue::new(&LiveOptions::default()));
+        let progress = Arc::new(LoadProgress::new(&queue, 1));
+        let mut reading = ModelReading::default();
+        let (go, told) = channel();
+        let closes = queue.clone();
+        let closing = std::thread::spawn(move || closes.close());
+        let error = reading.read(&progress, waiting(told)).err();
+        assert_eq!(error.map(|error| error.kind), Some(ErrorKind::Interrupted));
+        closing.join().unwrap();
+        let left = reading.left.take().unwrap();
+        assert!(!left.is_finished(), "it is still at work");
+        queue.activity.clear();
+        progress.advance(Phase::Atlas, 0, 1);
+        assert_eq!(queue.activity.get(), None, "what was left tells nothing more");
+        go.send(()).unwrap();
+        left.join().unwrap();
+    }
+
+    #[test]
+    fn an_error_of_reading_is_that_of_the_work() {
+        let queue = Arc::new(WorkerQueue::new(&LiveOptions::default()));
+        let progress = Arc::new(LoadProgress::new(&queue, 1));
+        let read = ModelReading::default().read(&progress, |_| Err(no_model()));
+        assert_eq!(read.err(), Some(no_model()));
+        assert_eq!(queue.activity.get().map(|activity| activity.phase), Some(Phase::Load));
+    }
+}
