@@ -20,6 +20,7 @@ use crate::knobs::Lengths;
 use crate::library::Library;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
+use crate::paths::{canonical_if_present, model_of};
 use crate::pen::Pens;
 use crate::saved_pictures::SavedPictures;
 use crate::search::Candidate;
@@ -123,7 +124,15 @@ impl ViewContext<'_> {
 
     /// Number of errors, without warnings.
     pub(crate) fn problem_count(&self) -> usize {
-        self.evaluation.problem_count() + self.document.kinds().0.faults.len()
+        let named_model = usize::from(self.is_named_model_refused());
+        self.evaluation.problem_count() + self.document.kinds().0.faults.len() + named_model
+    }
+
+    /// Returns whether another model stands in for the one that the graph names, which could not be read.
+    pub(crate) fn is_named_model_refused(&self) -> bool {
+        let refused = self.evaluation.model.refused().map(canonical_if_present);
+        let named = model_of(&self.document.session).and_then(Result::ok);
+        refused.is_some() && refused == named.as_deref().map(canonical_if_present)
     }
 
     /// Number of warnings: about the graph, the model, and the models beside it.

@@ -111,7 +111,7 @@ impl Opened {
                 library: LibraryPanel::default(),
                 export: ExportPanel::default(),
                 history: History,
-                problems: Problems,
+                problems: Problems::default(),
                 performance: Performance,
                 page: Page::with_drafts(lost.drafts),
                 questions: Questions::default(),

@@ -196,10 +196,13 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let home = |path: &str| at_home(Some(folder.path()), PathBuf::from(path));
         let own = folder.path().join("assets/meshes/crate.glb");
-        let theirs = "/home/ann/.config/sabi/examples/assets/meshes/crate.glb";
+        let theirs = "/elsewhere/ann/.config/sabi/examples/assets/meshes/crate.glb";
         assert_eq!(home(theirs), own);
         assert!(own.is_file());
-        for other in ["/home/ann/crate.glb", "/home/ann/examples/assets/meshes/hero.glb"] {
+        for other in [
+            "/elsewhere/ann/crate.glb",
+            "/elsewhere/ann/examples/assets/meshes/hero.glb",
+        ] {
             assert_eq!(home(other), Path::new(other));
         }
     }

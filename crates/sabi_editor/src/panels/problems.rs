@@ -1,5 +1,7 @@
 //! Errors and warnings; a click goes to the node.
 
+use std::time::{Duration, Instant};
+
 use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::missing_files;
@@ -11,8 +13,15 @@ use crate::context::{View, ViewContext};
 use crate::paths::file_stem;
 use crate::remedies::{self, Request};
 
+/// Time after which files that were missing are looked for again, while the panel is drawn.
+const LOOK_AGAIN: Duration = Duration::from_secs(1);
+
 /// Panel of errors and warnings.
-pub(crate) struct Problems;
+#[derive(Default)]
+pub(crate) struct Problems {
+    /// Files that are missing, with the revision of the graph and the time for which they were looked for.
+    missing: Option<(u64, Instant, Vec<String>)>,
+}
 
 impl View for Problems {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
@@ -31,8 +40,7 @@ impl View for Problems {
             .collect();
         actions.extend(update::all(ui, context));
         let others: Vec<&String> = faults.other.iter().chain(&of_kinds).collect();
-        let is_model_missing = evaluation.model.refused().is_some();
-        let count = usize::from(is_model_missing)
+        let count = usize::from(context.is_named_model_refused())
             + faults.faults.len()
             + failures.len()
             + others.len()
@@ -46,7 +54,7 @@ impl View for Problems {
         };
         let import = evaluation.model.import_options();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            actions.extend(missing(ui, context));
+            actions.extend(missing(ui, context, self.missing(context)));
             for fault in &faults.faults {
                 let text = format!("{} {}", icon::WARNING, context.said(&fault.sentence));
                 actions.extend(at_node(ui, RichText::new(text).color(theme.fault), &fault.node));
@@ -88,14 +96,26 @@ impl View for Problems {
     }
 }
 
+impl Problems {
+    /// Files that the graph names and that are not there. They are not looked for in every frame, since that takes a copy of the
+    /// graph.
+    fn missing(&mut self, context: &ViewContext<'_>) -> &[String] {
+        let revision = context.document.session.revision();
+        let is_of_now = |(of, since, _): &(u64, Instant, _)| *of == revision && since.elapsed() < LOOK_AGAIN;
+        let known = self.missing.take().filter(is_of_now);
+        let look = || (revision, Instant::now(), missing_files::missing(context.document));
+        &self.missing.insert(known.unwrap_or_else(look)).2
+    }
+}
+
 /// Files that the graph names and that are not there, each with a button that asks where it is.
-fn missing(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
+fn missing(ui: &mut Ui, context: &ViewContext<'_>, missing: &[String]) -> Option<Action> {
     let mut asked = None;
-    for lost in missing_files::missing(context.document) {
+    for lost in missing {
         ui.horizontal_wrapped(|ui| {
             let text = format!("{} There is no file {lost}", icon::FILE_X);
             ui.add(egui::Label::new(RichText::new(text).color(context.theme.fault)).wrap());
-            let name = missing_files::name_of(&lost);
+            let name = missing_files::name_of(lost);
             let button = ui.button("Find it…");
             button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Find {name}")));
             if button

@@ -37,8 +37,13 @@ impl Editor {
             Some(ModelOutcome::Refused { file, error }) => {
                 self.row.remove(self.evaluation.model.file(), &self.shell.context);
                 let stays = file_stem(self.evaluation.model.file());
+                let advice = if file.exists() {
+                    ""
+                } else {
+                    "; find it again in Problems"
+                };
                 self.shell.fail(format!(
-                    "{} could not be loaded; still showing {stays}: {error}",
+                    "{} could not be loaded; still showing {stays}: {error}{advice}",
                     file.display()
                 ));
             }

@@ -11,14 +11,21 @@ use crate::files::Question;
 /// Time between two looks at whether the graph's file is still open in another window.
 const LOOK_AGAIN: Duration = Duration::from_millis(200);
 
+/// Sentence about work that was found while other work goes on.
+const FOUND: &str = "There is unsaved work from before. It is on the start page: File, Examples…";
+
 impl Editor {
     /// Offers unsaved work that belongs to the open graph's file, and shows other work that was found meanwhile.
     pub(in crate::app) fn follow_recoveries(&mut self, context: &Context) {
         self.claim_file_again(context);
         let is_new = self.documents.recoveries.take_freed(context);
-        if is_new && !self.documents.document.session.is_dirty() {
-            // Not over work that was begun meanwhile; what is found stays on the start page.
-            self.views.start.is_open |= self.documents.recovery_of_open_graph().is_none();
+        if is_new && self.documents.recovery_of_open_graph().is_none() {
+            if self.documents.document.session.is_dirty() {
+                // Not over work that was begun meanwhile.
+                self.shell.notify(FOUND);
+            } else {
+                self.views.start.is_open = true;
+            }
         }
         let is_asked = self.views.questions.open.is_some() || self.views.start.is_open;
         if is_asked || !std::mem::take(&mut self.documents.recoveries.is_offer_due) {

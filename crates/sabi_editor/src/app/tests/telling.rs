@@ -207,7 +207,7 @@ fn write_grid(file: &Path, side: usize) {
 #[test]
 fn a_model_that_takes_long_can_be_left_and_the_one_before_stays() {
     let mut window = Window::opened(CLOUDS);
-    window.until_model();
+    window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
     let before = window.editor().evaluation.model.file().to_owned();
     let grid = window.path("grid.obj");
     write_grid(&grid, 400);
