@@ -102,7 +102,7 @@ impl Editor {
         let shown = canonical_if_present(self.evaluation.model.file());
         match model.filter(|model| canonical_if_present(model) != shown) {
             Some(model) => self.take_model(&model),
-            None => self.documents.models.add(&self.evaluation.model.file().to_owned()),
+            None => self.documents.models.add(self.evaluation.model.file()),
         }
     }
 

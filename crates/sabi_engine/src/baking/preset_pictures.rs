@@ -52,7 +52,9 @@ fn picture(preset: &Preset, map: &Map) -> Option<PresetPicture> {
     let Content::Packed(components) = &map.content else {
         return None;
     };
-    let before = preset.names.split(['$', '{', '(']).next().unwrap_or_default();
+    // A pattern that begins with a token has nothing before it.
+    let first = preset.names.find(['$', '{', '(']).unwrap_or(preset.names.len());
+    let before = &preset.names[..first];
     // Gray and gray with alpha have one color component, the others three.
     let colors = if components.len() < 3 { 1 } else { 3 };
     let mut parts = Vec::new();
