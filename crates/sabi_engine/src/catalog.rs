@@ -185,7 +185,7 @@ fn entry_of_kind(kind: &Kind) -> Entry {
         ty: Some(input.ty),
         is_required: input.default == InputDefault::Required,
         unconnected: unconnected(input),
-        starts: starts(input),
+        starts: input.starts.clone(),
     });
     Entry {
         id: kind.id.clone(),
@@ -215,12 +215,6 @@ fn unconnected(input: &Input) -> Option<Value> {
         InputDefault::Expression(expression) => Some(expression.as_str().into()),
         InputDefault::PlainMaterial => Some("a plain gray material".into()),
     }
-}
-
-/// Parameter that gets a value once an input is connected, and this value.
-fn starts(input: &Input) -> Option<(String, Value)> {
-    let (name, value) = input.starts.as_ref()?;
-    Some((name.clone(), Value::Number(f64::from(*value)).canonical()?))
 }
 
 /// Input for a mask that multiplies a parameter.
@@ -295,7 +289,9 @@ fn reroute() -> Entry {
         label: "Reroute".to_owned(),
         summary: "A bend in a wire; passes its input on unchanged.".to_owned(),
         description: String::new(),
-        aliases: ["bend", "dot", "knot"].map(str::to_owned).to_vec(),
+        aliases: ["bend", "dot", "knot", "anchor point", "portal"]
+            .map(str::to_owned)
+            .to_vec(),
         inputs: vec![port("Anything.")],
         param_masks: Vec::new(),
         outputs: vec![port("The same.")],

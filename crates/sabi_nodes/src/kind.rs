@@ -12,7 +12,7 @@ mod written;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use sabi_graph::PortType;
+use sabi_graph::{PortType, Value};
 
 use crate::formula::Formula;
 
@@ -124,9 +124,9 @@ pub struct Input {
     pub reads: Reads,
     /// Value while nothing is connected.
     pub default: InputDefault,
-    /// Parameter that multiplies the input and is 0 by default, with the value that it gets once a wire is connected by hand, so
-    /// that the wire shows something.
-    pub starts: Option<(String, f32)>,
+    /// Parameter that multiplies the input, with the value that it gets once a wire is connected by hand, so that the wire shows
+    /// as it is.
+    pub starts: Option<(String, Value)>,
 }
 
 impl Input {

@@ -1,13 +1,39 @@
 //! Names of ports and parameters.
 
-/// Returns the label of a name: `tile_size` becomes `Tile size`.
+/// Words that are written otherwise than in names.
+const SPELLINGS: [(&str, &str); 6] = [
+    ("uv", "UV"),
+    ("srgb", "sRGB"),
+    ("rgb", "RGB"),
+    ("hsv", "HSV"),
+    ("id", "ID"),
+    ("ao", "AO"),
+];
+
+/// Returns the label of a name: `tile_size` becomes `Tile size`, and `uv_set` becomes `UV set`.
 pub fn label_of(name: &str) -> String {
-    let spaced = name.replace('_', " ");
-    let mut letters = spaced.chars();
-    match letters.next() {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => spaced,
-    }
+    let spelling = |word: &str| {
+        SPELLINGS
+            .iter()
+            .find(|(known, _)| *known == word)
+            .map(|(_, spelled)| *spelled)
+    };
+    let words = name.split(['_', ' ']).enumerate();
+    let words: Vec<String> = words
+        .map(|(at, word)| match spelling(word) {
+            Some(spelled) => spelled.to_owned(),
+            None if at == 0 => capitalized(word),
+            None => word.to_owned(),
+        })
+        .collect();
+    words.join(" ")
+}
+
+fn capitalized(word: &str) -> String {
+    let mut letters = word.chars();
+    letters
+        .next()
+        .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Returns true if a name can be that of a port, a parameter or a kind: `[a-z][a-z0-9_]*`.

@@ -4,7 +4,7 @@
 //! Mask and Opacity fade from the color below to the result of the mode, in linear light. The modes Hue, Saturation, Color
 //! and Luminosity take that property from the upper color and the rest from the lower one: Color tints, Luminosity brings
 //! light and shade. Values are not clamped. Unconnected, both sides are white.
-//! @alias blend mix combine tint multiply add screen overlay hue saturation luminosity
+//! @alias blend mix combine tint multiply add screen overlay hue saturation luminosity mixrgb
 //! @use blend color
 
 struct Params {

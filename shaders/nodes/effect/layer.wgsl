@@ -182,11 +182,11 @@ fn finished(
 /// The material with the layer on it.
 /// @input base The material underneath. @optional
 /// @input mask Where the layer lies. @optional @default 1
-/// @input color_map Colors of the layer. @optional @default #ffffff
+/// @input color_map Colors of the layer. @optional @default #ffffff @starts color #ffffff
 /// @input roughness_map Multiplies the roughness of the layer. @optional @default 1
 /// @input metallic_map Multiplies how metallic the layer is. @optional @default 1
 /// @input height_map Multiplies the height of the layer. @optional @default 1 @starts height 0.01
-/// @input occlusion_map Multiplies how open the layer is, as the output Ao of Occlusion does. @optional @default 1
+/// @input occlusion_map Multiplies how open the layer is, as the output AO of Occlusion does. @optional @default 1
 /// @input slope Normal map of the layer, as Image and Split material give it. @vector @optional @default 0 0 0
 /// @input coat_map Multiplies the clear coat of the layer. @optional @default 1
 /// @input anisotropy_direction Direction of the fine scratches, as Fibers gives it; where it is 0, along the texture coordinates. @vector @optional @default 0 0 0

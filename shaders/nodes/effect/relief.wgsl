@@ -5,7 +5,7 @@
 //! and Raised follow the mask itself. Dent and Bump are rounded. Groove and Ridge are rounded with material pushed aside:
 //! a scratch with raised edges, a weld bead. Cut and Plateau have steep walls where the mask is one half,
 //! and a flat floor or top: broken edges, flaked paint.
-//! @alias relief height dent bump hole scratch groove carve emboss displace broken raise sink
+//! @alias relief height dent bump hole scratch groove carve emboss displace broken raise sink displacement
 //! @use blend
 
 struct Params {

@@ -4,7 +4,7 @@
 //! The mask says how likely the upper material is: its odds are m / (1 − m). Height blend multiplies these odds by
 //! (1 + d) / (1 − d), where d is the difference of the heights divided by Height blend, limited to ±0.9. So a mask of 0
 //! or 1 is followed exactly, the mask's border has no steps, and in between sand fills the cracks between stones. A small Height blend makes a crisp border; 0 ignores the heights.
-//! @alias blend mix material over layer height
+//! @alias blend mix material over layer height shader
 //! @use blend
 
 struct Params {

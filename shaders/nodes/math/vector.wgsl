@@ -2,7 +2,7 @@
 //! Calculates with vectors: positions, directions and the slopes of normal maps.
 //!
 //! Slopes, as Split material and Image give them, are added to put one normal map over another.
-//! @alias vector math add slope normal combine detail cross dot length normalize project rotate scale reorient
+//! @alias vector math add slope normal combine detail cross dot length normalize project rotate scale reorient transform mapping turn
 //! @use noise
 
 struct Params {

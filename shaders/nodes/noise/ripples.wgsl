@@ -3,7 +3,7 @@
 //!
 //! Spread decides on the kind: straight stripes, waves, or a maze without a direction. The stripes run over seams. Stripes
 //! narrower than the texels fade to their mean.
-//! @alias stripes zebra sand dunes fingerprint ridges waves phasor gabor maze labyrinth wood grain brushed tiger
+//! @alias stripes zebra sand dunes fingerprint ridges waves phasor gabor maze labyrinth wood grain brushed tiger wave
 //! @use cells
 
 struct Params {

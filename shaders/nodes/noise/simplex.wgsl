@@ -4,7 +4,7 @@
 //! Fractal simplex noise: octaves of ever finer noise on top of each other. The result is a mask whose threshold is the
 //! covered share: a threshold at 0.3 leaves about 30 % of the surface below it. Detail finer than the texels fades out
 //! evenly, so a small map looks like a large one from afar.
-//! @alias clouds perlin fbm fractal billow ridged turbulence simplex grunge dirt
+//! @alias clouds perlin fbm fractal billow ridged turbulence simplex grunge dirt musgrave
 //! @use noise
 
 struct Params {

@@ -4,7 +4,7 @@
 //! Rays go out to all sides of a place; the result is the share of them that hits the model from inside minus the share that
 //! hits it from outside. It does not depend on the triangles of the model: an edge of 90 degrees gives 0.5, one of 45
 //! degrees 0.25, and the values fall evenly to 0 within the radius.
-//! @alias convex concave bend edge crease wear
+//! @alias convex concave bend edge crease wear pointiness
 //! @use rays
 
 struct Params {

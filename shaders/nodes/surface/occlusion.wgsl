@@ -3,7 +3,7 @@
 //!
 //! Rays go out from each place into the hemisphere above the surface, most of them along the normal; the mask is the share
 //! that hits the model within the distance. Dust and dirt lie where it is high.
-//! @alias ao ambient occlusion crevice crease corner dirt shadow exposure
+//! @alias ao ambient occlusion crevice crease corner dirt shadow exposure hbao
 //! @use rays
 
 struct Params {

@@ -2,7 +2,7 @@
 //! A ramp over the model along one direction, such as from the ground to the top.
 //!
 //! 0 and 1 of Low and High are the ends of the model, whatever its size, so the ramp fits any model.
-//! @alias position height ramp gradient ground bottom top altitude
+//! @alias position height ramp gradient ground bottom top altitude coordinate
 
 struct Params {
     /// Direction of the ramp, in model space.

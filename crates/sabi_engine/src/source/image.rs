@@ -31,6 +31,7 @@ pub(crate) fn kind() -> SourceKind {
             "photo",
             "decal",
             "stamp",
+            "transform",
             "triplanar",
             "normal map",
         ]

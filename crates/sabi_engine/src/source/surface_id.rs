@@ -24,9 +24,19 @@ pub(crate) fn kind() -> SourceKind {
         id: NAME.to_owned(),
         label: "Parts".to_owned(),
         summary: "Divides the model into parts, or selects some of them.".to_owned(),
-        aliases: ["part", "object", "select", "pick", "piece", "plank", "random", "island"]
-            .map(str::to_owned)
-            .to_vec(),
+        aliases: [
+            "part",
+            "object",
+            "select",
+            "pick",
+            "piece",
+            "plank",
+            "random",
+            "island",
+            "flood fill",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
         params: vec![
             Param::choice(
                 "by",

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use naga::{Module, TypeInner};
-use sabi_graph::PortType;
+use sabi_graph::{PortType, Value};
 
 use super::{Draft, PortReader, is_field, port_type};
 use crate::annotations::{Annotation, number};
@@ -161,21 +161,16 @@ pub(super) fn read_input(
 }
 
 /// Reads `@starts parameter value`.
-fn starts(reader: &mut PortReader<'_>, annotation: &Annotation) -> Option<(String, f32)> {
-    let words: Vec<&str> = annotation.words.iter().map(|word| word.text.as_str()).collect();
-    let value = annotation.words.get(1).and_then(number);
-    let is_number = |name: &str| {
-        let mut params = reader.params.iter();
-        params.any(|param| param.name == name && param.ty.components() == 1)
-    };
-    if let ([name, _], Some(value)) = (words.as_slice(), value)
-        && is_number(name)
+fn starts(reader: &mut PortReader<'_>, annotation: &Annotation) -> Option<(String, Value)> {
+    if let [name, value] = annotation.words.as_slice()
+        && let Some(param) = reader.params.iter().find(|param| param.name == name.text)
+        && let Ok(value) = param.ty.parse(&value.text)
     {
-        return Some(((*name).to_owned(), value));
+        return Some((name.text.clone(), value));
     }
     reader.at(
         annotation.whole(),
-        "`@starts` takes a parameter that is one number, and the value that it gets once a wire is connected.",
+        "`@starts` takes a parameter, and the value that it gets once a wire is connected.",
         "Write `@starts height 0.01`.",
     );
     None

@@ -220,7 +220,7 @@ fn what_does_not_fit_is_refused() {
 }
 
 #[test]
-fn the_value_that_a_wire_starts_names_a_parameter_that_is_one_number() {
+fn the_value_that_a_wire_starts_is_one_that_a_parameter_takes() {
     for starts in ["@starts height 1", "@starts gain"] {
         let source = format!("/// Mask.\n/// @input a One. {starts}\nfn mask(a: f32) -> f32 {{ return a; }}\n");
         let message = read(&source).unwrap_err();
