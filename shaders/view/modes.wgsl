@@ -25,3 +25,4 @@ const SHEEN: u32 = 19u;
 const SHEEN_ROUGHNESS: u32 = 20u;
 const SUBSURFACE: u32 = 21u;
 const TRANSMISSION: u32 = 22u;
+const NODE_ON_CLAY: u32 = 23u;

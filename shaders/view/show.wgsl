@@ -25,6 +25,14 @@ fn density_color(density: f32) -> vec3f {
     return mix(even, far, abs(doublings));
 }
 
+// A node's own result as a color.
+fn node_color(value: vec4f) -> vec3f {
+    if SHOWN_TYPE == SHOWN_COLOR {
+        return code_of(value.xyz);
+    }
+    return select(vec3f(value.x), value.xyz * 0.5 + 0.5, SHOWN_TYPE == SHOWN_VECTOR);
+}
+
 fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
     let to_eye = -ray_through(pixel.position);
     switch MODE {
@@ -47,12 +55,13 @@ fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
         case SHEEN_ROUGHNESS: { return vec3f(spot.sheen.w); }
         case SUBSURFACE: { return code_of(spot.subsurface.xyz); }
         case TRANSMISSION: { return vec3f(spot.subsurface.w); }
-        case NODE: {
+        case NODE: { return node_color(value_at(colors, pixel.place)); }
+        case NODE_ON_CLAY: {
             let value = value_at(colors, pixel.place);
-            if SHOWN_TYPE == SHOWN_COLOR {
-                return code_of(value.xyz);
+            if SHOWN_TYPE == SHOWN_COLOR || SHOWN_TYPE == SHOWN_VECTOR {
+                return node_color(value);
             }
-            return select(vec3f(value.x), value.xyz * 0.5 + 0.5, SHOWN_TYPE == SHOWN_VECTOR);
+            return vec3f(mix(0.3, 0.95, clamp(value.x, 0.0, 1.0))) * shade_of(spot.normal, to_eye);
         }
         case CHECKER: { return checker(pixel.place.texel - chart_row(pixel.chart).xy) * shade_of(spot.smooth_normal, to_eye); }
         case DENSITY: { return density_color(pixel.extra.x) * shade_of(spot.smooth_normal, to_eye); }

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod bloom;
+mod clay;
 mod default_look;
 mod extents;
 mod finishes;

@@ -46,14 +46,16 @@ pub struct MaterialLook {
     pub surface: [f32; 3],
     /// True if alpha is 1 everywhere, so that nothing shows through the surface.
     pub is_opaque: bool,
-    /// A node's own result, for [`Mode::Node`].
+    /// A node's own result, for [`Mode::Node`] and [`Mode::NodeOnClay`].
     pub node: Option<NodeLook>,
 }
 
 impl MaterialLook {
-    /// The node's own result in the mode that shows it.
+    /// The node's own result in the modes that show it.
     pub(crate) fn shown_node(&self, mode: Mode) -> Option<&NodeLook> {
-        self.node.as_ref().filter(|_| mode == Mode::Node)
+        self.node
+            .as_ref()
+            .filter(|_| matches!(mode, Mode::Node | Mode::NodeOnClay))
     }
 
     /// Textures to bind as the maps of `maps.wgsl`, in their order. A node's own result takes the place of the colors.
@@ -275,6 +277,8 @@ pub enum Mode {
     Transmission,
     /// A node's own result.
     Node,
+    /// A node's own mask on clay, dark where it is 0, so that the shape is seen while it is painted; other results as they are.
+    NodeOnClay,
     /// Squares along the texture coordinates.
     Checker,
     /// Density of texels relative to the mean.
@@ -288,7 +292,7 @@ pub enum Mode {
 }
 
 /// Names of modes, with their numbers in `modes.wgsl`.
-const MODES: [(&str, Mode, u32); 23] = [
+const MODES: [(&str, Mode, u32); 24] = [
     ("material", Mode::Material, 0),
     ("base_color", Mode::BaseColor, 1),
     ("opacity", Mode::Opacity, 2),
@@ -307,6 +311,7 @@ const MODES: [(&str, Mode, u32); 23] = [
     ("subsurface", Mode::Subsurface, 21),
     ("transmission", Mode::Transmission, 22),
     ("node", Mode::Node, 9),
+    ("node_on_clay", Mode::NodeOnClay, 23),
     ("checker", Mode::Checker, 10),
     ("density", Mode::Density, 11),
     ("facing", Mode::Facing, 12),
@@ -325,7 +330,7 @@ impl Mode {
 
     /// Returns true if the mode can be chosen by its name alone.
     fn can_be_chosen(self) -> bool {
-        !matches!(self, Mode::Node | Mode::Shift)
+        !matches!(self, Mode::Node | Mode::NodeOnClay | Mode::Shift)
     }
 
     /// Names of all modes with their numbers in `modes.wgsl`.
