@@ -13,7 +13,7 @@ use crate::{connections, layers, nodes, stack, wires};
 /// Kind of an output, of the model's own material, and of the layer that carries its normal map.
 const OUTPUT: &str = "output/material";
 const OWN_MATERIAL: &str = "source/model";
-const LAYER: &str = "effect/layer";
+pub(crate) const LAYER: &str = "effect/layer";
 /// Space between a new output and the nodes before it, canvas points.
 const BESIDE: f32 = 60.0;
 

@@ -200,7 +200,7 @@ fn add_entry(
     let mut edits = vec![new_nodes::addition(document, &id, node)];
     edits.extend(link_edit(document, end, link.slot.as_ref(), Some(&given)));
     edits.extend(moves);
-    let is_made = document.edit("Add layer", edits);
+    let is_made = document.edit(&format!("Add layer {}", entry.label), edits);
     is_made.then(|| {
         document.select([id.clone()]);
         id
@@ -258,7 +258,9 @@ pub(crate) fn add_over(document: &mut OpenDocument, id: &NodeId, kind: &str, gro
         output: Some(layer.clone()),
     }));
     edits.extend(moves);
-    document.edit("Add layer", edits).then_some(new)
+    document
+        .edit(&format!("Add layer {}", entry.label), edits)
+        .then_some(new)
 }
 
 fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, label: &str) -> Option<String> {

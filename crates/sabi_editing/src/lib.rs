@@ -48,6 +48,7 @@ pub mod frames;
 mod group_files;
 mod group_import;
 pub mod groups;
+pub mod hand_layers;
 pub mod instance_variants;
 mod instances;
 pub mod knob_target;

@@ -12,7 +12,10 @@ use crate::names::{FILE_ENDING, is_file, knob_label};
 use crate::node_size::GRID;
 use crate::open_document::OpenDocument;
 use crate::variants::NO_VARIANT;
-use crate::{connections, new_nodes, panel_values, reconnection};
+use crate::{connections, new_nodes, node_size, panel_values, reconnection};
+
+/// Space between a node and one that was moved aside for it, canvas points.
+const GAP: f32 = 2.0 * GRID;
 
 /// Adds a node of a kind, connects it to a pending wire if it fits, and selects it.
 pub fn add(document: &mut OpenDocument, kind: &str, pos: [f32; 2], pending: Option<&PendingWire>) -> Option<NodeId> {
@@ -127,6 +130,45 @@ fn place_new(
         document.select([id.clone()]);
         id
     })
+}
+
+/// Place for a new node with these ports, where it is not stacked on another one: this place, or else the nearest one beside, above
+/// or below what is there. Nodes that overlap at their borders are not stacked.
+pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32; 2] {
+    let size = node_size::size_of(face);
+    let boxes: Vec<[[f32; 2]; 2]> = document
+        .graph()
+        .nodes()
+        .map(|(id, node)| [node.pos, node_size::of(document, id)])
+        .collect();
+    let is_free = |place: [f32; 2]| {
+        boxes.iter().all(|[pos, of]| {
+            let is_apart = |axis: usize| place[axis] >= pos[axis] + of[axis] || pos[axis] >= place[axis] + size[axis];
+            is_apart(0) || is_apart(1)
+        })
+    };
+    let is_inside = |at: [f32; 2], [pos, of]: [[f32; 2]; 2]| {
+        let is_within = |axis: usize| (pos[axis]..pos[axis] + of[axis]).contains(&at[axis]);
+        is_within(0) && is_within(1)
+    };
+    let middle = |[pos, of]: [[f32; 2]; 2]| [0, 1].map(|axis| pos[axis] + of[axis] / 2.0);
+    let own = [place, size];
+    let is_on = |other: &[[f32; 2]; 2]| is_inside(middle(own), *other) || is_inside(middle(*other), own);
+    if !boxes.iter().any(is_on) {
+        return place;
+    }
+    let [x, y] = place;
+    let beside = boxes.iter().flat_map(|[pos, of]| {
+        let low = [0, 1].map(|axis| pos[axis] - size[axis] - GAP);
+        let high = [0, 1].map(|axis| pos[axis] + of[axis] + GAP);
+        [[high[0], y], [x, high[1]], [low[0], y], [x, low[1]]]
+    });
+    let distance = |[to_x, to_y]: &[f32; 2]| (to_x - x).hypot(to_y - y);
+    let nearest = beside
+        .filter(|place| is_free(*place))
+        .min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    // One of the places around the outermost node on each side is free.
+    nearest.unwrap_or(place)
 }
 
 /// First position without a node, from the given one down to the right: nodes at the same position would hide each other.

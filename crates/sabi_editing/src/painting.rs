@@ -14,6 +14,8 @@ use crate::open_document::OpenDocument;
 pub const PAINT: &str = "source/paint";
 /// Parameter of a paint node that names its strokes.
 pub const STROKES: &str = "strokes";
+/// Parameter of a paint node that is the mask where nothing was painted.
+pub(crate) const EMPTY: &str = "empty";
 /// Space between a node and the paint node behind it, canvas points.
 const GAP: f32 = 60.0;
 

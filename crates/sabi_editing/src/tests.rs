@@ -10,6 +10,7 @@ mod finding;
 mod framing;
 mod group_ports;
 mod grouping;
+mod hand_layers;
 mod inserting;
 mod layering;
 mod node_edits;

@@ -8,6 +8,7 @@ use sabi_graph::{NodeId, NodeRows, SlotRef, Value};
 use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;
 use crate::dropped_layers::DroppedOn;
+use crate::hand_layers::HandLayer;
 use crate::knob_target::KnobTarget;
 use crate::stack::StackEnd;
 
@@ -222,6 +223,20 @@ pub enum LayerCommand {
         node: NodeId,
         /// Node or group that is added.
         source: NodeSource,
+    },
+    /// Add a layer that is filled or painted over all others of a stack.
+    AddByHand {
+        /// Output of the stack; none for the only one, which is added where there is none.
+        end: Option<StackEnd>,
+        /// Layer that is added.
+        what: HandLayer,
+    },
+    /// Add a mask to a layer that is painted, in place of another one.
+    PaintMask {
+        /// Node of the layer.
+        node: NodeId,
+        /// The mask where nothing is painted.
+        empty: f64,
     },
     /// Disconnect the mask of a layer, which stays in the graph.
     RemoveMask(NodeId),

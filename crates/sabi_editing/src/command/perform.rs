@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use sabi_engine::catalog::label_of;
 use sabi_graph::{GROUP_KIND, NodeId, Value};
 
 use super::{
@@ -10,11 +11,12 @@ use super::{
     PanelCommand, PortCommand, SelectionCommand, VariantCommand, WireCommand,
 };
 use crate::connections::PendingWire;
+use crate::names::FILE_ENDING;
 use crate::open_document::OpenDocument;
 use crate::{
-    arrangement, clipboard, document_settings, dropped_layers, duplication, frames, groups, instance_variants,
-    knob_target, layers, library, linked_groups, navigation, node_replacement, nodes, notes, painting, panel,
-    panel_values, ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
+    arrangement, clipboard, document_settings, dropped_layers, duplication, frames, groups, hand_layers,
+    instance_variants, knob_target, layers, library, linked_groups, navigation, node_replacement, nodes, notes,
+    painting, panel, panel_values, ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
 };
 
 /// Performs a command on the open document.
@@ -101,7 +103,7 @@ fn node(document: &mut OpenDocument, command: NodeCommand) -> Outcome {
             pending,
             into,
         } => {
-            document.session.begin("Add");
+            document.session.begin(&format!("Add {}", name_of(document, &source)));
             let added = match &source {
                 NodeSource::Kind(kind) => nodes::add(document, kind, place, pending.as_ref()),
                 NodeSource::Group(group) => nodes::add_instance(document, group, place, pending.as_ref()),
@@ -324,6 +326,17 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
             };
             return node(document, add);
         }
+        LayerCommand::AddByHand { end, what } => {
+            let step = format!("Add {}", what.title());
+            return added_as(as_one_step(document, &step, |document| {
+                hand_layers::add(document, end.as_ref(), what)
+            }));
+        }
+        LayerCommand::PaintMask { node, empty } => {
+            return added_as(as_one_step(document, "Paint the mask", |document| {
+                hand_layers::paint_mask(document, &node, empty)
+            }));
+        }
         LayerCommand::RemoveMask(id) => layers::remove_mask(document, &id),
         LayerCommand::Add { end, at, kind } => return added_as(layers::add(document, &end, at, &kind)),
         LayerCommand::AddOnModel {
@@ -350,14 +363,39 @@ fn drop_layer(
     source: &NodeSource,
     add: impl FnOnce(&mut OpenDocument, (&str, Option<&str>)) -> Option<NodeId>,
 ) -> Option<NodeId> {
-    document.session.begin("Add layer");
-    let added = match source {
+    let step = format!("Add layer {}", name_of(document, source));
+    as_one_step(document, &step, |document| match source {
         NodeSource::Kind(kind) => add(document, (kind, None)),
         NodeSource::Group(group) => add(document, (GROUP_KIND, Some(group))),
         NodeSource::Library(file) => {
             library::import(document, file).and_then(|group| add(document, (GROUP_KIND, Some(&group))))
         }
-    };
+    })
+}
+
+/// Name of a node or group that is added, for the history.
+fn name_of(document: &OpenDocument, source: &NodeSource) -> String {
+    match source {
+        NodeSource::Kind(kind) => {
+            let entry = document.catalog().entry(kind);
+            entry.map_or_else(|| kind.clone(), |entry| entry.label.clone())
+        }
+        NodeSource::Group(group) => {
+            let name = group.rsplit('/').next().unwrap_or(group);
+            name.strip_suffix(FILE_ENDING).unwrap_or(name).to_owned()
+        }
+        NodeSource::Library(file) => label_of(&file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy()),
+    }
+}
+
+/// Performs edits as one step, which is taken back where they add nothing, and selects the node that they add.
+fn as_one_step(
+    document: &mut OpenDocument,
+    step: &str,
+    add: impl FnOnce(&mut OpenDocument) -> Option<NodeId>,
+) -> Option<NodeId> {
+    document.session.begin(step);
+    let added = add(document);
     match &added {
         Some(id) => {
             document.select([id.clone()]);

@@ -223,3 +223,16 @@ fn a_node_of_the_main_graph_is_muted_once_and_from_everywhere() {
     document.undo();
     assert!(document.node(&noise).is_some_and(|node| !node.muted));
 }
+
+#[test]
+fn a_node_that_would_be_stacked_on_another_one_lies_beside_it() {
+    let document = opened("", r#""n": { "kind": "noise/cells", "pos": [0, 0] }"#);
+    let face = document.face(&id("n")).cloned().expect("a node");
+    let size = node_size::size_of(&face);
+    let at_border = [0.0, size[1] - 10.0];
+    assert_eq!(nodes::uncovered(&document, &face, at_border), at_border);
+    for place in [[0.0, 0.0], [30.0, -20.0], [90.0, 100.0]] {
+        let [x, y] = nodes::uncovered(&document, &face, place);
+        assert!(x.abs() >= size[0] || y.abs() >= size[1], "{place:?}: {x} {y}");
+    }
+}
