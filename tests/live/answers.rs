@@ -217,7 +217,7 @@ fn a_newer_wish_ends_the_older_one() {
 fn the_exact_values_of_a_node_are_told_once() {
     let window = Window::new();
     let looking = |revision: u64, at: f32| sabi_engine::LiveRequest {
-        inspected: Some(node("cut")),
+        inspected: vec![node("cut")],
         ..request(revision, graph(&rusty(at)))
     };
     let values = |told: &crate::window::Told| {

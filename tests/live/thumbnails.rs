@@ -93,7 +93,7 @@ fn of_several_texture_sets_the_wanted_one_is_shown_where_texture_space_is() {
     let wished = |revision: u64, set: Option<SetKey>| LiveRequest {
         model: Arc::new(model.clone()),
         model_revision: 1,
-        inspected: Some(node("red")),
+        inspected: vec![node("red")],
         is_flat: true,
         set,
         ..pictured(revision, NODES, &["red"])

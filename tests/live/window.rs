@@ -74,7 +74,7 @@ pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
         model_revision: 0,
         coarse_size: COARSE,
         subjects: vec![ViewSubject::Outputs],
-        inspected: None,
+        inspected: Vec::new(),
         set: None,
         thumbnails: Vec::new(),
         outputs_thumbnail: false,

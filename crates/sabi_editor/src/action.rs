@@ -13,9 +13,10 @@ use sabi_engine::paint::{Stroke, Version};
 use sabi_engine::view::Mode;
 use sabi_graph::{NodeId, NodeRef, Value};
 
+use crate::brush::text::TextFont;
 use crate::brush_shelf::KeptBrush;
 use crate::command::{Command, InputPreset};
-use crate::dock::Panel;
+use crate::dock::{Panel, Workspace};
 use crate::import_options::ImportOptions;
 use crate::knobs::KnobEvent;
 use crate::settings::brush::BrushChoices;
@@ -96,8 +97,8 @@ pub(crate) enum Action {
     Setting(SettingAction),
     /// Bring a panel to the front.
     ShowPanel(Panel),
-    /// Restore the layout of a new installation.
-    ResetPanels,
+    /// Arrange the panels for a kind of work.
+    Arrange(Workspace),
     /// Show the start page.
     ShowStartPage,
 }
@@ -235,6 +236,8 @@ pub(crate) enum ExportAction {
 /// Action of the brush.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PaintAction {
+    /// Drags on the model paint on the selected paint node from now on, perhaps with another value of the brush.
+    PaintSelected { value: Option<f32> },
     /// The brush touches the model: a step begins.
     Begin,
     /// The stroke so far.
@@ -265,6 +268,10 @@ pub(crate) enum PaintAction {
     TakeNode(NodeRef),
     /// Use a text as the tip of the brush.
     TakeText(String),
+    /// Use this font for texts from now on.
+    ChooseFont(TextFont),
+    /// Ask for a font file.
+    AskForFont,
     /// Hold the stencil so.
     ChooseStencil(Box<StencilChoices>),
     /// Ask for a picture for the stencil.

@@ -29,6 +29,7 @@ use crate::model_row::ModelRow;
 use crate::node_tips::NodeTips;
 use crate::notices::Work;
 use crate::packing::Packing;
+use crate::panels::input_histogram;
 use crate::pen::Pens;
 use crate::trials::{TrialSource, Trials};
 use crate::views::Views;
@@ -184,6 +185,7 @@ impl Editor {
         self.documents.refresh_candidates();
         self.keep_open(ui);
         actions.extend(self.show(ui));
+        self.mark_hovered_file(ui);
         self.shell.leave_hidden_panel(&mut self.views);
         let document = &self.documents.document;
         let said = |sentence: &str| node_paths::with_titles(document, sentence);
@@ -239,6 +241,7 @@ impl Editor {
         let wanted = Wanted {
             subjects: [on_model].into_iter().chain(self.looks.beside_model()).collect(),
             inspected: self.looks.inspected().cloned(),
+            measured: input_histogram::measured(document).filter(|_| is_shown(Panel::Parameters)),
             set: self.views.flat.set,
             thumbnails: nodes
                 .filter(|_| is_shown(Panel::Canvas))

@@ -33,7 +33,7 @@ mod wires;
 
 use std::sync::Arc;
 
-use egui::{Pos2, Rect, Sense, Ui, pos2};
+use egui::{Align2, FontId, Pos2, Rect, Sense, Ui, pos2};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::{OpenDocument, node_paths, node_size};
 use sabi_engine::catalog::Entry;
@@ -41,10 +41,12 @@ use sabi_graph::{NodeId, NodeRef, OutputRef, SlotRef};
 
 use crate::action::{Action, ArrowKey};
 use crate::bars;
-use crate::command::{CanvasCommand, InputPreset};
+use crate::command::{CanvasCommand, Command, InputPreset};
 use crate::context::ViewContext;
+use crate::files::new_graph::is_untouched;
+use crate::key_map::KeyMap;
 use crate::search::Candidate;
-use crate::theme::Theme;
+use crate::theme::{Theme, type_size};
 use add_menu::{AddMenu, Purpose};
 use camera::Camera;
 use dragged_node::EdgeScroll;
@@ -96,6 +98,8 @@ struct CanvasContext<'a> {
     pub(crate) pinned: Option<&'a NodeId>,
     /// True if the mini map is shown.
     pub(crate) has_map: bool,
+    /// Sentences about what can be done in a graph that nothing was done in yet.
+    pub(crate) hint: Option<[String; 2]>,
 }
 
 impl crate::context::View for Canvas {
@@ -129,6 +133,7 @@ impl crate::context::View for Canvas {
             preset: settings.input_preset,
             pinned: pinned.as_ref(),
             has_map: settings.has_mini_map,
+            hint: is_untouched(document.graph()).then(|| hint(context.keys)),
         };
         actions.extend(self.draw(ui, &canvas_context));
         actions
@@ -155,6 +160,9 @@ impl Canvas {
         self.snapshot.sync(context.document);
         self.camera.zoom_and_pan(ui, panel);
         draw_grid(ui, panel, &self.camera.view, context.theme);
+        if let Some(hint) = &context.hint {
+            draw_hint(ui, panel, hint, context.theme);
+        }
         let mut actions = Vec::new();
         frames::show(self, ui, panel, context, &mut actions);
         notes::show(self, ui, panel, context, &mut actions);
@@ -298,6 +306,31 @@ fn node_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
         pos2(pos[0], pos[1]),
         node_size::of(document, id).into(),
     ))
+}
+
+/// What can be done in a graph that nothing was done in yet.
+fn hint(keys: &KeyMap) -> [String; 2] {
+    let add = keys.shown(Command::Canvas(CanvasCommand::AddMenu));
+    [
+        "Drag an effect from the Library onto the model.".to_owned(),
+        format!("{add} or a right-click adds a node here."),
+    ]
+}
+
+/// Writes sentences below the middle of the canvas.
+fn draw_hint(ui: &Ui, panel: Rect, lines: &[String], theme: &Theme) {
+    let mut top = panel.center().y + panel.height() * 0.3;
+    for line in lines {
+        let font = FontId::proportional(type_size::HEADING);
+        let text = ui
+            .painter()
+            .layout(line.clone(), font, theme.quiet, panel.width() * 0.9);
+        let place = Align2::CENTER_TOP.anchor_size(pos2(panel.center().x, top), text.size());
+        top = place.bottom();
+        ui.painter().galley(place.min, text, theme.quiet);
+        let told = ui.interact(place, ui.id().with(("hint", line)), Sense::hover());
+        told.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Label, true, line));
+    }
 }
 
 fn draw_grid(ui: &Ui, panel: Rect, view: &View, theme: &Theme) {

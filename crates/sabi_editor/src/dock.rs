@@ -78,32 +78,116 @@ impl Panel {
 /// Arrangement of the panels.
 pub(crate) type Layout = Tree<Panel>;
 
-/// Returns the layout of a new installation: the model and the texture on the left, the graph in the middle.
-fn default_layout() -> Layout {
-    let mut tiles = Tiles::default();
-    let mut tabs = |panels: &[Panel]| {
-        let ids: Vec<TileId> = panels.iter().map(|panel| tiles.insert_pane(*panel)).collect();
-        tiles.insert_tab_tile(ids)
-    };
-    let model = tabs(&[Panel::Viewport]);
-    let flat = tabs(&[Panel::Flat]);
-    let graph = tabs(&[Panel::Canvas]);
-    let knobs = tabs(&[Panel::Parameters, Panel::Stack, Panel::Export]);
-    let more = tabs(&[
-        Panel::Library,
-        Panel::History,
-        Panel::Problems,
-        Panel::Performance,
-        Panel::Page,
-    ]);
-    let left = split(&mut tiles, LinearDir::Vertical, &[(model, 0.64), (flat, 0.36)]);
-    let right = split(&mut tiles, LinearDir::Vertical, &[(knobs, 0.62), (more, 0.38)]);
-    let root = split(
-        &mut tiles,
-        LinearDir::Horizontal,
-        &[(left, 0.34), (graph, 0.45), (right, 0.21)],
-    );
-    Tree::new("panels", root, tiles)
+/// Arrangement of the panels for a kind of work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Workspace {
+    /// A large model beside the graph: the layout of a new installation.
+    Material,
+    /// The model above the texture, both beside the graph.
+    Texture,
+    /// The model and the texture beside each other, with brush and layers.
+    Paint,
+    /// The model alone, with its parameters.
+    Look,
+}
+
+/// Tabs of a part of the window, the first one in front.
+type Tabs = &'static [Panel];
+
+/// Panels at the right of most workspaces, above and below.
+const KNOBS: Tabs = &[Panel::Parameters, Panel::Stack, Panel::Export];
+const MORE: Tabs = &[
+    Panel::Library,
+    Panel::History,
+    Panel::Problems,
+    Panel::Performance,
+    Panel::Page,
+];
+
+impl Workspace {
+    /// All workspaces with their titles.
+    pub(crate) const ALL: [(Workspace, &'static str); 4] = [
+        (Workspace::Material, "Material"),
+        (Workspace::Texture, "Texture"),
+        (Workspace::Paint, "Paint"),
+        (Workspace::Look, "Look"),
+    ];
+
+    /// Sentence about what it shows.
+    pub(crate) fn about(self) -> &'static str {
+        match self {
+            Workspace::Material => "A large model beside the graph",
+            Workspace::Texture => "The model above its texture, beside the graph",
+            Workspace::Paint => "The model and its texture, with the brush and the layers",
+            Workspace::Look => "The model alone, with its parameters",
+        }
+    }
+
+    /// Columns of the window, each with its share of the width, and its rows with their shares of the height.
+    fn columns(self) -> Vec<(f32, Vec<(f32, Tabs)>)> {
+        let right = |share: f32| (share, vec![(0.62, KNOBS), (0.38, MORE)]);
+        let one = |share: f32, tabs: Tabs| (share, vec![(1.0, tabs)]);
+        match self {
+            Workspace::Material => vec![
+                one(0.41, &[Panel::Viewport, Panel::Flat]),
+                one(0.38, &[Panel::Canvas]),
+                right(0.21),
+            ],
+            Workspace::Texture => vec![
+                (0.34, vec![(0.64, &[Panel::Viewport]), (0.36, &[Panel::Flat])]),
+                one(0.45, &[Panel::Canvas]),
+                right(0.21),
+            ],
+            Workspace::Paint => vec![
+                one(0.46, &[Panel::Viewport]),
+                one(0.31, &[Panel::Flat, Panel::Canvas]),
+                (
+                    0.23,
+                    vec![
+                        (0.62, &[Panel::Parameters]),
+                        (
+                            0.38,
+                            &[
+                                Panel::Stack,
+                                Panel::Library,
+                                Panel::History,
+                                Panel::Export,
+                                Panel::Problems,
+                                Panel::Performance,
+                                Panel::Page,
+                            ],
+                        ),
+                    ],
+                ),
+            ],
+            Workspace::Look => vec![one(0.77, &[Panel::Viewport, Panel::Flat, Panel::Canvas]), right(0.23)],
+        }
+    }
+
+    /// The panels as this workspace arranges them.
+    fn layout(self) -> Layout {
+        let mut tiles = Tiles::default();
+        let columns: Vec<(TileId, f32)> = self
+            .columns()
+            .into_iter()
+            .map(|(width, rows)| {
+                let rows: Vec<(TileId, f32)> = rows
+                    .into_iter()
+                    .map(|(height, panels)| {
+                        let ids = panels.iter().map(|panel| tiles.insert_pane(*panel)).collect();
+                        (tiles.insert_tab_tile(ids), height)
+                    })
+                    .collect();
+                let column = match rows.as_slice() {
+                    [(only, _)] => *only,
+                    rows => split(&mut tiles, LinearDir::Vertical, rows),
+                };
+                (column, width)
+            })
+            .collect();
+        let root = split(&mut tiles, LinearDir::Horizontal, &columns);
+        Tree::new("panels", root, tiles)
+    }
 }
 
 /// Only the model and the published parameters, for people who never open the graph.
@@ -130,7 +214,7 @@ fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> T
 /// A layout of settings, or the default one where it lacks a panel, as those of older versions may.
 fn complete_or_default(layout: Option<Layout>) -> Layout {
     let has_all = |layout: &Layout| layout.root().is_some() && Panel::ALL.iter().all(|panel| has(layout, *panel));
-    layout.filter(has_all).unwrap_or_else(default_layout)
+    layout.filter(has_all).unwrap_or_else(|| Workspace::Material.layout())
 }
 
 /// Returns whether a layout contains a panel.
@@ -198,9 +282,9 @@ impl Dock {
         self.is_use_view()
     }
 
-    /// Restores the layout of a new installation.
-    pub(crate) fn reset(&mut self) {
-        self.layout = default_layout();
+    /// Arranges the panels as a workspace has them.
+    pub(crate) fn arrange(&mut self, workspace: Workspace) {
+        self.layout = workspace.layout();
         self.use_layout = None;
     }
 
@@ -369,28 +453,33 @@ impl egui_tiles::Behavior<Panel> for Docked<'_> {
 mod tests {
     use super::*;
 
+    fn panels(layout: &Layout) -> Vec<Panel> {
+        let panes = layout.tiles.tiles().filter_map(|tile| match tile {
+            egui_tiles::Tile::Pane(panel) => Some(*panel),
+            egui_tiles::Tile::Container(_) => None,
+        });
+        let mut panels: Vec<Panel> = panes.collect();
+        panels.sort();
+        panels
+    }
+
     #[test]
-    fn every_panel_is_somewhere_and_a_layout_without_one_is_not_taken() {
-        let layout = default_layout();
-        let count = layout
-            .tiles
-            .tiles()
-            .filter(|tile| matches!(tile, egui_tiles::Tile::Pane(_)))
-            .count();
-        assert_eq!(count, Panel::ALL.len());
-        let taken = complete_or_default(Some(use_layout()));
-        let count = taken
-            .tiles
-            .tiles()
-            .filter(|tile| matches!(tile, egui_tiles::Tile::Pane(_)))
-            .count();
-        assert_eq!(count, Panel::ALL.len());
+    fn every_workspace_has_every_panel_once_and_a_layout_without_one_is_not_taken() {
+        let mut all = Panel::ALL.to_vec();
+        all.sort();
+        for (workspace, title) in Workspace::ALL {
+            assert_eq!(panels(&workspace.layout()), all, "{title}");
+            let shares: f32 = workspace.columns().iter().map(|(share, _)| share).sum();
+            assert!((shares - 1.0).abs() < 1e-6, "{title}: {shares}");
+        }
+        assert_eq!(panels(&complete_or_default(Some(use_layout()))), all);
     }
 
     #[test]
     fn a_layout_is_kept_as_text() {
-        let text = serde_json::to_string(&default_layout()).expect("text");
+        let layout = Workspace::Material.layout();
+        let text = serde_json::to_string(&layout).expect("text");
         let read: Layout = serde_json::from_str(&text).expect("a layout");
-        assert_eq!(read.root(), default_layout().root());
+        assert_eq!(read.root(), layout.root());
     }
 }

@@ -45,7 +45,10 @@ const SHORT_SUBMISSION: Duration = Duration::from_millis(8);
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Wanted {
     pub(crate) subjects: Vec<ViewSubject>,
+    /// Result that the 2D view shows.
     pub(crate) inspected: Option<NodeRef>,
+    /// Result whose histogram is shown among parameters.
+    pub(crate) measured: Option<NodeRef>,
     pub(crate) set: Option<SetKey>,
     pub(crate) thumbnails: Vec<NodeRef>,
     pub(crate) is_flat: bool,
@@ -243,6 +246,7 @@ impl Evaluation {
         {
             return;
         }
+        self.results.share_values(&wanted);
         let dropped = self.results.evict(document, &wanted, self.model.revision);
         self.mark_dropped(dropped);
         self.requests += 1;
@@ -258,7 +262,7 @@ impl Evaluation {
             model_revision: self.model.revision,
             coarse_size: COARSE,
             subjects: wanted.subjects.clone(),
-            inspected: wanted.inspected.clone(),
+            inspected: wanted.inspected.iter().chain(&wanted.measured).cloned().collect(),
             set: wanted.set,
             thumbnails: wanted.thumbnails.clone(),
             outputs_thumbnail: false,
@@ -309,6 +313,15 @@ impl Evaluation {
                     self.results.add_picture(subject, picture);
                 }
                 LiveEvent::Inspected { revision, node, values } => {
+                    let wanted = self.requested.as_ref().map(|(_, wanted)| wanted);
+                    let is_wanted =
+                        |of: fn(&Wanted) -> &Option<NodeRef>| wanted.is_some_and(|it| of(it).as_ref() == Some(&node));
+                    if is_wanted(|wanted| &wanted.measured) {
+                        self.results.measured = Some((node.clone(), values.clone()));
+                        if !is_wanted(|wanted| &wanted.inspected) {
+                            continue;
+                        }
+                    }
                     self.results.inspected = Some((node, values));
                     if revision >= self.first_of_file.1 {
                         self.results.inspected_since = self.first_of_file.0;

@@ -4,6 +4,7 @@
 pub(crate) mod examples;
 mod folder_list;
 pub(crate) mod key_list;
+pub(crate) mod new_graph;
 pub(crate) mod path_question;
 mod recovery_list;
 pub(crate) mod start;
@@ -14,6 +15,7 @@ use std::path::{Path, PathBuf};
 use egui::{Button, Id, Modal, RichText, Ui};
 
 use crate::action::{Action, ExportAction, FileAction, ModelAction, Next, PaintAction};
+use crate::brush::text::TextFont;
 use crate::context::{View, ViewContext};
 use crate::paths::{canonical_if_present, file_name, with_ending, with_graph_ending};
 use folder_list::FolderList;
@@ -387,5 +389,6 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::BrushPicture => Action::Paint(PaintAction::TakePicture(path)),
         PathFor::Stencil => Action::Paint(PaintAction::TakeStencil(path)),
         PathFor::Brush => Action::Paint(PaintAction::TakeBrush(path)),
+        PathFor::Font => Action::Paint(PaintAction::ChooseFont(TextFont::of_file(path))),
     }
 }

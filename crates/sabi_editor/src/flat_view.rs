@@ -28,7 +28,8 @@ use crate::outdated;
 use crate::task::{Failed, Task};
 use crate::theme::{Theme, space, type_size};
 use brush::{SeenTexture, Triangles};
-use picture::{Histogram, picture_of};
+pub(crate) use picture::Histogram;
+use picture::picture_of;
 use wires::Wires;
 
 /// Columns of a histogram.

@@ -46,7 +46,7 @@ impl Chord {
             .filter(|(is_held, _)| *is_held)
             .map(|(_, word)| *word)
             .collect();
-        format!("{held}{}", self.key.name())
+        format!("{held}{}", sign_of(self.key))
     }
 
     /// Returns whether a pressed key with these modifiers matches this chord.
@@ -54,6 +54,14 @@ impl Chord {
         let held = |modifiers: Modifiers| [modifiers.command || modifiers.ctrl, modifiers.shift, modifiers.alt];
         key == self.key && held(modifiers) == held(self.modifiers)
     }
+}
+
+/// A key as it is printed on keyboards, where that is one sign; [`Key::from_name`] reads it as well. A plus stays a word, since
+/// it stands between keys.
+fn sign_of(key: Key) -> &'static str {
+    let sign = key.symbol_or_name();
+    let is_printed = sign.len() == 1 && sign != "+" && Key::from_name(sign) == Some(key);
+    if is_printed { sign } else { key.name() }
 }
 
 /// Returns the chord behind a clipboard event. Systems report the usual keys of copy, cut and paste only as these
@@ -168,9 +176,17 @@ mod tests {
 
     #[test]
     fn a_chord_is_written_as_it_is_read() {
-        for text in ["Ctrl+Shift+D", "Tab", "Alt+X", "F6", "Ctrl+="] {
+        for text in ["Ctrl+Shift+D", "Tab", "Alt+X", "F6", "Ctrl+=", "Period", "CloseBracket"] {
             let chord = Chord::parse(text).expect("a chord");
             assert_eq!(Chord::parse(&chord.text()), Ok(chord), "{text}");
+        }
+        for (name, sign) in [
+            ("CloseBracket", "]"),
+            ("Period", "."),
+            ("Shift+Comma", "Shift+,"),
+            ("Tab", "Tab"),
+        ] {
+            assert_eq!(Chord::parse(name).expect("a chord").text(), sign);
         }
         assert_eq!(
             Chord::parse("Hyper+D"),

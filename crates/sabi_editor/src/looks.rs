@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{OpenDocument, node_paths};
+use sabi_editing::{OpenDocument, node_paths, painting};
 use sabi_engine::ViewSubject;
 use sabi_engine::catalog::Port;
 use sabi_engine::paint::Version;
@@ -60,10 +60,23 @@ impl Looks {
         let followed = self
             .followed
             .as_ref()
-            .filter(|result| settings.follows && !is_color_target(result));
+            .filter(|result| settings.follows && !is_color_target(result) && !self.hides_material(document, result));
         pinned
             .or(followed)
             .map_or(ViewSubject::Outputs, |result| ViewSubject::Node(result.clone()))
+    }
+
+    /// Returns whether the model better shows its material than this result of a paint node: while one paints what a material
+    /// reads, the material shows what the strokes do to it, and a node without strokes over nothing is black.
+    fn hides_material(&self, document: &OpenDocument, result: &NodeRef) -> bool {
+        let Some(id) = node_paths::in_shown_graph(document, &result.node) else {
+            return false;
+        };
+        let Some(strokes) = painting::strokes_of(document, &id) else {
+            return false;
+        };
+        let has_base = || document.node(&id).is_some_and(|node| node.inputs.contains_key("base"));
+        self.is_painting && painting::is_read(document, &id) || strokes.is_empty() && !has_base()
     }
 
     /// Returns the result that the model is compared with, if any.

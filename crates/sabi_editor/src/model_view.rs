@@ -3,7 +3,7 @@
 mod brush;
 pub(crate) mod channels;
 mod comparison;
-mod drop_place;
+pub(crate) mod drop_place;
 mod environment_loader;
 mod eyedropper;
 mod lights;
@@ -40,6 +40,7 @@ use navigation::{Navigation, aspect};
 use pictures::Pictures;
 use row::RowView;
 use saved_picture::SavedPicture;
+use showing::Captions;
 use softness::SoftnessCache;
 use stencil_picture::StencilPicture;
 use subject::{Subject, ViewOutput};
@@ -67,6 +68,9 @@ pub(crate) struct ModelView {
     softness: SoftnessCache,
     brush: BrushTool,
     stencil_picture: StencilPicture,
+    captions: Captions,
+    /// Height of the menus with their margin in the last frame, points.
+    menus_height: f32,
     /// Place of the view in the window when it was last shown.
     area: Option<Rect>,
     /// Place of the main model in it.
@@ -97,6 +101,8 @@ impl ModelView {
             softness: SoftnessCache::default(),
             brush: BrushTool::default(),
             stencil_picture: StencilPicture::default(),
+            captions: Captions::default(),
+            menus_height: 0.0,
             area: None,
             main_cell: None,
         }
@@ -135,8 +141,13 @@ impl ModelView {
         if !area.is_positive() {
             return output;
         }
+        self.captions.begin_frame();
         let response = ui.allocate_rect(area, Sense::click_and_drag());
-        let cells = row::cells(area, 1 + subject.beside.len());
+        // The menus are those of all cells, and lie above them.
+        let has_row = !subject.beside.is_empty();
+        let menus = if has_row { self.menus_height } else { 0.0 };
+        let below = area.with_min_y((area.top() + menus).min(area.bottom()));
+        let cells = row::cells(below, 1 + subject.beside.len());
         let rect = cells[0];
         self.area = Some(area);
         self.main_cell = Some(rect);
@@ -159,7 +170,7 @@ impl ModelView {
             let done = self.advance_saved_picture(evaluation.gpu(), picture);
             output.actions.extend(done.map(Action::Notice));
         }
-        if !is_covered {
+        if !is_covered || has_row {
             let painted = Shape::rect_filled(area, 0.0, subject.theme.background);
             ui.painter().set(background, painted);
         }

@@ -6,6 +6,7 @@ mod enlarged;
 pub(crate) mod export;
 mod field;
 pub(crate) mod history;
+pub(crate) mod input_histogram;
 mod instance;
 pub(crate) mod library;
 pub(crate) mod page;

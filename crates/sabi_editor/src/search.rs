@@ -265,6 +265,20 @@ mod tests {
             ("smart material", "effect/layer"),
             ("dirt", "relief/fill"),
             ("rust", "effect/layer"),
+            // As other programs call it.
+            ("flood fill", "surface/id"),
+            ("anchor", "graph/reroute"),
+            ("transform", "source/image"),
+            ("mapping", "math/vector"),
+            ("mixrgb", "blend/color"),
+            ("color ramp", "color/gradient"),
+            ("map range", "adjust/remap"),
+            ("histogram scan", "adjust/coverage"),
+            ("mix shader", "material/blend"),
+            ("separate rgb", "color/split"),
+            ("pointiness", "surface/curvature"),
+            ("musgrave", "noise/simplex"),
+            ("displacement", "effect/relief"),
         ];
         for (query, id) in first {
             let found = found(query);

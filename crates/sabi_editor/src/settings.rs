@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use sabi_engine::{BACKUPS, stored, write_whole};
 use serde_json::Value as Json;
 
+use crate::brush::text::TextFont;
 use crate::command::InputPreset;
 use crate::dock::Layout;
 use crate::import_options::ImportOptions;
@@ -80,6 +81,8 @@ pub(crate) struct Settings {
     /// Light and picture of the viewport.
     pub(crate) view: ViewChoices,
     pub(crate) brush: BrushChoices,
+    /// Font of texts that the brush stamps.
+    pub(crate) text_font: TextFont,
     pub(crate) stencil: StencilChoices,
     /// Linear colors that were painted, the last one first.
     pub(crate) brush_colors: Vec<[f32; 3]>,
@@ -133,6 +136,7 @@ impl Default for Settings {
             environment: "studio".to_owned(),
             view: ViewChoices::default(),
             brush: BrushChoices::default(),
+            text_font: TextFont::default(),
             stencil: StencilChoices::default(),
             brush_colors: Vec::new(),
             follows: true,

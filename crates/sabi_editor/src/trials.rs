@@ -245,7 +245,7 @@ impl Trials {
             model_revision: 2 * self.model + u64::from(texels == FEW_TEXELS),
             coarse_size: texels,
             subjects: Vec::new(),
-            inspected: None,
+            inspected: Vec::new(),
             set: None,
             outputs_thumbnail: node.is_none(),
             thumbnails: node.into_iter().collect(),

@@ -11,7 +11,7 @@ use sabi_engine::{
 };
 
 use crate::app::{Editor, Folders, Handover, InitialState};
-use crate::files::examples;
+use crate::files::{examples, new_graph};
 use crate::paths::{in_canonical_folder, model_of};
 use crate::settings::default_folder;
 
@@ -50,7 +50,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
     let handover: Handover = Arc::new(Mutex::new(None));
     let mut session = Some(match &request.graph {
         Some(graph) => Session::open(graph, folders.recovery.as_deref())?,
-        None => Session::new(folders.recovery.as_deref()),
+        None => new_graph::session(folders.recovery.as_deref())?,
     });
     refuse_without_display()?;
     until_closed(|| {

@@ -92,6 +92,15 @@ impl Session {
         Session::of(OpenGraph::empty(UNTITLED), None, recovery_folder)
     }
 
+    /// Creates a session of a graph without a file that begins with this document, which does not count as unsaved.
+    pub fn beginning_with(document: Document, recovery_folder: Option<&Path>) -> Session {
+        let session = Session::of(OpenGraph::of_document(UNTITLED, document), None, recovery_folder);
+        Session {
+            saved: session.text.1.clone(),
+            ..session
+        }
+    }
+
     /// Opens a graph file.
     pub fn open(path: &Path, recovery_folder: Option<&Path>) -> Result<Session, EngineError> {
         let open = OpenGraph::open(path)?;

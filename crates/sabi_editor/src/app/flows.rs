@@ -18,7 +18,7 @@ use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
 use crate::exports::ExportSource;
 use crate::files::Question;
-use crate::files::examples;
+use crate::files::{examples, new_graph};
 use crate::notices::Work;
 use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::{OF_GRAPH, OF_GROUP};
@@ -31,8 +31,10 @@ impl Editor {
     pub(super) fn proceed(&mut self, next: Next) {
         match next {
             Next::New => {
-                let session = Session::new(self.documents.recovery_folder());
-                self.take_session(session);
+                let session = new_graph::session(self.documents.recovery_folder());
+                if let Some(session) = self.shell.report(session) {
+                    self.take_session(session);
+                }
             }
             Next::Open(path) => self.open_file(&path),
             Next::Example(at) => self.open_example(at),
@@ -152,7 +154,7 @@ impl Editor {
     /// Restores the export target and the strip of models that the open graph had before.
     pub(super) fn recall_choices(&mut self) {
         let file = self.documents.document.session.file();
-        let place = file.map(|file| self.shell.settings.export_place(file));
+        let place = file.map(|file| self.shell.settings.export_place(file).beside(file));
         let models = file.map(|file| self.shell.settings.model_strip(file));
         // A graph without a file has an empty strip; the shown model joins it.
         self.documents.models = models.unwrap_or_default();

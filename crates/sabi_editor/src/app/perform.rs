@@ -2,25 +2,27 @@
 //! not compile.
 
 mod commands;
+mod dropping;
 mod packing;
 mod painting;
 mod stroke_clipboard;
 
 use std::path::Path;
 
-use egui::{Color32, Pos2, Rgba, Ui};
+use egui::{Color32, Rgba, Ui};
 use sabi_editing::command::{
-    EditCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand,
-    VariantCommand, WireCommand, perform,
+    EditCommand, KnobCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand, VariantCommand, WireCommand,
+    perform,
 };
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{knob_target, navigation, variants};
-use sabi_engine::catalog::Entry;
+use sabi_editing::{knob_target, navigation, nodes, variants};
+use sabi_engine::catalog::KnobRole;
 use sabi_graph::{NodeId, SlotRef, Value};
 
 use super::Editor;
 use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, ModelAction};
 use crate::dock::Panel;
+use crate::files::new_graph;
 use crate::knobs::KnobEvent;
 use crate::looks::{ColorTarget, result_of};
 
@@ -53,9 +55,9 @@ impl Editor {
             Action::Notice(sentence) => self.shell.notify(sentence),
             Action::AddInMiddle(new) => {
                 let place = self.views.canvas.camera.center();
-                self.add(new, place, None, ui);
+                self.add_uncovering(new, place, ui);
             }
-            Action::DragNew { face, at } => self.views.canvas.drag_new(ui, &self.shell.theme, document, &face, at),
+            Action::DragNew { face, at } => self.drag_new(&face, at, ui),
             Action::DropNew { new, face, at } => self.drop_new(new, &face, at, ui),
             Action::AddToLibrary(library) => self.save_to_library(library),
             Action::SaveNode(node) => self.save_node(&node),
@@ -92,43 +94,8 @@ impl Editor {
             Action::Paint(action) => self.perform_painting(action, ui),
             Action::Setting(action) => self.shell.set(action),
             Action::ShowPanel(panel) => self.shell.dock.bring_up(panel),
-            Action::ResetPanels => self.shell.dock.reset(),
+            Action::Arrange(workspace) => self.shell.dock.arrange(workspace),
             Action::ShowStartPage => self.views.start.is_open = true,
-        }
-    }
-
-    /// Adds a node where it is dropped: as the mask of a layer, over the material of the model or of a node, into a wire, or
-    /// beside all of that.
-    fn drop_new(&mut self, source: NodeSource, face: &Entry, at: Pos2, ui: &Ui) {
-        let document = &self.documents.document;
-        // Places of panels that are not shown are those of their last frame.
-        let is_shown = |panel: Panel| self.shell.dock.is_shown(panel);
-        let layers = &self.views.layers;
-        let layer = is_shown(Panel::Stack).then(|| layers.mask_target(document, face, at));
-        if let Some(node) = layer.flatten() {
-            return self.edit(LayerCommand::AddMask { node, source }, ui);
-        }
-        let on_model = is_shown(Panel::Viewport).then(|| {
-            let subject = self.looks.on_model(document, &self.shell.settings);
-            let model = &self.views.model;
-            model.drop_place(document, &self.evaluation, &subject, (face, at))
-        });
-        if let Some(place) = on_model.flatten() {
-            let command = LayerCommand::AddOnModel {
-                source,
-                place: place.material,
-                has_normal_map: place.has_normal_map,
-            };
-            return self.edit(command, ui);
-        }
-        if !is_shown(Panel::Canvas) {
-            return;
-        }
-        let canvas = &self.views.canvas;
-        if let Some(node) = canvas.node_for_dropped(document, face, at) {
-            self.edit(LayerCommand::AddOnNode { source, node }, ui);
-        } else if let Some((place, into)) = canvas.place_for_dropped(document, face, at) {
-            self.add(source, place, into, ui);
         }
     }
 
@@ -213,11 +180,39 @@ impl Editor {
 
     /// Edits the open document: shows the result of a node that was added, and puts copied nodes on the clipboard.
     pub(in crate::app) fn edit(&mut self, command: impl Into<EditCommand>, ui: &Ui) {
+        let are_first = new_graph::is_untouched(self.documents.document.graph());
         match perform(&mut self.documents.document, command.into()) {
-            Outcome::Added(id) => self.looks.show(&self.documents.document, &id, None),
+            Outcome::Added(id) => {
+                let document = &self.documents.document;
+                self.looks.show(document, &id, None);
+                self.views.canvas.camera.reveal(document, &id, are_first);
+                self.ask_for_file_of(&id);
+            }
             Outcome::Copied(text) => ui.ctx().copy_text(text),
             Outcome::Unchanged | Outcome::Done | Outcome::Saved(_) => {}
         }
+    }
+
+    /// Asks for the file of a node that reads one, such as a new Image, while none is chosen.
+    fn ask_for_file_of(&mut self, id: &NodeId) {
+        let document = &self.documents.document;
+        let Some((face, node)) = document.face(id).zip(document.node(id)) else {
+            return;
+        };
+        let mut files = face.knobs.iter().filter(|knob| knob.ty.role == KnobRole::File);
+        if let Some(knob) = files.find(|knob| !node.params.contains_key(&knob.name)) {
+            self.browse(KnobTarget::of_node(id, knob.name.clone()));
+        }
+    }
+
+    /// Adds a node by a key or a click, where it covers no other.
+    pub(in crate::app) fn add_uncovering(&mut self, source: NodeSource, place: [f32; 2], ui: &Ui) {
+        let mut candidates = self.documents.candidates().iter();
+        let face = candidates
+            .find(|known| known.new == source)
+            .map(|known| known.face.clone());
+        let place = face.map_or(place, |face| nodes::uncovered(&self.documents.document, &face, place));
+        self.add(source, place, None, ui);
     }
 
     /// Adds a node, inserted into a wire if one is given, and shows its result.

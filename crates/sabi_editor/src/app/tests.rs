@@ -24,6 +24,7 @@ mod measures;
 mod menu;
 mod mouse;
 mod moving;
+mod newcomers;
 mod notes;
 mod paint_paths;
 mod painting;
@@ -60,6 +61,8 @@ use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::{AdapterChoice, Gpu, Session, TrustedPaths};
 
 use super::{Editor, Folders, Handover, InitialState};
+use crate::dock::Workspace;
+use crate::settings::Settings;
 use crate::window::configuration;
 
 /// Message where there is no Vulkan driver.
@@ -228,6 +231,7 @@ fn beside(folders: &Folders) -> &Path {
 fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'static, Editor> {
     let setup = configuration(&AdapterChoice::Cpu).wgpu_setup;
     let model = cube(&folders);
+    let (kept, _) = Settings::load(folders.settings.as_deref());
     let builder = Harness::builder()
         .with_size(vec2(1600.0, 900.0))
         .with_step_dt(1.0 / 60.0)
@@ -246,8 +250,13 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
         };
         Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover)
     });
+    let editor = harness.state_mut();
     // One sample, so that pictures are quick.
-    harness.state_mut().views.model.shot.samples = 1;
+    editor.views.model.shot.samples = 1;
+    if kept.layout.is_none() {
+        // Most tests look at the texture as well.
+        editor.shell.dock.arrange(Workspace::Texture);
+    }
     harness
 }
 

@@ -10,7 +10,7 @@ use crate::command::{
     ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, InputPreset, LookCommand, WindowCommand,
 };
 use crate::context::ViewContext;
-use crate::dock::Panel;
+use crate::dock::{Panel, Workspace};
 use crate::paths::file_name;
 use crate::theme::{Shade, space, type_size};
 
@@ -236,10 +236,18 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
             actions.push(Action::ShowPanel(panel));
         }
     }
-    if ui.button("Reset the layout of the panels").clicked() {
-        actions.push(Action::ResetPanels);
-    }
     ui.separator();
+    ui.menu_button("Workspace", |ui| {
+        for (workspace, title) in Workspace::ALL {
+            let tip = workspace.about();
+            if ui.button(title).on_hover_text(tip).clicked() {
+                actions.push(Action::Arrange(workspace));
+            }
+        }
+    });
+    if ui.button("Reset the layout of the panels").clicked() {
+        actions.push(Action::Arrange(Workspace::Material));
+    }
     entries(ui, context, VIEWS, actions);
     let (mut shade, mut preset) = (context.settings.shade, context.settings.input_preset);
     ui.horizontal(|ui| {

@@ -1,9 +1,13 @@
 //! Text as a picture that the brush stamps.
 
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::epaint::text::{FontDefinitions, FontFamily, FontId, Fonts, Galley, TextOptions};
+use egui::epaint::text::{FontData, FontDefinitions, FontFamily, FontId, Fonts, Galley, TextOptions};
 use egui::{Color32, ColorImage};
+
+use crate::paths::{file_name, file_stem};
 
 /// Height of the letters, pixels; less for long texts.
 const LETTER: f32 = 192.0;
@@ -12,6 +16,85 @@ const LEAST_LETTER: f32 = 24.0;
 const WIDTH: f32 = 4000.0;
 /// Pixels around the text.
 const MARGIN: usize = 4;
+
+/// Endings of font files.
+pub(crate) const FONTS: [&str; 3] = ["ttf", "otf", "ttc"];
+/// Largest font file that is read, bytes.
+const LARGEST_FONT: u64 = 64 << 20;
+
+/// Font of texts that the brush stamps: that of the window, one whose letters are of one width, or the first one of a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct TextFont {
+    is_monospace: bool,
+    #[serde(with = "sabi_engine::stored::optional")]
+    pub(crate) file: Option<PathBuf>,
+}
+
+impl TextFont {
+    /// The font whose letters are of one width.
+    pub(crate) fn monospace() -> TextFont {
+        TextFont {
+            is_monospace: true,
+            file: None,
+        }
+    }
+
+    /// The first font of a file.
+    pub(crate) fn of_file(file: PathBuf) -> TextFont {
+        TextFont {
+            is_monospace: false,
+            file: Some(file),
+        }
+    }
+
+    /// Title in the list of fonts.
+    pub(crate) fn title(&self) -> String {
+        match &self.file {
+            Some(file) => file_stem(file).into_owned(),
+            None if self.is_monospace => "Monospace".to_owned(),
+            None => "Plain".to_owned(),
+        }
+    }
+
+    /// Fonts to lay a text out with, and the family to ask for.
+    fn definitions(&self) -> Result<(FontDefinitions, FontFamily), String> {
+        let mut fonts = FontDefinitions::default();
+        let Some(file) = &self.file else {
+            let family = match self.is_monospace {
+                true => FontFamily::Monospace,
+                false => FontFamily::Proportional,
+            };
+            return Ok((fonts, family));
+        };
+        let data = FontData::from_owned(font_bytes(file)?);
+        let name = "the font of the text";
+        fonts.font_data.insert(name.to_owned(), Arc::new(data));
+        let family = FontFamily::Name(name.into());
+        // Letters that the font lacks are those of the window.
+        let fallback = fonts.families.get(&FontFamily::Proportional).cloned();
+        let names = std::iter::once(name.to_owned()).chain(fallback.into_iter().flatten());
+        fonts.families.insert(family.clone(), names.collect());
+        Ok((fonts, family))
+    }
+}
+
+/// Bytes of a font file. The error is a sentence.
+pub(crate) fn font_bytes(file: &Path) -> Result<Vec<u8>, String> {
+    let name = file_name(file);
+    let metadata = fs::metadata(file).map_err(|error| format!("{} cannot be read: {error}", file.display()))?;
+    if !metadata.is_file() || metadata.len() > LARGEST_FONT {
+        return Err(format!("{name} is no font file; choose a .ttf, .otf or .ttc file"));
+    }
+    let bytes = fs::read(file).map_err(|error| format!("{} cannot be read: {error}", file.display()))?;
+    // The layout ends the program where a font cannot be read.
+    match skrifa::FontRef::from_index(&bytes, 0) {
+        Ok(_) => Ok(bytes),
+        Err(error) => Err(format!(
+            "{name} is no font that can be read ({error}); choose another file"
+        )),
+    }
+}
 
 /// Cover of each pixel by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,15 +105,18 @@ pub(crate) struct TextPicture {
     pub(crate) alpha: Vec<u8>,
 }
 
-/// The picture of a text in the font of the window, cut to its letters; none for a text without any.
-pub(crate) fn picture_of(text: &str) -> Option<TextPicture> {
+/// The picture of a text in a font, cut to its letters; none for a text without any.
+///
+/// # Errors
+/// A sentence, where the file of the font cannot be read.
+pub(crate) fn picture_of(text: &str, font: &TextFont) -> Result<Option<TextPicture>, String> {
     let text = text.trim();
+    let (fonts, family) = font.definitions()?;
     let letter = (2.0 * WIDTH / text.chars().count().max(1) as f32).clamp(LEAST_LETTER, LETTER);
-    let mut fonts = Fonts::new(TextOptions::default(), FontDefinitions::default());
+    let mut fonts = Fonts::new(TextOptions::default(), fonts);
     let mut view = fonts.with_pixels_per_point(1.0);
-    let font = FontId::new(letter, FontFamily::Proportional);
-    let galley = view.layout_no_wrap(text.to_owned(), font, Color32::WHITE);
-    cut(&drawn(&galley, &view.image()))
+    let galley = view.layout_no_wrap(text.to_owned(), FontId::new(letter, family), Color32::WHITE);
+    Ok(cut(&drawn(&galley, &view.image())))
 }
 
 /// The letters where the layout puts them.
@@ -82,9 +168,13 @@ fn cut(picture: &TextPicture) -> Option<TextPicture> {
 mod tests {
     use super::*;
 
+    fn plain(text: &str) -> Option<TextPicture> {
+        picture_of(text, &TextFont::default()).expect("the font of the window")
+    }
+
     #[test]
     fn a_text_is_a_picture_of_its_letters_and_nothing_else() {
-        let picture = picture_of(" 07 ").expect("letters");
+        let picture = plain(" 07 ").expect("letters");
         let [width, height] = picture.size;
         assert!(width > 100 && (100..200).contains(&height), "{:?}", picture.size);
         let full = picture.alpha.iter().filter(|alpha| **alpha > 200).count();
@@ -100,8 +190,38 @@ mod tests {
 
     #[test]
     fn a_long_text_stays_within_the_largest_picture_and_none_is_none() {
-        let long = picture_of(&"WARNING ".repeat(40)).expect("letters");
+        let long = plain(&"WARNING ".repeat(40)).expect("letters");
         assert!(long.size[0] < 8192, "{:?}", long.size);
-        assert_eq!(picture_of("   "), None);
+        assert_eq!(plain("   "), None);
+    }
+
+    #[test]
+    fn a_text_is_drawn_in_the_font_that_is_chosen() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("Hack.ttf");
+        let hack = FontDefinitions::default().font_data["Hack"].font.clone();
+        fs::write(&file, hack).expect("a writable folder");
+        let width = |text: &str, font: &TextFont| picture_of(text, font).expect("a font").expect("letters").size[0];
+        for font in [TextFont::monospace(), TextFont::of_file(file.clone())] {
+            // All letters of one width, unlike those of the window.
+            let [narrow, wide] = ["iMMi", "MiiM"].map(|text| width(text, &font));
+            assert!(narrow.abs_diff(wide) < 120, "{font:?}: {narrow} {wide}");
+            assert!(
+                width("iiii", &font) > 2 * width("iiii", &TextFont::default()),
+                "{font:?}"
+            );
+        }
+        assert_eq!(TextFont::of_file(file).title(), "Hack");
+    }
+
+    #[test]
+    fn what_is_no_font_is_refused_with_a_sentence() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("noise.ttf");
+        fs::write(&file, [7; 500]).expect("a writable folder");
+        let refused = |file: &Path| picture_of("A", &TextFont::of_file(file.to_owned())).expect_err("refused");
+        assert!(refused(&file).starts_with("noise.ttf is no font that can be read"));
+        assert!(refused(folder.path()).contains("is no font file; choose a .ttf"));
+        assert!(refused(&folder.path().join("gone.ttf")).contains("cannot be read"));
     }
 }

@@ -2,9 +2,9 @@
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
 use egui_phosphor::regular as icon;
-use sabi_editing::command::{NodeCommand, NodeSource};
+use sabi_editing::command::NodeCommand;
 use sabi_editing::connections::PendingWire;
-use sabi_editing::{OpenDocument, connections, wires};
+use sabi_editing::{OpenDocument, connections, nodes, wires};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use crate::action::Action;
@@ -104,6 +104,7 @@ impl AddMenu {
             .hint_text(format!("{} Find a node", icon::MAGNIFYING_GLASS))
             .desired_width(f32::INFINITY);
         let field = ui.add(edit);
+        let is_other = field.changed();
         field.request_focus();
         field.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::TextEdit, true, "Find a node"));
         if field.changed() {
@@ -130,9 +131,9 @@ impl AddMenu {
         if found.is_empty() {
             ui.colored_label(theme.quiet, "No node is called that; try another word.");
         }
-        let taken = self.list(ui, theme, &found).or(entered);
+        let taken = self.list(ui, theme, &found, is_other).or(entered);
         match taken.and_then(|at| found.get(at)) {
-            Some(candidate) => MenuResult::Chosen(self.action(&candidate.new)),
+            Some(candidate) => MenuResult::Chosen(self.action(document, candidate)),
             None => MenuResult::Open,
         }
     }
@@ -160,14 +161,18 @@ impl AddMenu {
         self.purpose.pending = is_connected.then_some(PendingWire::From(selected));
     }
 
-    /// Shows the list of nodes, by section while nothing is searched. Returns the index of the clicked node.
-    fn list(&mut self, ui: &mut Ui, theme: &Theme, found: &[&Candidate]) -> Option<usize> {
+    /// Shows the list of nodes, by section while nothing is searched, from its top where it `is_other` than before. Returns the
+    /// index of the clicked node.
+    fn list(&mut self, ui: &mut Ui, theme: &Theme, found: &[&Candidate], is_other: bool) -> Option<usize> {
         let is_sectioned = self.query.trim().is_empty();
-        let area = egui::ScrollArea::vertical()
+        let mut area = egui::ScrollArea::vertical()
             .max_height(SIZE[1])
             // The popup offers only as much height as its last contents took.
             .min_scrolled_height(SIZE[1])
             .auto_shrink([false, true]);
+        if is_other {
+            area = area.vertical_scroll_offset(0.0);
+        }
         let mut clicked = None;
         area.show(ui, |ui| {
             let mut section = "";
@@ -255,13 +260,19 @@ impl AddMenu {
         }
     }
 
-    fn action(&self, new: &NodeSource) -> Action {
+    fn action(&self, document: &OpenDocument, chosen: &Candidate) -> Action {
         let purpose = self.purpose.clone();
+        let new = chosen.new.clone();
+        // The end of a wire is where it was dropped; what is inserted into one gets room there.
+        let is_dropped = purpose.into.is_some() || purpose.pending.is_some() && purpose.selected.is_none();
         match purpose.instead {
-            Some(node) => Action::Replace { node, by: new.clone() },
+            Some(node) => Action::Replace { node, by: new },
             None => Action::edit(NodeCommand::Add {
-                source: new.clone(),
-                place: purpose.place,
+                source: new,
+                place: match is_dropped {
+                    true => purpose.place,
+                    false => nodes::uncovered(document, &chosen.face, purpose.place),
+                },
                 pending: purpose.pending,
                 into: purpose.into,
             }),

@@ -5,7 +5,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::node_size::{MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT};
 
 use super::node_summary::{NodeSummary, RowContext};
-use crate::knobs::{KnobRow, ParamMask, knob_inline};
+use crate::knobs::{KnobRow, ParamMask, is_inline_menu_asked, knob_inline};
 use crate::theme::{Theme, space, type_size};
 use crate::time_text::time_text;
 
@@ -93,9 +93,10 @@ pub(super) fn knob_row(ui: &mut Ui, row_context: &mut RowContext, shown: &NodeSu
         value: shown.values.get(&knob.name),
         wired: None,
         mask: ParamMask::NotTaken,
-        exposed: None,
+        exposed: shown.exposed.get(&knob.name).map(String::as_str),
         differs: false,
     };
+    row_context.has_asked_for_menu |= is_inline_menu_asked(ui, rect, zoom);
     let inside = UiBuilder::new().id_salt((&shown.id, &knob.name)).max_rect(rect);
     let events = knob_inline(&mut ui.new_child(inside), &theme, &row, rect.width(), zoom);
     let events = events.into_iter().map(|event| (shown.id.clone(), event));

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use egui::{Pos2, Rect, Ui, vec2};
 use sabi_editing::notes::approximate_size;
-use sabi_editing::{OpenDocument, navigation};
+use sabi_editing::{OpenDocument, navigation, ports};
 use sabi_graph::NodeId;
 
-use super::node_rect;
+use super::port_refs::{PortRef, shown_ports_of};
 use super::view::View;
+use super::{node_rect, port_menu};
 
 /// Distance from an edge of the panel at which a drag scrolls the canvas, screen points.
 pub(super) const SCROLL_EDGE: f32 = 28.0;
@@ -27,6 +28,23 @@ pub(crate) struct Camera {
     pub(super) panel: Option<Rect>,
     /// True once the view was fitted to all nodes.
     is_fitted: bool,
+}
+
+/// Rectangle of a node with the names of its published ports beside it, canvas points.
+fn named_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
+    let node = node_rect(document, id)?;
+    let mut rect = node;
+    for (place, _) in shown_ports_of(document, id) {
+        let Some(name) = ports::published_as(document, &place.pending_wire()) else {
+            continue;
+        };
+        let room = port_menu::room_of_name(&name);
+        match place {
+            PortRef::Input(_) => rect.min.x = rect.min.x.min(node.left() - room),
+            PortRef::Output(_) => rect.max.x = rect.max.x.max(node.right() + room),
+        }
+    }
+    Some(rect)
 }
 
 impl Camera {
@@ -55,13 +73,27 @@ impl Camera {
         let graph = document.graph();
         let notes = graph.notes().values();
         let notes = notes.map(|note| Rect::from_min_size(note.pos.into(), approximate_size(note).into()));
-        self.frame_rects(graph.ids().filter_map(|id| node_rect(document, id)).chain(notes));
+        self.frame_rects(graph.ids().filter_map(|id| named_rect(document, id)).chain(notes));
         self.is_fitted = true;
     }
 
     /// Zooms to these nodes.
     pub(crate) fn frame_nodes<'i>(&mut self, document: &OpenDocument, ids: impl Iterator<Item = &'i NodeId>) {
         self.frame_rects(ids.filter_map(|id| node_rect(document, id)));
+    }
+
+    /// Moves the view to a node that was added outside of it; to all nodes where these are the first ones.
+    pub(crate) fn reveal(&mut self, document: &OpenDocument, id: &NodeId, are_first: bool) {
+        let (Some(panel), Some(rect)) = (self.panel, node_rect(document, id)) else {
+            return;
+        };
+        let seen = self.view.visible_rect(panel);
+        let mut all = document.graph().ids().filter_map(|id| node_rect(document, id));
+        if are_first && !all.all(|rect| seen.contains_rect(rect)) {
+            self.frame_all(document);
+        } else if !seen.intersects(rect) {
+            self.view.pan_to(panel, rect);
+        }
     }
 
     fn frame_rects(&mut self, rects: impl Iterator<Item = Rect>) {

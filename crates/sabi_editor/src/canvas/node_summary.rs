@@ -40,6 +40,8 @@ pub(super) struct NodeSummary {
     pub(super) is_pinned: bool,
     /// Values of the node's parameters by name; the others have their defaults.
     pub(super) values: BTreeMap<String, Value>,
+    /// Names under which the node's parameters are published, by their own names.
+    pub(super) exposed: BTreeMap<String, String>,
 }
 
 /// Settings with which rows of nodes are drawn, and the events of their widgets.
@@ -47,4 +49,6 @@ pub(super) struct RowContext {
     pub(super) theme: Arc<Theme>,
     pub(super) zoom: f32,
     pub(super) knob_events: Vec<(NodeId, KnobEvent)>,
+    /// True if the menu of a parameter was asked for, in place of the node's.
+    pub(super) has_asked_for_menu: bool,
 }

@@ -47,12 +47,15 @@ pub(super) fn show(
         shown.is_previewed = context.previewed == Some(id);
         shown.is_pinned = context.pinned == Some(id);
         let is_reroute = is_reroute(&shown.face);
+        let mut has_knob_menu = false;
         let response = if is_reroute {
             reroute::show(canvas, ui, panel, context, key)
         } else if is_card {
             card::show(canvas, ui, panel, context, key)
         } else {
-            widget(canvas, ui, panel, context, key, actions)
+            let drawn = widget(canvas, ui, panel, context, key, actions);
+            has_knob_menu = drawn.as_ref().is_some_and(|drawn| drawn.has_knob_menu);
+            drawn.map(|drawn| drawn.response)
         };
         let Some(response) = response else { continue };
         let title = &canvas.snapshot.graph[key].user_data.title;
@@ -66,7 +69,9 @@ pub(super) fn show(
                 .accesskit_node_builder(response.id, |node| node.set_description(said));
         }
         interact(canvas, id, &response, context, actions);
-        context_menu(canvas, ui, id, &response, context, actions);
+        if !has_knob_menu {
+            context_menu(canvas, ui, id, &response, context, actions);
+        }
         let title = response
             .rect
             .with_max_y(response.rect.top() + TITLE_HEIGHT * canvas.camera.view.zoom);
@@ -97,6 +102,13 @@ fn in_order(canvas: &mut Canvas, context: &CanvasContext<'_>, seen: Rect) -> Vec
     in_turn
 }
 
+/// Node that was drawn.
+struct DrawnNode {
+    response: Response,
+    /// True if the menu of one of its parameters was asked for, in place of its own.
+    has_knob_menu: bool,
+}
+
 /// Draws one node with the canvas crate's widget.
 fn widget(
     canvas: &mut Canvas,
@@ -105,7 +117,7 @@ fn widget(
     context: &CanvasContext<'_>,
     key: Key,
     actions: &mut Vec<Action>,
-) -> Option<Response> {
+) -> Option<DrawnNode> {
     let zoom = canvas.camera.view.zoom;
     let id = canvas.snapshot.graph[key].user_data.id.clone();
     let place = context.document.node(&id)?.pos;
@@ -114,6 +126,7 @@ fn widget(
         theme: context.theme.clone(),
         zoom,
         knob_events: Vec::new(),
+        has_asked_for_menu: false,
     };
     // The widget draws its own background, which is replaced afterwards.
     let before = ui.painter().add(Shape::Noop);
@@ -140,12 +153,14 @@ fn widget(
     let backdrop = body::backdrop(context.theme, shown, rect, zoom, is_selected);
     ui.painter().set(ShapeIdx(before.0 + BACKDROP), backdrop);
     actions.extend(
-        row_context
-            .knob_events
+        std::mem::take(&mut row_context.knob_events)
             .into_iter()
             .map(|(node, event)| knob(node, event)),
     );
-    ui.ctx().read_response(window_id(ui, key))
+    Some(DrawnNode {
+        response: ui.ctx().read_response(window_id(ui, key))?,
+        has_knob_menu: row_context.has_asked_for_menu,
+    })
 }
 
 fn knob(node: NodeId, event: KnobEvent) -> Action {
@@ -311,6 +326,7 @@ mod tests {
                 theme: theme.clone(),
                 zoom,
                 knob_events: Vec::new(),
+                has_asked_for_menu: false,
             };
             let mut ports = Default::default();
             let widget = GraphNodeWidget {

@@ -138,6 +138,17 @@ pub(super) fn open_node_menu(popups: &mut Popups, document: &OpenDocument, place
     popups.menu = Some(AddMenu::new(at, purpose));
 }
 
+/// Distances of the mark of a published port and of its name from the port, canvas points.
+const MARK: [f32; 2] = [9.0, 24.0];
+const NAME: f32 = 31.0;
+/// Width of a letter of such a name, canvas points: more than most have.
+const LETTER: f32 = 6.0;
+
+/// Room beside a published port that its name takes, canvas points.
+pub(super) fn room_of_name(name: &str) -> f32 {
+    NAME + LETTER * name.chars().count() as f32
+}
+
 /// Marks a published port with its name outside of the graph.
 pub(super) fn mark(
     painter: &Painter,
@@ -154,11 +165,12 @@ pub(super) fn mark(
         PortRef::Input(_) => (-1.0, Align2::RIGHT_CENTER),
         PortRef::Output(_) => (1.0, Align2::LEFT_CENTER),
     };
-    let [near, far] = [9.0, 24.0].map(|away| center + vec2(way * away * zoom, 0.0));
+    let [near, far] = MARK.map(|away| center + vec2(way * away * zoom, 0.0));
     painter.line_segment([near, far], Stroke::new(2.0 * zoom, theme.accent));
     painter.circle_filled(far, 3.0 * zoom, theme.accent);
     if zoom > LEGIBLE {
         let font = FontId::proportional((type_size::SMALL * zoom * 2.0).round() / 2.0);
-        painter.text(far + vec2(way * 7.0 * zoom, 0.0), align, name, font, theme.quiet);
+        let at = center + vec2(way * NAME * zoom, 0.0);
+        painter.text(at, align, name, font, theme.quiet);
     }
 }

@@ -8,8 +8,8 @@ use egui::{Color32, Ui};
 use egui_node_graph::{
     DataTypeTrait, InputParamKind, NodeDataTrait, NodeResponse, UserResponseTrait, WidgetValueTrait,
 };
-use sabi_editing::OpenDocument;
 use sabi_editing::node_size::{ShownRows, own_knobs};
+use sabi_editing::{OpenDocument, panel};
 use sabi_engine::catalog::Entry;
 use sabi_graph::{Body, Edit, NodeId, PortType};
 
@@ -199,6 +199,10 @@ impl Snapshot {
             shown.user_data.title = document.title(id);
             shown.user_data.is_muted = node.muted;
             shown.user_data.values.clone_from(&node.params);
+            let knobs = face.knobs.iter().map(|knob| &knob.name);
+            let exposed =
+                knobs.filter_map(|knob| Some((knob.clone(), panel::exposed_as(document, id, knob)?.to_owned())));
+            shown.user_data.exposed = exposed.collect();
         }
         self.copy_wires(document);
     }
@@ -242,6 +246,7 @@ impl Snapshot {
             is_previewed: false,
             is_pinned: false,
             values: BTreeMap::new(),
+            exposed: BTreeMap::new(),
         };
         let key = self.graph.add_node(String::new(), shown, |graph, key| {
             let inputs = face.inputs.iter().enumerate();

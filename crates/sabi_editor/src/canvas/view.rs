@@ -64,6 +64,29 @@ impl View {
         self.pan += pointer - moved;
     }
 
+    /// Pans by as little as shows a rectangle of the canvas; of one that is larger than the panel, its upper left corner.
+    pub(crate) fn pan_to(&mut self, panel: Rect, rect: Rect) {
+        let (shown, room) = (
+            self.screen_rect(panel, rect),
+            panel.shrink(FREE.min(panel.size().min_elem() / 4.0)),
+        );
+        let low = (room.min - shown.min).max(Vec2::ZERO);
+        let high = (room.max - shown.max).min(Vec2::ZERO);
+        // At most one of them is there on each axis, unless the rectangle is larger.
+        self.pan += vec2(
+            if low.x > 0.0 {
+                low.x
+            } else {
+                high.x.max(room.left() - shown.left())
+            },
+            if low.y > 0.0 {
+                low.y
+            } else {
+                high.y.max(room.top() - shown.top())
+            },
+        );
+    }
+
     /// Zooms to a rectangle of the canvas, at a zoom of at most 1.
     pub(crate) fn frame(&mut self, panel: Rect, rect: Rect) {
         if !(rect.is_finite() && panel.is_positive()) {
@@ -110,6 +133,24 @@ mod tests {
             assert!((view.screen(PANEL, held) - pointer).length() < 1e-3, "{factor}");
             assert!((LEAST_ZOOM..=MOST_ZOOM).contains(&view.zoom));
         }
+    }
+
+    #[test]
+    fn a_pan_shows_what_was_outside_and_keeps_the_zoom() {
+        for corner in [[-900.0, 20.0], [2000.0, -700.0], [100.0, 3000.0], [10.0, 10.0]] {
+            let rect = Rect::from_min_size(pos2(corner[0], corner[1]), vec2(200.0, 150.0));
+            let mut view = View::default();
+            let before = view;
+            view.pan_to(PANEL, rect);
+            assert!(PANEL.contains_rect(view.screen_rect(PANEL, rect)), "{corner:?}");
+            assert_eq!(view.zoom, before.zoom);
+            let is_inside = PANEL.shrink(FREE).contains_rect(before.screen_rect(PANEL, rect));
+            assert_eq!(view == before, is_inside, "{corner:?}: what is seen stays where it is");
+        }
+        let mut view = View::default();
+        let large = Rect::from_min_size(pos2(-5000.0, -5000.0), vec2(4000.0, 4000.0));
+        view.pan_to(PANEL, large);
+        assert!(PANEL.contains(view.screen_rect(PANEL, large).min));
     }
 
     #[test]

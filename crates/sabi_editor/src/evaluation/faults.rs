@@ -18,12 +18,12 @@ pub(crate) struct NodeFaults {
 impl NodeFaults {
     pub(super) fn new(all: Faults) -> NodeFaults {
         let faults = all.faults.iter();
+        let unchosen = all.unchosen.iter().map(|it| (&*it.node, it.sentence.clone()));
         let blocked = all.blocked.iter();
+        let blocked = blocked.map(|it| (&*it.node, format!("waiting for node '{}'", it.blocked_by)));
         NodeFaults {
             by_node: with_group_instances(faults.map(|fault| (&*fault.node, fault.sentence.clone()))),
-            waiting: with_group_instances(
-                blocked.map(|it| (&*it.node, format!("waiting for node '{}'", it.blocked_by))),
-            ),
+            waiting: with_group_instances(unchosen.chain(blocked)),
             all,
         }
     }

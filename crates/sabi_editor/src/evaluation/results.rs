@@ -63,9 +63,25 @@ pub(crate) struct Results {
     pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
     /// First revision of the model's file that these values are of.
     pub(super) inspected_since: u64,
+    /// Result whose histogram is shown among parameters, with its values.
+    pub(crate) measured: Option<(NodeRef, Arc<Inspected>)>,
     times: BTreeMap<String, Duration>,
     /// Times and memory of the last evaluation.
     pub(crate) last: LiveTimes,
+}
+
+impl Results {
+    /// Uses values that are in memory for another purpose: the engine sends what has not changed once.
+    pub(super) fn share_values(&mut self, wanted: &Wanted) {
+        let values_of = |wanted: &Option<NodeRef>, known: &Option<(NodeRef, Arc<Inspected>)>| {
+            known.clone().filter(|(node, _)| Some(node) == wanted.as_ref())
+        };
+        let measured = values_of(&wanted.measured, &self.measured).or(values_of(&wanted.measured, &self.inspected));
+        if let Some(inspected) = values_of(&wanted.inspected, &self.measured) {
+            self.inspected = Some(inspected);
+        }
+        self.measured = measured;
+    }
 }
 
 /// Results that were dropped, which the engine evaluates again when they are wanted.

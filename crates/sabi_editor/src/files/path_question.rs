@@ -10,7 +10,7 @@ use egui::{
 use egui_phosphor::regular as icon;
 
 use super::folder_list::{FolderEntry, FolderList, completed};
-use super::system_dialog::{PathFor, SystemDialog, answer_of};
+use super::system_dialog::{DialogAnswer, NO_DIALOG, PathFor, SystemDialog, answer_of};
 use crate::context::ViewContext;
 use crate::paths::{canonical_if_present, file_name, with_ending};
 use crate::saved_pictures::OF_GRAPH;
@@ -38,6 +38,8 @@ pub(crate) struct PathQuestion {
     clicked: Option<PathBuf>,
     /// True before it was drawn.
     is_new: bool,
+    /// True if the system's dialog was asked for and could not be opened.
+    has_no_dialog: bool,
 }
 
 /// Answer to the question in a frame.
@@ -57,6 +59,7 @@ impl PathQuestion {
             typed: String::new(),
             clicked: None,
             is_new: true,
+            has_no_dialog: false,
         }
     }
 
@@ -69,7 +72,14 @@ impl PathQuestion {
         dialog: &mut Option<SystemDialog>,
     ) -> PathAnswer {
         // The system's dialog also gives paths that are not Unicode, which the field cannot hold.
-        let mut chosen = answer_of(dialog);
+        let mut chosen = match answer_of(dialog) {
+            Some(DialogAnswer::Chosen(path)) => Some(path),
+            Some(DialogAnswer::NotOpened) => {
+                self.has_no_dialog = true;
+                None
+            }
+            Some(DialogAnswer::Closed) | None => None,
+        };
         let modal = Modal::new(Id::new("path question")).show(ui.ctx(), |ui| {
             ui.set_width(WIDTH);
             ui.heading(self.what.title());
@@ -97,12 +107,23 @@ impl PathQuestion {
                 [confirms, opens_dialog, ui.button("Cancel")]
             });
             let [confirms, opens_dialog, cancels] = buttons.inner;
+            if self.has_no_dialog {
+                let text = RichText::new(format!("{NO_DIALOG} Type a path, or choose from the list."));
+                ui.add(Label::new(text.color(context.theme.warning)).wrap());
+            }
             if (confirms.clicked() || is_entered) && fault.is_none() {
                 chosen = Some(self.target());
             } else if is_entered && self.target().is_dir() {
                 self.enter(self.target());
+            } else if let Some(entry) = self.only_match(&listed, list).filter(|_| is_entered) {
+                let path = listed.join(&entry.name);
+                match entry.is_file {
+                    true => chosen = Some(path),
+                    false => self.enter(path),
+                }
             }
             if opens_dialog.clicked() {
+                self.has_no_dialog = false;
                 let typed = self.target().display().to_string();
                 *dialog = Some(SystemDialog::file(ui.ctx(), &self.what, &typed));
             }
@@ -116,6 +137,18 @@ impl PathQuestion {
             None if modal.inner || modal.should_close() => PathAnswer::Closed,
             None => PathAnswer::Open,
         }
+    }
+
+    /// The only entry whose name contains what was typed, if a file is read.
+    fn only_match(&self, listed: &Path, list: &mut FolderList) -> Option<FolderEntry> {
+        let part = self.typed.to_lowercase();
+        if part.is_empty() || self.what.is_written() {
+            return None;
+        }
+        let entries = list.of(listed, self.what.endings()).ok()?; // A fault is shown in the list.
+        let mut matches = entries.iter().filter(|entry| entry.name.to_lowercase().contains(&part));
+        let only = matches.next()?;
+        matches.next().is_none().then(|| only.clone())
     }
 
     /// Path that is typed or chosen.

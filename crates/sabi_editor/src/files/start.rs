@@ -3,15 +3,16 @@
 use super::examples::EXAMPLES;
 use super::recovery_list::RecoveryList;
 use crate::action::{Action, FileAction, Next};
-use crate::command::{Command, FileCommand};
+use crate::command::{Command, FileCommand, WindowCommand};
 use crate::context::{View, ViewContext};
 use crate::paths::file_stem;
 use crate::saved_pictures::OF_GRAPH;
 use crate::theme::{Theme, space, type_size};
 use egui::epaint::RectShape;
+use egui::text::LayoutJob;
 use egui::{
-    Align2, Color32, ColorImage, Context, FontId, Id, Modal, Rect, RichText, Sense, TextureHandle, TextureId,
-    TextureOptions, Ui, Vec2, pos2, vec2,
+    Color32, ColorImage, Context, FontId, Id, Modal, Rect, RichText, Sense, TextureHandle, TextureId, TextureOptions,
+    Ui, Vec2, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::small_picture;
@@ -29,6 +30,8 @@ pub(crate) struct StartPage {
     /// Pictures of the examples, in their order, once the page was shown.
     examples: Vec<Option<TextureHandle>>,
     recovery_list: RecoveryList,
+    /// True if what is chosen opens with the model and its parameters only; none until the page was shown.
+    opens_use_view: Option<bool>,
 }
 
 impl StartPage {
@@ -37,6 +40,7 @@ impl StartPage {
             is_open,
             examples: Vec::new(),
             recovery_list: RecoveryList::default(),
+            opens_use_view: None,
         }
     }
 
@@ -62,12 +66,21 @@ impl View for StartPage {
             ui.add_space(space::WIDE);
             let recovered = self.recovery_list.show(ui, context, &mut actions);
             self.load_pictures(ui.ctx());
-            self.cards(ui, context).or(recovered)
+            let chosen = self.cards(ui, context).or(recovered);
+            ui.add_space(space::USUAL);
+            let opens_use_view = self.opens_use_view.get_or_insert(context.is_use_view);
+            let switch = ui.checkbox(opens_use_view, Command::Window(WindowCommand::UseView).title());
+            switch.on_hover_text("For those who use a material and do not change its graph");
+            chosen
         });
         let should_close = modal.should_close();
         if let Some(chosen) = modal.inner {
             self.is_open = false;
             actions.push(chosen);
+            let opens_use_view = self.opens_use_view.take();
+            if opens_use_view.is_some_and(|opens| opens != context.is_use_view) {
+                actions.push(Action::Do(Command::Window(WindowCommand::UseView)));
+            }
         }
         self.is_open &= !should_close;
         actions
@@ -128,7 +141,7 @@ impl StartPage {
 }
 
 /// Shows a card with a title, a sentence and perhaps a picture. Returns whether it was clicked.
-fn card(ui: &mut Ui, theme: &Theme, title: &str, says: &str, picture: Option<TextureId>) -> bool {
+fn card(ui: &mut Ui, theme: &Theme, title: &str, whole: &str, picture: Option<TextureId>) -> bool {
     let height = if picture.is_some() { WITH_PICTURE } else { HEIGHT };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, title));
@@ -146,17 +159,27 @@ fn card(ui: &mut Ui, theme: &Theme, title: &str, says: &str, picture: Option<Tex
         painter.add(RectShape::filled(place, space::CORNER, Color32::WHITE).with_texture(picture, whole));
         left = WITH_PICTURE + space::USUAL;
     }
-    let middle = rect.center().y - rect.top();
-    let text = |y: f32, text: &str, size: f32, color: Color32| {
-        painter.text(
-            rect.left_top() + vec2(left, y),
-            Align2::LEFT_TOP,
-            text,
-            FontId::proportional(size),
-            color,
-        );
+    let width = rect.width() - left - space::USUAL;
+    let line = |text: &str, size: f32, color: Color32, rows: usize| {
+        let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(size), color, width);
+        job.wrap.max_rows = rows;
+        // A path has no spaces to break at.
+        job.wrap.break_anywhere = rows == 1;
+        painter.layout_job(job)
     };
-    text(middle - 16.0, title, type_size::BODY, theme.text);
-    text(middle + 2.0, says, type_size::SMALL, theme.quiet);
+    let rows = if picture.is_some() { 2 } else { 1 };
+    let title = line(title, type_size::BODY, theme.text, 1);
+    let says = line(whole, type_size::SMALL, theme.quiet, rows);
+    let is_cut = says.elided;
+    let top = rect.center().y - (title.size().y + says.size().y) / 2.0;
+    let at = pos2(rect.left() + left, top);
+    let below = at + vec2(0.0, title.size().y);
+    painter.galley(at, title, theme.text);
+    painter.galley(below, says, theme.quiet);
+    let response = if is_cut {
+        response.on_hover_text(whole)
+    } else {
+        response
+    };
     response.clicked()
 }

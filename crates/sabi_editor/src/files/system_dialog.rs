@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
 
 use egui::Context;
 use rfd::{AsyncFileDialog, FileHandle};
@@ -9,6 +10,7 @@ use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::MODEL_ENDINGS;
 
+use crate::brush::text::FONTS;
 use crate::brush_shelf;
 use crate::paths::{IMAGES, lowercase_ending};
 
@@ -35,6 +37,8 @@ pub(crate) enum PathFor {
     Stencil,
     /// File of a brush.
     Brush,
+    /// Font of texts that the brush stamps.
+    Font,
 }
 
 impl PathFor {
@@ -53,6 +57,7 @@ impl PathFor {
             PathFor::BrushPicture => "Choose a picture for the brush to stamp",
             PathFor::Stencil => "Choose a picture to paint through",
             PathFor::Brush => "Open a brush",
+            PathFor::Font => "Choose a font file",
         }
     }
 
@@ -67,7 +72,8 @@ impl PathFor {
             | PathFor::Gradient(_)
             | PathFor::BrushPicture
             | PathFor::Stencil
-            | PathFor::Missing(_) => "Choose",
+            | PathFor::Missing(_)
+            | PathFor::Font => "Choose",
         }
     }
 
@@ -83,7 +89,8 @@ impl PathFor {
             | PathFor::Gradient(_)
             | PathFor::BrushPicture
             | PathFor::Stencil
-            | PathFor::Brush => false,
+            | PathFor::Brush
+            | PathFor::Font => false,
         }
     }
 
@@ -101,13 +108,41 @@ impl PathFor {
             PathFor::Archive => &["zip"],
             PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => &IMAGES,
             PathFor::Brush => &[brush_shelf::ENDING],
+            PathFor::Font => &FONTS,
         }
     }
 }
 
+/// Sentence about a system without dialogs.
+pub(crate) const NO_DIALOG: &str = "The system's dialog could not be opened: on Linux it needs a desktop portal \
+                                    (xdg-desktop-portal), or zenity.";
+/// Time in which nobody can have closed a dialog: one that ends sooner was not opened. The library below tells no difference.
+const AT_ONCE: Duration = Duration::from_millis(300);
+
 /// System dialog that is open.
 pub(crate) struct SystemDialog {
-    answer: Receiver<Option<PathBuf>>,
+    answer: Receiver<DialogAnswer>,
+}
+
+/// Answer of a system dialog.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum DialogAnswer {
+    Chosen(PathBuf),
+    /// It was closed without a choice.
+    Closed,
+    /// The system has no such dialog.
+    NotOpened,
+}
+
+impl DialogAnswer {
+    /// Answer of a dialog that gave this path after some time.
+    fn after(path: Option<PathBuf>, lasted: Duration) -> DialogAnswer {
+        match path {
+            Some(path) => DialogAnswer::Chosen(path),
+            None if lasted < AT_ONCE => DialogAnswer::NotOpened,
+            None => DialogAnswer::Closed,
+        }
+    }
 }
 
 impl SystemDialog {
@@ -127,6 +162,7 @@ impl SystemDialog {
             }
             PathFor::Brush => "Brushes",
             PathFor::Missing(_) => "Files of this kind",
+            PathFor::Font => "Fonts",
         };
         let dialog = dialog.add_filter(kind, what.endings());
         if what.is_written() {
@@ -144,17 +180,19 @@ impl SystemDialog {
     /// Waits for the answer on a thread of its own, which is not joined when the window closes: the dialog may stay open for
     /// long.
     fn open(context: &Context, dialog: impl Future<Output = Option<FileHandle>> + Send + 'static) -> SystemDialog {
-        SystemDialog::waiting(context, || {
-            pollster::block_on(dialog).map(|file| file.path().to_owned())
+        let began = Instant::now();
+        SystemDialog::waiting(context, move || {
+            let path = pollster::block_on(dialog).map(|file| file.path().to_owned());
+            DialogAnswer::after(path, began.elapsed())
         })
     }
 
     /// Waits for an answer on a thread of its own; `context` draws a frame when it arrives.
-    pub(crate) fn waiting(context: &Context, wait: impl FnOnce() -> Option<PathBuf> + Send + 'static) -> SystemDialog {
+    pub(crate) fn waiting(context: &Context, wait: impl FnOnce() -> DialogAnswer + Send + 'static) -> SystemDialog {
         let (sender, answer) = channel();
         let woken = context.clone();
         let waiting = std::thread::Builder::new().name("sabi dialog".to_owned());
-        // Without a thread, the dialog counts as closed.
+        // Without a thread, the dialog counts as not opened.
         let _ = waiting.spawn(move || {
             // Fails once the question is closed.
             let _ = sender.send(wait());
@@ -164,19 +202,34 @@ impl SystemDialog {
         SystemDialog { answer }
     }
 
-    /// The answer, once: a path, or `Some(None)` where the dialog was closed or could not be opened.
-    pub(crate) fn poll(&self) -> Option<Option<PathBuf>> {
+    /// The answer, once it has arrived.
+    pub(crate) fn poll(&self) -> Option<DialogAnswer> {
         match self.answer.try_recv() {
             Ok(answer) => Some(answer),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(None),
+            Err(TryRecvError::Disconnected) => Some(DialogAnswer::NotOpened),
         }
     }
 }
 
 /// Takes the answer of an open dialog, if it has arrived, and forgets the dialog.
-pub(crate) fn answer_of(dialog: &mut Option<SystemDialog>) -> Option<PathBuf> {
+pub(crate) fn answer_of(dialog: &mut Option<SystemDialog>) -> Option<DialogAnswer> {
     let answer = dialog.as_ref()?.poll()?;
     *dialog = None;
-    answer
+    Some(answer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dialog_that_ends_at_once_without_a_path_was_not_opened() {
+        let path = PathBuf::from("a.sabi");
+        let lasted = |milliseconds| Duration::from_millis(milliseconds);
+        assert_eq!(DialogAnswer::after(None, lasted(5)), DialogAnswer::NotOpened);
+        assert_eq!(DialogAnswer::after(None, lasted(2000)), DialogAnswer::Closed);
+        let chosen = DialogAnswer::after(Some(path.clone()), lasted(5));
+        assert_eq!(chosen, DialogAnswer::Chosen(path));
+    }
 }

@@ -6,16 +6,28 @@ use sabi_engine::{Inspected, LiveModel};
 
 use super::{FlatView, Subject};
 use crate::evaluation::Evaluation;
+use crate::theme::space;
 
-/// Least width of the panel for a bar of one row, points.
-const ONE_ROW: f32 = 480.0;
-/// Widths of the menus of texture sets and of planes, and least width of the title, points.
-const SETS: f32 = 60.0;
-const PLANES: f32 = 220.0;
-const LEAST_TITLE: f32 = 60.0;
+/// Least width of the title, and width of the switches with the size of the texture, points.
+const LEAST_TITLE: f32 = 80.0;
+const SWITCHES: f32 = 180.0;
+/// Widths of the menus of texture sets and of planes, points; longer names are cut off.
+const SETS: f32 = 130.0;
+const PLANES: f32 = 100.0;
+/// Widths of the switch of all components, and of one component, points.
+const ALL_COMPONENTS: f32 = 44.0;
+const COMPONENT: f32 = 26.0;
+
+/// Part of the bar that chooses what is shown.
+#[derive(Clone, Copy)]
+enum Choice {
+    Sets,
+    Planes,
+    Components,
+}
 
 impl FlatView {
-    /// Shows the bar above the picture, on two rows in a narrow panel. Returns whether the pin was clicked.
+    /// Shows the bar above the picture, on as many rows as its contents need. Returns whether the pin was clicked.
     pub(super) fn bar(
         &mut self,
         ui: &mut Ui,
@@ -23,11 +35,18 @@ impl FlatView {
         subject: &Subject<'_>,
         values: Option<&Inspected>,
     ) -> bool {
-        let is_narrow = ui.available_width() < ONE_ROW;
+        let model = evaluation.model.received.as_deref();
+        let choices = self.choices(model, values);
+        let width = ui.available_width();
+        let all: f32 = choices.iter().map(|(_, width)| width + space::USUAL).sum();
+        let has_one_row = width >= LEAST_TITLE + SWITCHES + all;
+        let rows = if has_one_row {
+            Vec::new()
+        } else {
+            rows_of(&choices, width)
+        };
         let mut unpins = false;
-        // With ids of their own, they take clicks whatever appears and disappears beside them.
-        let named = |name: &str| UiBuilder::new().id(egui::Id::new(("texture", name)));
-        let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
+        let row = vec2(width, ui.spacing().interact_size.y);
         ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center), |ui| {
             if let Some(values) = values {
                 ui.scope_builder(named("switches"), |ui| {
@@ -44,22 +63,61 @@ impl FlatView {
                     unpins = pin.clicked();
                 }
                 ui.scope(|ui| {
-                    let menus = if is_narrow { SETS } else { SETS + PLANES };
-                    ui.set_max_width((ui.available_width() - menus).max(LEAST_TITLE));
+                    let menus = if has_one_row { all } else { 0.0 };
+                    ui.set_max_width((ui.available_width() - menus).max(0.0));
                     ui.add(Label::new(RichText::new(subject.title).strong()).truncate());
                 });
-                if let Some(model) = &evaluation.model.received {
-                    self.sets(ui, model);
-                }
-                if let Some(values) = values.filter(|_| !is_narrow) {
-                    ui.scope_builder(named("planes"), |ui| self.planes(ui, values));
+                if has_one_row {
+                    self.choose(ui, &choices, model, values);
                 }
             });
         });
-        if let Some(values) = values.filter(|_| is_narrow) {
-            ui.horizontal(|ui| ui.scope_builder(named("planes"), |ui| self.planes(ui, values)));
+        for row in rows {
+            ui.horizontal(|ui| self.choose(ui, &row, model, values));
         }
         unpins
+    }
+
+    /// Choices that there are, with their widths.
+    fn choices(&mut self, model: Option<&LiveModel>, values: Option<&Inspected>) -> Vec<(Choice, f32)> {
+        let planes = values.map_or(0, |values| values.planes.len());
+        self.plane = self.plane.min(planes.saturating_sub(1));
+        let components = values.and_then(|values| values.planes.get(self.plane));
+        let components = components.map_or(0, |plane| plane.components);
+        let sets = model.map_or(0, |model| model.sets.len());
+        let width = ALL_COMPONENTS + components as f32 * (COMPONENT + space::USUAL);
+        let all = [
+            (sets > 1, Choice::Sets, SETS),
+            (planes > 1, Choice::Planes, PLANES),
+            (components > 1, Choice::Components, width),
+        ];
+        let shown = all.into_iter().filter(|(is_shown, ..)| *is_shown);
+        shown.map(|(_, choice, width)| (choice, width)).collect()
+    }
+
+    /// Shows choices beside each other.
+    fn choose(
+        &mut self,
+        ui: &mut Ui,
+        choices: &[(Choice, f32)],
+        model: Option<&LiveModel>,
+        values: Option<&Inspected>,
+    ) {
+        for (choice, _) in choices {
+            match (choice, model, values) {
+                (Choice::Sets, Some(model), _) => {
+                    ui.scope_builder(named("sets"), |ui| self.sets(ui, model));
+                }
+                (Choice::Planes, _, Some(values)) => {
+                    ui.scope_builder(named("planes"), |ui| self.planes(ui, values));
+                }
+                (Choice::Components, _, Some(values)) => {
+                    ui.scope_builder(named("components"), |ui| self.components(ui, values));
+                }
+                // There are no choices without what is chosen from.
+                (Choice::Sets, None, _) | (Choice::Planes | Choice::Components, _, None) => {}
+            }
+        }
     }
 
     /// Menu of the texture sets.
@@ -67,7 +125,8 @@ impl FlatView {
         let Some(shown) = model.set(self.set).filter(|_| model.sets.len() > 1) else {
             return;
         };
-        let menu = egui::ComboBox::from_id_salt("texture set").selected_text(shown.title());
+        let menu = egui::ComboBox::from_id_salt("texture set").width(SETS);
+        let menu = menu.truncate().selected_text(shown.title());
         let menu = menu.show_ui(ui, |ui| {
             for set in &model.sets {
                 if ui.selectable_label(set.key == shown.key, set.title()).clicked() {
@@ -81,28 +140,48 @@ impl FlatView {
         menu.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, true, &words));
     }
 
-    /// Menus of the planes and of the components.
+    /// Menu of the planes.
     fn planes(&mut self, ui: &mut Ui, values: &Inspected) {
-        self.plane = self.plane.min(values.planes.len().saturating_sub(1));
-        if values.planes.len() > 1 {
-            let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
-                "" => "color",
-                name => name,
-            };
-            egui::ComboBox::from_id_salt("plane")
-                .selected_text(name(self.plane))
-                .show_ui(ui, |ui| {
-                    for at in 0..values.planes.len() {
-                        ui.selectable_value(&mut self.plane, at, name(at));
-                    }
-                });
-        }
-        let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
-        if components > 1 {
-            ui.selectable_value(&mut self.component, None, "RGB");
-            for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {
-                ui.selectable_value(&mut self.component, Some(at), *name);
+        let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
+            "" => "color",
+            name => name,
+        };
+        let menu = egui::ComboBox::from_id_salt("plane").width(PLANES).truncate();
+        menu.selected_text(name(self.plane)).show_ui(ui, |ui| {
+            for at in 0..values.planes.len() {
+                ui.selectable_value(&mut self.plane, at, name(at));
             }
+        });
+    }
+
+    /// Switches of the components of the plane that is shown.
+    fn components(&mut self, ui: &mut Ui, values: &Inspected) {
+        let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
+        ui.selectable_value(&mut self.component, None, "RGB");
+        for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {
+            ui.selectable_value(&mut self.component, Some(at), *name);
         }
     }
+}
+
+/// With an id of its own, a part of the bar takes clicks whatever appears and disappears beside it.
+fn named(name: &str) -> UiBuilder {
+    UiBuilder::new().id(egui::Id::new(("texture", name)))
+}
+
+/// Divides choices into rows of a width, each with as many of them as fit.
+fn rows_of(choices: &[(Choice, f32)], width: f32) -> Vec<Vec<(Choice, f32)>> {
+    let mut rows: Vec<Vec<(Choice, f32)>> = Vec::new();
+    let mut left = 0.0;
+    for (choice, own) in choices {
+        match rows.last_mut().filter(|_| *own <= left) {
+            Some(row) => row.push((*choice, *own)),
+            None => {
+                rows.push(vec![(*choice, *own)]);
+                left = width;
+            }
+        }
+        left -= own + space::USUAL;
+    }
+    rows
 }

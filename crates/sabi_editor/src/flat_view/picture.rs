@@ -38,7 +38,7 @@ fn quantized(number: f32) -> u8 {
 }
 
 /// Histogram of the texels on the surface.
-pub(super) struct Histogram {
+pub(crate) struct Histogram {
     /// Columns of each component.
     columns: Vec<Vec<u32>>,
     /// Values at both ends.
@@ -47,7 +47,7 @@ pub(super) struct Histogram {
 
 impl Histogram {
     /// Counts the texels on the surface; values outside 0..1 widen the range.
-    pub(super) fn of(values: &Inspected, plane: &ResultPlane, component: Option<usize>, bins: usize) -> Histogram {
+    pub(crate) fn of(values: &Inspected, plane: &ResultPlane, component: Option<usize>, bins: usize) -> Histogram {
         let components: Vec<usize> = match component {
             Some(at) => vec![at],
             None => (0..plane.components.min(3)).collect(),
@@ -84,6 +84,19 @@ impl Histogram {
             return;
         }
         let rect = Rect::from_min_size(panel.max - size - vec2(space::USUAL, space::USUAL), size);
+        self.draw_in(painter, rect, theme);
+    }
+
+    /// Place of a value between the ends of a histogram that is drawn in a rectangle; none beside them.
+    pub(crate) fn place_of(&self, value: f32, rect: Rect) -> Option<f32> {
+        let [low, high] = self.range;
+        (low..=high)
+            .contains(&value)
+            .then(|| rect.left() + (value - low) / (high - low) * rect.width())
+    }
+
+    /// Draws the histogram in a rectangle.
+    pub(crate) fn draw_in(&self, painter: &Painter, rect: Rect, theme: &Theme) {
         painter.rect_filled(rect, space::CORNER, theme.panel.gamma_multiply(0.9));
         // The highest column is often that of one constant value, and would hide the others.
         let mut counts: Vec<u32> = self.columns.iter().flatten().copied().collect();
@@ -180,5 +193,8 @@ mod tests {
         let histogram = Histogram::of(&values, &values.planes[0], None, 4);
         assert_eq!(histogram.range, [-1.0, 1.0]);
         assert_eq!(histogram.columns, [vec![1, 0, 0, 2]]);
+        let rect = Rect::from_min_size(pos2(10.0, 0.0), vec2(100.0, 50.0));
+        let places = [-1.0, 0.0, 1.0, 1.5].map(|value| histogram.place_of(value, rect));
+        assert_eq!(places, [Some(10.0), Some(60.0), Some(110.0), None]);
     }
 }

@@ -1,6 +1,5 @@
 //! Colors: a swatch that opens a picker, the code, and an eyedropper.
 
-use egui::color_picker::{Alpha, color_picker_hsva_2d};
 use egui::epaint::Hsva;
 use egui::{Color32, Id, Key, Popup, PopupCloseBehavior, Rect, Sense, StrokeKind, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
@@ -9,13 +8,12 @@ use sabi_graph::Value;
 use super::boxes::cut_square;
 use super::buttons::{focus_ring, sign_button};
 use super::knob_ui::{DragValues, KnobUi};
+use super::picker::{picker, remember};
 use super::text_field::{Field, FieldResult};
 use super::values::{code_of, color_of};
 use super::{KnobEvent, KnobRow};
 use crate::theme::space;
 
-/// Width of the picker.
-const PICKER: f32 = 190.0;
 /// Width of the swatch beside the code.
 const SWATCH: f32 = 44.0;
 
@@ -105,16 +103,26 @@ pub(super) fn swatch(
 }
 
 fn pick(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, id: Id, color: Color32) -> Option<Color32> {
-    ui.spacing_mut().slider_width = PICKER;
     // A gray has no hue, so the picker's own is kept while it gives this color.
     let kept = knob_ui
         .memory
         .picked
         .filter(|(of, kept)| *of == id && rgb(kept) == color);
     let mut picked = kept.map_or_else(|| Hsva::from_srgb([color.r(), color.g(), color.b()]), |(_, kept)| kept);
-    let has_changed = color_picker_hsva_2d(ui, &mut picked, Alpha::Opaque);
+    let has_changed = picker(ui, &mut picked);
     knob_ui.mark_shown(ui.ctx(), id);
-    let [is_down, is_canceled] = ui.input(|input| [input.pointer.primary_down(), input.key_pressed(Key::Escape)]);
+    let [is_down, is_up, is_canceled] = ui.input(|input| {
+        let pointer = &input.pointer;
+        [
+            pointer.primary_down(),
+            pointer.primary_released(),
+            input.key_pressed(Key::Escape),
+        ]
+    });
+    let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
+    if (is_up || is_entered) && kept.is_some() {
+        remember(ui.ctx(), color);
+    }
     if !has_changed || is_canceled {
         return None;
     }

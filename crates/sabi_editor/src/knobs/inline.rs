@@ -10,7 +10,7 @@ use super::curve::View;
 use super::knob_ui::{KnobMemory, KnobUi};
 use super::text_painting::write;
 use super::values::{KnobValue, Stop, code_of, read, step_of, text_of};
-use super::{KnobEvent, KnobRow, Lengths, choice, color, doc, numbers};
+use super::{KnobEvent, KnobRow, Lengths, choice, color, doc, numbers, row};
 use crate::theme::{Theme, space, type_size};
 
 /// Zoom below which a row is drawn as a plain block.
@@ -18,6 +18,11 @@ const LEGIBLE: f32 = 0.45;
 
 /// Height of a row, a little less than the room that a node has for it.
 const HEIGHT: f32 = ROW_HEIGHT - 2.0;
+
+/// Returns whether the menu of a parameter on a node was asked for by a click in its row.
+pub(crate) fn is_inline_menu_asked(ui: &Ui, row: Rect, zoom: f32) -> bool {
+    zoom >= LEGIBLE && row::is_menu_asked(ui, row)
+}
 
 /// Shows a parameter on a node, and returns its events. The `ui` of each node needs an id of its own.
 ///
@@ -48,6 +53,10 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
     } else {
         widget(ui, &mut knob_ui, row, id, rect);
     }
+    if zoom >= LEGIBLE {
+        row::menu(ui, &mut knob_ui, row, id, rect);
+    }
+    row::paste(ui, &mut knob_ui, row, id);
     knob_ui.finish(ui.ctx(), |dragged| {
         dragged == id.with("bar") || dragged == id.with("swatch")
     });

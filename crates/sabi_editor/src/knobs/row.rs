@@ -166,9 +166,14 @@ fn wired(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, f
     );
 }
 
+/// Returns whether the secondary button was clicked in a row, which opens the menu of its parameter.
+pub(super) fn is_menu_asked(ui: &Ui, rect: Rect) -> bool {
+    ui.rect_contains_pointer(rect) && ui.input(|input| input.pointer.secondary_clicked())
+}
+
 /// Shows the menu of a parameter, opened by the secondary button or Shift+F10.
-fn menu(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
-    let pointed = ui.rect_contains_pointer(rect) && ui.input(|input| input.pointer.secondary_clicked());
+pub(super) fn menu(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+    let pointed = is_menu_asked(ui, rect);
     if pointed && let Some(place) = ui.input(|input| input.pointer.interact_pos()) {
         knob_ui.memory.menu = Some((id, place));
     }
@@ -238,7 +243,7 @@ fn items(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
 }
 
 /// Takes the contents of the clipboard for the row that requested it.
-fn paste(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
+pub(super) fn paste(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
     let Some((_, since)) = knob_ui.memory.pasting.filter(|(of, _)| *of == id) else {
         return;
     };

@@ -69,7 +69,7 @@ impl ModelView {
             background: Background::Clear,
             lines: Vec::new(),
             samples: 1,
-            ..shot_of(self.navigation.camera, &self.shot, picture)
+            ..shot_of(self.navigation.camera, &self.shot, picture, Mode::Node)
         };
         let request = PictureRequest {
             picture,

@@ -1,7 +1,7 @@
 //! The menus of the viewport: what is shown, camera, channels, light and overlays.
 
 use egui::containers::menu::MenuButton;
-use egui::{Rect, Ui, UiBuilder, WidgetInfo, WidgetType, vec2};
+use egui::{Rect, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::built_in_environments;
 use sabi_engine::view::{Camera, Lines};
@@ -14,6 +14,8 @@ use crate::bars::stay_open;
 use crate::evaluation::Evaluation;
 use crate::settings::viewport::{BACKGROUNDS, BLOOM, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
 
+/// Margin around the menus, points.
+const MARGIN: f32 = 6.0;
 /// Focal lengths that can be chosen, as on a picture of 36 × 24 mm.
 const LENSES: std::ops::RangeInclusive<f32> = 18.0..=200.0;
 
@@ -26,9 +28,9 @@ pub(super) fn show(
     subject: &Subject<'_>,
     actions: &mut Vec<Action>,
 ) -> Option<String> {
-    let strip = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(rect.width() - 12.0, 24.0));
+    let strip = Rect::from_min_size(rect.min + Vec2::splat(MARGIN), vec2(rect.width() - 2.0 * MARGIN, 24.0));
     let mut chosen = None;
-    ui.scope_builder(UiBuilder::new().max_rect(strip), |ui| {
+    let menus = ui.scope_builder(UiBuilder::new().max_rect(strip), |ui| {
         // On two rows in a narrow panel.
         ui.horizontal_wrapped(|ui| {
             ui.menu_button(format!("{} Preview", icon::CROSSHAIR), |ui| {
@@ -63,6 +65,7 @@ pub(super) fn show(
             }
         });
     });
+    view.menus_height = menus.response.rect.bottom() + MARGIN - rect.top();
     if let Some(choice) = &chosen {
         view.environment.choose(choice);
     }

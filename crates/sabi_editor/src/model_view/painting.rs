@@ -28,9 +28,10 @@ impl ModelView {
         }
         let is_moving = is_turning || subject.is_moving;
         let lighting = Lighting::of(&self.environment, &self.lights);
+        let unlit = unlit_mode(subject);
         let request = |picture| PictureRequest {
             picture,
-            shot: shot_of(self.navigation.camera, &self.shot, picture),
+            shot: shot_of(self.navigation.camera, &self.shot, picture, unlit),
             lighting: &lighting,
             is_moving,
         };
@@ -61,17 +62,27 @@ impl ModelView {
         if let Some((share, other)) = other {
             part(other, share, 1.0);
             let at = rect.left() + share * rect.width();
-            painter.vline(at, rect.y_range(), Stroke::new(1.5, subject.theme.accent));
+            // The menus lie on the pictures, and not on the line between them.
+            let below = rect.with_min_y((rect.top() + self.menus_height).min(rect.bottom()));
+            painter.vline(at, below.y_range(), Stroke::new(1.5, subject.theme.accent));
         }
         self.shot.background != Background::Clear
     }
 }
 
-/// Shot of a result: a shot of the view as it is set up, from a camera.
-pub(super) fn shot_of(camera: sabi_engine::view::Camera, shot: &Shot, picture: &Picture) -> Shot {
+/// Mode of results that are not lit: while one paints, the shape of the model is seen below the mask.
+pub(super) fn unlit_mode(subject: &Subject<'_>) -> Mode {
+    match subject.painted {
+        Some(_) => Mode::NodeOnClay,
+        None => Mode::Node,
+    }
+}
+
+/// Shot of a result: a shot of the view as it is set up, from a camera. Results that are not lit have the mode `unlit`.
+pub(super) fn shot_of(camera: sabi_engine::view::Camera, shot: &Shot, picture: &Picture, unlit: Mode) -> Shot {
     Shot {
         camera,
-        mode: if picture.looks.is_lit { shot.mode } else { Mode::Node },
+        mode: if picture.looks.is_lit { shot.mode } else { unlit },
         height_range: picture.looks.height_range,
         ..shot.clone()
     }
@@ -88,7 +99,7 @@ pub(super) fn sentence(ui: &Ui, rect: Rect, theme: &Theme, sentence: &str) {
 }
 
 /// Draws a bar as long as a length on the model at the camera's target, with the length as a text.
-pub(super) fn length_bar(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) {
+pub(super) fn length_bar(view: &mut ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) {
     let (Some(length), Some(model)) = (view.length, &evaluation.model.received) else {
         return;
     };
@@ -106,5 +117,10 @@ pub(super) fn length_bar(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Eva
     }
     let text = Lengths::on(Some(model)).in_both(length);
     let above = start - vec2(0.0, 16.0);
-    showing::caption(ui, theme, "length", above, Align2::LEFT_CENTER, &text);
+    let place = showing::CaptionPlace {
+        at: above,
+        align: Align2::LEFT_CENTER,
+        within: rect,
+    };
+    view.captions.write(ui, theme, "length", &place, &text);
 }

@@ -13,7 +13,7 @@ use sabi_engine::LiveModel;
 use sabi_engine::view::{Camera, Viewpoint};
 
 use super::navigation::aspect;
-use super::painting::{self, shot_of};
+use super::painting::{self, shot_of, unlit_mode};
 use super::pictures::{FIRST_BESIDE, Lighting, PictureRequest};
 use super::{ModelView, Subject, showing};
 use crate::action::{Action, ModelAction};
@@ -184,8 +184,12 @@ impl ModelView {
         if let Some(main) = main {
             let name = main.model.linked.model.files.first();
             let name = name.map_or_else(String::new, |file| file_stem(file).into_owned());
-            let at = pos2(first.left() + 10.0, first.bottom() - 10.0);
-            showing::caption(ui, subject.theme, "main model", at, Align2::LEFT_CENTER, &name);
+            let place = showing::CaptionPlace {
+                at: pos2(first.left() + 10.0, first.bottom() - 10.0),
+                align: Align2::LEFT_CENTER,
+                within: first.shrink(space::TIGHT),
+            };
+            self.captions.write(ui, subject.theme, "main model", &place, &name);
         }
         for (at, (evaluation, cell)) in subject.beside.iter().zip(others).enumerate() {
             let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
@@ -237,7 +241,7 @@ impl ModelView {
         }
         let request = PictureRequest {
             picture: &picture,
-            shot: shot_of(camera, &self.shot, &picture),
+            shot: shot_of(camera, &self.shot, &picture, unlit_mode(subject)),
             lighting: &Lighting::of(&self.environment, &self.lights),
             is_moving: self.navigation.is_moving(),
         };

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use sabi_engine::view::{Background, Pixels, Viewport};
+use sabi_engine::view::{Background, Mode, Pixels, Viewport};
 use sabi_engine::{Gpu, encode_picture, write_whole};
 
 use super::ModelView;
@@ -66,7 +66,7 @@ impl ModelView {
             }
         }
         let mut drawn = self.saved_picture.drawn.take()?;
-        let shot = shot_of(self.navigation.camera, &self.shot, picture);
+        let shot = shot_of(self.navigation.camera, &self.shot, picture, Mode::Node);
         let shot = sabi_engine::view::Shot {
             samples: SAMPLES,
             ..shot

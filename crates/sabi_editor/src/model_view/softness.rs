@@ -62,24 +62,28 @@ pub(super) fn show(
         Some(enough) => format!("Soft: a texel is {wide:.1} pixels wide; an export at {enough} texels is sharp"),
         None => format!("Soft from so near: a texel is {wide:.1} pixels wide"),
     };
-    // The name of the main model is in the corner where there are others beside it.
-    let above = if subject.beside.is_empty() { 10.0 } else { 30.0 };
-    let at = rect.left_bottom() + vec2(10.0, -above);
-    let caption = showing::caption(ui, subject.theme, "softness", at, Align2::LEFT_CENTER, &text);
+    let place = showing::CaptionPlace {
+        at: rect.left_bottom() + vec2(10.0, -10.0),
+        align: Align2::LEFT_CENTER,
+        within: rect.shrink(space::TIGHT),
+    };
+    let caption = view.captions.write(ui, subject.theme, "softness", &place, &text);
     let Some(enough) = softness.enough.filter(|enough| *enough <= LARGEST_SIZE) else {
         return;
     };
-    if link(ui, subject.theme, caption, &format!("Work at {enough} texels")).clicked() {
+    let words = format!("Work at {enough} texels");
+    if link(view, ui, subject.theme, caption, &words).clicked() {
         actions.push(Action::edit(DocumentCommand::SetSize(enough)));
     }
 }
 
 /// Link beside a caption. With an id of its own, it does not change the ids of the widgets after it, such as open menus.
-fn link(ui: &Ui, theme: &Theme, beside: Rect, text: &str) -> Response {
+fn link(view: &mut ModelView, ui: &Ui, theme: &Theme, beside: Rect, text: &str) -> Response {
     let font = FontId::proportional(type_size::SMALL);
     let words = ui.painter().layout_no_wrap(text.to_owned(), font, theme.accent);
-    let left = beside.right_center() + vec2(space::USUAL, 0.0);
-    let place = Align2::LEFT_CENTER.anchor_size(left, words.size());
+    // Both have a border.
+    let left = beside.right_center() + vec2(space::USUAL + 2.0, 0.0);
+    let place = view.captions.free(Align2::LEFT_CENTER.anchor_size(left, words.size()));
     let ground = place.expand2(vec2(4.0, 2.0));
     ui.painter()
         .rect_filled(ground, space::CORNER, theme.background.gamma_multiply(0.6));

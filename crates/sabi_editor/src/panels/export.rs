@@ -11,7 +11,7 @@ use self::preset_menu::PresetMenu;
 use crate::action::{Action, ExportAction};
 use crate::activity_text::activity_text;
 use crate::context::{View, ViewContext};
-use crate::files::system_dialog::{SystemDialog, answer_of};
+use crate::files::system_dialog::{DialogAnswer, NO_DIALOG, SystemDialog, answer_of};
 use crate::paths::canonical_if_present;
 use crate::remedies::{self, Request};
 use crate::settings::export::{ExportChoices, ExportPadding, ExportPlace, SIZES};
@@ -124,17 +124,19 @@ impl ExportPanel {
             if asks.clicked() {
                 self.dialog = Some(SystemDialog::folder(ui.ctx()));
             }
-            if let Some(folder) = answer_of(&mut self.dialog) {
-                match path_text(&folder) {
+            match answer_of(&mut self.dialog) {
+                Some(DialogAnswer::Chosen(folder)) => match path_text(&folder) {
                     Ok(folder) => (place.folder, self.refused) = (folder, None),
                     Err(refused) => self.refused = Some(refused.to_string()),
-                }
+                },
+                Some(DialogAnswer::NotOpened) => self.refused = Some(format!("{NO_DIALOG} Type the folder.")),
+                Some(DialogAnswer::Closed) | None => {}
             }
         });
         ui.end_row();
         if let Some(refused) = &self.refused {
             ui.label("");
-            ui.label(refused);
+            ui.add(Label::new(refused).wrap());
             ui.end_row();
         }
     }

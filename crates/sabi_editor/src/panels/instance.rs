@@ -2,6 +2,7 @@
 
 use egui::{RichText, Ui, Vec2};
 use egui_phosphor::regular as icon;
+use sabi_editing::OpenDocument;
 use sabi_editing::command::GroupCommand;
 use sabi_editing::random_knobs::SEED;
 use sabi_engine::catalog::{Entry, KnobRole, label_of};
@@ -18,7 +19,31 @@ use crate::trials::Trial;
 /// Parameter of an instance that chooses a variant of its group.
 const VARIANT: &str = "variant";
 
-/// Shows the variants, the library and the random values of an instance; nothing for other nodes, and for several.
+/// Group of a node that is its only selected instance.
+fn group_of<'d>(document: &'d OpenDocument, id: &NodeId) -> Option<&'d String> {
+    let node = document.node(id).filter(|node| node.kind == GROUP_KIND)?;
+    node.group.as_ref().filter(|_| document.selection().len() == 1)
+}
+
+/// Shows the random values of an instance; nothing for other nodes, and for several.
+pub(super) fn random_values(
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    id: &NodeId,
+    face: &Entry,
+    state: &mut InstanceState,
+) -> Option<Action> {
+    group_of(context.document, id)?;
+    let own = face
+        .knobs
+        .iter()
+        .filter(|knob| knob.name == SEED || !INSTANCE_KNOBS.contains(&knob.name.as_str()));
+    let own: Vec<(&str, &str)> = own.map(|knob| (knob.name.as_str(), knob.label.as_str())).collect();
+    let kept = random::show(ui, id, &own, &mut state.kept)?;
+    Some(Action::edit(GroupCommand::Randomize { node: id.clone(), kept }))
+}
+
+/// Shows the variants and the library of an instance; nothing for other nodes, and for several.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
@@ -27,24 +52,10 @@ pub(super) fn show(
     state: &mut InstanceState,
 ) -> Vec<Action> {
     let document = context.document;
-    if document.selection().len() != 1 {
-        return Vec::new();
-    }
-    let Some(name) = document
-        .node(id)
-        .filter(|node| node.kind == GROUP_KIND)
-        .and_then(|node| node.group.as_ref())
-    else {
+    let Some(name) = group_of(document, id) else {
         return Vec::new();
     };
     let mut commands = Vec::new();
-    let own = face
-        .knobs
-        .iter()
-        .filter(|knob| knob.name == SEED || !INSTANCE_KNOBS.contains(&knob.name.as_str()));
-    let own: Vec<(&str, &str)> = own.map(|knob| (knob.name.as_str(), knob.label.as_str())).collect();
-    let randomized = random::show(ui, id, &own, &mut state.kept);
-    commands.extend(randomized.map(|kept| GroupCommand::Randomize { node: id.clone(), kept }));
     commands.extend(variants(ui, context, (id, face), &mut state.cards));
     let linked = document
         .contents()
@@ -81,7 +92,7 @@ fn variants(
     let value = document.node(id)?.params.get(VARIANT).unwrap_or(&knob.ty.default);
     let shown = value.as_text();
     let mut chosen = None;
-    ui.add_space(space::TIGHT);
+    ui.add_space(space::WIDE);
     ui.horizontal(|ui| {
         ui.label(
             RichText::new("VARIANTS")

@@ -27,6 +27,7 @@ pub(crate) struct LibraryPanel {
 impl View for LibraryPanel {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
+        let before = self.query.clone();
         head(&mut self.query, ui, context, &mut actions);
         ui.add_space(space::TIGHT);
         self.pictures.poll(ui.ctx());
@@ -37,7 +38,12 @@ impl View for LibraryPanel {
         // sort keeps the order of the others. What is searched for stays in the order of its rank.
         let is_single = |candidate: &Candidate| self.query.is_empty() && matches!(candidate.new, NodeSource::Kind(_));
         found.sort_by_key(|candidate| (number(candidate).unwrap_or(usize::MAX), is_single(candidate)));
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        if self.query != before {
+            // The best match is the first one.
+            area = area.vertical_scroll_offset(0.0);
+        }
+        area.show(ui, |ui| {
             faults(ui, context.theme, context.library.faults());
             ui.spacing_mut().item_spacing.y = 1.0;
             let mut section = "";

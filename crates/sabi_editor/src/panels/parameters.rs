@@ -7,6 +7,7 @@ use sabi_editing::{OpenDocument, connections, panel};
 use sabi_engine::catalog::{Entry, Knob};
 use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 
+use super::input_histogram::InputHistogram;
 use super::instance::InstanceState;
 use super::painting::Painting;
 use super::{channel_sections, instance, ports, published, variants};
@@ -22,6 +23,7 @@ pub(crate) struct Parameters {
     variants: variants::Variants,
     instance: InstanceState,
     painting: Painting,
+    histogram: InputHistogram,
 }
 
 impl View for Parameters {
@@ -31,12 +33,7 @@ impl View for Parameters {
             return self.of_graph(ui, context);
         }
         if let Some(id) = alike(document) {
-            return of_node(
-                (&mut self.memory, &mut self.instance, &mut self.painting),
-                ui,
-                context,
-                &id,
-            );
+            return self.of_node(ui, context, &id);
         }
         let count = document.selection().len();
         let sentence =
@@ -63,6 +60,76 @@ impl Parameters {
         });
         actions
     }
+
+    /// Parameters of a node, or of several of its kind.
+    fn of_node(&mut self, ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
+        let Parameters {
+            memory,
+            instance,
+            painting,
+            histogram,
+            ..
+        } = self;
+        let (document, theme) = (context.document, context.theme);
+        let (Some(face), Some(node)) = (document.face(id), document.node(id)) else {
+            return Vec::new();
+        };
+        let count = document.selection().len();
+        heading(ui, context, id, face);
+        let randomized = instance::random_values(ui, context, id, face, instance);
+        let mut actions: Vec<Action> = randomized.into_iter().collect();
+        actions.extend(painting.show(ui, context, id));
+        ui.separator();
+        let links: Vec<KnobLinks<'_>> = face
+            .knobs
+            .iter()
+            .map(|knob| KnobLinks::of(document, id, knob))
+            .collect();
+        let rows: Vec<KnobRow<'_>> = face
+            .knobs
+            .iter()
+            .zip(&links)
+            // Versions of strokes are for files; the list of strokes shows what they hold.
+            .filter(|(knob, _)| node.kind != PAINT || knob.name != STROKES)
+            .map(|(knob, links)| KnobRow {
+                knob,
+                value: node.params.get(&knob.name),
+                wired: links.wired.as_deref(),
+                mask: match &links.mask {
+                    Some(mask) => ParamMask::Of(mask),
+                    None if count == 1 && face.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
+                    None => ParamMask::NotTaken,
+                },
+                exposed: links.exposed,
+                differs: differs(document, &knob.name, node.params.get(&knob.name)),
+            })
+            .collect();
+        let switches = channel_sections::switches(&face.knobs);
+        let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            histogram.show(ui, context, id);
+            let of_knobs = ui.push_id(id, |ui| {
+                let sections = channel_sections::sections(&rows, &switches);
+                let events = knobs_ui(ui, theme, memory, &sections, &context.lengths());
+                let actions = events.into_iter().map(|event| Action::Knob {
+                    node: id.clone(),
+                    event,
+                });
+                actions.collect::<Vec<Action>>()
+            });
+            let of_instance = instance::show(ui, context, id, face, instance);
+            of_knobs.inner.into_iter().chain(of_instance).collect::<Vec<Action>>()
+        });
+        actions.extend(shown.inner);
+        actions
+    }
+}
+
+#[cfg(test)]
+impl Parameters {
+    /// Returns whether the histogram of an input is drawn.
+    pub(crate) fn has_histogram(&self) -> bool {
+        self.histogram.is_shown()
+    }
 }
 
 /// One of the selected nodes, if they are all of the same kind.
@@ -71,63 +138,6 @@ fn alike(document: &OpenDocument) -> Option<NodeId> {
     let mut selected = document.selection().iter();
     let first = selected.next()?;
     selected.all(|other| kind(other) == kind(first)).then(|| first.clone())
-}
-
-/// Parameters of a node, or of several of its kind.
-fn of_node(
-    (memory, instance, painting): (&mut KnobMemory, &mut InstanceState, &mut Painting),
-    ui: &mut Ui,
-    context: &ViewContext<'_>,
-    id: &NodeId,
-) -> Vec<Action> {
-    let (document, theme) = (context.document, context.theme);
-    let (Some(face), Some(node)) = (document.face(id), document.node(id)) else {
-        return Vec::new();
-    };
-    let count = document.selection().len();
-    heading(ui, context, id, face);
-    let mut actions = instance::show(ui, context, id, face, instance);
-    actions.extend(painting.show(ui, context, id));
-    ui.separator();
-    let links: Vec<KnobLinks<'_>> = face
-        .knobs
-        .iter()
-        .map(|knob| KnobLinks::of(document, id, knob))
-        .collect();
-    let rows: Vec<KnobRow<'_>> = face
-        .knobs
-        .iter()
-        .zip(&links)
-        // Versions of strokes are for files; the list of strokes shows what they hold.
-        .filter(|(knob, _)| node.kind != PAINT || knob.name != STROKES)
-        .map(|(knob, links)| KnobRow {
-            knob,
-            value: node.params.get(&knob.name),
-            wired: links.wired.as_deref(),
-            mask: match &links.mask {
-                Some(mask) => ParamMask::Of(mask),
-                None if count == 1 && face.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
-                None => ParamMask::NotTaken,
-            },
-            exposed: links.exposed,
-            differs: differs(document, &knob.name, node.params.get(&knob.name)),
-        })
-        .collect();
-    let switches = channel_sections::switches(&face.knobs);
-    let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.push_id(id, |ui| {
-            let sections = channel_sections::sections(&rows, &switches);
-            let events = knobs_ui(ui, theme, memory, &sections, &context.lengths());
-            let actions = events.into_iter().map(|event| Action::Knob {
-                node: id.clone(),
-                event,
-            });
-            actions.collect::<Vec<Action>>()
-        })
-        .inner
-    });
-    actions.extend(shown.inner);
-    actions
 }
 
 /// Title, summary and fault of the selected node.

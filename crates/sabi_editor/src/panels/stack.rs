@@ -2,16 +2,17 @@
 
 mod row;
 
-use egui::{Pos2, Rect, RichText, Ui};
+use egui::{Pos2, Rect, RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_editing::command::{KnobCommand, LayerCommand};
+use sabi_editing::command::{KnobCommand, LayerCommand, PaintCommand};
+use sabi_editing::hand_layers::HandLayer;
 use sabi_editing::stack::{Layer, Stack, StackEnd};
 use sabi_editing::{OpenDocument, connections, layers, stack};
 use sabi_engine::catalog::{Entry, KnobRole, label_of};
 use sabi_graph::{NodeId, NodeRef, Value};
 
 use super::reordering;
-use crate::action::Action;
+use crate::action::{Action, PaintAction};
 use crate::context::{View, ViewContext};
 use crate::looks::result_of;
 use crate::search::Candidate;
@@ -59,8 +60,9 @@ impl View for Layers {
         self.wanted = wanted(context.document, &stacks);
         self.rows.clear();
         if stacks.is_empty() {
-            let sentence = "There is no output yet; add a Material output and wire a material to it.";
+            let sentence = "There is no output yet; the first layer adds one.";
             ui.add(egui::Label::new(RichText::new(sentence).color(context.theme.quiet)).wrap());
+            ui.horizontal_wrapped(|ui| by_hand(ui, None, &mut actions));
             return actions;
         }
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -82,6 +84,12 @@ impl Layers {
         let slot = layers::mask_input(document, node)?;
         let fits = connections::input(document, &slot).is_some_and(|input| face.output_for(input).is_some());
         fits.then(|| node.clone())
+    }
+
+    /// Visible part of the row of a layer in the last frame.
+    pub(crate) fn row_of(&self, node: &NodeId) -> Option<Rect> {
+        let row = self.rows.iter().find(|(_, of)| of == node);
+        row.map(|(rect, _)| *rect)
     }
 
     fn list(&mut self, ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec<Action>) {
@@ -187,6 +195,7 @@ fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Ve
     if layer.mask.is_some() && ui.button("No mask").clicked() {
         actions.push(Action::edit(LayerCommand::RemoveMask(layer.node.clone())));
     }
+    painted_masks(ui, layer, actions);
     let Some(input) = layers::mask_input(document, &layer.node) else {
         return;
     };
@@ -216,6 +225,29 @@ fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Ve
     }
 }
 
+/// Entries for masks that are painted: from black or white, or over the mask that is there.
+fn painted_masks(ui: &mut Ui, layer: &Layer, actions: &mut Vec<Action>) {
+    for (title, empty, tip) in [
+        ("Black, to paint", 0.0, "The layer shows only where you paint"),
+        ("White, to paint", 1.0, "The layer shows everywhere but where you paint"),
+    ] {
+        if ui.button(title).on_hover_text(tip).clicked() {
+            let node = layer.node.clone();
+            actions.push(Action::edit(LayerCommand::PaintMask { node, empty }));
+            let value = Some(1.0 - empty as f32);
+            actions.push(Action::Paint(PaintAction::PaintSelected { value }));
+        }
+    }
+    if let Some(mask) = &layer.mask {
+        let paint = ui.button("Paint over it");
+        if paint.on_hover_text("Strokes lie over the mask that is there").clicked() {
+            actions.push(Action::edit(PaintCommand::Over(mask.node.clone())));
+            actions.push(Action::Paint(PaintAction::PaintSelected { value: None }));
+        }
+    }
+    ui.separator();
+}
+
 /// Results that rows show: of each layer, and of its mask.
 fn wanted(document: &OpenDocument, stacks: &[Stack]) -> Vec<NodeRef> {
     let layers = stacks.iter().flat_map(|stack| &stack.layers);
@@ -229,15 +261,36 @@ fn wanted(document: &OpenDocument, stacks: &[Stack]) -> Vec<NodeRef> {
 }
 
 fn head(document: &OpenDocument, ui: &mut Ui, stack: &Stack, actions: &mut Vec<Action>) {
-    ui.horizontal(|ui| {
-        ui.strong(&stack.title);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let menu = ui.menu_button(format!("{} Layer", icon::PLUS), |ui| {
-                kinds(document, ui, stack, 0, actions)
-            });
-            menu.response.on_hover_text("Adds a layer on top");
+    ui.add(egui::Label::new(RichText::new(&stack.title).strong()).truncate());
+    ui.horizontal_wrapped(|ui| {
+        by_hand(ui, Some(&stack.end), actions);
+        let menu = ui.menu_button(format!("{} Layer", icon::PLUS), |ui| {
+            kinds(document, ui, stack, 0, actions)
         });
+        menu.response.on_hover_text("Adds a layer of any kind on top");
     });
+}
+
+/// Buttons that add layers that are painted or filled, on top of a stack, or with an output of their own.
+fn by_hand(ui: &mut Ui, end: Option<&StackEnd>, actions: &mut Vec<Action>) {
+    for (what, title) in HandLayer::ALL {
+        let (sign, tip) = match what {
+            HandLayer::Paint => (
+                icon::PAINT_BRUSH,
+                "Adds a layer whose place and color you paint on the model",
+            ),
+            HandLayer::Fill => (icon::PAINT_BUCKET, "Adds a layer of one color over all of the surface"),
+        };
+        let button = ui.button(format!("{sign} {}", title.trim_end_matches(" layer")));
+        button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, title));
+        if button.on_hover_text(tip).clicked() {
+            let end = end.cloned();
+            actions.push(Action::edit(LayerCommand::AddByHand { end, what }));
+            if what == HandLayer::Paint {
+                actions.push(Action::Paint(PaintAction::PaintSelected { value: None }));
+            }
+        }
+    }
 }
 
 /// Menu of the kinds that a layer can have.

@@ -201,16 +201,18 @@ impl BrushChoices {
         }
     }
 
-    /// The brush with a picture as its tip, which lays decals, or ribbons as before; as a stroke, one beside another.
+    /// The brush with a picture as its tip, which lays decals, labels or ribbons as before, and decals in place of what shows
+    /// no picture; as a stroke, one beside another.
     pub(crate) fn with_picture(&self, picture: PictureTip) -> BrushChoices {
+        let area = match self.area {
+            Area::Decal | Area::Label | Area::Ribbon => self.area,
+            Area::Way if self.picture.is_some() => Area::Way,
+            _ => Area::Decal,
+        };
         BrushChoices {
             picture: Some(picture),
             action: Action::Paint,
-            area: if self.area == Area::Ribbon {
-                Area::Ribbon
-            } else {
-                Area::Decal
-            },
+            area,
             spacing: 2.2,
             flow: 1.0,
             jitter: Jitter::default(),

@@ -1,6 +1,6 @@
 //! Choices of the export panel, as they are kept between runs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use sabi_engine::{CopyOptions, DEFAULT_PRESET, default_padding, export_channels};
 
@@ -130,9 +130,31 @@ pub(crate) struct ExportPlace {
     pub(crate) model: Option<PathBuf>,
 }
 
+impl ExportPlace {
+    /// Target of a graph's textures, with a folder beside the graph where none was chosen.
+    pub(crate) fn beside(mut self, graph: &Path) -> ExportPlace {
+        if let Some(stem) = graph.file_stem().filter(|_| self.folder.is_empty()) {
+            self.folder = format!("{}-textures", stem.to_string_lossy());
+        }
+        self
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_beside_the_graph_is_proposed_until_one_is_chosen() {
+        let graph = Path::new("props/worn crate.sabi");
+        let proposed = ExportPlace::default().beside(graph);
+        assert_eq!(proposed.folder, "worn crate-textures");
+        let chosen = ExportPlace {
+            folder: "maps".to_owned(),
+            ..ExportPlace::default()
+        };
+        assert_eq!(chosen.clone().beside(graph), chosen);
+    }
 
     #[test]
     fn a_padding_is_as_wide_as_it_says() {

@@ -52,7 +52,7 @@ pub enum LiveEvent {
         /// Id of the output that gives each material, by the material's index; materials that no output gives are missing.
         outputs: Arc<BTreeMap<u32, String>>,
     },
-    /// Exact values of the inspected node.
+    /// Exact values of an inspected node.
     Inspected {
         /// Revision of the request.
         revision: u64,
@@ -174,7 +174,9 @@ pub struct Inspected {
 pub struct Faults {
     /// Faults of nodes.
     pub faults: Vec<NodeFault>,
-    /// Nodes without a fault that need a faulty node.
+    /// Nodes that wait for a file that was not chosen yet, each with a sentence that asks for it.
+    pub unchosen: Vec<NodeFault>,
+    /// Nodes without a fault that need a faulty node, or one without a file.
     pub blocked: Vec<BlockedNode>,
     /// Faults that belong to no node.
     pub other: Vec<String>,

@@ -78,8 +78,8 @@ pub struct LiveRequest {
     pub coarse_size: u32,
     /// Subjects of the viewports, most important first.
     pub subjects: Vec<ViewSubject>,
-    /// Node whose exact values are read back at full size.
-    pub inspected: Option<NodeRef>,
+    /// Nodes whose exact values are read back at full size, most important first.
+    pub inspected: Vec<NodeRef>,
     /// Texture set of pictures in texture space; the model's first where it does not have this one.
     pub set: Option<SetKey>,
     /// Nodes that need a thumbnail, most important first.

@@ -60,7 +60,7 @@ pub(super) struct Worker {
 pub(super) struct Sent {
     pub(super) looks: BTreeMap<ViewSubject, SentLooks>,
     pub(super) thumbnails: BTreeMap<NodeRef, Key>,
-    pub(super) inspected: Option<(NodeRef, Key)>,
+    pub(super) inspected: BTreeMap<NodeRef, Key>,
     pub(super) faults: Option<Faults>,
     pub(super) files: Option<(BTreeSet<PathBuf>, Vec<Refusal>)>,
 }

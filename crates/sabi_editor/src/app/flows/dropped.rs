@@ -10,7 +10,7 @@ use sabi_engine::{MODEL_ENDINGS, io_reason, path_text};
 use super::super::Editor;
 use crate::action::Next;
 use crate::dock::Panel;
-use crate::paths::{IMAGES, canonical_if_present, lowercase_ending};
+use crate::paths::{IMAGES, canonical_if_present, file_name, lowercase_ending};
 
 impl Editor {
     /// Uses a file by its type: a graph is opened, a model shown, an environment used as light, an image added as a node.
@@ -33,6 +33,24 @@ impl Editor {
                 path.display()
             )),
         }
+    }
+
+    /// Marks the window and says what a file that is held over it does when it is dropped.
+    pub(in crate::app) fn mark_hovered_file(&self, ui: &Ui) {
+        let hovered = ui.input(|input| input.raw.hovered_files.first().cloned());
+        let Some(hovered) = hovered else { return };
+        let file = hovered.path.as_deref();
+        let name = file.map_or_else(|| "the file".into(), file_name);
+        let ending = file.and_then(lowercase_ending);
+        let words = match ending.as_deref() {
+            _ if file.is_some_and(Path::is_dir) => format!("Drop {name} to add its pictures as texture sets"),
+            Some("sabi") => format!("Drop {name} to open it"),
+            Some(ending) if MODEL_ENDINGS.contains(&ending) => format!("Drop {name} to show the graph on it"),
+            Some("hdr") => format!("Drop {name} to light the model by it"),
+            Some(ending) if IMAGES.contains(&ending) => format!("Drop {name} to add it as an image"),
+            _ => "Drop a graph, a model, a picture or an environment here".to_owned(),
+        };
+        self.mark_target(ui, ui.ctx().content_rect(), &words);
     }
 
     /// Adds the texture sets that the images of a folder are.

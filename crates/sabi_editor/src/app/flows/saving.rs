@@ -125,6 +125,7 @@ impl Editor {
         self.remember_named();
         self.shell.notify(format!("Saved to {}", file.display()));
         self.store_picture_of_graph(file);
+        self.exports.place = std::mem::take(&mut self.exports.place).beside(file);
         let source = ExportSource {
             document: &self.documents.document,
             evaluation: &self.evaluation,

@@ -198,6 +198,6 @@ impl Editor {
             ));
         };
         let place = self.views.canvas.camera.place_for_new(ui);
-        self.add(new, place, None, ui);
+        self.add_uncovering(new, place, ui);
     }
 }

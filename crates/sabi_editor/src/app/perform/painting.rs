@@ -8,9 +8,9 @@ use sabi_editing::painting;
 use sabi_engine::Strokes;
 use sabi_engine::paint::{Action as BrushAction, PictureName, PicturePart, PictureTip};
 
-use crate::action::{LookAction, PaintAction};
+use crate::action::PaintAction;
 use crate::app::Editor;
-use crate::brush::text::picture_of;
+use crate::brush::text::{TextFont, font_bytes, picture_of};
 use crate::brush_shelf::{self, KeptBrush};
 use crate::command::BrushCommand;
 use crate::files::system_dialog::PathFor;
@@ -21,6 +21,12 @@ use crate::settings::stencil::StencilChoices;
 impl Editor {
     pub(super) fn perform_painting(&mut self, action: PaintAction, ui: &Ui) {
         match action {
+            PaintAction::PaintSelected { value } => {
+                let brush = &mut self.shell.settings.brush;
+                brush.value = value.unwrap_or(brush.value);
+                self.find_brush_picture();
+                self.begin_painting(ui);
+            }
             PaintAction::Begin => {
                 self.find_brush_picture();
                 self.begin_drag();
@@ -50,6 +56,8 @@ impl Editor {
             PaintAction::AskForStencil => self.ask_for_brush(PathFor::Stencil),
             PaintAction::TakeStencil(file) => self.take_stencil(&file),
             PaintAction::TakeText(text) => self.take_text(&text),
+            PaintAction::ChooseFont(font) => self.choose_font(font),
+            PaintAction::AskForFont => self.ask_for_brush(PathFor::Font),
             PaintAction::TakeNode(result) => {
                 let (gpu, document) = (self.evaluation.gpu(), &self.documents.document);
                 self.node_tips.start(ui.ctx(), gpu, document, &result);
@@ -122,9 +130,21 @@ impl Editor {
         }
     }
 
+    /// Uses a font for texts from now on, if it can be read.
+    fn choose_font(&mut self, font: TextFont) {
+        let read = font.file.as_deref().map(font_bytes).transpose();
+        if self.shell.report(read).is_some() {
+            self.shell.settings.text_font = font;
+        }
+    }
+
     /// Uses a text as the tip of the brush.
     fn take_text(&mut self, text: &str) {
-        let Some(shapes) = picture_of(text) else {
+        let drawn = picture_of(text, &self.shell.settings.text_font);
+        let Some(drawn) = self.shell.report(drawn) else {
+            return;
+        };
+        let Some(shapes) = drawn else {
             self.shell.notify("Type the text that the brush is to stamp.");
             return;
         };
@@ -262,9 +282,8 @@ impl Editor {
         };
         if let Outcome::Added(node) = perform(document, PaintCommand::Over(node).into()) {
             self.looks.show(document, &node, None);
-            // The material shows what the strokes do to it; a mask that nothing reads has only itself to show.
-            if painting::is_read(document, &node) {
-                self.looks.perform(LookAction::Outputs, &mut self.shell.settings);
+            if !self.looks.is_compared {
+                self.looks.pinned_3d = None;
             }
             self.looks.is_painting = true;
             self.shell.dock.bring_up(crate::dock::Panel::Viewport);

@@ -25,7 +25,7 @@ fn the_start_page_begins_opens_and_unpacks() {
     let example = &crate::files::examples::EXAMPLES[0];
     let (name, nodes) = choose(example.title);
     assert!(name.ends_with(".sabi") && nodes > 0, "{name} {nodes}");
-    assert_eq!(choose("Empty graph"), (String::new(), 0));
+    assert_eq!(choose("Empty graph"), (String::new(), 2), "the model and an output");
     choose("Open…");
     assert!(window.says("Open a graph"), "it asks for the path");
 }

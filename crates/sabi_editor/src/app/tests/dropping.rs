@@ -22,7 +22,7 @@ const TWO_OUTPUTS: &str = r#"{
 }"#;
 
 /// Two squares that face the front, each with a material of its own; the right one has a normal map.
-fn write_two_squares(folder: &Path) -> PathBuf {
+pub(super) fn write_two_squares(folder: &Path) -> PathBuf {
     let mut bytes: Vec<u8> = Vec::new();
     let mut push = |values: &[f32]| values.iter().for_each(|value| bytes.extend(value.to_le_bytes()));
     for left in [-1.0, 0.0] {

@@ -43,6 +43,8 @@ fn ready() -> Window {
         .max_by(|one, other| one.width().total_cmp(&other.width()));
     let field = field.expect("a field for the folder").center();
     window.click_at(field);
+    // In place of the folder that is proposed.
+    window.keys(Modifiers::COMMAND, Key::A);
     window.typed("maps");
     window
 }
@@ -132,6 +134,7 @@ fn an_export_is_canceled_and_leaves_nothing() {
 fn what_cannot_be_exported_says_why() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
     window.open(Panel::Export);
+    window.harness.state_mut().exports.place.folder.clear();
     window.press("Export");
     assert!(window.says("Choose a folder for the textures first"));
     window.harness.state_mut().exports.place.folder = "maps".to_owned();

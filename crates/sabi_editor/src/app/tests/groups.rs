@@ -120,7 +120,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
             window.document().graph().len(),
             window.document().contents().groups.len()
         ),
-        (0, 0),
+        (2, 0),
         "one step"
     );
     // By a drag from the panel to the canvas.

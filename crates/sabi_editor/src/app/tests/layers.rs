@@ -10,7 +10,7 @@ use sabi_editing::stack;
 
 use crate::dock::{Layout, Panel};
 
-const LAYERED: &str = r#"{
+pub(super) const LAYERED: &str = r#"{
   "format": "sabi", "version": 1, "name": "Worn paint",
   "nodes": {
     "paint": { "kind": "source/material", "label": "Paint" },
@@ -161,6 +161,7 @@ fn a_layer_is_renamed_blended_and_masked_in_its_row() {
     );
     choose(&mut window, &["Mask", "Noise", "Clouds"]);
     let mask = window.reads(&rust, "mask");
+    assert!(!mask.is_empty(), "{:?}", window.labels());
     let kind = window.document().graph().node(&mask).map(|node| node.kind.clone());
     assert_eq!(kind.as_deref(), Some("noise/simplex"));
     assert_eq!(window.steps(), 4);

@@ -184,7 +184,7 @@ fn where_textures_go_is_known_for_each_graph_and_in_the_next_window() {
     (place.folder, place.again) = ("maps".to_owned(), true);
     window.harness.state_mut().open_file(&other);
     let place = &window.editor().exports.place;
-    assert!(place.folder.is_empty() && !place.again, "{place:?}");
+    assert!(place.folder == "other-textures" && !place.again, "{place:?}");
     window.harness.state_mut().open_file(&first);
     assert_eq!(window.editor().exports.place.folder, "maps");
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;

@@ -78,7 +78,7 @@ fn inputs_and_outputs_of_the_group_that_is_open_are_changed_in_a_list() {
     window.fill("Input", "place");
     window.fill("Output", "worn");
     window.click("Levels · Mask");
-    window.click("Cells · Id");
+    window.click("Cells · ID");
     let document = &window.editor().documents.document;
     assert_eq!(
         ports::inputs(document)["place"].label.as_deref(),

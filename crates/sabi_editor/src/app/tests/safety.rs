@@ -1,7 +1,6 @@
 //! No work is lost: saving, the questions before, and copies in case of a crash.
 
 use std::fs;
-use std::path::PathBuf;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
@@ -10,7 +9,7 @@ use sabi_engine::Session;
 
 use super::Window;
 use super::hands::id;
-use crate::files::system_dialog::SystemDialog;
+use crate::files::system_dialog::{DialogAnswer, SystemDialog};
 
 pub(super) const CLOUDS: &str = r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#;
 
@@ -23,7 +22,7 @@ impl Window {
     }
 
     /// Opens a system dialog with this answer.
-    fn opens_dialog(&mut self, answers: impl FnOnce() -> Option<PathBuf> + Send + 'static) {
+    fn opens_dialog(&mut self, answers: impl FnOnce() -> DialogAnswer + Send + 'static) {
         let dialog = SystemDialog::waiting(&self.harness.ctx, answers);
         self.harness.state_mut().views.questions.dialog = Some(dialog);
         self.settle();
@@ -61,26 +60,23 @@ fn graph_in(file: &std::path::Path) -> sabi_graph::Graph {
 fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
     let mut window = Window::untitled();
     window.add([0.3, 0.3], "clouds");
-    let (answers, answer) = channel::<Option<PathBuf>>();
+    let (answers, answer) = channel::<DialogAnswer>();
     window.keys(Modifiers::COMMAND, Key::S);
-    window.opens_dialog(move || answer.recv().ok().flatten());
+    window.opens_dialog(move || answer.recv().unwrap_or(DialogAnswer::NotOpened));
     assert!(window.says("The system's dialog is open"));
     let file = window.path("chosen.sabi");
-    answers.send(Some(file.clone())).expect("somebody who waits");
+    let chosen = DialogAnswer::Chosen(file.clone());
+    answers.send(chosen).expect("somebody who waits");
     window.until("the answer", |editor| editor.views.questions.open.is_none());
     assert_eq!(window.document().session.file(), Some(&*file));
     assert!(file.exists());
-    // A dialog that is closed or cannot be opened leaves the question as it was.
+    // A dialog that is closed leaves the question as it was; one that cannot be opened is told.
     window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    for answered in [true, false] {
-        let (answers, answer) = channel::<Option<PathBuf>>();
-        window.opens_dialog(move || answer.recv().ok().flatten());
-        if answered {
-            answers.send(None).expect("somebody who waits");
-        }
-        drop(answers);
+    for (answer, is_told) in [(DialogAnswer::Closed, false), (DialogAnswer::NotOpened, true)] {
+        window.opens_dialog(move || answer);
         window.until("the end of it", |editor| editor.views.questions.dialog.is_none());
         assert!(window.says("Save the graph") && window.has("System dialog…"));
+        assert_eq!(window.says("The system's dialog could not be opened"), is_told);
     }
 }
 
@@ -101,7 +97,7 @@ fn a_graph_is_saved_under_a_name_and_opens_again_as_it_was() {
     window.answer_path(&window.path("second.sabi"));
     assert_eq!(window.document().session.file(), Some(&*window.path("second.sabi")));
     window.keys(Modifiers::COMMAND, Key::N);
-    assert_eq!(window.document().graph().len(), 0);
+    assert!(window.document().session.file().is_none() && window.text() != text);
     window.keys(Modifiers::COMMAND, Key::O);
     window.answer_path(&file);
     assert_eq!(window.text(), text);
@@ -138,7 +134,7 @@ fn before_something_else_is_opened_changes_are_asked_about() {
     assert_eq!(window.text(), changed, "nothing happened");
     window.keys(Modifiers::COMMAND, Key::N);
     window.press("Discard");
-    assert_eq!(window.document().graph().len(), 0);
+    assert_eq!(window.document().graph().len(), 2);
     assert_eq!(
         fs::read_to_string(window.path("graph.sabi")).expect("a file"),
         super::graph_text(CLOUDS)
@@ -165,7 +161,7 @@ fn a_graph_without_a_file_is_saved_before_it_makes_room_for_another() {
     let file = window.path("kept.sabi");
     window.answer_path(&file);
     assert!(graph_in(&file) == graph, "what was there, and not what came after");
-    assert_eq!(window.document().graph().len(), 0);
+    assert_eq!(window.document().graph().len(), 2);
 }
 
 #[test]

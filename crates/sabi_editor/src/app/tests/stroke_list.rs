@@ -11,7 +11,7 @@ use super::painting::painting_on;
 use crate::dock::Panel;
 
 /// A window with two strokes on the node `mask`, and their list.
-fn listed() -> Window {
+pub(super) fn listed() -> Window {
     let mut window = painting_on("mask");
     let [from, to] = window.way();
     for offset in [-14.0, 14.0] {

@@ -51,6 +51,22 @@ fn a_drag_in_the_picker_is_one_step() {
     assert!(log.len() > 2 && current(&board) != Value::from("#808080"));
 }
 
+#[test]
+fn a_color_is_set_by_hue_saturation_and_value_and_then_offered_to_other_colors() {
+    let mut board = board(["effect/layer.color", "effect/layer.emission"].map(knob));
+    click(&mut board, "Color");
+    for (name, number) in [("Value", "100"), ("Saturation", "100"), ("Hue", "120")] {
+        type_code(&mut board, name, number);
+    }
+    let log = taken(&mut board);
+    assert_eq!(log.last(), Some(&set("color", "#00ff00")), "{log:?}");
+    key(&mut board, Key::Escape);
+    click(&mut board, "Emission");
+    click(&mut board, "Picked before: #00ff00");
+    let log = taken(&mut board);
+    assert!(log.contains(&set("emission", "#00ff00")), "{log:?}");
+}
+
 fn gradient(stops: &str) -> Board {
     let mut gradient = knob("color/gradient.stops");
     gradient.value = Some(json(stops));

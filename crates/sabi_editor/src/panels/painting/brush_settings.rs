@@ -1,6 +1,7 @@
 //! The brush: what it does, its tip, its size, and all that strokes depend on.
 
-use egui::{Button, Color32, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
+use egui::epaint::Hsva;
+use egui::{Button, Color32, Popup, PopupCloseBehavior, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, Fade, FadeCurve, PicturePart, Turn};
 
@@ -8,7 +9,7 @@ use super::swatches::Swatches;
 use super::{choice, pen, stencil, tips};
 use crate::action::{Action, PaintAction};
 use crate::context::ViewContext;
-use crate::knobs::{CurveMemory, curve_ui};
+use crate::knobs::{CurveMemory, curve_ui, picker, remember_color};
 use crate::looks::ColorTarget;
 use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, POINTS, SIZES, SPACINGS};
 
@@ -151,7 +152,7 @@ fn sliders(ui: &mut Ui, brush: &mut BrushChoices) {
 fn color(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoices) -> Vec<Action> {
     let mut actions = Vec::new();
     ui.horizontal(|ui| {
-        ui.color_edit_button_rgb(&mut brush.color);
+        color_button(ui, &mut brush.color);
         ui.label("Color").on_hover_text("Connect the output Color");
         let is_taking = context.looks.color_target == Some(ColorTarget::Brush);
         let dropper = ui.add(Button::new(icon::EYEDROPPER).selected(is_taking));
@@ -173,6 +174,33 @@ fn color(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoices) -> Ve
         }
     });
     actions
+}
+
+/// A sample of a linear color, which opens a picker.
+fn color_button(ui: &mut Ui, color: &mut [f32; 3]) {
+    let [red, green, blue] = *color;
+    let shown = Color32::from(Rgba::from_rgb(red, green, blue));
+    let sample = ui.add(
+        Button::new("")
+            .fill(shown)
+            .min_size(vec2(2.0 * COLOR_SIDE, ui.spacing().interact_size.y)),
+    );
+    sample.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::ColorButton, true, "Color of the brush"));
+    let popup = Popup::menu(&sample).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    popup.show(|ui| {
+        // A gray has no hue, so the picker's own is kept while it gives this color.
+        let kept_as = ui.id().with("picked");
+        let kept = ui.data(|data| data.get_temp::<Hsva>(kept_as));
+        let kept = kept.filter(|kept| kept.to_rgb() == *color);
+        let mut picked = kept.unwrap_or_else(|| Hsva::from_rgb(*color)); // Another color than the last picked one.
+        if picker(ui, &mut picked) {
+            *color = picked.to_rgb();
+            ui.data_mut(|data| data.insert_temp(kept_as, picked));
+        }
+        if kept.is_some() && ui.input(|input| input.pointer.primary_released()) {
+            remember_color(ui.ctx(), shown);
+        }
+    });
 }
 
 /// The way between stamps, their turn, and their fade.

@@ -6,7 +6,7 @@ mod tools;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use egui::{Image, Key, Rect, ScrollArea, Sense, TextEdit, Ui, vec2};
+use egui::{Button, Image, Key, Rect, Response, ScrollArea, Sense, TextEdit, Ui, vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::PaintCommand;
 use sabi_editing::painting::{strokes_of, strokes_on};
@@ -178,7 +178,7 @@ impl StrokeRows {
         let members = order::members(list, group.number);
         let title = format!("{}  ({})", group.name, members.len());
         let is_marked = members.is_subset(&context.looks.marked_strokes);
-        let label = ui.selectable_label(is_marked, &title).interact(Sense::click_and_drag());
+        let label = named_row(ui, is_marked, &title);
         label.dnd_set_drag_payload(DraggedStrokes(members.clone(), title));
         if label.double_clicked() {
             self.renamed = Some((Named::Group(group.number), group.name.clone()));
@@ -223,8 +223,7 @@ impl StrokeRows {
         }
         let title = title_of(stroke, index);
         let marked = &context.looks.marked_strokes;
-        let label = ui.selectable_label(marked.contains(&stroke.id), &title);
-        let label = label.interact(Sense::click_and_drag());
+        let label = named_row(ui, marked.contains(&stroke.id), &title);
         let dragged = if marked.contains(&stroke.id) {
             marked.clone()
         } else {
@@ -283,6 +282,12 @@ impl StrokeRows {
         }
         marked
     }
+}
+
+/// The name of a row, which marks it and is dragged; a long one is cut off.
+fn named_row(ui: &mut Ui, is_marked: bool, title: &str) -> Response {
+    let label = ui.add(Button::selectable(is_marked, title).truncate());
+    label.interact(Sense::click_and_drag())
 }
 
 /// The brush of a stroke as its picture shows it: a decal upright, and once.

@@ -1,14 +1,15 @@
 //! The tip of the brush: a picture of a stroke with it, which opens all tips and the artist's own pictures.
 
 use egui::{
-    Button, Grid, Image, Key, Popup, PopupCloseBehavior, RichText, ScrollArea, Sense, TextEdit, Ui, WidgetInfo,
-    WidgetType, vec2,
+    Button, ComboBox, Grid, Image, Key, Popup, PopupCloseBehavior, RichText, ScrollArea, Sense, TextEdit, Ui,
+    WidgetInfo, WidgetType, vec2,
 };
 use egui_phosphor::regular as icon;
 use sabi_engine::paint::Tip;
 
 use super::swatches::{SWATCH, Swatches};
 use crate::action::{Action, PaintAction};
+use crate::brush::text::TextFont;
 use crate::context::ViewContext;
 use crate::settings::brush::BrushChoices;
 
@@ -69,8 +70,27 @@ pub(super) fn show(
                 actions.push(Action::Paint(PaintAction::TakeText(text.clone())));
             }
         });
+        ui.horizontal(|ui| actions.extend(fonts(ui, &context.settings.text_font)));
     }
     actions
+}
+
+/// List of the fonts of texts. Returns the action of the chosen one.
+fn fonts(ui: &mut Ui, font: &TextFont) -> Option<Action> {
+    let mut chosen = None;
+    ui.label("Font");
+    let list = ComboBox::from_id_salt("font of the text").selected_text(font.title());
+    list.width(110.0).truncate().show_ui(ui, |ui| {
+        for offered in [TextFont::default(), TextFont::monospace()] {
+            if ui.selectable_label(*font == offered, offered.title()).clicked() {
+                chosen = Some(PaintAction::ChooseFont(offered));
+            }
+        }
+        if ui.selectable_label(font.file.is_some(), "A font file…").clicked() {
+            chosen = Some(PaintAction::AskForFont);
+        }
+    });
+    chosen.map(Action::Paint)
 }
 
 /// The nodes of the shown graph, whose results can be stamped.

@@ -6,6 +6,7 @@ use egui::{
 };
 use egui_phosphor::regular as icon;
 use sabi_editing::command::{LayerCommand, NodeCommand};
+use sabi_editing::panel;
 use sabi_editing::stack::Layer;
 use sabi_graph::Value;
 
@@ -189,11 +190,10 @@ fn name_and_opacity(
         .sense(Sense::hover());
     if renaming.as_ref().is_some_and(|open| open.node == layer.node) {
         let builder = egui::UiBuilder::new().max_rect(name).id_salt(("name", &layer.node));
-        actions.extend(ui.scope_builder(builder, |ui| name_field(ui, renaming)).inner);
+        actions.extend(name_field(&mut ui.new_child(builder), renaming));
     } else {
-        ui.scope_builder(egui::UiBuilder::new().max_rect(name), |ui| {
-            ui.horizontal_centered(|ui| ui.add(label));
-        });
+        let mut within = ui.new_child(egui::UiBuilder::new().max_rect(name));
+        within.horizontal_centered(|ui| ui.add(label));
     }
     let Some((knob, opacity)) = bar else { return };
     let value = Value::Number(opacity);
@@ -202,15 +202,14 @@ fn name_and_opacity(
         value: Some(&value),
         wired: None,
         mask: ParamMask::NotTaken,
-        exposed: None,
+        exposed: panel::exposed_as(context.document, &layer.node, "opacity"),
         differs: false,
     };
     let builder = egui::UiBuilder::new()
         .max_rect(below.shrink2(vec2(0.0, 1.0)))
         .id_salt(("opacity", &layer.node));
-    let events = ui
-        .scope_builder(builder, |ui| knob_inline(ui, theme, &row, below.width(), 0.85))
-        .inner;
+    // The place of the next row is that below this one, whatever is shown in it.
+    let events = knob_inline(&mut ui.new_child(builder), theme, &row, below.width(), 0.85);
     for event in events {
         actions.push(match event {
             KnobEvent::Set { value, .. } => match value.as_number() {

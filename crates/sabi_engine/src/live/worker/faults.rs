@@ -14,7 +14,7 @@ use crate::live::flattened_request::FlattenedRequest;
 use crate::live::groups::{OpenedGroups, open_groups};
 use crate::live::request::ViewSubject;
 use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
-use crate::source::pictures;
+use crate::source::{SourceKinds, pictures};
 use crate::warning::Warning;
 
 impl Worker {
@@ -168,8 +168,9 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
     let resolved = planner_without_model(graph, &job.request.kinds, contents).resolve(&targets_of_all_nodes(graph));
     let (warnings, errors): (Vec<&PlanError>, Vec<&PlanError>) =
         resolved.errors.iter().partition(|error| error.is_warning());
-    let faults: Vec<NodeFault> = errors
-        .iter()
+    let unchosen = nodes_without_files(graph, &job.request.kinds.sources);
+    let faults = errors.iter().filter(|error| !unchosen.contains(error.node.as_str()));
+    let faults: Vec<NodeFault> = faults
         .map(|error| NodeFault {
             node: error.node.clone(),
             sentence: error.to_string(),
@@ -209,7 +210,21 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
             })
             .collect(),
         faults,
+        unchosen: unchosen
+            .into_iter()
+            .map(|node| NodeFault {
+                node: node.to_owned(),
+                sentence: "Choose a picture.".to_owned(),
+            })
+            .collect(),
         other,
         too_long: Vec::new(),
     }
+}
+
+/// Nodes that read a file, while none is chosen. Muted ones read none.
+fn nodes_without_files<'g>(graph: &'g FlatGraph, sources: &SourceKinds) -> BTreeSet<&'g str> {
+    let nodes = graph.nodes.iter().filter(|node| !node.muted);
+    let unchosen = nodes.filter(|node| pictures::named_file(node, sources).is_some_and(|(_, path)| path.is_empty()));
+    unchosen.map(|node| node.id.as_str()).collect()
 }

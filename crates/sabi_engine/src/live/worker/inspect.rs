@@ -1,4 +1,4 @@
-//! Exact values of the inspected node.
+//! Exact values of the inspected nodes.
 
 use std::sync::Arc;
 
@@ -18,25 +18,25 @@ use crate::live::queue::WorkProgress;
 use crate::live::sized_model::SizedModel;
 
 impl Worker {
-    /// Sends the values of the inspected node, if they have changed.
+    /// Sends the values of the inspected nodes, as far as they have changed.
     pub(super) fn inspect(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let inspected = job.request.inspected.clone();
-        let Some((node, target)) = inspected.and_then(|node| flattened.found.get(&node).map(|target| (node, target)))
-        else {
-            return Ok(());
-        };
-        self.stop_if_superseded()?;
-        self.set_graph_in_full(job, flattened)?;
-        match self.inspect_one(job, flattened, node, target) {
-            Err(EvaluationError::Failed(error)) => {
-                self.send(LiveEvent::Failed {
+        self.sent.inspected.retain(|node, _| inspected.contains(node));
+        for node in inspected {
+            let Some(target) = flattened.found.get(&node) else {
+                continue;
+            };
+            self.stop_if_superseded()?;
+            self.set_graph_in_full(job, flattened)?;
+            match self.inspect_one(job, flattened, node, target) {
+                Err(EvaluationError::Failed(error)) => self.send(LiveEvent::Failed {
                     revision: job.request.revision,
                     error,
-                });
-                Ok(())
+                }),
+                inspected => inspected?,
             }
-            inspected => inspected,
         }
+        Ok(())
     }
 
     fn inspect_one(
@@ -70,8 +70,7 @@ impl Worker {
             .update(&result.key)
             .finalize()
             .as_bytes();
-        let now = Some((node.clone(), key));
-        if sent.inspected == now {
+        if sent.inspected.get(&node) == Some(&key) {
             return Ok(());
         }
         let work = WorkProgress {
@@ -85,7 +84,7 @@ impl Worker {
         let size = sized.model.size;
         let values = sized.inspected((&plan, &run), result, set);
         let values = values.map_err(|error| EvaluationError::of_results(gpu, size, error))?;
-        sent.inspected = now;
+        sent.inspected.insert(node.clone(), key);
         self.send(LiveEvent::Inspected {
             revision: job.request.revision,
             node,

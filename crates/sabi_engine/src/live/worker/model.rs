@@ -64,7 +64,7 @@ impl Worker {
         });
         self.sent.looks.clear();
         self.sent.thumbnails.clear();
-        self.sent.inspected = None;
+        self.sent.inspected.clear();
         self.full_duration = None;
         Ok(())
     }

@@ -35,8 +35,8 @@ fn of_file(command: FileCommand) -> Option<Proof> {
         FileCommand::SaveAs => (&[], |window, _| window.is_asked_for(&PathFor::Save)),
         FileCommand::Pack => (&[], |window, _| window.is_asked_for(&PathFor::Archive)),
         FileCommand::Export => (&[], |window, _| {
-            window.editor().shell.dock.rects.contains_key(&Panel::Export)
-                && window.says("Choose a folder for the textures")
+            let has_begun = window.editor().exports.running.is_some() || window.editor().exports.result.is_some();
+            window.editor().shell.dock.rects.contains_key(&Panel::Export) && has_begun
         }),
         FileCommand::New | FileCommand::Save => return None,
     };

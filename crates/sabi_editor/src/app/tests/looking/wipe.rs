@@ -1,6 +1,7 @@
 //! Drags of the line between two pictures of the model.
 
 use egui::{CursorIcon, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
+use egui_kittest::kittest::Queryable;
 
 use super::super::Window;
 use super::super::hands::{beside, id};
@@ -91,4 +92,39 @@ fn the_key_f_looks_at_what_is_under_the_pointer() {
     window.key(Key::F);
     let camera = window.editor().views.model.navigation.camera;
     assert!(camera.target.length() > 0.1, "a place of the surface: {camera:?}");
+}
+
+#[test]
+fn what_is_compared_is_named_on_its_own_side_of_the_line() {
+    let mut window = compared();
+    let editor = window.harness.state_mut();
+    for node in ["cells", "dots"] {
+        let name = "A name that is far too long for half of a view that is as narrow as this one is here".to_owned();
+        sabi_editing::nodes::rename(&mut editor.documents.document, &id(node), &name);
+    }
+    let view = window.editor().shell.dock.rects[&Panel::Viewport];
+    for share in [0.03, 0.3, 0.6, 0.97] {
+        window.harness.state_mut().views.model.comparison.share = Some(share);
+        window.settle();
+        let line = window.line().x;
+        let place = |start: &str| {
+            let mut named = window
+                .harness
+                .query_all_by_label_contains(start)
+                .map(|node| node.rect());
+            named.find(|rect| view.contains(rect.center()))
+        };
+        let [one, other] = ["A  ", "B  "].map(place);
+        if let Some(one) = one {
+            assert!(view.left() <= one.left() && one.right() <= line, "{share}: {one}");
+        }
+        if let Some(other) = other {
+            assert!(
+                line <= other.left() && other.right() <= view.right(),
+                "{share}: {other}"
+            );
+        }
+        assert!(one.is_some() || share < 0.3, "{share}");
+        assert!(other.is_some() || share > 0.6, "{share}");
+    }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use egui::{Slider, Ui, WidgetInfo, WidgetType};
+use egui::{Label, RichText, Slider, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_engine::paint::{Brush, Path, Step, Stroke, StrokeGroup, StrokeList};
 
@@ -32,7 +32,7 @@ impl Tools {
         let is_marked = |stroke: &&Arc<Stroke>| ids.contains(&stroke.id);
         let marked: Vec<Arc<Stroke>> = list.strokes.iter().filter(is_marked).cloned().collect();
         let mut asked = None;
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             if let Some(first) = marked.first() {
                 asked = brush_tools(ui, context, (&marked, first), largest_side, actions);
                 asked = asked.take().or(group_tools(ui, context, list, &marked));
@@ -43,11 +43,10 @@ impl Tools {
             if tool(ui, icon::CLIPBOARD_TEXT, "Paste strokes") {
                 actions.push(Action::Do(Command::Graph(GraphCommand::Paste)));
             }
-            if marked.is_empty() {
-                ui.weak("Click strokes to change them, with Ctrl or Shift several.");
-            }
         });
         if marked.is_empty() {
+            let hint = RichText::new("Click strokes to change them, with Ctrl or Shift several.").weak();
+            ui.add(Label::new(hint).wrap());
             return asked;
         }
         asked.or(self.opacity(ui, context, list, &marked))
