@@ -13,7 +13,6 @@ use sabi_engine::paint::{Stroke, Version};
 use sabi_engine::view::Mode;
 use sabi_graph::{NodeId, NodeRef, Value};
 
-use crate::brush::text::TextFont;
 use crate::brush_shelf::KeptBrush;
 use crate::command::{Command, InputPreset};
 use crate::dock::{Panel, Workspace};
@@ -22,6 +21,7 @@ use crate::knobs::KnobEvent;
 use crate::settings::brush::BrushChoices;
 use crate::settings::export::{ExportChoices, ExportPlace};
 use crate::settings::stencil::StencilChoices;
+use crate::settings::text_font::TextFont;
 use crate::theme::Shade;
 
 /// sRGB color that was clicked, or a sentence about why there is none.

@@ -15,9 +15,9 @@ use std::path::{Path, PathBuf};
 use egui::{Button, Id, Modal, RichText, Ui};
 
 use crate::action::{Action, ExportAction, FileAction, ModelAction, Next, PaintAction};
-use crate::brush::text::TextFont;
 use crate::context::{View, ViewContext};
 use crate::paths::{canonical_if_present, file_name, with_ending, with_graph_ending};
+use crate::settings::text_font::TextFont;
 use folder_list::FolderList;
 use path_question::{PathAnswer, PathQuestion};
 use sabi_editing::knob_target::KnobTarget;

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::{Refusal, Session, Unread, canonical};
 
+/// Endings of font files.
+pub(crate) const FONTS: [&str; 3] = ["ttf", "otf", "ttc"];
+
 /// Endings of images that nodes read.
 pub(crate) const IMAGES: [&str; 8] = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
 

@@ -4,6 +4,7 @@ pub(crate) mod brush;
 pub(crate) mod export;
 mod merging;
 pub(crate) mod stencil;
+pub(crate) mod text_font;
 pub(crate) mod viewport;
 
 use std::collections::BTreeMap;
@@ -14,7 +15,6 @@ use std::path::{Path, PathBuf};
 use sabi_engine::{BACKUPS, stored, write_whole};
 use serde_json::Value as Json;
 
-use crate::brush::text::TextFont;
 use crate::command::InputPreset;
 use crate::dock::Layout;
 use crate::import_options::ImportOptions;
@@ -24,6 +24,7 @@ use brush::BrushChoices;
 use export::{ExportChoices, ExportPlace};
 use merging::merged;
 use stencil::StencilChoices;
+use text_font::TextFont;
 use viewport::ViewChoices;
 
 const FILE: &str = "settings.json";

@@ -1,13 +1,14 @@
 //! Text as a picture that the brush stamps.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use egui::epaint::text::{FontData, FontDefinitions, FontFamily, FontId, Fonts, Galley, TextOptions};
 use egui::{Color32, ColorImage};
 
-use crate::paths::{file_name, file_stem};
+use crate::paths::file_name;
+use crate::settings::text_font::TextFont;
 
 /// Height of the letters, pixels; less for long texts.
 const LETTER: f32 = 192.0;
@@ -17,66 +18,28 @@ const WIDTH: f32 = 4000.0;
 /// Pixels around the text.
 const MARGIN: usize = 4;
 
-/// Endings of font files.
-pub(crate) const FONTS: [&str; 3] = ["ttf", "otf", "ttc"];
 /// Largest font file that is read, bytes.
 const LARGEST_FONT: u64 = 64 << 20;
 
-/// Font of texts that the brush stamps: that of the window, one whose letters are of one width, or the first one of a file.
-#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(default)]
-pub(crate) struct TextFont {
-    is_monospace: bool,
-    #[serde(with = "sabi_engine::stored::optional")]
-    pub(crate) file: Option<PathBuf>,
-}
-
-impl TextFont {
-    /// The font whose letters are of one width.
-    pub(crate) fn monospace() -> TextFont {
-        TextFont {
-            is_monospace: true,
-            file: None,
-        }
-    }
-
-    /// The first font of a file.
-    pub(crate) fn of_file(file: PathBuf) -> TextFont {
-        TextFont {
-            is_monospace: false,
-            file: Some(file),
-        }
-    }
-
-    /// Title in the list of fonts.
-    pub(crate) fn title(&self) -> String {
-        match &self.file {
-            Some(file) => file_stem(file).into_owned(),
-            None if self.is_monospace => "Monospace".to_owned(),
-            None => "Plain".to_owned(),
-        }
-    }
-
-    /// Fonts to lay a text out with, and the family to ask for.
-    fn definitions(&self) -> Result<(FontDefinitions, FontFamily), String> {
-        let mut fonts = FontDefinitions::default();
-        let Some(file) = &self.file else {
-            let family = match self.is_monospace {
-                true => FontFamily::Monospace,
-                false => FontFamily::Proportional,
-            };
-            return Ok((fonts, family));
+/// Fonts to lay a text out with, and the family to ask for.
+fn definitions(font: &TextFont) -> Result<(FontDefinitions, FontFamily), String> {
+    let mut fonts = FontDefinitions::default();
+    let Some(file) = &font.file else {
+        let family = match font.is_monospace {
+            true => FontFamily::Monospace,
+            false => FontFamily::Proportional,
         };
-        let data = FontData::from_owned(font_bytes(file)?);
-        let name = "the font of the text";
-        fonts.font_data.insert(name.to_owned(), Arc::new(data));
-        let family = FontFamily::Name(name.into());
-        // Letters that the font lacks are those of the window.
-        let fallback = fonts.families.get(&FontFamily::Proportional).cloned();
-        let names = std::iter::once(name.to_owned()).chain(fallback.into_iter().flatten());
-        fonts.families.insert(family.clone(), names.collect());
-        Ok((fonts, family))
-    }
+        return Ok((fonts, family));
+    };
+    let data = FontData::from_owned(font_bytes(file)?);
+    let name = "the font of the text";
+    fonts.font_data.insert(name.to_owned(), Arc::new(data));
+    let family = FontFamily::Name(name.into());
+    // Letters that the font lacks are those of the window.
+    let fallback = fonts.families.get(&FontFamily::Proportional).cloned();
+    let names = std::iter::once(name.to_owned()).chain(fallback.into_iter().flatten());
+    fonts.families.insert(family.clone(), names.collect());
+    Ok((fonts, family))
 }
 
 /// Bytes of a font file. The error is a sentence.
@@ -111,7 +74,7 @@ pub(crate) struct TextPicture {
 /// A sentence, where the file of the font cannot be read.
 pub(crate) fn picture_of(text: &str, font: &TextFont) -> Result<Option<TextPicture>, String> {
     let text = text.trim();
-    let (fonts, family) = font.definitions()?;
+    let (fonts, family) = definitions(font)?;
     let letter = (2.0 * WIDTH / text.chars().count().max(1) as f32).clamp(LEAST_LETTER, LETTER);
     let mut fonts = Fonts::new(TextOptions::default(), fonts);
     let mut view = fonts.with_pixels_per_point(1.0);

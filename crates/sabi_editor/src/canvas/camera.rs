@@ -7,9 +7,9 @@ use sabi_editing::notes::approximate_size;
 use sabi_editing::{OpenDocument, navigation, ports};
 use sabi_graph::NodeId;
 
-use super::port_refs::{PortRef, shown_ports_of};
+use super::node_rect;
+use super::port_refs::{PortRef, room_of_name, shown_ports_of};
 use super::view::View;
-use super::{node_rect, port_menu};
 
 /// Distance from an edge of the panel at which a drag scrolls the canvas, screen points.
 pub(super) const SCROLL_EDGE: f32 = 28.0;
@@ -38,7 +38,7 @@ fn named_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
         let Some(name) = ports::published_as(document, &place.pending_wire()) else {
             continue;
         };
-        let room = port_menu::room_of_name(&name);
+        let room = room_of_name(name);
         match place {
             PortRef::Input(_) => rect.min.x = rect.min.x.min(node.left() - room),
             PortRef::Output(_) => rect.max.x = rect.max.x.max(node.right() + room),

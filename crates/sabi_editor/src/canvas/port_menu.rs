@@ -7,7 +7,7 @@ use sabi_graph::{Body, OutputRef, SlotRef};
 
 use super::add_menu::{AddMenu, Purpose};
 use super::popups::Popups;
-use super::port_refs::PortRef;
+use super::port_refs::{NAME_OF_PUBLISHED, PortRef};
 use super::wires::is_named;
 use super::{Canvas, wire_names};
 use crate::action::Action;
@@ -138,16 +138,8 @@ pub(super) fn open_node_menu(popups: &mut Popups, document: &OpenDocument, place
     popups.menu = Some(AddMenu::new(at, purpose));
 }
 
-/// Distances of the mark of a published port and of its name from the port, canvas points.
+/// Distances of the ends of the mark of a published port from the port, canvas points.
 const MARK: [f32; 2] = [9.0, 24.0];
-const NAME: f32 = 31.0;
-/// Width of a letter of such a name, canvas points: more than most have.
-const LETTER: f32 = 6.0;
-
-/// Room beside a published port that its name takes, canvas points.
-pub(super) fn room_of_name(name: &str) -> f32 {
-    NAME + LETTER * name.chars().count() as f32
-}
 
 /// Marks a published port with its name outside of the graph.
 pub(super) fn mark(
@@ -170,7 +162,7 @@ pub(super) fn mark(
     painter.circle_filled(far, 3.0 * zoom, theme.accent);
     if zoom > LEGIBLE {
         let font = FontId::proportional((type_size::SMALL * zoom * 2.0).round() / 2.0);
-        let at = center + vec2(way * NAME * zoom, 0.0);
+        let at = center + vec2(way * NAME_OF_PUBLISHED * zoom, 0.0);
         painter.text(at, align, name, font, theme.quiet);
     }
 }

@@ -10,9 +10,8 @@ use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::MODEL_ENDINGS;
 
-use crate::brush::text::FONTS;
 use crate::brush_shelf;
-use crate::paths::{IMAGES, lowercase_ending};
+use crate::paths::{FONTS, IMAGES, lowercase_ending};
 
 /// Purpose of a requested path.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,12 +67,18 @@ impl PathFor {
             PathFor::Save | PathFor::Picture => "Save",
             PathFor::Archive => "Pack",
             PathFor::Model | PathFor::ModelBeside => "Add",
+<<<<<<< HEAD
             PathFor::Image(_)
             | PathFor::Gradient(_)
             | PathFor::BrushPicture
             | PathFor::Stencil
             | PathFor::Missing(_)
             | PathFor::Font => "Choose",
+=======
+            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil | PathFor::Font => {
+                "Choose"
+            }
+>>>>>>> 65167a04 (wip)
         }
     }
 

@@ -10,13 +10,14 @@ use sabi_engine::paint::{Action as BrushAction, PictureName, PicturePart, Pictur
 
 use crate::action::PaintAction;
 use crate::app::Editor;
-use crate::brush::text::{TextFont, font_bytes, picture_of};
+use crate::brush::text::{font_bytes, picture_of};
 use crate::brush_shelf::{self, KeptBrush};
 use crate::command::BrushCommand;
 use crate::files::system_dialog::PathFor;
 use crate::looks::ColorTarget;
 use crate::settings::brush::BrushChoices;
 use crate::settings::stencil::StencilChoices;
+use crate::settings::text_font::TextFont;
 
 impl Editor {
     pub(super) fn perform_painting(&mut self, action: PaintAction, ui: &Ui) {

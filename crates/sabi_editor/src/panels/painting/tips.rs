@@ -9,9 +9,9 @@ use sabi_engine::paint::Tip;
 
 use super::swatches::{SWATCH, Swatches};
 use crate::action::{Action, PaintAction};
-use crate::brush::text::TextFont;
 use crate::context::ViewContext;
 use crate::settings::brush::BrushChoices;
+use crate::settings::text_font::TextFont;
 
 /// Columns of the list of tips.
 const COLUMNS: usize = 3;
