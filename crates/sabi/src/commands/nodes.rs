@@ -2,15 +2,15 @@
 
 use std::fmt::Write as _;
 
-use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, describe_nodes, nearest};
+use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, TrustedPaths, describe_nodes, nearest};
 
 use super::value_text::{accepted_values, value_text};
 use crate::arguments::NodesArguments;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let kinds = Kinds::beside(arguments.graph.as_deref());
+pub(crate) fn run(arguments: &NodesArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
+    let kinds = Kinds::beside(arguments.graph.as_deref(), trusted);
     for fault in &kinds.faults {
         terminal.warning(fault.to_string());
     }

@@ -50,7 +50,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let mut load_time = PhaseTime::default();
     let open =
         load_time.time(|| OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph)))?;
-    let kinds = load_time.time(|| Kinds::beside(Some(&request.graph)));
+    let kinds = load_time.time(|| Kinds::beside(Some(&request.graph), &open.trusted));
     bake_open(&open, kinds, (load_time, None), request, progress)
 }
 

@@ -71,7 +71,7 @@ impl Graphs {
             let kinds = self
                 .kinds
                 .entry(folder)
-                .or_insert_with(|| Rc::new(Kinds::beside(Some(path))));
+                .or_insert_with(|| Rc::new(Kinds::beside(Some(path), &open.trusted)));
             let kinds = Rc::clone(kinds);
             Rc::new(GraphWithKinds { open, kinds })
         });

@@ -180,6 +180,8 @@ fn file_of(folder: &Path, id: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use sabi_files::TrustedPaths;
+
     use super::*;
 
     const SOUND: &str = "//! Half\n//! Gives half of a mask.\n//! @was old/half\n\n/// Half of it.\n/// @input source \
@@ -272,7 +274,7 @@ mod tests {
         assert_eq!(nodes, folder.path().join("nodes"));
         let file = draft(&nodes, SOUND, None).save(&Disk::default()).expect("written");
         assert_eq!(file, nodes.join("adjust/half.wgsl"));
-        let kinds = Kinds::beside(Some(&graph));
+        let kinds = Kinds::beside(Some(&graph), &TrustedPaths::default());
         assert!(kinds.library.kind("adjust/half").is_some(), "{:?}", kinds.faults);
         assert_eq!(kinds.own_folder(Some(&graph), "adjust/half"), Some(nodes.clone()));
         assert_eq!(kinds.own_folder(Some(&graph), "noise/simplex"), None);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_files::archive::{EntryContent, write_archive};
-use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, canonical};
+use sabi_files::{TrustedPaths, Unread, canonical};
 use sabi_graph::Value;
 use serde::Serialize;
 
@@ -97,7 +97,7 @@ struct Found {
 /// behind.
 pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
     let open = OpenGraph::open_trusting(&request.graph, &request.trusted)?;
-    let kinds = Kinds::beside(Some(&request.graph));
+    let kinds = Kinds::beside(Some(&request.graph), &open.trusted);
     let found = Found::of(open, &kinds, &request.model)?;
     if !found.needs.missing.is_empty() && !request.allows_missing {
         let refused = EngineError::several(ErrorKind::MissingInput, found.needs.missing);
@@ -178,7 +178,11 @@ impl Found {
         places.take_as(&graph.path, name)?;
         take_strokes(graph, &mut places)?;
         for (name, path) in &self.nodes {
-            refuse_link(path, &Kinds::folders(Some(&graph.path)))?;
+            let folders = Kinds::folders(Some(&graph.path));
+            let own = folders.iter().find(|folder| path.starts_with(folder));
+            let trusted = &graph.open.trusted;
+            let trusted = own.map(|folder| Kinds::trusted_for(folder, trusted));
+            refuse_link(path, trusted.as_ref().unwrap_or(&graph.open.trusted))?;
             places.take_as(&named_path(path), name)?;
         }
         let model = self.model.as_ref().map(|model| places.take_model(model)).transpose()?;
@@ -275,21 +279,20 @@ fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), Eng
     };
     let beside = paint_folder(name).to_string_lossy().replace('\\', "/");
     let folder = paint_folder(&document.path);
-    let own = document.base().folder().to_owned();
+    let own = TrustedPaths::default().with_path(document.base().folder());
     for file in files_beside(&document.path) {
         let path = folder.join(&file);
-        refuse_link(&path, std::slice::from_ref(&own))?;
+        refuse_link(&path, &own)?;
         places.take_as(&path, &format!("{beside}/{file}"))?;
     }
     Ok(())
 }
 
-/// Refuses a file that is found in one of these folders and is a link to a file elsewhere, which must not be sent along.
-fn refuse_link(path: &Path, folders: &[PathBuf]) -> Result<(), EngineError> {
-    let is_inside = |folder: &PathBuf| PathBase::of_folder(folder.clone()).is_above(path);
-    match canonical(path) {
-        Ok(file) if !folders.iter().any(is_inside) => {
-            let refused = EngineError::refused(&Refusal::Outside { file });
+/// Refuses a file that is found and not named, and that links lead out of the trusted paths: it must not be sent along.
+fn refuse_link(path: &Path, trusted: &TrustedPaths) -> Result<(), EngineError> {
+    match trusted.check_found(path) {
+        Err(Unread::Refused(refusal)) => {
+            let refused = EngineError::refused(&refusal);
             let shown = path.display();
             let told = refused.map_messages(|why| format!("{shown} is a link: {why}; copy the file into its place"));
             Err(told.with_remedies([]))

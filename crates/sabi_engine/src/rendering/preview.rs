@@ -38,7 +38,12 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     // A name that cannot be written is reported before anything is read.
     is_exact(request)?;
     let open = OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph))?;
-    preview_graph(&open, Kinds::beside(Some(&request.graph)), request, progress)
+    preview_graph(
+        &open,
+        Kinds::beside(Some(&request.graph), &open.trusted),
+        request,
+        progress,
+    )
 }
 
 /// Writes a preview of a graph in memory and returns warnings.

@@ -109,7 +109,12 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     file_names(request)?;
     view_of(&request.view)?;
     let open = OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph))?;
-    render_graph(&open, Kinds::beside(Some(&request.graph)), request, progress)
+    render_graph(
+        &open,
+        Kinds::beside(Some(&request.graph), &open.trusted),
+        request,
+        progress,
+    )
 }
 
 /// Renders pictures of a graph in memory.

@@ -151,8 +151,8 @@ fn a_file_without_end_is_no_buffer() {
     );
     let trusted = TrustedPaths::default().with_path(Path::new("/"));
     for (uri, words) in [
-        ("/dev/zero", "/dev/zero is a device, which files never open"),
-        ("zero.bin", "/dev/zero is a device, which files never open"),
+        ("/dev/zero", "/dev/zero is a device or a pipe, which files never open"),
+        ("zero.bin", "/dev/zero is a device or a pipe, which files never open"),
         ("pipe.bin", "it is a folder or a device, not a file"),
     ] {
         let (text, _) = spelled(&[uri.to_owned()]);
