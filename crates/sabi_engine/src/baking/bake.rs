@@ -18,7 +18,7 @@ use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetPixels};
 use crate::baking::mesh_maps::{append_mesh_maps, file_bounds};
 use crate::baking::model_copy::{open_copy, write_copy};
-use crate::baking::recorded::manifest::FolderChange;
+use crate::baking::recorded::manifest::{FolderChange, check_own_folder};
 use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh, Conventions, REPORT_VERSION};
 use crate::baking::seams::ModelSeams;
 use crate::baking::set_works::set_works;
@@ -34,7 +34,7 @@ use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapTotals;
-use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
+use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled, unless_canceled};
 use crate::program::Build;
 use crate::remedy::Remedy;
 use crate::source::map_output;
@@ -48,9 +48,15 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     // An unknown preset is reported before anything is read.
     set_options(request)?;
     let mut load_time = PhaseTime::default();
-    let open =
-        load_time.time(|| OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph)))?;
-    let kinds = load_time.time(|| Kinds::beside(Some(&request.graph), &open.trusted));
+    let (graph, trusted) = (request.graph.clone(), request.evaluator.trusted_with(&request.graph));
+    let opened = || {
+        unless_canceled(progress, move || {
+            let open = OpenGraph::open_trusting(&graph, &trusted)?;
+            let kinds = Kinds::beside(Some(&graph), &open.trusted);
+            Ok::<_, EngineError>((open, kinds))
+        })
+    };
+    let (open, kinds) = load_time.time(opened)??;
     bake_open(&open, kinds, (load_time, None), request, progress)
 }
 
@@ -134,7 +140,7 @@ fn bake_open(
         warnings: warnings.cloned().collect(),
         ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
     };
-    let report = encode.time(|| commit(writer, request, report))?;
+    let report = encode.time(|| commit(writer, request, report, progress))?;
     Ok(BakeReport { times, ..report })
 }
 
@@ -155,6 +161,7 @@ fn checked_sets(
 /// Opens the writer of the maps, which takes encoded files from the cache.
 fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<BakeWriter, EngineError> {
     refuse_foreign_folder(request, graph, options)?;
+    check_own_folder(&request.output)?;
     let budget = cache_budget_bytes()?;
     let mut writer = BakeWriter::create_on(&request.disk, &request.output)?;
     let cache_dir = request.evaluator.model.cache_dir.as_deref();
@@ -176,9 +183,14 @@ fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeR
 }
 
 /// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
-fn commit(writer: BakeWriter, request: &BakeRequest, report: BakeReport) -> Result<BakeReport, EngineError> {
+fn commit(
+    writer: BakeWriter,
+    request: &BakeRequest,
+    report: BakeReport,
+    progress: &dyn Progress,
+) -> Result<BakeReport, EngineError> {
     let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
-    let folder = FolderChange::begin(&request.disk, &request.output);
+    let folder = FolderChange::begin(&request.disk, &request.output, progress)?;
     let committed = match writer.commit() {
         Ok(committed) => committed,
         Err(error) => {

@@ -16,6 +16,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::set_file::SetFile;
+use crate::phases::{Progress, stop_if_canceled};
 
 /// A combination of a table of the matrix.
 #[derive(Clone, Debug)]
@@ -91,12 +92,16 @@ struct RowValues {
 ///
 /// # Errors
 /// Sentences about files and variants that are not there, or there are more items than the matrix allows.
-pub(super) fn expanded<'m>(matrix: &'m Matrix, graphs: &mut Graphs) -> Result<Vec<Draft<'m>>, EngineError> {
+pub(super) fn expanded<'m>(
+    matrix: &'m Matrix,
+    graphs: &mut Graphs,
+    progress: &dyn Progress,
+) -> Result<Vec<Draft<'m>>, EngineError> {
     let mut drafts = Vec::new();
     let mut count = 0u64;
     let mut faults = Faults::default();
     for row in &matrix.rows {
-        let expansion = Expansion::of(matrix, row, graphs);
+        let expansion = Expansion::of(matrix, row, graphs, progress);
         match expansion {
             Err(error) => faults.add(error),
             Ok(expansion) => {
@@ -133,16 +138,23 @@ struct Expansion<'m> {
 }
 
 impl<'m> Expansion<'m> {
-    fn of(matrix: &Matrix, row: &'m MatrixRow, graphs: &mut Graphs) -> Result<Expansion<'m>, EngineError> {
+    fn of(
+        matrix: &Matrix,
+        row: &'m MatrixRow,
+        graphs: &mut Graphs,
+        progress: &dyn Progress,
+    ) -> Result<Expansion<'m>, EngineError> {
         let base = matrix.base();
         let said = |why: String| {
             let why = format!("{}: {}: {why}", matrix.path.display(), row.words);
-            EngineError::new(ErrorKind::BadInput, why)
+            let canceled = stop_if_canceled(progress).err();
+            canceled.unwrap_or_else(|| EngineError::new(ErrorKind::BadInput, why))
         };
         let values = RowValues::of(row, &base)?;
         let mut faults = Faults::default();
         let mut with_variants = Vec::new();
-        for file in written_files(&base, &row.graphs).map_err(said)? {
+        for file in written_files(&base, &row.graphs, progress).map_err(said)? {
+            stop_if_canceled(progress)?;
             match graphs.open(&file.path) {
                 Err(error) => faults.add(error),
                 Ok(graph) => {
@@ -154,7 +166,7 @@ impl<'m> Expansion<'m> {
         faults.into_result()?;
         Ok(Expansion {
             row,
-            models: written_files(&base, &row.models).map_err(said)?,
+            models: written_files(&base, &row.models, progress).map_err(said)?,
             graphs: with_variants,
             values,
         })

@@ -24,6 +24,9 @@ use crate::remedy::Remedy;
 use crate::source::paint::NAME as PAINT;
 use crate::source::strokes::{files_beside, paint_folder};
 
+/// Ending of graphs in an archive.
+const ENDING: &str = ".sabi";
+
 /// Request to pack a graph.
 #[derive(Clone, Debug)]
 pub struct PackRequest {
@@ -104,6 +107,7 @@ pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<Pack
         return Err(refused.with_remedies([Remedy::WithoutMissingFiles]));
     }
     let (places, model) = found.places()?;
+    places.check_files()?;
     refuse_input(&request.output, &places)?;
     let documents = found.rewritten(&places, model.as_deref());
     check(&found.needs.documents[0], &documents, &places, &kinds)?;
@@ -174,8 +178,13 @@ impl Found {
             );
             EngineError::new(ErrorKind::BadInput, why)
         })?;
+        let name = match name.strip_suffix(ENDING) {
+            Some(_) => name.to_owned(),
+            // Under the same stem it finds its strokes.
+            None => format!("{}{ENDING}", name.rsplit_once('.').map_or(name, |(stem, _)| stem)),
+        };
         // Places that the files must have come before those that are free.
-        places.take_as(&graph.path, name)?;
+        places.take_as(&graph.path, &name)?;
         take_strokes(graph, &mut places)?;
         for (name, path) in &self.nodes {
             let folders = Kinds::folders(Some(&graph.path));

@@ -8,6 +8,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use glam::DMat4;
 
+use super::LoadOptions;
 use super::assembly::{Assembly, Instance};
 use super::completion::{Completion, LACKING_NORMALS};
 use super::error::{Fault, damaged};
@@ -15,10 +16,10 @@ use super::faces::Faces;
 use super::gltf::Resolve;
 use super::normals::Missing;
 use super::polygon::Budget;
+use super::size::check_size;
 use super::submesh::Smoothing;
 use super::text::decoded;
 use super::warnings::Warnings;
-use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::Model;
 
 /// Bytes before the facets of a binary file: a text and their number.
@@ -30,15 +31,13 @@ const FACET_BYTES: usize = 50;
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
     let mut solids = if is_binary(bytes) {
-        vec![read_binary(bytes)?]
+        vec![read_binary(bytes, options.memory_bytes)?]
     } else {
         read_text(&decoded(bytes), &mut warnings)?
     };
     solids.retain(|solid| !solid.faces.faces.is_empty());
     let claim = solids.iter().map(|solid| solid.faces.triangles()).sum();
-    if claim > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(claim));
-    }
+    check_size(claim, solids.len() as u64, options.memory_bytes)?;
     let completion = Completion {
         repaired_normals: LACKING_NORMALS,
         missing: Missing::Flat,
@@ -112,7 +111,7 @@ impl Solid {
     }
 }
 
-fn read_binary(bytes: &[u8]) -> Result<Solid, Fault> {
+fn read_binary(bytes: &[u8], memory_bytes: u64) -> Result<Solid, Fault> {
     let Some(size) = binary_size(bytes) else {
         return damaged("it is no STL file: it does not begin with `solid`, and is too short for a binary one");
     };
@@ -122,9 +121,7 @@ fn read_binary(bytes: &[u8]) -> Result<Solid, Fault> {
         return damaged(format!("it promises {claim} facets and has {there}; it was cut off"));
     }
     let claim = (size - HEADER_BYTES as u64) / FACET_BYTES as u64;
-    if claim > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(claim));
-    }
+    check_size(claim, 1, memory_bytes)?;
     let mut solid = Solid::default();
     for facet in bytes[HEADER_BYTES..size as usize].as_chunks::<FACET_BYTES>().0 {
         let numbers: &[[u8; 4]] = facet.as_chunks().0;
