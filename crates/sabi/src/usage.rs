@@ -1,13 +1,29 @@
 //! Command lines that cannot be understood.
 
 use std::env;
+use std::io::{self, Write as _};
+
+use sabi_engine::is_invisible;
 
 use crate::exit::{Exit, Failure};
+use crate::printable::printable_lines;
 
 /// Returns whether a command line asks for JSON, also where it cannot be understood otherwise.
 pub(crate) fn asks_for_json() -> bool {
     let options = env::args_os().skip(1).take_while(|argument| argument != "--");
     options.into_iter().any(|argument| argument == "--json")
+}
+
+/// Prints what is wrong with a command line. Its arguments may be names of files, which do not control a terminal.
+pub(crate) fn print(error: &clap::Error) -> io::Result<()> {
+    let is_odd = |argument: std::ffi::OsString| argument.to_string_lossy().chars().any(is_invisible);
+    if !env::args_os().any(is_odd) {
+        return error.print();
+    }
+    let text = error.to_string();
+    // A line that an argument begins is moved, so that no system takes it for a command.
+    let lines = text.lines().map(|line| format!("  {}\n", printable_lines(line)));
+    io::stderr().lock().write_all(lines.collect::<String>().as_bytes())
 }
 
 /// The failure of a command line, given the text that is printed for people: a sentence, tips, and where to read on.

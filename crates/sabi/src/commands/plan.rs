@@ -5,6 +5,8 @@ mod openjd_template;
 mod shell_word;
 mod slurm_script;
 
+pub(super) use self::shell_word::shell_word;
+
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -15,6 +17,7 @@ use sabi_engine::{
 
 use crate::arguments::{PlanArguments, PlanFormat};
 use crate::exit::{Exit, Failure};
+use crate::printable::Page;
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
@@ -92,7 +95,7 @@ fn refuse_other_file(file: &Path) -> Result<(), Failure> {
 /// Text for standard output.
 fn printed(format: PlanFormat, file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     match format {
-        PlanFormat::Jsonl => Ok(format!("{}\n", file.display())),
+        PlanFormat::Jsonl => Ok([file.display()].into_iter().collect::<Page>().text().to_owned()),
         PlanFormat::Commands => commands_text::commands(file, plan),
         PlanFormat::Openjd => openjd_template::template(file, plan),
         PlanFormat::Slurm => slurm_script::script(file, plan),
