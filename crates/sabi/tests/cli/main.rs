@@ -13,6 +13,7 @@ mod display;
 mod examples;
 mod failures;
 mod help;
+mod hostile;
 mod images;
 mod info;
 mod interruption;

@@ -34,7 +34,7 @@ use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapTotals;
-use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled, unless_canceled};
+use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
 use crate::program::Build;
 use crate::remedy::Remedy;
 use crate::source::map_output;
@@ -49,14 +49,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     set_options(request)?;
     let mut load_time = PhaseTime::default();
     let (graph, trusted) = (request.graph.clone(), request.evaluator.trusted_with(&request.graph));
-    let opened = || {
-        unless_canceled(progress, move || {
-            let open = OpenGraph::open_trusting(&graph, &trusted)?;
-            let kinds = Kinds::beside(Some(&graph), &open.trusted);
-            Ok::<_, EngineError>((open, kinds))
-        })
-    };
-    let (open, kinds) = load_time.time(opened)??;
+    let (open, kinds) = load_time.time(|| OpenGraph::open_with_kinds(graph, trusted, progress))?;
     bake_open(&open, kinds, (load_time, None), request, progress)
 }
 

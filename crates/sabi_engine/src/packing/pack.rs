@@ -19,7 +19,7 @@ use super::rewritten::{RewrittenDocument, ShownModel, rewritten};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::phases::Progress;
+use crate::phases::{Progress, unless_canceled};
 use crate::remedy::Remedy;
 use crate::source::paint::NAME as PAINT;
 use crate::source::strokes::{files_beside, paint_folder};
@@ -99,9 +99,8 @@ struct Found {
 /// A file cannot be read or packed, is missing and that is not allowed, or the archive exists or cannot be written; nothing is left
 /// behind.
 pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
-    let open = OpenGraph::open_trusting(&request.graph, &request.trusted)?;
-    let kinds = Kinds::beside(Some(&request.graph), &open.trusted);
-    let found = Found::of(open, &kinds, &request.model)?;
+    let (open, kinds) = OpenGraph::open_with_kinds(request.graph.clone(), request.trusted.clone(), progress)?;
+    let found = Found::of(open, &kinds, &request.model, progress)?;
     if !found.needs.missing.is_empty() && !request.allows_missing {
         let refused = EngineError::several(ErrorKind::MissingInput, found.needs.missing);
         return Err(refused.with_remedies([Remedy::WithoutMissingFiles]));
@@ -146,7 +145,7 @@ pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<Pack
 }
 
 impl Found {
-    fn of(open: OpenGraph, kinds: &Kinds, model: &PackedModel) -> Result<Found, EngineError> {
+    fn of(open: OpenGraph, kinds: &Kinds, model: &PackedModel, progress: &dyn Progress) -> Result<Found, EngineError> {
         let folders = Kinds::folders(Some(&open.path));
         let mut needs = Needs::of(open, kinds)?;
         let (nodes, without_file) = own_nodes(kinds, &folders, &needs.documents);
@@ -155,7 +154,7 @@ impl Found {
         for document in &needs.documents {
             look_for_strokes(document, &mut needs.missing, &mut warnings);
         }
-        let model = model_of(&needs.documents[0], model, &mut needs.missing)?;
+        let model = model_of(&needs.documents[0], model, &mut needs.missing, progress)?;
         Ok(Found {
             needs,
             model,
@@ -223,6 +222,7 @@ fn model_of(
     graph: &NamedDocument,
     model: &PackedModel,
     missing: &mut Vec<String>,
+    progress: &dyn Progress,
 ) -> Result<Option<ModelFiles>, EngineError> {
     let shown = graph.open.path.display();
     let mut trusted = graph.open.trusted.clone();
@@ -253,7 +253,8 @@ fn model_of(
             path
         }
     };
-    let files = ModelFiles::read(&path, &trusted)?;
+    let read = path.clone();
+    let files = unless_canceled(progress, move || ModelFiles::read(&read, &trusted))??;
     let lacks = files.missing.iter();
     missing.extend(lacks.map(|named| format!("the model {} names {named}, which is missing", path.display())));
     Ok(Some(files))

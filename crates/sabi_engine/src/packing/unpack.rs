@@ -31,13 +31,6 @@ pub struct UnpackReport {
 /// The archive is damaged, unsafe or no packed graph, or the folder has files; nothing is left behind.
 pub fn unpack_graph(archive: &Path, folder: &Path, progress: &dyn Progress) -> Result<UnpackReport, EngineError> {
     let unpacked = UnpackedArchive::read(archive, folder, &check_name, &|| progress.is_canceled())?;
-    for name in unpacked.names() {
-        stop_if_canceled(progress)?;
-        check_file(name, &unpacked.folder().join(name)).map_err(|why| ArchiveError::Unwanted {
-            name: name.clone(),
-            why,
-        })?;
-    }
     let refused = |why: String| {
         let why = format!("{} is no packed graph: {why}", archive.display());
         EngineError::new(ErrorKind::BadInput, why)
@@ -59,6 +52,13 @@ pub fn unpack_graph(archive: &Path, folder: &Path, progress: &dyn Progress) -> R
         if !unpacked.names().contains(name) {
             return Err(refused(format!("it names '{name}', which is not in it")));
         }
+    }
+    for name in unpacked.names() {
+        stop_if_canceled(progress)?;
+        check_file(name, &unpacked.folder().join(name)).map_err(|why| ArchiveError::Unwanted {
+            name: name.clone(),
+            why,
+        })?;
     }
     let files = unpacked.names().to_vec();
     unpacked.commit()?;
