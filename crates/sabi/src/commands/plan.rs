@@ -44,8 +44,10 @@ pub(crate) fn run(arguments: &PlanArguments, trusted: &TrustedPaths, terminal: &
         terminal.data(&text)?;
         return Ok(Exit::Done);
     };
+    // A name that cannot be printed is refused before the file is there.
+    let printed = printed(arguments.format, &file, &plan)?;
     write_whole(&file, text.as_bytes()).map_err(|error| unwritten(&file, &error))?;
-    terminal.data(&printed(arguments.format, &file, &plan)?)?;
+    terminal.data(&printed)?;
     terminal.note(format_args!(
         "Planned {} of {} in {}",
         items(plan.items.len()),

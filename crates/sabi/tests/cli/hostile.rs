@@ -292,3 +292,36 @@ fn a_record_that_names_another_computer_is_not_followed() {
         "{told}"
     );
 }
+
+#[test]
+fn a_name_with_a_line_break_is_no_second_command() {
+    let place = Place::new();
+    place.write(
+        "matrix.toml",
+        "version = 1\nout = \"out\"\n[[bake]]\nmodels = \"cube.glb\"\ngraphs = \"clouds.sabi\"\n",
+    );
+    let name = "a\ntouch evil\n.jsonl";
+    let before = place.listing(".");
+    let arguments = ["plan", "matrix.toml", "-o", name, "--format", "commands"];
+    let refused = place.sabi(&arguments).fails(73);
+    assert!(
+        refused.stdout.is_empty() && refused.stderr.contains("it has a line break"),
+        "{refused:?}"
+    );
+    assert_eq!(place.listing("."), before);
+}
+
+#[test]
+fn a_pattern_that_names_the_whole_disk_again_and_again_is_walked_once() {
+    let place = Place::new();
+    fs::create_dir_all(place.path("models/deep/deeper")).unwrap();
+    fs::copy(place.path("cube.glb"), place.path("models/deep/deeper/cube.glb")).unwrap();
+    symlink("..", place.path("models/deep/up")).unwrap();
+    let matrix = |pattern: &str| {
+        format!("version = 1\nout = \"out\"\n[[bake]]\nmodels = \"{pattern}\"\ngraphs = \"clouds.sabi\"\n")
+    };
+    let pattern = format!("models/{}*.glb", "**/".repeat(200));
+    place.write("matrix.toml", matrix(&pattern));
+    let planned = place.sabi(&["plan", "matrix.toml", "-o", "-"]).good();
+    assert_eq!(planned.stdout.lines().count(), 1, "{}", planned.stdout);
+}
