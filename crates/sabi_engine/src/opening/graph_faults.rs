@@ -71,10 +71,17 @@ pub(crate) fn explain(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> Vec
 const MOST_EXPLAINED: usize = 100;
 
 /// Explains errors in sentences, those of a graph with very many in part.
-pub(crate) fn explained<'e>(open: &OpenGraph, kinds: &Kinds, errors: impl Iterator<Item = &'e PlanError>) -> Vec<String> {
+pub(crate) fn explained<'e>(
+    open: &OpenGraph,
+    kinds: &Kinds,
+    errors: impl Iterator<Item = &'e PlanError>,
+) -> Vec<String> {
     let mut errors = errors.fuse();
     let first: Vec<&PlanError> = errors.by_ref().take(MOST_EXPLAINED).collect();
-    let mut sentences: Vec<String> = first.into_iter().flat_map(|error| explain(open, kinds, error)).collect();
+    let mut sentences: Vec<String> = first
+        .into_iter()
+        .flat_map(|error| explain(open, kinds, error))
+        .collect();
     sentences.iter_mut().for_each(shorten);
     let more = errors.count();
     sentences.extend((more > 0).then(|| open.with_path(format!("{more} more faults of this kind are left out"))));

@@ -156,7 +156,10 @@ impl Recovery {
 
     /// Returns whether the graph's own file has another content than when the copy was written.
     pub fn is_file_changed(&self) -> bool {
-        let now = self.file.as_ref().and_then(|file| read_plain(file, SIZE_LIMIT_BYTES).ok());
+        let now = self
+            .file
+            .as_ref()
+            .and_then(|file| read_plain(file, SIZE_LIMIT_BYTES).ok());
         now.is_some_and(|now| !self.known_contents(Some(&now)).is_own(&now))
     }
 
@@ -184,7 +187,8 @@ impl Recovery {
                 format!("{shown}: the recovery file cannot be read: {why}"),
             )
         };
-        let bytes = read_plain(&self.path, MOST_BYTES).map_err(|unread| damaged(io::Error::from(unread).to_string()))?;
+        let bytes =
+            read_plain(&self.path, MOST_BYTES).map_err(|unread| damaged(io::Error::from(unread).to_string()))?;
         let text = String::from_utf8(bytes).map_err(|error| damaged(error.to_string()))?;
         UnsavedWork::read(&text).map_err(damaged)
     }

@@ -79,7 +79,10 @@ fn a_color_profile_is_seen_and_not_unpacked() {
     assert!(file.len() < 1 << 16, "a small file");
     assert!(has_profile(&file) && !has_profile(&file[..40]) && !has_profile(b""));
     let picture = decode("profile.png", &file).unwrap();
-    assert_eq!((picture.pixels, picture.color_space), (Pixels::U8(vec![9; 4]), Declared::Unknown));
+    assert_eq!(
+        (picture.pixels, picture.color_space),
+        (Pixels::U8(vec![9; 4]), Declared::Unknown)
+    );
     // Its bytes do not matter, and neither does what else the file says.
     let start = file.windows(4).position(|window| window == b"iCCP").unwrap();
     file[start + 8..start + 200].fill(7);
