@@ -162,7 +162,8 @@ mod tests {
         assert_eq!(triangles.len(), face.len() - 2);
         let covered: f64 = triangles.iter().map(|triangle| area_of(&face, *triangle)).sum();
         assert!((covered - std::f64::consts::PI).abs() < 1e-4, "{covered}");
-        assert!(triangles.iter().all(|triangle| area_of(&face, *triangle) >= 0.0));
+        // Three corners beside each other lie on a line, but for the rounding of their places.
+        assert!(triangles.iter().all(|triangle| area_of(&face, *triangle) > -1e-10));
         // Longest edges, squared: those of a fan would be 60 000 together.
         let long = |triangle: &[usize; 3]| {
             let [a, b, c] = triangle.map(|corner| Vec3::from(face[corner]));
