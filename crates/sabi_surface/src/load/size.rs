@@ -12,6 +12,8 @@ const COPIES: u64 = 2;
 const ATLAS_BYTES: u64 = 12 + 4 + 24;
 /// Memory of a primitive, or of a mesh that is placed, besides its triangles: lists, names, a transform.
 const PRIMITIVE_BYTES: u64 = 1024;
+/// Primitives that take no memory worth counting.
+const FEW_PRIMITIVES: u64 = 64;
 
 /// Checks that so many triangles, in so many primitives and placed meshes, can be held.
 ///
@@ -23,7 +25,11 @@ pub(super) fn check_size(triangles: u64, primitives: u64, memory_bytes: u64) -> 
     }
     let needed = triangles
         .saturating_mul(COPIES * TRIANGLE_BYTES + ATLAS_BYTES)
-        .saturating_add(primitives.saturating_mul(PRIMITIVE_BYTES));
+        .saturating_add(
+            primitives
+                .saturating_sub(FEW_PRIMITIVES)
+                .saturating_mul(PRIMITIVE_BYTES),
+        );
     match needed > memory_bytes {
         true => Err(Fault::memory(needed, memory_bytes)),
         false => Ok(()),

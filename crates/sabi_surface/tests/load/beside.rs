@@ -154,7 +154,7 @@ fn a_file_without_end_is_no_buffer() {
     for (uri, words) in [
         ("/dev/zero", "/dev/zero is a device or a pipe, which files never open"),
         ("zero.bin", "/dev/zero is a device or a pipe, which files never open"),
-        ("pipe.bin", "it is a folder or a device, not a file"),
+        ("pipe.bin", "pipe.bin is a device or a pipe, which files never open"),
     ] {
         let (text, _) = spelled(&[uri.to_owned()]);
         let path = written(folder.path(), &text);
