@@ -6,7 +6,7 @@ use std::io::{self, Write as _};
 use sabi_engine::is_invisible;
 
 use crate::exit::{Exit, Failure};
-use crate::printable::printable_lines;
+use crate::printable::printable;
 
 /// Returns whether a command line asks for JSON, also where it cannot be understood otherwise.
 pub(crate) fn asks_for_json() -> bool {
@@ -21,8 +21,7 @@ pub(crate) fn print(error: &clap::Error) -> io::Result<()> {
         return error.print();
     }
     let text = error.to_string();
-    // A line that an argument begins is moved, so that no system takes it for a command.
-    let lines = text.lines().map(|line| format!("  {}\n", printable_lines(line)));
+    let lines = text.lines().map(|line| format!("{}\n", printable(line)));
     io::stderr().lock().write_all(lines.collect::<String>().as_bytes())
 }
 
