@@ -17,6 +17,7 @@ const HEAD_BYTES: usize = MARK_BYTES + 4 + 32 + 8 + 32;
 const OPTIONS: AtlasOptions = AtlasOptions {
     page_limit: 64,
     udim: sabi_surface::atlas::Udim::Auto,
+    memory_bytes: 1 << 30,
     size: 16,
 };
 

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    BakeRequest, CasterChoice, CopyOptions, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions,
+    BakeRequest, CasterChoice, CopyOptions, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions, NoProgress,
     NoProgress, Overlap, Overrides, Seams, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
@@ -303,7 +303,7 @@ fn a_copy_of_an_unwrapped_model_shows_the_maps_that_were_baked_and_keeps_its_tri
         assert_shows(folder.path(), name.split('.').next().unwrap(), &linked);
         // The sets that the model had are still there, before the new one.
         let [mut was, mut is] =
-            [&path, &copy].map(|path| LinkedModel::load_model(&ModelOptions::new(path, SIZE)).unwrap());
+            [&path, &copy].map(|path| LinkedModel::load_model(&ModelOptions::new(path, SIZE), &NoProgress).unwrap());
         if uv == 0 {
             for model in [&mut was, &mut is] {
                 model.mesh.uvs.clear();

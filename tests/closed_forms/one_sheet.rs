@@ -106,7 +106,7 @@ fn each_texel_is_read_from_the_output_of_its_material() {
     );
     // Both materials of the copy wear the same maps.
     let copy = ModelOptions::new(&folder.path().join("out/cube.glb"), SIZE);
-    let copy = LinkedModel::load_model(&copy).unwrap();
+    let copy = LinkedModel::load_model(&copy, &NoProgress).unwrap();
     let names: Vec<&str> = copy.materials.iter().map(|material| &material.name[..]).collect();
     assert_eq!(names, ["wood", "steel"]);
     assert!(copy.materials[0].base_color.is_some());

@@ -7,7 +7,11 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 17] = [
     ("sabi_curve", &[], &[]),
     ("sabi_files", &[], &["tempfile", "zip"]),
     ("sabi_graph", &[], &["petgraph"]),
-    ("sabi_nodes", &["sabi_color", "sabi_curve", "sabi_graph"], &["naga"]),
+    (
+        "sabi_nodes",
+        &["sabi_color", "sabi_curve", "sabi_files", "sabi_graph"],
+        &["naga"],
+    ),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
     (
         "sabi_surface",

@@ -113,7 +113,7 @@ impl<'a> AskedBake<'a> {
                 let open = bake.recipe.open_document().transpose()?;
                 Ok(open.map(|mut open| {
                     open.trusted = open.trusted.with(trusted);
-                    let kinds = Kinds::beside(Some(&open.path));
+                    let kinds = Kinds::beside(Some(&open.path), &open.trusted);
                     (open, kinds)
                 }))
             }

@@ -33,7 +33,7 @@ pub(crate) fn run(command: Command, trusted: &TrustedPaths, terminal: &Terminal)
         Command::Render(arguments) => render::run(&arguments, trusted, terminal),
         Command::Check(arguments) => check::run(&arguments, trusted, terminal),
         Command::Info(arguments) => info::run(&arguments, trusted, terminal),
-        Command::Nodes(arguments) => nodes::run(&arguments, terminal),
+        Command::Nodes(arguments) => nodes::run(&arguments, trusted, terminal),
         Command::Presets(arguments) => presets::run(&arguments, terminal),
         Command::Mesh(arguments) => mesh::run(arguments, trusted, terminal),
         Command::Paint(arguments) => paint::run(&arguments, trusted, terminal),

@@ -6,6 +6,7 @@ use std::panic::{self, PanicHookInfo};
 use std::sync::{Mutex, PoisonError};
 
 use crate::exit::Exit;
+use crate::printable::printable;
 
 /// Sentence about the latest panic.
 static LATEST: Mutex<String> = Mutex::new(String::new());
@@ -15,7 +16,7 @@ pub(crate) fn caught(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Result<
     panic::set_hook(Box::new(|info| {
         let mut stderr = io::stderr().lock();
         let sentence = sentence(info);
-        let _ = writeln!(stderr, "error: {sentence}");
+        let _ = writeln!(stderr, "{}", printable(&format!("error: {sentence}")));
         *LATEST.lock().unwrap_or_else(PoisonError::into_inner) = sentence;
         let backtrace = Backtrace::capture();
         if backtrace.status() == BacktraceStatus::Captured {

@@ -57,7 +57,7 @@ impl GraphArgument {
             return Ok(None);
         }
         let open = self.open(trusted)?;
-        let kinds = Kinds::beside(Some(&open.path));
+        let kinds = Kinds::beside(Some(&open.path), &open.trusted);
         Ok(Some((open, kinds)))
     }
 

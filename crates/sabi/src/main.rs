@@ -14,6 +14,7 @@ mod failed_bake;
 mod failure_report;
 mod graph_argument;
 mod openjd;
+mod printable;
 mod progress;
 mod report_file;
 mod stopping;
@@ -30,6 +31,7 @@ use tracing_subscriber::fmt::format::FmtSpan;
 
 use crate::arguments::{Arguments, Global, ProgressChoice};
 use crate::exit::{Exit, Failure};
+use crate::printable::LogWriter;
 use crate::terminal::Terminal;
 
 fn main() -> ExitCode {
@@ -56,7 +58,7 @@ fn start() -> Exit {
                 return Exit::Usage;
             }
             // The standard streams may be closed, and then there is nowhere to say so.
-            let _ = error.print();
+            let _ = usage::print(&error);
             if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
                 return Exit::Done;
             }
@@ -121,7 +123,7 @@ fn start_log(argument: Option<&str>) -> Result<(), Failure> {
     tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_span_events(FmtSpan::CLOSE)
-        .with_writer(io::stderr)
+        .with_writer(|| LogWriter(io::stderr()))
         .with_ansi(false)
         .init();
     Ok(())

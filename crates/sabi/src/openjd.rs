@@ -1,6 +1,7 @@
 //! Lines on standard output by which Open Job Description is told of progress.
 
 use crate::exit::Failure;
+use crate::printable::printable;
 use crate::terminal::Terminal;
 
 /// Tells what is done.
@@ -19,6 +20,7 @@ pub(crate) fn fail(terminal: &Terminal, text: &str) -> Result<(), Failure> {
 }
 
 fn line(terminal: &Terminal, kind: &str, text: &str) -> Result<(), Failure> {
-    // A line break would end the message.
-    terminal.data(&format!("openjd_{kind}: {}\n", text.replace('\n', " ")))
+    // A line break would end the message, and begin another one.
+    let text = text.replace('\n', " ");
+    terminal.data(&format!("openjd_{kind}: {}\n", printable(&text)))
 }

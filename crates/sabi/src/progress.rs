@@ -108,4 +108,8 @@ impl Progress for ShownProgress {
     fn is_canceled(&self) -> bool {
         is_canceled()
     }
+
+    fn waits(&self, sentence: &str) {
+        self.terminal.note(sentence);
+    }
 }

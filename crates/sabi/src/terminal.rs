@@ -11,6 +11,7 @@ use crate::arguments::{Command, Global, ProgressChoice};
 use crate::event::Event;
 use crate::exit::{Exit, Failure};
 use crate::failure_report::FailureReport;
+use crate::printable::{Page, printable, printable_json};
 
 /// Output of a command.
 #[derive(Clone, Copy, Debug)]
@@ -105,10 +106,20 @@ impl Terminal {
     /// Prints a line for people, even if the user wants errors only.
     pub(crate) fn line(&self, text: fmt::Arguments<'_>) {
         // Standard error may be closed, and then there is nowhere to say so.
-        let _ = writeln!(io::stderr().lock(), "{text}");
+        let _ = writeln!(io::stderr().lock(), "{}", printable(&text.to_string()));
     }
 
-    /// Prints text on standard output.
+    /// Prints lines for people or scripts on standard output.
+    pub(crate) fn page(&self, page: &Page) -> Result<(), Failure> {
+        self.data(page.text())
+    }
+
+    /// Prints a line on standard output.
+    pub(crate) fn data_line(&self, line: impl fmt::Display) -> Result<(), Failure> {
+        self.page(&[line].into_iter().collect())
+    }
+
+    /// Prints text on standard output as it is: a document, or what another program runs.
     pub(crate) fn data(&self, text: &str) -> Result<(), Failure> {
         let mut stdout = io::stdout().lock();
         match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
@@ -141,5 +152,5 @@ pub(crate) fn json_failure(failure: &Failure, command: &str) {
 pub(crate) fn pretty(document: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(document);
     let text = text.map_err(|error| Failure::new(Exit::Defect, format!("cannot write the report as JSON: {error}")))?;
-    Ok(format!("{text}\n"))
+    Ok(format!("{}\n", printable_json(&text)))
 }

@@ -1,13 +1,16 @@
 //! Command lines that cannot be understood.
 
 use std::env;
+use std::io::{self, Write as _};
 use std::path::Path;
 
+
 use clap::error::ErrorKind;
-use sabi_engine::nearest;
+use sabi_engine::{is_invisible, nearest};
 
 use crate::arguments::command_names;
 use crate::exit::{Exit, Failure};
+use crate::printable::printable;
 
 /// Returns whether a command line asks for JSON, also where it cannot be understood otherwise.
 pub(crate) fn asks_for_json() -> bool {
@@ -38,6 +41,17 @@ pub(crate) fn mistyped_command_line(kind: ErrorKind) -> Option<String> {
         .skip(1)
         .find(|word| !word.as_encoded_bytes().starts_with(b"-"))?;
     mistyped_command(Path::new(&first))
+}
+
+/// Prints what is wrong with a command line. Its arguments may be names of files, which do not control a terminal.
+pub(crate) fn print(error: &clap::Error) -> io::Result<()> {
+    let is_odd = |argument: std::ffi::OsString| argument.to_string_lossy().chars().any(is_invisible);
+    if !env::args_os().any(is_odd) {
+        return error.print();
+    }
+    let text = error.to_string();
+    let lines = text.lines().map(|line| format!("{}\n", printable(line)));
+    io::stderr().lock().write_all(lines.collect::<String>().as_bytes())
 }
 
 /// The failure of a command line, given the text that is printed for people: a sentence, tips, and where to read on.

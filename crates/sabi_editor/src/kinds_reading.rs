@@ -80,6 +80,7 @@ impl KindsReading {
                 false => Kinds::clone(known),
             };
             let folders = wanted.folders.clone();
+            kinds.trust(&document.session.graph().trusted);
             let task = Task::start(context, move || {
                 kinds.reread(&folders);
                 kinds

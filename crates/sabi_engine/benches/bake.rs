@@ -140,7 +140,7 @@ fn bench_noises(folder: &Path, model: &Path) {
 fn bench_atlas(folder: &Path, model: &Path) {
     let options = ModelOptions::new(model, 2048);
     let atlas = |cache: Option<PathBuf>| {
-        let loaded = LinkedModel::load_model(&options).unwrap();
+        let loaded = LinkedModel::load_model(&options, &NoProgress).unwrap();
         let options = ModelOptions {
             cache_dir: cache,
             ..options.clone()

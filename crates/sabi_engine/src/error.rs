@@ -50,6 +50,25 @@ impl ErrorKind {
     ];
 }
 
+/// Most sentences of an error.
+const MOST_SENTENCES: usize = 200;
+/// Longest sentence, bytes: a path and a few names fit.
+const LONGEST_SENTENCE: usize = 8192;
+/// Bytes that are left of a longer sentence at its beginning and at its end, where it says what was asked and what to do.
+const LEFT_OF_SENTENCE: [usize; 2] = [2048, 1024];
+
+/// Leaves out the middle of a sentence that nobody would read to its end.
+pub(crate) fn shorten(sentence: &mut String) {
+    if sentence.len() <= LONGEST_SENTENCE {
+        return;
+    }
+    let [first, last] = LEFT_OF_SENTENCE;
+    let start = sentence.floor_char_boundary(first);
+    let end = sentence.ceil_char_boundary(sentence.len() - last);
+    let left_out = format!(" [… {} bytes are left out …] ", end - start);
+    sentence.replace_range(start..end, &left_out);
+}
+
 /// Failure of a request.
 ///
 /// Its text is its sentences followed by its remedies, without flags and buttons. [`Error::source`] gives the error of the
@@ -71,8 +90,16 @@ impl EngineError {
         EngineError::several(kind, vec![message.to_string()])
     }
 
-    /// An error of several sentences.
-    pub fn several(kind: ErrorKind, messages: Vec<String>) -> EngineError {
+    /// An error of several sentences. A file may cause any number of them, of any length, but nobody reads a thousand.
+    pub fn several(kind: ErrorKind, mut messages: Vec<String>) -> EngineError {
+        let left_out = messages.len().saturating_sub(MOST_SENTENCES);
+        if left_out > 0 {
+            messages.truncate(MOST_SENTENCES);
+            messages.push(format!("{left_out} more sentences of this kind are left out"));
+        }
+        for message in &mut messages {
+            shorten(message);
+        }
         EngineError {
             kind,
             messages,
@@ -119,6 +146,7 @@ impl EngineError {
     #[must_use]
     pub(crate) fn map_messages(mut self, say: impl Fn(&str) -> String) -> EngineError {
         self.messages = self.messages.iter().map(|message| say(message)).collect();
+        self.messages.iter_mut().for_each(shorten);
         self
     }
 }
@@ -268,9 +296,14 @@ impl From<AtlasError> for EngineError {
             AtlasError::ChartTooLarge { .. } | AtlasError::TooManyTexels { .. } => {
                 &[Remedy::SmallerSize, Remedy::EditUvs, Remedy::UnwrapModel]
             }
+            AtlasError::Memory { .. } => &[Remedy::SmallerSize, Remedy::UnwrapModel, Remedy::RaiseMemory],
             _ => &[],
         };
-        EngineError::of(ErrorKind::BadInput, error).with_remedies(remedies.iter().copied())
+        let kind = match &error {
+            AtlasError::Memory { .. } => ErrorKind::OutOfMemory,
+            _ => ErrorKind::BadInput,
+        };
+        EngineError::of(kind, error).with_remedies(remedies.iter().copied())
     }
 }
 
@@ -316,6 +349,26 @@ mod tests {
             size: 64,
         };
         assert_eq!(EngineError::from(far).remedies, [Remedy::EditUvs, Remedy::UnwrapModel]);
+    }
+
+    #[test]
+    fn an_error_is_no_longer_than_anyone_reads() {
+        let long = format!("unknown kind '{}'; choose another one", "ä".repeat(1 << 20));
+        let error = EngineError::several(ErrorKind::BadInput, vec![long; 5000]);
+        assert_eq!(error.messages.len(), 201);
+        assert!(error.to_string().len() < 1 << 20);
+        let [first, .., last] = error.messages.as_slice() else {
+            panic!("several")
+        };
+        assert!(
+            first.starts_with("unknown kind 'ä") && first.ends_with("ä'; choose another one"),
+            "{first}"
+        );
+        assert!(first.contains("[… 2094"), "{first}");
+        assert_eq!(last, "4800 more sentences of this kind are left out");
+        let again = error.clone().map_messages(|message| format!("graph.sabi: {message}"));
+        assert_eq!(again.messages.len(), 201);
+        assert!(again.messages[0].starts_with("graph.sabi: unknown kind"));
     }
 
     #[test]

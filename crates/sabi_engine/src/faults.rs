@@ -1,6 +1,7 @@
 //! Faults that are found together and told together.
 
 use crate::error::{EngineError, ErrorKind};
+use crate::phases::interrupted;
 use crate::remedy::Remedy;
 
 /// Sentences about several faults, each once.
@@ -40,6 +41,9 @@ impl Faults {
     /// One error with all sentences: about missing files if all are, else about bad input, since what the command line could
     /// have wrong stands in a file here.
     pub(crate) fn into_result(self) -> Result<(), EngineError> {
+        if self.kinds.contains(&ErrorKind::Interrupted) {
+            return Err(interrupted());
+        }
         let kind = match self.kinds.iter().all(|kind| *kind == ErrorKind::MissingInput) {
             true => ErrorKind::MissingInput,
             false => ErrorKind::BadInput,

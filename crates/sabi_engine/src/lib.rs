@@ -152,7 +152,7 @@ pub use sabi_export::{
 };
 pub use sabi_files::{
     Disk, Fault, FileError, NotText, PathBase, Refusal, TrustedPaths, Unread, WholeFile, absolute, canonical,
-    io_reason, path_from_stored, path_text, read_plain, stored, stored_path, sweep, write_whole,
+    io_reason, is_invisible, path_from_stored, path_text, read_plain, stored, stored_path, sweep, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

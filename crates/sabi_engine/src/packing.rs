@@ -1,6 +1,7 @@
 //! Packing: a graph and all that it takes to bake it elsewhere, in one archive, and back.
 
 mod checked;
+mod entries;
 mod manifest;
 pub(crate) mod model_files;
 pub(crate) mod named_files;
@@ -38,6 +39,8 @@ impl From<ArchiveError> for EngineError {
             | ArchiveError::SameNames
             | ArchiveError::NotPlain(_)
             | ArchiveError::Encrypted(_)
+            | ArchiveError::Unwanted { .. }
+            | ArchiveError::Overlapping(_)
             | ArchiveError::Damaged { .. } => (ErrorKind::BadInput, &[]),
         };
         EngineError::of(kind, error).with_remedies(remedies.iter().copied())

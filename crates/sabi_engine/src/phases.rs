@@ -1,6 +1,9 @@
 //! Phases of a long piece of work: progress, cancelation and times.
 
+use std::panic::resume_unwind;
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use serde::{Serialize, Serializer};
@@ -66,6 +69,8 @@ pub trait Progress: Sync {
     fn advance(&self, phase: Phase, done: usize, of: usize);
     /// Returns true to cancel the work, which then ends with an error of kind `Interrupted`. Called between steps.
     fn is_canceled(&self) -> bool;
+    /// Tells, in a sentence, that the work waits for another program. Told once for each wait; ignored where nobody reads it.
+    fn waits(&self, _sentence: &str) {}
 }
 
 /// Progress that is ignored, of work that is never canceled.
@@ -131,9 +136,54 @@ impl SharedActivity {
 /// Returns an error of kind `Interrupted` if the work was canceled.
 pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineError> {
     if progress.is_canceled() {
-        return Err(EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written"));
+        return Err(interrupted());
     }
     Ok(())
+}
+
+/// The error of work that was canceled.
+pub(crate) fn interrupted() -> EngineError {
+    EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written")
+}
+
+/// Pause between two looks at whether work was canceled that does not look itself.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
+/// Stack of a thread that reads files, as large as that of the first thread of a process.
+const STACK_BYTES: usize = 8 << 20;
+
+/// Runs work that does not look itself at whether it was canceled, such as a reader of another crate, on a thread of its own. Once it
+/// is canceled, the thread is left to itself: what it holds and takes is limited, and nothing waits for it.
+///
+/// # Errors
+/// The work was canceled, or the system has no thread for it.
+pub(crate) fn unless_canceled<T: Send + 'static>(
+    progress: &dyn Progress,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, EngineError> {
+    stop_if_canceled(progress)?;
+    let (give, take) = mpsc::channel();
+    let span = tracing::Span::current();
+    let started = thread::Builder::new().stack_size(STACK_BYTES).spawn(move || {
+        let done = span.in_scope(work);
+        // Nobody takes the result of work that was canceled.
+        let _ = give.send(done);
+    });
+    let thread = started.map_err(|error| {
+        let why = format!("the system has no thread for reading files: {error}; close other programs");
+        EngineError::new(ErrorKind::OutOfMemory, why)
+    })?;
+    loop {
+        match take.recv_timeout(BETWEEN_LOOKS) {
+            Ok(done) => return Ok(done),
+            Err(RecvTimeoutError::Timeout) => stop_if_canceled(progress)?,
+            Err(RecvTimeoutError::Disconnected) => {
+                if let Err(panic) = thread.join() {
+                    resume_unwind(panic);
+                }
+                return Err(EngineError::new(ErrorKind::Defect, "a thread ended without a result"));
+            }
+        }
+    }
 }
 
 /// Time spent in one phase.
@@ -220,7 +270,36 @@ impl PhaseTimes {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
     use super::*;
+
+    /// Cancels at the third look.
+    #[derive(Default)]
+    struct Third(AtomicUsize);
+
+    impl Progress for Third {
+        fn advance(&self, _: Phase, _: usize, _: usize) {}
+
+        fn is_canceled(&self) -> bool {
+            self.0.fetch_add(1, Ordering::Relaxed) >= 2
+        }
+    }
+
+    #[test]
+    fn work_that_never_looks_is_left_once_it_is_canceled() {
+        let (_never, ends) = mpsc::channel::<()>();
+        let told = unless_canceled(&Third::default(), move || ends.recv()).unwrap_err();
+        assert_eq!(told.kind, ErrorKind::Interrupted);
+        assert_eq!(unless_canceled(&NoProgress, || 7).unwrap(), 7);
+    }
+
+    #[test]
+    fn a_panic_of_work_on_its_own_thread_reaches_the_caller() {
+        let work = || unless_canceled::<()>(&NoProgress, || panic!("on purpose"));
+        let panic = std::panic::catch_unwind(work).unwrap_err();
+        assert_eq!(panic.downcast_ref::<&str>(), Some(&"on purpose"));
+    }
 
     #[test]
     fn phases_of_a_clock_leave_no_gap() {

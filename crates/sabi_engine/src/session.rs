@@ -14,11 +14,10 @@ mod tests;
 mod trust;
 pub(crate) mod watch;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sabi_files::Disk;
+use sabi_files::{Disk, read_plain};
 use sabi_graph::{Document, Edit, EditError, History};
 
 use file_lock::FileMark;
@@ -30,7 +29,7 @@ use recovery::UnsavedWork;
 pub use recovery::{Keeping, Recovery, recoveries, recoveries_in_use};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::opening::document::OpenGraph;
+use crate::opening::document::{OpenGraph, SIZE_LIMIT_BYTES};
 
 /// File name of a graph that has no file yet.
 const UNTITLED: &str = "untitled.sabi";
@@ -132,7 +131,7 @@ impl Session {
         let name = file.clone().unwrap_or_else(|| PathBuf::from(UNTITLED));
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
-        let file_bytes = file.as_ref().and_then(|file| fs::read(file).ok());
+        let file_bytes = file.as_ref().and_then(|file| read_plain(file, SIZE_LIMIT_BYTES).ok());
         let saved = match &file {
             // A missing or damaged file leaves everything unsaved.
             Some(_) => String::from_utf8(file_bytes.clone().unwrap_or_default()).unwrap_or_default(),

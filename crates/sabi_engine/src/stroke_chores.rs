@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
+use crate::phases::NoProgress;
 use crate::remedy::Remedy;
 use crate::session::Session;
 use crate::source::paint::NAME;
@@ -110,7 +111,7 @@ pub fn reproject_strokes(
 ) -> Result<ReprojectReport, EngineError> {
     let mut session = opened(graph)?;
     let strokes = session.graph().strokes.clone();
-    let model = LinkedModel::load_model(model)?;
+    let model = LinkedModel::load_model(model, &NoProgress)?;
     let index = SurfaceIndex::new(&model.mesh);
     let surface = PaintSurface::new(&model.mesh, &index);
     let nodes = paint_nodes(&session);

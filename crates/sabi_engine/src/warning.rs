@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
+use crate::error::shorten;
 use crate::remedy::{Remedy, advised};
 
 /// Sentence on something that is probably not intended and stops nothing, with its remedies.
@@ -22,9 +23,11 @@ pub struct Warning {
 impl Warning {
     /// A warning with remedies.
     pub fn new(sentence: impl Into<String>, remedies: impl IntoIterator<Item = Remedy>) -> Warning {
+        let mut sentence = sentence.into();
+        shorten(&mut sentence);
         Warning {
             node: None,
-            sentence: sentence.into(),
+            sentence,
             remedies: remedies.into_iter().collect(),
         }
     }

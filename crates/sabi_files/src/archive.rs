@@ -9,7 +9,7 @@ pub(crate) mod write;
 
 pub use error::ArchiveError;
 pub use names::{EntryNames, NameFault};
-pub use unpack::UnpackedArchive;
+pub use unpack::{Accepts, UnpackedArchive};
 pub use write::{EntryContent, write_archive};
 
 /// Most entries of an archive. A graph names some hundred files at most; an archive with more is no packed graph, and each entry costs

@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -11,6 +12,8 @@ use crate::whole::{Durability, WholeFile, create_folder};
 
 /// First bytes of every stored file.
 const MAGIC: &[u8; 12] = b"sabi cache\r\n";
+/// Bytes of a stored file before its result: [`MAGIC`], version, key, length and hash.
+const HEADER_BYTES: usize = MAGIC.len() + 4 + 32 + 8 + 32;
 /// Hash of everything that a stored result depends on.
 pub type CacheKey = [u8; 32];
 
@@ -61,18 +64,27 @@ impl Cache {
     /// version.
     pub fn read(&self, key: &CacheKey) -> Option<Vec<u8>> {
         let file = self.file(key);
-        let mut bytes = fs::read(&file).ok()?;
-        let rest = bytes.strip_prefix(MAGIC)?;
+        // Not every folder of a cache is the user's alone: a pipe, or a file without end, is no result.
+        let found = fs::metadata(&file).ok().filter(fs::Metadata::is_file)?;
+        let mut opened = fs::File::open(&file).ok()?;
+        let mut header = [0; HEADER_BYTES];
+        opened.read_exact(&mut header).ok()?;
+        let rest = header.strip_prefix(MAGIC)?;
         let rest = rest.strip_prefix(&self.kind.version.to_le_bytes())?.strip_prefix(key)?;
-        let (length, rest) = rest.split_first_chunk::<8>()?;
-        let (hash, payload) = rest.split_first_chunk::<32>()?;
-        let is_whole = u64::from_le_bytes(*length) == payload.len() as u64 && blake3::hash(payload) == *hash;
-        let start = bytes.len() - payload.len();
+        let (length, hash) = rest.split_first_chunk::<8>()?;
+        let length = u64::from_le_bytes(*length);
+        if found.len().checked_sub(HEADER_BYTES as u64) != Some(length) {
+            return None;
+        }
+        let mut payload = Vec::new();
+        // One byte more shows that the file grows meanwhile.
+        opened.take(length.saturating_add(1)).read_to_end(&mut payload).ok()?;
+        let is_whole = payload.len() as u64 == length && blake3::hash(&payload).as_bytes() == hash;
         is_whole.then(|| {
             let used = fs::File::options().append(true).open(&file);
             // In a folder that cannot be written to nothing is removed either.
             let _ = used.and_then(|file| file.set_modified(SystemTime::now()));
-            bytes.split_off(start)
+            payload
         })
     }
 
@@ -181,6 +193,29 @@ mod tests {
         assert_eq!(cache.read(&KEY), None);
         fs::write(&file, &whole).unwrap();
         assert!(cache.read(&KEY).is_some());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_pipe_a_device_or_a_file_without_end_is_no_result() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::new(folder.path(), KIND);
+        let file = cache.file(&KEY);
+        let made = std::process::Command::new("mkfifo").arg(&file).status().unwrap();
+        assert!(made.success());
+        assert_eq!(cache.read(&KEY), None);
+        for target in ["/dev/zero", "/proc/self/maps"] {
+            fs::remove_file(&file).unwrap();
+            std::os::unix::fs::symlink(target, &file).unwrap();
+            assert_eq!(cache.read(&KEY), None, "{target}");
+        }
+        fs::remove_file(&file).unwrap();
+        let sparse = fs::File::create(&file).unwrap();
+        sparse.set_len(1 << 40).unwrap();
+        assert_eq!(cache.read(&KEY), None, "it is not even begun");
+        // A result takes the place of whatever is there.
+        cache.write(&KEY, b"payload").unwrap();
+        assert_eq!(cache.read(&KEY).unwrap(), b"payload");
     }
 
     #[test]

@@ -211,7 +211,7 @@ fn an_archive_is_the_old_one_or_a_whole_new_one() {
             assert!(!is_done || !is_old, "{told}");
             assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
             if !is_old {
-                let unpacked = UnpackedArchive::read(&file, &folder.join("out"), &|| false).unwrap();
+                let unpacked = UnpackedArchive::read(&file, &folder.join("out"), &|_| Ok(()), &|| false).unwrap();
                 assert_eq!(unpacked.names(), ENTRIES.map(|(name, _)| name), "{told}");
             }
             if !disk.has_ended() {
@@ -237,7 +237,13 @@ fn an_archive_is_unpacked_whole_or_not_at_all() {
                 }
             },
             |disk, folder| {
-                let unpacked = UnpackedArchive::read_on(disk, &folder.join("file.zip"), &folder.join("out"), &|| false);
+                let unpacked = UnpackedArchive::read_on(
+                    disk,
+                    &folder.join("file.zip"),
+                    &folder.join("out"),
+                    &|_| Ok(()),
+                    &|| false,
+                );
                 match unpacked.and_then(UnpackedArchive::commit) {
                     Ok(()) => true,
                     Err(ArchiveError::Disk(error)) => {

@@ -15,6 +15,9 @@ const TRIES: usize = 2;
 /// Pause before a lock in use is tried again.
 const BETWEEN_TRIES: Duration = Duration::from_millis(5);
 
+/// Pause between two looks at a lock that is waited for.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
+
 /// Lock on a file, held until it is dropped or the process ends in any way.
 #[derive(Debug)]
 pub struct FileLock {
@@ -65,18 +68,26 @@ impl FileLock {
     }
 
     /// Locks a file once no other holder has the lock; the file and its folder are created where they are missing. Holders do not
-    /// remove the file, or two could have the lock.
+    /// remove the file, or two could have the lock. While another one has it, `goes_on` is asked many times a second; `None` once it
+    /// returns false.
     ///
     /// # Errors
-    /// The file system does not offer locks.
-    pub fn wait(path: &Path) -> Result<FileLock, FileError> {
+    /// The file system does not offer locks, or the path is that of no ordinary file.
+    pub fn wait(path: &Path, goes_on: &mut dyn FnMut() -> bool) -> Result<Option<FileLock>, FileError> {
         let file = open(path)?;
-        file.lock()
-            .map_err(|error| FileError::new(Operation::Lock, path, error))?;
-        Ok(FileLock {
-            _file: file,
-            path: path.to_owned(),
-        })
+        loop {
+            match file.try_lock() {
+                Ok(()) => {
+                    return Ok(Some(FileLock {
+                        _file: file,
+                        path: path.to_owned(),
+                    }));
+                }
+                Err(TryLockError::WouldBlock) if goes_on() => std::thread::sleep(BETWEEN_LOOKS),
+                Err(TryLockError::WouldBlock) => return Ok(None),
+                Err(TryLockError::Error(error)) => return Err(FileError::new(Operation::Lock, path, error)),
+            }
+        }
     }
 
     /// Unlocks the file and removes it.
@@ -109,14 +120,27 @@ fn is_at(_: &File, _: &Path) -> bool {
 fn open(path: &Path) -> Result<File, FileError> {
     // A lock is not kept beyond the process.
     create_folder(&Disk::default(), folder_of(path), Durability::Unsynced)?;
+    refuse_special(path)?;
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
     file.map_err(|error| FileError::new(Operation::Lock, path, error))
+}
+
+/// Refuses a path where something else than a file is: a pipe would be waited for, and a link would lead elsewhere.
+fn refuse_special(path: &Path) -> Result<(), FileError> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if !found.is_file() => {
+            let why = std::io::Error::other("it is no ordinary file but a link, a pipe or a folder; remove it");
+            Err(FileError::new(Operation::Lock, path, why))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Returns whether a [`FileLock`] on a file is held, in this process or another.
 pub fn is_locked(path: &Path) -> bool {
     // Shared, so that two who look at the same moment do not take each other for a holder.
-    File::open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+    refuse_special(path).is_ok()
+        && File::open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 #[cfg(test)]
@@ -147,12 +171,14 @@ mod tests {
     fn a_lock_that_is_waited_for_comes_once_it_is_free() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file.lock");
-        let first = FileLock::wait(&path).unwrap();
+        let first = FileLock::wait(&path, &mut || unreachable!("nobody holds it"))
+            .unwrap()
+            .unwrap();
         std::thread::scope(|scope| {
             let (told, waits) = std::sync::mpsc::channel();
             let waiting = path.clone();
             scope.spawn(move || {
-                let second = FileLock::wait(&waiting).unwrap();
+                let second = FileLock::wait(&waiting, &mut || true).unwrap().unwrap();
                 told.send(()).unwrap();
                 drop(second);
             });
@@ -162,6 +188,41 @@ mod tests {
             waits.recv().unwrap();
         });
         assert!(!is_locked(&path));
+    }
+
+    #[test]
+    fn whoever_waits_for_a_lock_can_give_up() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file.lock");
+        let _held = FileLock::acquire(&path).unwrap();
+        let mut looks = 0;
+        let mut goes_on = || {
+            looks += 1;
+            looks < 3
+        };
+        assert!(FileLock::wait(&path, &mut goes_on).unwrap().is_none());
+        assert_eq!(looks, 3);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_or_a_pipe_is_no_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, pipe, elsewhere] = ["link.lock", "pipe.lock", "elsewhere"].map(|name| folder.path().join(name));
+        std::os::unix::fs::symlink(&elsewhere, &link).unwrap();
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success());
+        for path in [&link, &pipe] {
+            let told = FileLock::wait(path, &mut || true).unwrap_err().to_string();
+            let sentence = format!(
+                "cannot lock {}: it is no ordinary file but a link, a pipe or a folder; remove it",
+                path.display()
+            );
+            assert_eq!(told, sentence);
+            assert!(matches!(FileLock::acquire(path), Err(LockError::Unavailable(_))));
+            assert!(!is_locked(path));
+        }
+        assert!(!elsewhere.exists(), "nothing is made where the link leads");
     }
 
     #[test]

@@ -4,6 +4,8 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+use crate::read::{Unread, read_plain};
+
 /// Numbers that [`free_file`] appends before it gives up.
 const MAX_FREE_FILE_NUMBER: usize = 1000;
 
@@ -61,9 +63,10 @@ pub fn free_file(folder: &Path, stem: &OsStr, ending: &str, bytes: &[u8]) -> Opt
         name.push(format!("{number}.{ending}"));
         folder.join(name)
     });
-    files.find(|file| match fs::read(file) {
+    // What is longer, or no ordinary file, holds something else.
+    files.find(|file| match read_plain(file, bytes.len() as u64) {
         Ok(known) => known == bytes,
-        Err(error) => error.kind() == io::ErrorKind::NotFound,
+        Err(unread) => unread == Unread::Missing && fs::symlink_metadata(file).is_err(),
     })
 }
 

@@ -48,6 +48,19 @@ pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
     Ok(bytes)
 }
 
+impl From<Unread> for io::Error {
+    fn from(unread: Unread) -> io::Error {
+        match unread {
+            Unread::Missing => io::ErrorKind::NotFound.into(),
+            Unread::Folder => io::ErrorKind::IsADirectory.into(),
+            Unread::NotPlain => io::Error::other("it is a pipe or a device"),
+            Unread::TooLarge(_) => io::Error::new(io::ErrorKind::FileTooLarge, "it is too large"),
+            Unread::Refused(refusal) => io::Error::new(io::ErrorKind::PermissionDenied, refusal),
+            Unread::Other(why) => io::Error::other(why),
+        }
+    }
+}
+
 /// Returns why the system gives no access to a file.
 pub(crate) fn unread(error: io::Error) -> Unread {
     match error.kind() {

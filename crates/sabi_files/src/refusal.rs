@@ -21,7 +21,7 @@ pub enum Refusal {
         /// The address as it is written.
         written: String,
     },
-    /// It is a device, or a file that the system makes up.
+    /// It is a device, a pipe, or a file that the system makes up.
     Device {
         /// The path.
         file: PathBuf,
@@ -54,7 +54,7 @@ impl fmt::Display for Refusal {
                 f,
                 "{written} is an address, and addresses are not fetched; copy the file beside the one that names it"
             ),
-            Refusal::Device { file } => write!(f, "{} is a device, which files never open", file.display()),
+            Refusal::Device { file } => write!(f, "{} is a device or a pipe, which files never open", file.display()),
         }
     }
 }

@@ -7,10 +7,10 @@
 mod project;
 
 use std::collections::BTreeSet;
-use std::env;
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use self::project::project_of;
+use self::project::{Homes, project_of};
 use crate::address::{is_device, is_url, leads_to_network};
 use crate::named::{PathBase, without_detours};
 use crate::paths::{absolute, canonical};
@@ -30,14 +30,14 @@ impl TrustedPaths {
         TrustedPaths::default().with_file(file)
     }
 
-    /// Adds the folder of a file that the user names, and the project that it belongs to: the nearest folder above with `.git` or
-    /// `sabi.toml`. The home folder, and what is above it, is no project.
+    /// Adds the folder of a file that the user names, and the project that it belongs to: the nearest folder above with a repository
+    /// (`.git`) of the user or with `sabi.toml`. The home folder, and what is above it, is no project.
     #[must_use]
     pub fn with_file(mut self, file: &Path) -> TrustedPaths {
         // A path without a folder is relative to the current one.
         if let Ok(folder) = canonical(file.parent().unwrap_or(Path::new(""))) {
             self.paths
-                .extend(project_of(&folder, env::home_dir().as_deref()).map(Path::to_owned));
+                .extend(project_of(&folder, Homes::of_user()).map(Path::to_owned));
             self.paths.insert(folder);
         }
         self
@@ -130,6 +130,18 @@ impl TrustedPaths {
     /// # Errors
     /// [`Unread::Refused`], or it cannot be reached.
     pub fn check_place(&self, base: &PathBase, place: &Path) -> Result<PathBuf, Unread> {
+        match self.check_found(place) {
+            Err(Unread::Refused(Refusal::Outside { file })) if base.is_above(&file) => Ok(file),
+            checked => checked,
+        }
+    }
+
+    /// Checks that a file or folder which is found and not named may be opened, and returns its canonical path. These paths alone
+    /// decide: the folder that it is found in may be a link itself.
+    ///
+    /// # Errors
+    /// [`Unread::Refused`], or it cannot be reached.
+    pub fn check_found(&self, place: &Path) -> Result<PathBuf, Unread> {
         let direct = without_detours(&absolute(place));
         if is_device(&direct) {
             let file = direct;
@@ -139,10 +151,23 @@ impl TrustedPaths {
         if is_device(&file) {
             return Err(Unread::Refused(Refusal::Device { file }));
         }
-        match base.is_above(&file) || self.is_above(&file) {
+        // That it is outside would be advice to trust what is not opened afterwards either.
+        let kind = fs::metadata(&file).map_err(unread)?;
+        if !kind.is_file() && !kind.is_dir() {
+            return Err(Unread::Refused(Refusal::Device { file }));
+        }
+        match self.is_above(&file) {
             true => Ok(file),
             false => Err(Unread::Refused(Refusal::Outside { file })),
         }
+    }
+
+    /// Reads a file that is found and not named, if it may be opened, has at most `limit` bytes and is no pipe or device.
+    ///
+    /// # Errors
+    /// See [`Unread`].
+    pub fn read_found(&self, place: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
+        read_plain(&self.check_found(place)?, limit)
     }
 
     fn check_at(&self, base: &PathBase, written: &str, place: &Path) -> Result<PathBuf, Unread> {

@@ -178,6 +178,8 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
+    // That there is one is all that matters, and a small one may unpack to gigabytes.
+    decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(damaged)?;
     let (width, height) = (header.width, header.height);
     check_size(name, width.into(), height.into(), header.bytes_per_pixel() as u64)?;
@@ -193,6 +195,23 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u
     Ok(reader)
 }
 
+/// Returns whether a PNG file has a color profile before its pixels.
+fn has_profile(bytes: &[u8]) -> bool {
+    const SIGNATURE_BYTES: usize = 8;
+    let mut rest = bytes.get(SIGNATURE_BYTES..).unwrap_or_default(); // Nothing follows.
+    // Each chunk is its length, its kind, its data and a checksum.
+    while let Some((length, after)) = rest.split_first_chunk::<4>() {
+        match after.first_chunk::<4>() {
+            Some(b"iCCP") => return true,
+            None | Some(b"IDAT" | b"IEND") => return false,
+            Some(_) => {}
+        }
+        let skipped = (u32::from_be_bytes(*length) as usize).saturating_add(8);
+        rest = after.get(skipped..).unwrap_or_default(); // It was cut off.
+    }
+    false
+}
+
 /// Bytes of a sample, once expanded.
 fn sample_bytes(depth: png::BitDepth) -> u64 {
     if depth == png::BitDepth::Sixteen { 2 } else { 1 }
@@ -201,7 +220,7 @@ fn sample_bytes(depth: png::BitDepth) -> u64 {
 fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     let mut reader = open_png(name, bytes)?;
     let (width, height) = (reader.info().width, reader.info().height);
-    let color_space = declared_by_png(reader.info());
+    let color_space = declared_by_png(reader.info(), has_profile(bytes));
     let (color, depth) = reader.output_color_type();
     let channels = color.samples() as u8;
     let size = reader
@@ -231,7 +250,7 @@ fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
 }
 
 /// Returns the color space that the chunks declare, the newest kind of chunk first (PNG specification, third edition, 4.3).
-fn declared_by_png(info: &png::Info<'_>) -> Declared {
+fn declared_by_png(info: &png::Info<'_>, has_profile: bool) -> Declared {
     if let Some(cicp) = &info.coding_independent_code_points {
         // ITU-T H.273: 8 is linear, 13 is the sRGB curve.
         return match cicp.transfer_function {
@@ -240,7 +259,7 @@ fn declared_by_png(info: &png::Info<'_>) -> Declared {
             _ => Declared::Unknown,
         };
     }
-    if info.icc_profile.is_some() {
+    if has_profile {
         return Declared::Unknown;
     }
     if info.srgb.is_some() {

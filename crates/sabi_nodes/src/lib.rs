@@ -69,7 +69,7 @@ mod words;
 pub use color::{color_code, color_linear, typed_color};
 pub use curve::curve_points;
 pub use fault::Fault;
-pub use library::Library;
+pub use library::{Library, files_of_folder};
 pub use names::label_of;
 pub use reader::read_kind;
 pub use shader_files::Libraries;

@@ -81,6 +81,8 @@ pub struct AtlasOptions {
     pub page_limit: u32,
     /// Treatment of UVs in several tiles.
     pub udim: Udim,
+    /// Most bytes of memory for the atlas. What would take more is refused before it is taken.
+    pub memory_bytes: u64,
 }
 
 /// Largest side of a page that every adapter takes, texels.
@@ -97,6 +99,7 @@ impl AtlasOptions {
             size,
             page_limit: largest_chart.clamp(ORDINARY_PAGE, LARGEST_PAGE),
             udim: Udim::Auto,
+            memory_bytes: u64::MAX,
         }
     }
 }

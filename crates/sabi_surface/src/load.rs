@@ -21,6 +21,7 @@ mod pictures;
 mod ply;
 mod polygon;
 mod repeating;
+mod size;
 mod skin_rest;
 mod stl;
 mod submesh;

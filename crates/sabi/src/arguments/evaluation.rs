@@ -49,7 +49,7 @@ pub(crate) struct ModelArguments {
     /// most lie alike in different tiles, tiles have no UDIM number, or a texture of the model repeats (auto)
     #[arg(long, value_enum, default_value_t = UdimChoice::Auto, help_heading = "Model")]
     pub(crate) udim: UdimChoice,
-    /// Memory for the files of the model and its pictures, MiB; half of this machine's if it is not given. A model that takes more is
+    /// Memory for the files of the model, its pictures and its layout on the maps, MiB; half of this machine's if it is not given. A model that takes more is
     /// refused, and pictures that do not fit are left out
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(16..=1 << 30), help_heading = "Model")]
     memory: Option<u64>,

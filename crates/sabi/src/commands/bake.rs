@@ -92,8 +92,7 @@ fn list<'a>(
     terminal: &Terminal,
 ) -> Result<(), Failure> {
     let paths = files.map(|file| arguments.output.join(file));
-    let lines: String = paths.map(|path| format!("{}\n", path.display())).collect();
-    terminal.data(&lines)
+    terminal.page(&paths.map(|path| path.display().to_string()).collect())
 }
 
 /// Tells whether a bake has the bytes of the one that a report records.

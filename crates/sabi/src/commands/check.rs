@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &CheckArguments, trusted: &TrustedPaths, terminal: 
         if arguments.json {
             documents.push(CheckedGraph::new(path, report));
         } else {
-            terminal.data(&format!("{}\n", verdict(path, &report)))?;
+            terminal.data_line(verdict(path, &report))?;
         }
     }
     if arguments.json {

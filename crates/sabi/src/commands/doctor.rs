@@ -1,11 +1,10 @@
 //! `sabi doctor`: whether this machine can run Sabi.
 
-use std::fmt::Write as _;
-
 use sabi_engine::{Diagnosis, diagnose};
 
 use crate::arguments::DoctorArguments;
 use crate::exit::{Exit, Failure};
+use crate::printable::Page;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &DoctorArguments, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -13,7 +12,7 @@ pub(crate) fn run(arguments: &DoctorArguments, terminal: &Terminal) -> Result<Ex
     if arguments.json {
         terminal.json(&diagnosis)?;
     } else {
-        terminal.data(&page(&diagnosis))?;
+        terminal.page(&page(&diagnosis))?;
     }
     for fault in &diagnosis.faults {
         terminal.warning(fault.as_str());
@@ -27,19 +26,22 @@ pub(crate) fn run(arguments: &DoctorArguments, terminal: &Terminal) -> Result<Ex
     }
 }
 
-fn page(diagnosis: &Diagnosis) -> String {
-    let mut page = format!("sabi      {}\n", diagnosis.sabi);
+fn page(diagnosis: &Diagnosis) -> Page {
+    let mut page = Page::default();
+    page.line(format_args!("sabi      {}", diagnosis.sabi));
     for adapter in &diagnosis.adapters {
-        let _ = writeln!(
-            page,
+        page.line(format_args!(
             "adapter   {} ({}, {}, {})",
             adapter.name, adapter.kind, adapter.backend, adapter.driver
-        );
+        ));
     }
     if diagnosis.adapters.is_empty() {
-        page.push_str("adapter   none\n");
+        page.line("adapter   none");
     }
-    let _ = writeln!(page, "cache     {}", diagnosis.cache.as_deref().unwrap_or("none")); // No folder is one to keep it in.
-    let _ = writeln!(page, "nodes     {}", diagnosis.nodes);
+    page.line(format_args!(
+        "cache     {}",
+        diagnosis.cache.as_deref().unwrap_or("none")
+    )); // No folder is one to keep it in.
+    page.line(format_args!("nodes     {}", diagnosis.nodes));
     page
 }

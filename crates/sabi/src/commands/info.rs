@@ -1,7 +1,5 @@
 //! `sabi info`: what a graph lets be set, what comes out of it, and which files it takes.
 
-use std::fmt::Write as _;
-
 use sabi_engine::{
     FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, TrustedPaths,
     VariantDescription, describe_graph,
@@ -10,6 +8,7 @@ use sabi_engine::{
 use super::value_text::{accepted_values, value_text};
 use crate::arguments::InfoArguments;
 use crate::exit::{Exit, Failure};
+use crate::printable::Page;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &InfoArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -21,21 +20,21 @@ pub(crate) fn run(arguments: &InfoArguments, trusted: &TrustedPaths, terminal: &
     if arguments.json {
         terminal.json(&description)?;
     } else {
-        terminal.data(&page(&description))?;
+        terminal.page(&page(&description))?;
     }
     Ok(Exit::Done)
 }
 
-fn page(graph: &GraphDescription) -> String {
-    let mut page = String::new();
+fn page(graph: &GraphDescription) -> Page {
+    let mut page = Page::default();
     let title = if graph.name.is_empty() {
         &graph.graph
     } else {
         &graph.name
     };
-    let _ = writeln!(page, "{title}");
+    page.line(title);
     if let Some(about) = &graph.about {
-        let _ = writeln!(page, "{about}");
+        page.lines(about);
     }
     let nodes = graph
         .nodes
@@ -47,9 +46,9 @@ fn page(graph: &GraphDescription) -> String {
         ("fit", value_text(&graph.fit)),
         ("seed", graph.seed.to_string()),
     ];
-    page.push('\n');
+    page.line("");
     for (name, value) in facts {
-        let _ = writeln!(page, "{name:9} {value}");
+        page.line(format_args!("{name:9} {value}"));
     }
     section(&mut page, "Knobs", graph.knobs.iter().map(knob));
     section(&mut page, "Variants", graph.variants.iter().map(variant));
@@ -63,7 +62,7 @@ fn page(graph: &GraphDescription) -> String {
 const WIDEST: usize = 32;
 
 /// Adds a table with a title, if it has a row.
-fn section<const CELLS: usize>(page: &mut String, title: &str, rows: impl Iterator<Item = [String; CELLS]>) {
+fn section<const CELLS: usize>(page: &mut Page, title: &str, rows: impl Iterator<Item = [String; CELLS]>) {
     let rows: Vec<_> = rows.collect();
     if rows.is_empty() {
         return;
@@ -73,10 +72,11 @@ fn section<const CELLS: usize>(page: &mut String, title: &str, rows: impl Iterat
         lengths.filter(|length| *length <= WIDEST).max().unwrap_or(0) // A column of wide cells is not aligned.
     };
     let widths: [usize; CELLS] = std::array::from_fn(width);
-    let _ = writeln!(page, "\n{title}");
+    page.line("");
+    page.line(title);
     for row in rows {
         let cells = row.iter().zip(widths).map(|(cell, width)| format!("  {cell:width$}"));
-        let _ = writeln!(page, "{}", cells.collect::<String>().trim_end());
+        page.line(cells.collect::<String>().trim_end());
     }
 }
 

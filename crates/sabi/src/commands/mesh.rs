@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::arguments::MeshArguments;
 use crate::exit::{Exit, Failure};
+use crate::printable::Page;
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
@@ -20,13 +21,13 @@ pub(crate) fn run(arguments: MeshArguments, trusted: &TrustedPaths, terminal: &T
     if arguments.json {
         terminal.json(&report)?;
     } else {
-        terminal.data(&table(&report)?)?;
+        terminal.page(&table(&report)?)?;
     }
     Ok(Exit::Done)
 }
 
 /// One fact a line; warnings were shown already.
-fn table(report: &MeshReport) -> Result<String, Failure> {
+fn table(report: &MeshReport) -> Result<Page, Failure> {
     let [page_width, page_height] = report.page_size;
     let facts = [
         ("triangles", report.triangles.to_string()),
@@ -57,7 +58,10 @@ fn table(report: &MeshReport) -> Result<String, Failure> {
         ("ghost texels", report.ghost_texels.to_string()),
         ("unlinked ghosts", report.unlinked_ghosts.to_string()),
     ];
-    Ok(facts.map(|(name, value)| format!("{name:24} {value}\n")).concat())
+    Ok(facts
+        .into_iter()
+        .map(|(name, value)| format!("{name:24} {value}"))
+        .collect())
 }
 
 fn on_one_line(facts: &impl Serialize) -> Result<String, Failure> {

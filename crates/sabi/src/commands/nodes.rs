@@ -1,16 +1,15 @@
 //! `sabi nodes`: the kinds of nodes.
 
-use std::fmt::Write as _;
-
-use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, describe_nodes, nearest};
+use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, TrustedPaths, describe_nodes, nearest};
 
 use super::value_text::{accepted_values, value_text};
 use crate::arguments::NodesArguments;
 use crate::exit::{Exit, Failure};
+use crate::printable::Page;
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let kinds = Kinds::beside(arguments.graph.as_deref());
+pub(crate) fn run(arguments: &NodesArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
+    let kinds = Kinds::beside(arguments.graph.as_deref(), trusted);
     for fault in &kinds.faults {
         terminal.warning(fault.to_string());
     }
@@ -21,9 +20,9 @@ pub(crate) fn run(arguments: &NodesArguments, terminal: &Terminal) -> Result<Exi
     };
     match (found.as_slice(), &arguments.id) {
         ([node], Some(_)) if arguments.json => terminal.json(node)?,
-        ([node], Some(_)) => terminal.data(&details(node))?,
+        ([node], Some(_)) => terminal.page(&details(node))?,
         (several, _) if arguments.json => terminal.json(&several)?,
-        (several, _) => terminal.data(&table(several))?,
+        (several, _) => terminal.page(&table(several))?,
     }
     Ok(Exit::Done)
 }
@@ -51,20 +50,21 @@ fn find<'n>(nodes: &'n [NodeDescription], id: &str) -> Result<Vec<&'n NodeDescri
 }
 
 /// Ids and summaries, one kind a line.
-fn table(nodes: &[&NodeDescription]) -> String {
+fn table(nodes: &[&NodeDescription]) -> Page {
     let width = nodes.iter().map(|node| node.id.len()).max().unwrap_or(0); // An empty table has no width.
     let lines = nodes.iter().map(|node| {
         let summary = node.summary.replace('\n', " ");
-        format!("{:width$}  {summary}\n", node.id)
+        format!("{:width$}  {summary}", node.id)
     });
     lines.collect()
 }
 
 /// Everything about one kind.
-fn details(node: &NodeDescription) -> String {
-    let mut page = format!("{}\n{}\n", node.id, node.summary);
+fn details(node: &NodeDescription) -> Page {
+    let mut page: Page = [&node.id].into_iter().collect();
+    page.lines(&node.summary);
     if !node.aliases.is_empty() {
-        let _ = writeln!(page, "Also called {}", node.aliases.join(", "));
+        page.line(format_args!("Also called {}", node.aliases.join(", ")));
     }
     let inputs = node.inputs.iter();
     section(
@@ -88,14 +88,15 @@ fn details(node: &NodeDescription) -> String {
 }
 
 /// Adds names with what they are for and a note, one a line.
-fn section<'e>(page: &mut String, title: &str, entries: impl Iterator<Item = (&'e String, &'e String, String)>) {
+fn section<'e>(page: &mut Page, title: &str, entries: impl Iterator<Item = (&'e String, &'e String, String)>) {
     let entries: Vec<_> = entries.collect();
     let Some(width) = entries.iter().map(|(name, ..)| name.len()).max() else {
         return;
     };
-    let _ = writeln!(page, "\n{title}");
+    page.line("");
+    page.line(title);
     for (name, doc, note) in entries {
-        let _ = writeln!(page, "  {name:width$}  {} [{note}]", doc.replace('\n', " "));
+        page.line(format_args!("  {name:width$}  {} [{note}]", doc.replace('\n', " ")));
     }
 }
 
@@ -130,6 +131,7 @@ mod tests {
             let found = find(&nodes, &node.id).expect("the node");
             assert_eq!(found, [node]);
             let page = details(node);
+            let page = page.text();
             assert!(page.starts_with(&format!("{}\n", node.id)), "{page}");
             let inputs = node.inputs.iter().map(|input| &input.name);
             let outputs = node.outputs.iter().map(|output| &output.name);

@@ -8,6 +8,7 @@ use crate::arguments::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
 };
 use crate::exit::{Exit, Failure};
+use crate::printable::Page;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PaintArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -26,15 +27,15 @@ fn flatten(arguments: &PaintFlattenArguments, terminal: &Terminal) -> Result<Exi
     if arguments.json {
         terminal.json(&report)?;
     } else {
-        terminal.data(&flattened(&report))?;
+        terminal.page(&flattened(&report))?;
     }
     Ok(Exit::Done)
 }
 
-fn flattened(report: &FlattenReport) -> String {
+fn flattened(report: &FlattenReport) -> Page {
     let files = report.files.iter().map(|file| {
         format!(
-            "{:24} {} strokes, {} bytes before, {} bytes without history\n",
+            "{:24} {} strokes, {} bytes before, {} bytes without history",
             file.model, file.strokes, file.bytes_before, file.bytes
         )
     });
@@ -65,7 +66,7 @@ fn reproject(
     if arguments.json {
         terminal.json(&report)?;
     } else {
-        terminal.data(&reprojected(&report))?;
+        terminal.data_line(reprojected(&report))?;
     }
     Ok(Exit::Done)
 }
@@ -78,7 +79,7 @@ fn reprojected(report: &ReprojectReport) -> String {
         points,
         ..
     } = report;
-    format!("{strokes} strokes with {points} places from '{from}' on '{to}'\n")
+    format!("{strokes} strokes with {points} places from '{from}' on '{to}'")
 }
 
 fn info(arguments: &PaintInfoArguments, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -90,25 +91,25 @@ fn info(arguments: &PaintInfoArguments, terminal: &Terminal) -> Result<Exit, Fai
     if arguments.json {
         terminal.json(&report)?;
     } else {
-        terminal.data(&table(&report))?;
+        terminal.page(&table(&report))?;
     }
     Ok(Exit::Done)
 }
 
 /// Text with a line for each fact, and then for each version.
-fn table(report: &StrokeReport) -> String {
+fn table(report: &StrokeReport) -> Page {
     let facts = [
         ("model", report.model.clone()),
         ("bytes", report.bytes.to_string()),
         ("steps", report.steps.to_string()),
         ("damaged bytes", report.damaged_bytes.to_string()),
     ];
-    let facts = facts.map(|(name, value)| format!("{name:24} {value}\n")).concat();
+    let facts = facts.into_iter().map(|(name, value)| format!("{name:24} {value}"));
     let versions = report.versions.iter().map(|version| {
         format!(
-            "version {:16} {} strokes, {} points\n",
+            "version {:16} {} strokes, {} points",
             version.version, version.strokes, version.points
         )
     });
-    facts + &versions.collect::<String>()
+    facts.chain(versions).collect()
 }

@@ -5,6 +5,8 @@ mod openjd_template;
 mod shell_word;
 mod slurm_script;
 
+pub(super) use self::shell_word::shell_word;
+
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -15,6 +17,7 @@ use sabi_engine::{
 
 use crate::arguments::{PlanArguments, PlanFormat};
 use crate::exit::{Exit, Failure};
+use crate::printable::Page;
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
@@ -41,8 +44,10 @@ pub(crate) fn run(arguments: &PlanArguments, trusted: &TrustedPaths, terminal: &
         terminal.data(&text)?;
         return Ok(Exit::Done);
     };
+    // A name that cannot be printed is refused before the file is there.
+    let printed = printed(arguments.format, &file, &plan)?;
     write_whole(&file, text.as_bytes()).map_err(|error| unwritten(&file, &error))?;
-    terminal.data(&printed(arguments.format, &file, &plan)?)?;
+    terminal.data(&printed)?;
     terminal.note(format_args!(
         "Planned {} of {} in {}",
         items(plan.items.len()),
@@ -92,7 +97,7 @@ fn refuse_other_file(file: &Path) -> Result<(), Failure> {
 /// Text for standard output.
 fn printed(format: PlanFormat, file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     match format {
-        PlanFormat::Jsonl => Ok(format!("{}\n", file.display())),
+        PlanFormat::Jsonl => Ok([file.display()].into_iter().collect::<Page>().text().to_owned()),
         PlanFormat::Commands => commands_text::commands(file, plan),
         PlanFormat::Openjd => openjd_template::template(file, plan),
         PlanFormat::Slurm => slurm_script::script(file, plan),

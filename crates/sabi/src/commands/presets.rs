@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::arguments::{PresetsArguments, PresetsCommand};
 use crate::exit::{Exit, Failure};
+use crate::printable::{Page, printable_lines};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PresetsArguments, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -42,10 +43,10 @@ fn list(json: bool, terminal: &Terminal) -> Result<Exit, Failure> {
     }
     let width = found.iter().map(|listed| listed.name.len()).max().unwrap_or(0); // An empty list has no width.
     let line = |listed: &ListedPreset| match &listed.preset {
-        Ok(preset) => format!("{:width$}  {}\n", listed.name, preset.about),
-        Err(fault) => format!("{:width$}  {fault}\n", listed.name),
+        Ok(preset) => format!("{:width$}  {}", listed.name, preset.about),
+        Err(fault) => format!("{:width$}  {fault}", listed.name),
     };
-    terminal.data(&found.iter().map(line).collect::<String>())?;
+    terminal.page(&found.iter().map(line).collect())?;
     if let Some(folder) = folder {
         terminal.note(format_args!("Presets of your own are read from {}", folder.display()));
     }
@@ -68,46 +69,48 @@ fn listed(found: ListedPreset) -> Listed {
 fn show(name: &str, toml: bool, json: bool, terminal: &Terminal) -> Result<Exit, Failure> {
     let folder = default_preset_folder();
     if toml {
-        terminal.data(&preset_text(name, folder.as_deref())?)?;
+        terminal.data(&printable_lines(&preset_text(name, folder.as_deref())?))?;
         return Ok(Exit::Done);
     }
     let preset = describe_preset(&find_preset(name, folder.as_deref())?);
     if json {
         terminal.json(&preset)?;
     } else {
-        terminal.data(&table(&preset))?;
+        terminal.page(&table(&preset))?;
     }
     Ok(Exit::Done)
 }
 
 /// Name and sentence, then a file a line.
-fn table(preset: &PresetDescription) -> String {
+fn table(preset: &PresetDescription) -> Page {
     let way = match preset.normal_y {
         "-" => "downward, as DirectX has it",
         _ => "upward, as OpenGL has it",
     };
-    let head = format!(
-        "{}\n{}\n\nnames    {}\nnormals  green means {way}\n\n",
-        preset.name, preset.about, preset.names
-    );
+    let mut page = Page::default();
+    page.line(&preset.name);
+    page.lines(&preset.about);
+    page.line("");
+    page.line(format_args!("names    {}", preset.names));
+    page.line(format_args!("normals  green means {way}"));
+    page.line("");
     let documents = preset.documents.iter().map(document_row);
     let rows: Vec<[String; 4]> = preset.files.iter().map(row).chain(documents).collect();
     let widths = [0, 1, 2].map(|column| rows.iter().map(|row| row[column].len()).max().unwrap_or(0));
-    let lines = rows.iter().map(|[map, format, packing, when]| {
+    for [map, format, packing, when] in &rows {
         let line = format!(
             "{map:a$}  {format:b$}  {packing:c$}  {when}",
             a = widths[0],
             b = widths[1],
             c = widths[2]
         );
-        format!("{}\n", line.trim_end())
-    });
-    let lines: String = lines.collect();
-    let left_out = match &preset.left_out[..] {
-        [] => String::new(),
-        channels => format!("\nleft out  {}\n", channels.join(", ")),
-    };
-    format!("{head}{lines}{left_out}")
+        page.line(line.trim_end());
+    }
+    if !preset.left_out.is_empty() {
+        page.line("");
+        page.line(format_args!("left out  {}", preset.left_out.join(", ")));
+    }
+    page
 }
 
 fn row(file: &PresetFile) -> [String; 4] {
@@ -136,7 +139,7 @@ fn check(files: &[PathBuf], terminal: &Terminal) -> Result<Exit, Failure> {
     let mut is_sound = true;
     for file in files {
         match find_preset(&file.to_string_lossy(), None) {
-            Ok(preset) => terminal.data(&format!("{}: {} files\n", file.display(), preset.maps.len()))?,
+            Ok(preset) => terminal.data_line(format_args!("{}: {} files", file.display(), preset.maps.len()))?,
             Err(fault) => {
                 is_sound = false;
                 terminal.failure(&fault.into());

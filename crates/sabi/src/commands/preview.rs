@@ -28,6 +28,6 @@ pub(crate) fn run(arguments: &PreviewArguments, trusted: &TrustedPaths, terminal
     for warning in &warnings {
         terminal.warning(warning);
     }
-    terminal.data(&format!("{}\n", arguments.output.display()))?;
+    terminal.data_line(arguments.output.display())?;
     Ok(Exit::Done)
 }

@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &RenderArguments, trusted: &TrustedPaths, terminal:
         terminal.warning(warning);
     }
     for file in &rendered.files {
-        terminal.data(&format!("{}\n", file.display()))?;
+        terminal.data_line(file.display())?;
     }
     Ok(Exit::Done)
 }

@@ -159,7 +159,7 @@ impl Run<'_> {
         if is_whole && self.lists_folders() {
             // As the plan was named.
             let folder = self.plan.items[at].folder(&PathBase::of_file(&self.arguments.plan));
-            self.terminal.data(&format!("{}\n", folder.display()))?;
+            self.terminal.data_line(folder.display())?;
         }
         Ok(())
     }
@@ -180,7 +180,7 @@ impl Run<'_> {
         if self.arguments.json {
             self.terminal.json(&self.summary)?;
         } else if self.arguments.dry_run {
-            self.terminal.data(&self.summary.table())?;
+            self.terminal.page(&self.summary.table())?;
         }
         self.terminal.note(self.summary.sentence(self.arguments.dry_run));
         if is_canceled() {

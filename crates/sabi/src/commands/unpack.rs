@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use sabi_engine::{UnpackReport, unpack_graph};
 
+use super::plan::shell_word;
 use crate::arguments::UnpackArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::ShownProgress;
@@ -20,7 +21,7 @@ pub(crate) fn run(arguments: &UnpackArguments, terminal: &Terminal) -> Result<Ex
     if arguments.json {
         terminal.json(&report)?;
     } else {
-        terminal.data(&format!("{}\n", report.graph))?;
+        terminal.data_line(&report.graph)?;
     }
     advise(&report, terminal);
     Ok(Exit::Done)
@@ -55,8 +56,10 @@ fn advise(report: &UnpackReport, terminal: &Terminal) {
 
 /// A path as a command line takes it.
 fn quoted(path: &str) -> String {
-    match path.contains(char::is_whitespace) {
+    // Names in an archive may have letters that mean something to a shell.
+    let is_plain = |letter: char| letter.is_alphanumeric() || "_-./:\\ ,+".contains(letter);
+    match path.contains(' ') && path.chars().all(is_plain) {
         true => format!("\"{path}\""),
-        false => path.to_owned(),
+        false => shell_word(path).into_owned(),
     }
 }

@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &Terminal) -> Result<Ex
             terminal.line(format_args!("{}: {}", verification.folder, finding.message));
         }
         if !arguments.json {
-            terminal.data(&format!("{}\n", verdict(&verification)))?;
+            terminal.data_line(verdict(&verification))?;
         }
         verified.push(verification);
     }

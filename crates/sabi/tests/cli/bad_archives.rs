@@ -168,6 +168,66 @@ fn an_archive_that_is_larger_than_it_claims_or_than_a_graph_can_be_is_refused() 
 }
 
 #[test]
+fn an_archive_brings_nothing_that_other_programs_act_on() {
+    let place = Place::new();
+    let dotted =
+        |name: &str| format!("'{name}' begins with a dot, as settings of other programs do, which no bake reads");
+    let strange = || "it is no graph, node, model or picture, nor data of a model".to_owned();
+    let manifest = br#"{ "format": "sabi-pack", "version": 1, "graph": "clouds.sabi", "model": null }"#;
+    let text = graph(CLOUDS);
+    for (name, why) in [
+        (".git/config", dotted(".git")),
+        (".envrc", dotted(".envrc")),
+        ("files/.vscode/tasks.json", dotted(".vscode")),
+        ("autorun.inf", strange()),
+        ("sabi.toml", strange()),
+        ("files/run.sh", strange()),
+        ("desktop.ini", strange()),
+        ("package.json", strange()),
+        ("half.wgsl", "node files are in folders of nodes/ alone".to_owned()),
+    ] {
+        let archive = archive(&[
+            Entry {
+                name: "clouds.sabi",
+                bytes: text.as_bytes(),
+                ..PLAIN
+            },
+            Entry {
+                name: "pack.json",
+                bytes: manifest,
+                ..PLAIN
+            },
+            Entry { name, ..PLAIN },
+        ]);
+        refuses(
+            &place,
+            &archive,
+            &format!("'{name}' in the archive is not unpacked: {why}"),
+        );
+    }
+    let turned = Entry {
+        name: "photo_\u{202e}gnp.exe",
+        ..PLAIN
+    };
+    let words = "the archive cannot hold 'photo_\\u{202e}gnp.exe': its name has the character U+202E, which is not seen and may show it \
+                 as another name";
+    refuses(&place, &archive(&[turned]), words);
+}
+
+#[test]
+fn a_manifest_that_is_too_large_is_not_said_to_be_missing() {
+    let place = Place::new();
+    let bytes = [&[b' '; 70_000][..], b"{}"].concat();
+    let large = Entry {
+        name: "pack.json",
+        bytes: &bytes,
+        ..PLAIN
+    };
+    let words = "bad.zip is no packed graph: its pack.json has more than 64 KiB";
+    refuses(&place, &archive(&[large]), words);
+}
+
+#[test]
 fn a_damaged_archive_and_one_of_another_program_are_refused() {
     let place = Place::new();
     let no_graph = |why: &str| format!("bad.zip is no packed graph: {why}");

@@ -96,7 +96,7 @@ fn a_device_is_no_picture_and_no_group() {
     let place = Place::new();
     place.write("image.sabi", image("/dev/null"));
     let check = place.sabi(&["check", "image.sabi"]).fails(65);
-    let words = "/dev/null is a device, which files never open";
+    let words = "/dev/null is a device or a pipe, which files never open";
     assert!(format!("{}{}", check.stdout, check.stderr).contains(words), "{check:?}");
     std::os::unix::fs::symlink("/dev/null", place.path("null.sabi")).unwrap();
     let group =

@@ -15,6 +15,7 @@ mod documentation;
 mod examples;
 mod failures;
 mod help;
+mod hostile;
 mod images;
 mod info;
 mod interruption;

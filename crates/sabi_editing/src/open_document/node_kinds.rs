@@ -11,7 +11,7 @@ use crate::new_ids::IdGenerator;
 impl OpenDocument {
     /// Opens the document of a session, with the node kinds beside its file.
     pub fn new(session: Session) -> OpenDocument {
-        let kinds = Arc::new(Kinds::beside(session.file()));
+        let kinds = Arc::new(Kinds::beside(session.file(), &session.graph().trusted));
         let catalog = Arc::new(Catalog::new(&kinds));
         OpenDocument::with_kinds(session, IdGenerator::random(), kinds, catalog)
     }

@@ -19,7 +19,7 @@ use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetPixels};
 use crate::baking::mesh_maps::{append_mesh_maps, file_bounds};
 use crate::baking::model_copy::{open_copy, write_copy};
-use crate::baking::recorded::manifest::FolderChange;
+use crate::baking::recorded::manifest::{FolderChange, check_own_folder};
 use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh, Conventions, REPORT_VERSION};
 use crate::baking::seams::ModelSeams;
 use crate::baking::set_works::set_works;
@@ -49,8 +49,8 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let clock = PhaseClock::start();
     // An unknown preset is reported before anything is read.
     set_options(request)?;
-    let open = OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph))?;
-    let kinds = Kinds::beside(Some(&request.graph));
+    let (graph, trusted) = (request.graph.clone(), request.evaluator.trusted_with(&request.graph));
+    let (open, kinds) = OpenGraph::open_with_kinds(graph, trusted, progress)?;
     bake_open(&open, kinds, (clock, None), request, progress)
 }
 
@@ -141,7 +141,7 @@ fn bake_open(
     };
     // The record in the folder has the times up to here.
     times.encode.add(clock.lap());
-    let report = commit(writer, request, BakeReport { times, ..report })?;
+    let report = commit(writer, request, BakeReport { times, ..report }, progress)?;
     times.encode.add(clock.lap());
     Ok(BakeReport { times, ..report })
 }
@@ -176,6 +176,7 @@ fn checked_sets(
 /// Opens the writer of the maps, which takes encoded files from the cache.
 fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<BakeWriter, EngineError> {
     refuse_foreign_folder(request, graph, options)?;
+    check_own_folder(&request.output)?;
     let budget = cache_budget_bytes()?;
     let mut writer = BakeWriter::create_on(&request.disk, &request.output)?;
     let cache_dir = request.evaluator.model.cache_dir.as_deref();
@@ -198,9 +199,14 @@ fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeR
 }
 
 /// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
-fn commit(writer: BakeWriter, request: &BakeRequest, report: BakeReport) -> Result<BakeReport, EngineError> {
+fn commit(
+    writer: BakeWriter,
+    request: &BakeRequest,
+    report: BakeReport,
+    progress: &dyn Progress,
+) -> Result<BakeReport, EngineError> {
     let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
-    let folder = FolderChange::begin(&request.disk, &request.output);
+    let folder = FolderChange::begin(&request.disk, &request.output, progress)?;
     let committed = match writer.commit() {
         Ok(committed) => committed,
         Err(error) => {

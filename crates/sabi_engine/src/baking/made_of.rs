@@ -26,7 +26,9 @@ impl MadeOf {
         // The text counts, not the file.
         let is_graph = |path: &PathBuf| document.is_some() && *path == request.graph;
         let read = read.iter().filter(|path| !is_graph(path)).cloned();
-        let files = read.chain(presets).chain(node_files(&request.graph));
+        let files = read
+            .chain(presets)
+            .chain(node_files(&request.graph, &request.evaluator.model.trusted));
         Ok(MadeOf {
             inputs: records(files),
             recipe: Recipe::of(request, document),

@@ -16,6 +16,7 @@ use crate::faults::Faults;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::set_file::SetFile;
+use crate::phases::{Progress, stop_if_canceled};
 
 /// A combination of a table of the matrix.
 #[derive(Clone, Debug)]
@@ -71,7 +72,7 @@ impl Graphs {
             let kinds = self
                 .kinds
                 .entry(folder)
-                .or_insert_with(|| Rc::new(Kinds::beside(Some(path))));
+                .or_insert_with(|| Rc::new(Kinds::beside(Some(path), &open.trusted)));
             let kinds = Rc::clone(kinds);
             Rc::new(GraphWithKinds { open, kinds })
         });
@@ -91,16 +92,17 @@ struct RowValues {
 /// and variants that are not there, and gives the combinations of all others.
 ///
 /// # Errors
-/// There are more items than the matrix allows.
+/// There are more items than the matrix allows, or the work was canceled.
 pub(super) fn expanded<'m>(
     matrix: &'m Matrix,
     graphs: &mut Graphs,
     faults: &mut Faults,
+    progress: &dyn Progress,
 ) -> Result<Vec<Draft<'m>>, EngineError> {
     let mut drafts = Vec::new();
     let mut count = 0u64;
     for row in &matrix.rows {
-        let expansion = Expansion::of(matrix, row, graphs, faults);
+        let expansion = Expansion::of(matrix, row, graphs, faults, progress)?;
         count = count.saturating_add(expansion.count());
         if count > matrix.limit as u64 {
             let why = format!(
@@ -132,17 +134,27 @@ struct Expansion<'m> {
 
 impl<'m> Expansion<'m> {
     /// Axes of a table without what is not there, which is added to the faults.
-    fn of(matrix: &Matrix, row: &'m MatrixRow, graphs: &mut Graphs, faults: &mut Faults) -> Expansion<'m> {
+    ///
+    /// # Errors
+    /// The work was canceled.
+    fn of(
+        matrix: &Matrix,
+        row: &'m MatrixRow,
+        graphs: &mut Graphs,
+        faults: &mut Faults,
+        progress: &dyn Progress,
+    ) -> Result<Expansion<'m>, EngineError> {
         let base = matrix.base();
         let said = |why: String| {
             let why = format!("{}: {}: {why}", matrix.path.display(), row.words);
-            EngineError::new(ErrorKind::BadInput, why)
+            let canceled = stop_if_canceled(progress).err();
+            canceled.unwrap_or_else(|| EngineError::new(ErrorKind::BadInput, why))
         };
         let values = RowValues::of(row, &base, faults);
         let mut files = |patterns: &[String]| {
             let mut found: Vec<WrittenFile> = Vec::new();
             for pattern in patterns {
-                match written_files(&base, std::slice::from_ref(pattern)) {
+                match written_files(&base, std::slice::from_ref(pattern), progress) {
                     Ok(files) => found.extend(files),
                     Err(why) => faults.add(said(why)),
                 }
@@ -156,6 +168,7 @@ impl<'m> Expansion<'m> {
         let mut with_variants = Vec::new();
         let mut patterns = UnusedPatterns::of(row);
         for file in graph_files {
+            stop_if_canceled(progress)?;
             match graphs.open(&file.path) {
                 Err(error) => {
                     is_complete = false;
@@ -182,12 +195,12 @@ impl<'m> Expansion<'m> {
             }
             !choices.is_empty()
         });
-        Expansion {
+        Ok(Expansion {
             row,
             models,
             graphs: with_variants,
             values,
-        }
+        })
     }
 
     fn count(&self) -> u64 {

@@ -12,6 +12,7 @@ use crate::opening::kinds::Kinds;
 use crate::packing::model_files::files_of_model;
 use crate::packing::named_files::{NamedFiles, named_path};
 use crate::packing::own_nodes::own_nodes;
+use crate::phases::{Progress, unless_canceled};
 use crate::program::digest;
 use crate::source::strokes::{files_beside, paint_folder};
 
@@ -68,8 +69,13 @@ pub(super) fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
 ///
 /// # Errors
 /// It cannot be loaded.
-pub(super) fn inputs_of_model(model: &Path, trusted: &TrustedPaths) -> Result<NamedInputs, EngineError> {
-    let files = files_of_model(model, &trusted.clone().with_file(model))?.into_iter();
+pub(super) fn inputs_of_model(
+    model: &Path,
+    trusted: &TrustedPaths,
+    progress: &dyn Progress,
+) -> Result<NamedInputs, EngineError> {
+    let (path, trusted) = (model.to_owned(), trusted.clone().with_file(model));
+    let files = unless_canceled(progress, move || files_of_model(&path, &trusted))??.into_iter();
     Ok(files
         .map(|(place, path)| (format!("mesh/{place}"), named_path(&path)))
         .collect())

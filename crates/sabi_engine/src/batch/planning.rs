@@ -51,7 +51,7 @@ pub fn plan_bakes(
     let mut graphs = Graphs::new(trusted.clone().with_file(matrix));
     let matrix = Matrix::open(matrix)?;
     let mut faults = Faults::default();
-    let drafts = expanded(&matrix, &mut graphs, &mut faults)?;
+    let drafts = expanded(&matrix, &mut graphs, &mut faults, progress)?;
     if drafts.is_empty() && faults.is_empty() {
         let why = format!("{}: 'exclude' leaves nothing to bake", matrix.path.display());
         return Err(EngineError::new(ErrorKind::BadInput, why));
@@ -81,7 +81,7 @@ pub fn plan_bakes(
     }
     for (at, draft) in drafts.iter().enumerate() {
         stop_if_canceled(progress)?;
-        match planner.item(at, draft) {
+        match planner.item(at, draft, progress) {
             Ok(item) => items.push(item),
             Err(error) => faults.add(error),
         }
@@ -166,7 +166,7 @@ struct ItemPlanner<'m> {
 }
 
 impl ItemPlanner<'_> {
-    fn item(&mut self, at: usize, draft: &Draft<'_>) -> Result<BakeItem, EngineError> {
+    fn item(&mut self, at: usize, draft: &Draft<'_>, progress: &dyn Progress) -> Result<BakeItem, EngineError> {
         let graph = self.graphs.open(&draft.graph.path)?;
         let bad = |why: String| EngineError::new(ErrorKind::BadInput, why);
         let mut request = BakeRequest::plain(&draft.graph.path, &draft.model.path, draft.size);
@@ -205,10 +205,12 @@ impl ItemPlanner<'_> {
             key: String::new(),
             out: self.path_text(&out),
             recipe: Recipe::of(&request, None).moved(&self.from, &self.to),
-            inputs: self.inputs(draft, &graph, files_of_presets).unwrap_or_else(|error| {
-                faults.add(error);
-                Vec::new()
-            }),
+            inputs: self
+                .inputs(draft, &graph, files_of_presets, progress)
+                .unwrap_or_else(|error| {
+                    faults.add(error);
+                    Vec::new()
+                }),
             build: Build::current().clone(),
         };
         faults.into_result()?;
@@ -257,13 +259,14 @@ impl ItemPlanner<'_> {
         draft: &Draft<'_>,
         graph: &GraphWithKinds,
         presets: impl Iterator<Item = &'p PathBuf>,
+        progress: &dyn Progress,
     ) -> Result<Vec<ItemInput>, EngineError> {
         let of_graph = self.of_graphs.entry(draft.graph.path.clone());
         let of_graph = of_graph.or_insert_with(|| Rc::new(inputs_of_graph(&graph.open, &graph.kinds)));
         let of_graph = Rc::clone(of_graph);
         let of_model = self.of_models.entry(draft.model.path.clone());
-        let of_model =
-            of_model.or_insert_with(|| inputs_of_model(&draft.model.path, self.graphs.trusted()).map(Rc::new));
+        let of_model = of_model
+            .or_insert_with(|| inputs_of_model(&draft.model.path, self.graphs.trusted(), progress).map(Rc::new));
         let of_model = of_model.clone()?;
         let mut all: NamedInputs = of_graph.as_ref().clone();
         all.extend(of_model.iter().map(|(name, path)| (name.clone(), path.clone())));

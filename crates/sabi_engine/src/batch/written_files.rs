@@ -1,9 +1,16 @@
 //! Files that a matrix names, also by patterns.
 
-use std::path::PathBuf;
+use std::collections::{BTreeSet, HashSet};
+use std::fs::{self, DirEntry};
+use std::path::{Path, PathBuf};
 
 use glob::{MatchOptions, Pattern};
 use sabi_files::PathBase;
+
+use crate::phases::Progress;
+
+/// Most entries of folders that a pattern may lead past.
+const MOST_LOOKED_AT: usize = 1_000_000;
 
 /// A file as a matrix names it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,19 +41,24 @@ impl WrittenFile {
 ///
 /// # Errors
 /// A clause: a pattern fits no file, or is none.
-pub(super) fn written_files(base: &PathBase, patterns: &[String]) -> Result<Vec<WrittenFile>, String> {
+pub(super) fn written_files(
+    base: &PathBase,
+    patterns: &[String],
+    progress: &dyn Progress,
+) -> Result<Vec<WrittenFile>, String> {
     let mut files: Vec<WrittenFile> = Vec::new();
+    let mut known = HashSet::new();
     for written in patterns {
         let path = base.resolve(written);
         let found = match written.contains(['*', '?']) && !path.exists() {
-            true => matching(base, written)?,
+            true => matching(base, written, progress)?,
             false => vec![WrittenFile {
                 written: written.replace('\\', "/"),
                 path,
             }],
         };
         for file in found {
-            if !files.iter().any(|known| known.path == file.path) {
+            if known.insert(file.path.clone()) {
                 files.push(file);
             }
         }
@@ -54,18 +66,12 @@ pub(super) fn written_files(base: &PathBase, patterns: &[String]) -> Result<Vec<
     Ok(files)
 }
 
-fn matching(base: &PathBase, written: &str) -> Result<Vec<WrittenFile>, String> {
+/// Finds the files that a pattern fits; the error is a clause.
+fn matching(base: &PathBase, written: &str, progress: &dyn Progress) -> Result<Vec<WrittenFile>, String> {
     let folder = base.folder();
-    // A folder may have letters that mean something in a pattern.
-    let escaped = Pattern::escape(&folder.to_string_lossy());
-    let whole = match escaped.is_empty() || written.starts_with('/') {
-        true => written.to_owned(),
-        false => format!("{escaped}/{written}"),
-    };
-    let found = glob::glob_with(&whole, SHELL).map_err(|error| format!("'{written}' is no pattern: {}", error.msg))?;
-    // What cannot be read cannot be baked.
-    let found = found.filter_map(Result::ok).filter(|path| path.is_file());
-    let files: Vec<WrittenFile> = found
+    let mut files: Vec<WrittenFile> = Walk::new(folder, written)?
+        .files(progress)?
+        .into_iter()
         .map(|path| {
             let below = path.strip_prefix(folder).unwrap_or(&path);
             WrittenFile {
@@ -74,17 +80,136 @@ fn matching(base: &PathBase, written: &str) -> Result<Vec<WrittenFile>, String> 
             }
         })
         .collect();
+    files.sort_by(|one, other| one.path.cmp(&other.path));
     match files.is_empty() {
         true => Err(format!("no file fits '{written}'")),
         false => Ok(files),
     }
 }
 
+/// A part of a pattern between two slashes.
+enum Part {
+    /// Any number of folders, `**`.
+    Folders,
+    /// A name, or `..`.
+    Name(String),
+    Fitting(Pattern),
+}
+
+/// Search for the files that a pattern fits, which looks at each folder once for each part of the pattern.
+struct Walk<'p> {
+    written: &'p str,
+    parts: Vec<Part>,
+    /// Folders with the part that their entries have to fit.
+    open: Vec<(PathBuf, usize)>,
+    known: HashSet<(PathBuf, usize)>,
+    found: BTreeSet<PathBuf>,
+    looked_at: usize,
+}
+
+impl<'p> Walk<'p> {
+    fn new(folder: &Path, written: &'p str) -> Result<Walk<'p>, String> {
+        let slashed = written.replace('\\', "/");
+        let is_pattern = |part: &str| part.contains(['*', '?', '[']);
+        // The parts before the first pattern are a path, which may be absolute.
+        let split = slashed.split('/').take_while(|part| !is_pattern(part));
+        let length: usize = split.map(|part| part.len() + 1).sum();
+        let (start, rest) = slashed.split_at(length.min(slashed.len()));
+        let mut parts = Vec::new();
+        for part in rest.split('/').filter(|part| !matches!(*part, "" | ".")) {
+            parts.push(match part {
+                "**" if matches!(parts.last(), Some(Part::Folders)) => continue,
+                "**" => Part::Folders,
+                part if is_pattern(part) => Part::Fitting(
+                    Pattern::new(part).map_err(|error| format!("'{written}' is no pattern: {}", error.msg))?,
+                ),
+                part => Part::Name(part.to_owned()),
+            });
+        }
+        let start = folder.join(start);
+        Ok(Walk {
+            written,
+            parts,
+            known: HashSet::from([(start.clone(), 0)]),
+            open: vec![(start, 0)],
+            found: BTreeSet::new(),
+            looked_at: 0,
+        })
+    }
+
+    fn files(mut self, progress: &dyn Progress) -> Result<BTreeSet<PathBuf>, String> {
+        while let Some((folder, at)) = self.open.pop() {
+            let is_last = at + 1 == self.parts.len();
+            match self.parts.get(at) {
+                None => {}
+                Some(Part::Name(name)) => {
+                    let path = folder.join(name);
+                    self.take(path, at, is_last);
+                }
+                Some(Part::Folders) => {
+                    if !is_last {
+                        self.go(folder.clone(), at + 1);
+                    }
+                    for entry in self.entries(&folder, progress)? {
+                        // Links may lead in circles.
+                        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+                        if is_folder && !entry.file_name().to_string_lossy().starts_with('.') {
+                            self.go(entry.path(), at);
+                        }
+                    }
+                }
+                Some(Part::Fitting(pattern)) => {
+                    let pattern = pattern.clone();
+                    for entry in self.entries(&folder, progress)? {
+                        if pattern.matches_with(&entry.file_name().to_string_lossy(), SHELL) {
+                            self.take(entry.path(), at, is_last);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(self.found)
+    }
+
+    /// Takes a path that fits all parts up to this one.
+    fn take(&mut self, path: PathBuf, at: usize, is_last: bool) {
+        match is_last {
+            true if path.is_file() => drop(self.found.insert(path)),
+            false if path.is_dir() => self.go(path, at + 1),
+            _ => {}
+        }
+    }
+
+    fn go(&mut self, folder: PathBuf, at: usize) {
+        if self.known.insert((folder.clone(), at)) {
+            self.open.push((folder, at));
+        }
+    }
+
+    /// Lists a folder; one that cannot be read has nothing that can be baked.
+    fn entries(&mut self, folder: &Path, progress: &dyn Progress) -> Result<Vec<DirEntry>, String> {
+        let mut found = Vec::new();
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            self.looked_at += 1;
+            if self.looked_at > MOST_LOOKED_AT {
+                let written = self.written;
+                return Err(format!(
+                    "'{written}' leads past more than {MOST_LOOKED_AT} files; begin it with the folder of those that are meant"
+                ));
+            }
+            if progress.is_canceled() {
+                return Err("it was canceled".to_owned());
+            }
+            found.push(entry);
+        }
+        Ok(found)
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
+    use crate::phases::{NoProgress, Phase};
 
     #[test]
     fn a_pattern_gives_its_files_by_name_and_each_file_once() {
@@ -105,14 +230,59 @@ mod tests {
         let base = PathBase::of_folder(&root);
         let of = |patterns: &[&str]| {
             let patterns: Vec<String> = patterns.iter().map(|text| (*text).to_owned()).collect();
-            let files = written_files(&base, &patterns)?;
+            let files = written_files(&base, &patterns, &NoProgress)?;
             Ok::<_, String>(files.into_iter().map(|file| file.written).collect::<Vec<_>>())
         };
         let names = |names: &[&str]| Ok(names.iter().map(|name| (*name).to_owned()).collect());
         assert_eq!(of(&["m/b*.glb"]), names(&["m/b1.glb", "m/b10.glb", "m/b2.glb"]));
         assert_eq!(of(&["m/b2.glb", "m/b?.glb"]), names(&["m/b2.glb", "m/b1.glb"]));
         assert_eq!(of(&["**/b3.glb"]), names(&["m/deep/b3.glb"]));
+        assert_eq!(
+            of(&["**/**/**/b*.glb"]),
+            names(&["m/b1.glb", "m/b10.glb", "m/b2.glb", "m/deep/b3.glb"])
+        );
+        assert_eq!(
+            of(&["*/./deep/../b[12].glb"]),
+            names(&["m/deep/../b1.glb", "m/deep/../b2.glb"])
+        );
+        let absolute = format!("{}/**/b3.glb", root.display());
+        assert_eq!(
+            of(&[&absolute]),
+            Err(format!("no file fits '{absolute}'")),
+            "its folder looks like a pattern"
+        );
         assert_eq!(of(&["gone.glb"]), names(&["gone.glb"]), "whoever reads it says so");
         assert_eq!(of(&["m/c*.glb"]), Err("no file fits 'm/c*.glb'".to_owned()));
+    }
+
+    /// Canceled once it was looked at so many times.
+    struct After(std::sync::atomic::AtomicUsize);
+
+    impl Progress for After {
+        fn advance(&self, _: Phase, _: usize, _: usize) {}
+
+        fn is_canceled(&self) -> bool {
+            self.0.fetch_sub(1, std::sync::atomic::Ordering::Relaxed) == 0
+        }
+    }
+
+    #[test]
+    fn a_pattern_that_leads_through_the_whole_disk_can_be_canceled() {
+        let base = PathBase::of_folder("/");
+        let patterns = ["/**/**/**/*.no-such-ending".to_owned()];
+        let told = written_files(&base, &patterns, &After(20.into()));
+        assert_eq!(told, Err("it was canceled".to_owned()));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_of_folders_in_a_circle_are_no_more_files() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("a")).expect("made");
+        fs::write(folder.path().join("a/x.glb"), "").expect("written");
+        std::os::unix::fs::symlink("..", folder.path().join("a/up")).expect("linked");
+        let base = PathBase::of_folder(folder.path());
+        let found = written_files(&base, &["**/**/*.glb".to_owned()], &NoProgress).expect("one file");
+        assert_eq!(found.len(), 1);
     }
 }

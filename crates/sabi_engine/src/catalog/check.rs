@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::error::EngineError;
 use crate::evaluating::outputs::{duplicate_map_names, missing_output, outputs};
 use crate::opening::document::OpenGraph;
-use crate::opening::graph_faults::{explain, planner_without_model, targets, targets_of_all_nodes};
+use crate::opening::graph_faults::{explained, planner_without_model, targets, targets_of_all_nodes};
 use crate::opening::kinds::Kinds;
 
 /// Result of a check.
@@ -56,7 +56,7 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
 
 /// Checks a graph in memory.
 pub fn check_graph(open: &OpenGraph) -> Result<CheckReport, EngineError> {
-    let kinds = Kinds::beside(Some(&open.path));
+    let kinds = Kinds::beside(Some(&open.path), &open.trusted);
     // A faulty node file is a fault only of graphs that use it.
     let mut report = CheckReport {
         warnings: kinds.faults.iter().map(ToString::to_string).collect(),
@@ -82,15 +82,12 @@ pub fn check_graph(open: &OpenGraph) -> Result<CheckReport, EngineError> {
 
 /// Lists faults and warnings of a flat graph.
 fn faults(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
-    let (mut errors, mut warnings) = (Vec::new(), Vec::new());
     let files = open.file_contents(graph, kinds, 0..graph.nodes.len());
-    for error in planner_without_model(graph, kinds, &files)
+    let found = planner_without_model(graph, kinds, &files)
         .resolve(&targets_of_all_nodes(graph))
-        .errors
-    {
-        let found = if error.is_warning() { &mut warnings } else { &mut errors };
-        found.extend(explain(open, kinds, &error));
-    }
+        .errors;
+    let mut errors = explained(open, kinds, found.iter().filter(|error| !error.is_warning()));
+    let warnings = explained(open, kinds, found.iter().filter(|error| error.is_warning()));
     errors.extend(duplicate_map_names(graph));
     (errors, warnings)
 }

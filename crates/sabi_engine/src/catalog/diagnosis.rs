@@ -1,5 +1,6 @@
 //! Report of Sabi's state on this machine, for `sabi doctor`; docs/report.md lists the keys.
 
+use sabi_files::TrustedPaths;
 use serde::Serialize;
 
 use crate::opening::kinds::Kinds;
@@ -46,7 +47,7 @@ pub fn diagnose() -> Diagnosis {
     });
     let adapters = adapters.collect();
     let opened = sabi_gpu::Gpu::open(&sabi_gpu::AdapterChoice::Auto);
-    let kinds = Kinds::beside(None);
+    let kinds = Kinds::beside(None, &TrustedPaths::default());
     Diagnosis {
         sabi: env!("CARGO_PKG_VERSION"),
         adapters,

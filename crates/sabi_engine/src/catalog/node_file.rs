@@ -1,15 +1,18 @@
 //! Node files of the user: beside a graph, or in the folder for all graphs.
 
-use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{Disk, FileError, absolute, path_from_stored, stored_path};
+use sabi_files::{Disk, FileError, absolute, path_from_stored, read_plain, stored_path};
 use sabi_nodes::{SourceFile, read_kind};
 use serde_json::{Value, json};
 
 use crate::catalog::label_of;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
+
+/// Most bytes of a file that takes the place of a node's, more than any node has.
+const MOST_BYTES: u64 = 1 << 20;
 
 /// Fault of the text of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,7 +87,9 @@ pub fn check_node(kinds: &Kinds, folder: &Path, id: &str, text: &str) -> Vec<Nod
 /// The file cannot be read.
 pub fn read_node(folder: &Path, id: &str) -> Result<String, EngineError> {
     let file = file_of(folder, id);
-    fs::read_to_string(&file).map_err(|error| {
+    let bytes = read_plain(&file, MOST_BYTES).map_err(io::Error::from);
+    let text = bytes.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
+    text.map_err(|error| {
         let why = format!("{} cannot be read: {error}; create a new node from it", file.display());
         EngineError::new(ErrorKind::BadInput, why).caused_by(error)
     })
@@ -101,7 +106,7 @@ impl NodeDraft {
             let why = format!("{} cannot be written: {}", file.display(), error.reason());
             EngineError::new(ErrorKind::CannotWrite, why).caused_by(error)
         };
-        match fs::read(&file) {
+        match read_plain(&file, MOST_BYTES) {
             Ok(found) if !self.may_replace(&found) => {
                 let why = format!(
                     "{} was written by another program meanwhile; give this node another name, or close it and open \
@@ -180,6 +185,10 @@ fn file_of(folder: &Path, id: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
+    use sabi_files::TrustedPaths;
+
     use super::*;
 
     const SOUND: &str = "//! Half\n//! Gives half of a mask.\n//! @was old/half\n\n/// Half of it.\n/// @input source \
@@ -272,7 +281,7 @@ mod tests {
         assert_eq!(nodes, folder.path().join("nodes"));
         let file = draft(&nodes, SOUND, None).save(&Disk::default()).expect("written");
         assert_eq!(file, nodes.join("adjust/half.wgsl"));
-        let kinds = Kinds::beside(Some(&graph));
+        let kinds = Kinds::beside(Some(&graph), &TrustedPaths::default());
         assert!(kinds.library.kind("adjust/half").is_some(), "{:?}", kinds.faults);
         assert_eq!(kinds.own_folder(Some(&graph), "adjust/half"), Some(nodes.clone()));
         assert_eq!(kinds.own_folder(Some(&graph), "noise/simplex"), None);

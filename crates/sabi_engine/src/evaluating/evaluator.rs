@@ -152,7 +152,7 @@ impl Evaluator {
             trusted: options.model.trusted.clone().with(&open.trusted),
             ..options.model.clone()
         };
-        let model = times.load.time(|| LinkedModel::load_model(&trusting))?;
+        let model = times.load.time(|| LinkedModel::load_model(&trusting, progress))?;
         progress.advance(Phase::Load, 1, 1);
         stop_if_canceled(progress)?;
         let linked = times

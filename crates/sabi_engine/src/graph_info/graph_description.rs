@@ -116,7 +116,7 @@ pub struct GroupDescription {
 
 /// Describes a graph. Whatever is missing or faulty is left out and named in a warning.
 pub fn describe_graph(open: &OpenGraph) -> GraphDescription {
-    let kinds = Kinds::beside(Some(&open.path));
+    let kinds = Kinds::beside(Some(&open.path), &open.trusted);
     let document = &open.document;
     let mut warnings: Vec<String> = kinds.left_out().into_iter().collect();
     let files = GraphFiles::of(open, &kinds);

@@ -15,12 +15,13 @@ use sabi_plan::{FileContents, PlanError};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
 use crate::opening::unread::{kind_of_unread, why_unread};
+use crate::phases::{Progress, unless_canceled};
 use crate::remedy::Remedy;
 use crate::source::pictures::Pictures;
 use crate::source::strokes::Strokes;
 
 /// Graph files larger than this are refused before they are read.
-const SIZE_LIMIT_BYTES: u64 = 64 << 20;
+pub(crate) const SIZE_LIMIT_BYTES: u64 = 64 << 20;
 
 /// First bytes of an archive, such as a packed graph.
 const ARCHIVE: &[u8] = b"PK\x03\x04";
@@ -72,6 +73,19 @@ impl OpenGraph {
     pub fn open_trusting(path: &Path, trusted: &TrustedPaths) -> Result<OpenGraph, EngineError> {
         let _span = tracing::debug_span!("open graph", path = %path.display()).entered();
         OpenGraph::of_text(path, read_text(path), trusted.clone().with_file(path))
+    }
+
+    /// Reads a graph file that the user names, and the kinds of its nodes. Canceled at any moment.
+    pub(crate) fn open_with_kinds(
+        path: PathBuf,
+        trusted: TrustedPaths,
+        progress: &dyn Progress,
+    ) -> Result<(OpenGraph, Kinds), EngineError> {
+        unless_canceled(progress, move || {
+            let open = OpenGraph::open_trusting(&path, &trusted)?;
+            let kinds = Kinds::beside(Some(&path), &open.trusted);
+            Ok((open, kinds))
+        })?
     }
 
     /// Reads a group file that this graph names as `written`, if it may open it. The group may open what this graph may.

@@ -5,7 +5,7 @@ use sabi_plan::{
     FileContents, FileFaultKind, Lengths, LevelWidths, Limits, Mode, Plan, PlanError, Planner, Problem, Target,
 };
 
-use crate::error::{EngineError, ErrorKind};
+use crate::error::{EngineError, ErrorKind, shorten};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::remedy::Remedy;
@@ -67,6 +67,27 @@ pub(crate) fn explain(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> Vec
         .collect()
 }
 
+/// Most errors of a graph that are explained: finding the place of each takes a look at the whole text.
+const MOST_EXPLAINED: usize = 100;
+
+/// Explains errors in sentences, those of a graph with very many in part.
+pub(crate) fn explained<'e>(
+    open: &OpenGraph,
+    kinds: &Kinds,
+    errors: impl Iterator<Item = &'e PlanError>,
+) -> Vec<String> {
+    let mut errors = errors.fuse();
+    let first: Vec<&PlanError> = errors.by_ref().take(MOST_EXPLAINED).collect();
+    let mut sentences: Vec<String> = first
+        .into_iter()
+        .flat_map(|error| explain(open, kinds, error))
+        .collect();
+    sentences.iter_mut().for_each(shorten);
+    let more = errors.count();
+    sentences.extend((more > 0).then(|| open.with_path(format!("{more} more faults of this kind are left out"))));
+    sentences
+}
+
 /// Classifies errors of a plan.
 fn kind_of(errors: &[PlanError]) -> ErrorKind {
     let all = |is: fn(&Problem) -> bool| errors.iter().all(|error| is(&error.problem));
@@ -101,7 +122,7 @@ pub(crate) fn refuse_faults(
     if errors.is_empty() {
         return Ok(plan);
     }
-    let messages = errors.iter().flat_map(|error| explain(open, kinds, error)).collect();
+    let messages = explained(open, kinds, errors.iter());
     let refused = EngineError::several(kind_of(&errors), messages).with_remedies(remedies_of(&errors));
     Err(refused.caused_by(errors.swap_remove(0)))
 }

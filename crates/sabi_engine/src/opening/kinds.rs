@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use sabi_files::TrustedPaths;
 use sabi_nodes::kind::{Input, ParamType};
 use sabi_nodes::{Fault, Library};
 use sabi_plan::SourceKind;
@@ -22,6 +23,8 @@ pub struct Kinds {
     pub sinks: BTreeMap<String, SourceKind>,
     /// Faults of node files; other files are not affected.
     pub faults: Vec<Fault>,
+    /// Paths from which node files are read besides their own folder and its project: a link leads nowhere else.
+    trusted: TrustedPaths,
 }
 
 impl Kinds {
@@ -32,26 +35,29 @@ impl Kinds {
             sources: source::kinds(),
             sinks: source::sinks(),
             faults: Vec::new(),
+            trusted: TrustedPaths::default(),
         }
     }
 
-    /// Loads the built-in kinds, and those of the user's folder and of a `nodes` folder beside the graph.
-    pub fn beside(graph: Option<&Path>) -> Kinds {
-        Kinds::of_folders(&Kinds::folders(graph))
+    /// Loads the built-in kinds, and those of the user's folder and of a `nodes` folder beside the graph. Links in these folders may
+    /// lead to the trusted paths.
+    pub fn beside(graph: Option<&Path>, trusted: &TrustedPaths) -> Kinds {
+        let mut kinds = Kinds::builtin();
+        kinds.trust(trusted);
+        kinds.reread(&Kinds::folders(graph));
+        kinds
     }
 
-    /// Loads the built-in kinds, and those of these folders.
-    pub fn of_folders(folders: &[PathBuf]) -> Kinds {
-        let mut kinds = Kinds::builtin();
-        kinds.reread(folders);
-        kinds
+    /// Lets links among node files lead to these paths, from the next reading on.
+    pub fn trust(&mut self, trusted: &TrustedPaths) {
+        self.trusted = std::mem::take(&mut self.trusted).with(trusted);
     }
 
     /// Lists the node folders of a graph: the user's, and `nodes` beside it. They need not exist.
     pub fn folders(graph: Option<&Path>) -> Vec<PathBuf> {
         // A bare file name lies in the current folder.
         let beside = graph.map(|graph| graph.parent().unwrap_or(Path::new("")).join("nodes"));
-        own_folder("SABI_NODES", "nodes").into_iter().chain(beside).collect()
+        own_node_folder().into_iter().chain(beside).collect()
     }
 
     /// Reads folders again: takes changed files, keeps the last good version of faulty ones, and drops nodes whose files do not
@@ -111,9 +117,25 @@ impl Kinds {
         self.faults.iter().filter(is_of)
     }
 
+    /// Returns the paths that node files of a folder may be read from. The user's own folder stands for itself, also as a link; one
+    /// beside a graph is a part of what the graph brings, and may not lead out of the graph's folder and project.
+    pub(crate) fn trusted_for(folder: &Path, trusted: &TrustedPaths) -> TrustedPaths {
+        match own_node_folder().is_some_and(|own| own == folder) {
+            true => trusted.clone().with_path(folder),
+            false => trusted.clone().with_file(folder),
+        }
+    }
+
     /// Loads the nodes of a folder, and collects their faults.
     pub fn add_folder(&mut self, folder: &Path) {
-        let faults = self.library.load_folder(folder);
+        let faults = self
+            .library
+            .load_folder(folder, &Kinds::trusted_for(folder, &self.trusted));
         self.faults.extend(faults);
     }
+}
+
+/// The user's own folder of node files.
+fn own_node_folder() -> Option<PathBuf> {
+    own_folder("SABI_NODES", "nodes")
 }

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::memory::default_memory_bytes;
-use crate::phases::{Phase, Progress, stop_if_canceled};
+use crate::phases::{Phase, Progress, stop_if_canceled, unless_canceled};
 pub use fitted_model::FittedModel;
 use unwrapping::{Unwrap, unwrap_model, unwrapping};
 
@@ -92,6 +92,7 @@ impl ModelOptions {
     fn atlas_options(&self) -> AtlasOptions {
         AtlasOptions {
             udim: self.udim,
+            memory_bytes: self.memory_bytes,
             ..AtlasOptions::new(self.size)
         }
     }
@@ -169,14 +170,14 @@ pub struct Unwrapping {
 impl LinkedModel {
     /// Loads a model and builds its atlas.
     pub fn open(options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
-        let model = LinkedModel::load_model(options)?;
+        let model = LinkedModel::load_model(options, progress)?;
         progress.advance(Phase::Load, 1, 1);
         stop_if_canceled(progress)?;
         LinkedModel::link(model, options, progress)
     }
 
-    /// Loads a model without its atlas.
-    pub fn load_model(options: &ModelOptions) -> Result<Model, EngineError> {
+    /// Loads a model without its atlas. Canceled at any moment of its reading.
+    pub fn load_model(options: &ModelOptions, progress: &dyn Progress) -> Result<Model, EngineError> {
         if !(options.scale.is_finite() && options.scale > 0.0) {
             let why = format!("the scale of a model is a number above 0, not {}", options.scale);
             return Err(EngineError::new(ErrorKind::Usage, why));
@@ -193,13 +194,23 @@ impl LinkedModel {
             memory_bytes: options.memory_bytes,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();
-        Ok(load_trusting(&options.path, &options.trusted, &load_options)?)
+        let (path, trusted) = (options.path.clone(), options.trusted.clone());
+        let loaded = unless_canceled(progress, move || load_trusting(&path, &trusted, &load_options))?;
+        Ok(loaded?)
     }
 
-    /// Builds the atlas of a loaded model or reads it from the cache. A model without usable UVs is unwrapped first.
-    pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
+    /// Builds the atlas of a loaded model or reads it from the cache. A model without usable UVs is unwrapped first. Canceled at any
+    /// moment.
+    pub fn link(model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
+        let own_options = options.clone();
+        let linked = unless_canceled(progress, move || LinkedModel::linked(model, &own_options))??;
+        progress.advance(Phase::Atlas, 1, 1);
+        Ok(linked)
+    }
+
+    fn linked(mut model: Model, options: &ModelOptions) -> Result<LinkedModel, EngineError> {
         let unwrapped_anew = |model: &mut Model, what: &Unwrap| {
             let made = unwrap_model(model, options, what);
             made.map_err(|error| refused(options, EngineError::of(ErrorKind::BadInput, error)))
@@ -208,7 +219,6 @@ impl LinkedModel {
         let (what, repeats) = unwrapping(&mut model, options);
         if let Some(what) = what {
             unwrapped = Some(unwrapped_anew(&mut model, &what)?);
-            stop_if_canceled(progress)?;
         }
         let cache_dir = options.cache_folder();
         let atlas_options = options.atlas_options();
@@ -220,7 +230,6 @@ impl LinkedModel {
             built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
         }
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
-        progress.advance(Phase::Atlas, 1, 1);
         let (largest_side, farthest) = extents(&model);
         // After the atlas, which refuses incomplete meshes.
         let pieces = Arc::new(Pieces::of(&model.mesh));
@@ -252,8 +261,10 @@ impl LinkedModel {
     pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
-        let cache_dir = options.cache_folder();
-        let built = cached(cache_dir.as_deref(), &self.model.mesh, &options.atlas_options());
+        let (cache_dir, atlas_options, model) = (options.cache_folder(), options.atlas_options(), self.model.clone());
+        let built = unless_canceled(progress, move || {
+            cached(cache_dir.as_deref(), &model.mesh, &atlas_options)
+        })?;
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
         progress.advance(Phase::Atlas, 1, 1);
         Ok(LinkedModel {

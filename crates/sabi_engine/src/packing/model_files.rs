@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, Uri, read_plain, without_detours};
 use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, Up, load_bytes};
 
+use super::entries::{is_picture, is_usual_ending};
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::memory::default_memory_bytes;
 
 /// A model and the files that it names.
 pub(super) struct ModelFiles {
@@ -93,11 +95,6 @@ fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>,
     Ok(placed)
 }
 
-/// Endings of vertex data, of material libraries and of pictures, lower case.
-const USUAL_ENDINGS: [&str; 14] = [
-    "bin", "buf", "buffer", "dat", "glbin", "mtl", "avif", "basis", "dds", "gif", "ktx", "ktx2", "psd", "webp",
-];
-
 /// Files that were looked for.
 struct Search<'t> {
     base: PathBase,
@@ -138,7 +135,7 @@ impl<'t> Search<'t> {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
-            memory_bytes: u64::MAX,
+            memory_bytes: default_memory_bytes(),
         };
         let loaded = load_bytes(&name, &bytes, &mut |written| search.find(written), &options);
         // That a file may not be opened says more than what is missing without it.
@@ -182,7 +179,7 @@ impl<'t> Search<'t> {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         if !self.base.is_above(file) {
             Some("which is outside of its folder and no picture; copy it into the folder if it belongs to the model")
-        } else if ending.is_none_or(|ending| !USUAL_ENDINGS.contains(&ending.as_str())) {
+        } else if ending.is_none_or(|ending| !is_usual_ending(&ending)) {
             Some(
                 "which is no picture, and does not end in .bin or .mtl as data of a model does; rename it if it belongs to the model",
             )
@@ -202,10 +199,6 @@ impl<'t> Search<'t> {
         let missing = self.missing.iter().filter(|written| !is_spelled(written));
         missing.cloned().collect()
     }
-}
-
-fn is_picture(written: &str, bytes: &[u8]) -> bool {
-    sabi_image::check_header(written, bytes).is_ok()
 }
 
 /// URIs of buffers and pictures of a glTF file; none of others.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_files::archive::{EntryContent, write_archive};
-use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, canonical};
+use sabi_files::{TrustedPaths, Unread, canonical};
 use sabi_graph::Value;
 use serde::Serialize;
 
@@ -19,10 +19,13 @@ use super::rewritten::{RewrittenDocument, ShownModel, rewritten};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::phases::Progress;
+use crate::phases::{Progress, unless_canceled};
 use crate::remedy::Remedy;
 use crate::source::paint::NAME as PAINT;
 use crate::source::strokes::{files_beside, paint_folder};
+
+/// Ending of graphs in an archive.
+const ENDING: &str = ".sabi";
 
 /// Request to pack a graph.
 #[derive(Clone, Debug)]
@@ -96,14 +99,14 @@ struct Found {
 /// A file cannot be read or packed, is missing and that is not allowed, or the archive exists or cannot be written; nothing is left
 /// behind.
 pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
-    let open = OpenGraph::open_trusting(&request.graph, &request.trusted)?;
-    let kinds = Kinds::beside(Some(&request.graph));
-    let found = Found::of(open, &kinds, &request.model)?;
+    let (open, kinds) = OpenGraph::open_with_kinds(request.graph.clone(), request.trusted.clone(), progress)?;
+    let found = Found::of(open, &kinds, &request.model, progress)?;
     if !found.needs.missing.is_empty() && !request.allows_missing {
         let refused = EngineError::several(ErrorKind::MissingInput, found.needs.missing);
         return Err(refused.with_remedies([Remedy::WithoutMissingFiles]));
     }
     let (places, model) = found.places()?;
+    places.check_files()?;
     refuse_input(&request.output, &places)?;
     let documents = found.rewritten(&places, model.as_deref());
     check(&found.needs.documents[0], &documents, &places, &kinds)?;
@@ -142,7 +145,7 @@ pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<Pack
 }
 
 impl Found {
-    fn of(open: OpenGraph, kinds: &Kinds, model: &PackedModel) -> Result<Found, EngineError> {
+    fn of(open: OpenGraph, kinds: &Kinds, model: &PackedModel, progress: &dyn Progress) -> Result<Found, EngineError> {
         let folders = Kinds::folders(Some(&open.path));
         let mut needs = Needs::of(open, kinds)?;
         let (nodes, without_file) = own_nodes(kinds, &folders, &needs.documents);
@@ -151,7 +154,7 @@ impl Found {
         for document in &needs.documents {
             look_for_strokes(document, &mut needs.missing, &mut warnings);
         }
-        let model = model_of(&needs.documents[0], model, &mut needs.missing)?;
+        let model = model_of(&needs.documents[0], model, &mut needs.missing, progress)?;
         Ok(Found {
             needs,
             model,
@@ -174,11 +177,20 @@ impl Found {
             );
             EngineError::new(ErrorKind::BadInput, why)
         })?;
+        let name = match name.strip_suffix(ENDING) {
+            Some(_) => name.to_owned(),
+            // Under the same stem it finds its strokes.
+            None => format!("{}{ENDING}", name.rsplit_once('.').map_or(name, |(stem, _)| stem)),
+        };
         // Places that the files must have come before those that are free.
-        places.take_as(&graph.path, name)?;
+        places.take_as(&graph.path, &name)?;
         take_strokes(graph, &mut places)?;
         for (name, path) in &self.nodes {
-            refuse_link(path, &Kinds::folders(Some(&graph.path)))?;
+            let folders = Kinds::folders(Some(&graph.path));
+            let own = folders.iter().find(|folder| path.starts_with(folder));
+            let trusted = &graph.open.trusted;
+            let trusted = own.map(|folder| Kinds::trusted_for(folder, trusted));
+            refuse_link(path, trusted.as_ref().unwrap_or(&graph.open.trusted))?;
             places.take_as(&named_path(path), name)?;
         }
         let model = self.model.as_ref().map(|model| places.take_model(model)).transpose()?;
@@ -210,6 +222,7 @@ fn model_of(
     graph: &NamedDocument,
     model: &PackedModel,
     missing: &mut Vec<String>,
+    progress: &dyn Progress,
 ) -> Result<Option<ModelFiles>, EngineError> {
     let shown = graph.open.path.display();
     let mut trusted = graph.open.trusted.clone();
@@ -240,7 +253,8 @@ fn model_of(
             path
         }
     };
-    let files = ModelFiles::read(&path, &trusted)?;
+    let read = path.clone();
+    let files = unless_canceled(progress, move || ModelFiles::read(&read, &trusted))??;
     let lacks = files.missing.iter();
     missing.extend(lacks.map(|named| format!("the model {} names {named}, which is missing", path.display())));
     Ok(Some(files))
@@ -275,21 +289,20 @@ fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), Eng
     };
     let beside = paint_folder(name).to_string_lossy().replace('\\', "/");
     let folder = paint_folder(&document.path);
-    let own = document.base().folder().to_owned();
+    let own = TrustedPaths::default().with_path(document.base().folder());
     for file in files_beside(&document.path) {
         let path = folder.join(&file);
-        refuse_link(&path, std::slice::from_ref(&own))?;
+        refuse_link(&path, &own)?;
         places.take_as(&path, &format!("{beside}/{file}"))?;
     }
     Ok(())
 }
 
-/// Refuses a file that is found in one of these folders and is a link to a file elsewhere, which must not be sent along.
-fn refuse_link(path: &Path, folders: &[PathBuf]) -> Result<(), EngineError> {
-    let is_inside = |folder: &PathBuf| PathBase::of_folder(folder.clone()).is_above(path);
-    match canonical(path) {
-        Ok(file) if !folders.iter().any(is_inside) => {
-            let refused = EngineError::refused(&Refusal::Outside { file });
+/// Refuses a file that is found and not named, and that links lead out of the trusted paths: it must not be sent along.
+fn refuse_link(path: &Path, trusted: &TrustedPaths) -> Result<(), EngineError> {
+    match trusted.check_found(path) {
+        Err(Unread::Refused(refusal)) => {
+            let refused = EngineError::refused(&refusal);
             let shown = path.display();
             let told = refused.map_messages(|why| format!("{shown} is a link: {why}; copy the file into its place"));
             Err(told.with_remedies([]))

@@ -1,10 +1,13 @@
 //! Places of files in an archive.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Component, Path, PathBuf};
 
 use sabi_files::archive::{EntryNames, NameFault};
+use sabi_files::is_invisible;
 
+use super::entries::{check_file, check_name};
 use super::manifest;
 use super::model_files::ModelFiles;
 use crate::error::{EngineError, ErrorKind};
@@ -31,7 +34,7 @@ impl Places {
         let mut names = EntryNames::default();
         names
             .add(manifest::NAME)
-            .map_err(|fault| refused(manifest::NAME, &fault))?;
+            .map_err(|fault| refused(manifest::NAME, fault))?;
         Ok(Places {
             root: root.to_owned(),
             names,
@@ -62,6 +65,7 @@ impl Places {
             return Ok(());
         }
         if let Some(own) = self.below(path)
+            && check_name(&own).is_ok()
             && self.names.add(&own).is_ok()
         {
             self.insert(path, own);
@@ -86,11 +90,33 @@ impl Places {
         if self.files.get(name).is_some_and(|known| known == path) {
             return Ok(());
         }
-        self.names
-            .add(name)
-            .map_err(|fault| refused(&path.display().to_string(), &fault))?;
+        let shown = path.display().to_string();
+        check_name(name).map_err(|why| refused(&shown, why))?;
+        self.names.add(name).map_err(|fault| refused(&shown, fault))?;
         self.insert(path, name.to_owned());
         Ok(())
+    }
+
+    /// Checks that all files are such as a bake reads.
+    ///
+    /// # Errors
+    /// A sentence for each that is not, and would not be unpacked.
+    pub(super) fn check_files(&self) -> Result<(), EngineError> {
+        let fault = |(name, path): (&String, &PathBuf)| {
+            let why = check_file(name, path).err()?;
+            Some(format!("{} cannot be packed: {why}", path.display()))
+        };
+        // A file that is missing is told elsewhere.
+        let faults: Vec<String> = self
+            .files
+            .iter()
+            .filter(|(_, path)| path.exists())
+            .filter_map(fault)
+            .collect();
+        match faults.is_empty() {
+            true => Ok(()),
+            false => Err(EngineError::several(ErrorKind::BadInput, faults)),
+        }
     }
 
     /// Gives a model and the files that it names their places: as they lie to each other, since the model is not changed.
@@ -110,10 +136,14 @@ impl Places {
                 false => format!("{}/{}{below}", outside(number), stem(&model.path)),
             }
         });
-        let mut last = None;
+        let (mut last, mut hidden) = (None, None);
         for folder in own.into_iter().chain(fresh) {
             let mut names = self.names.clone();
             let placed = model.placed_in(&folder);
+            if let Some(why) = placed.iter().find_map(|(_, name)| check_name(name).err()) {
+                hidden = Some(why);
+                continue;
+            }
             match placed.iter().try_for_each(|(_, name)| names.add(name)) {
                 Ok(()) => {
                     self.names = names;
@@ -123,11 +153,17 @@ impl Places {
                     return Ok(placed[0].1.clone());
                 }
                 Err(NameFault::Taken(other)) => last = Some(NameFault::Taken(other)),
-                Err(fault) => return Err(refused(&model.path.display().to_string(), &fault)),
+                Err(fault) => return Err(refused(&model.path.display().to_string(), fault)),
             }
         }
-        let fault = last.unwrap_or(NameFault::Long);
-        Err(refused(&model.path.display().to_string(), &fault))
+        let shown = model.path.display().to_string();
+        match (last, hidden) {
+            (None, Some(why)) => Err(refused(
+                &shown,
+                format!("it names a file whose name has no place: {why}"),
+            )),
+            (last, _) => Err(refused(&shown, last.unwrap_or(NameFault::Long))),
+        }
     }
 
     fn insert(&mut self, path: &Path, name: String) {
@@ -153,7 +189,7 @@ fn outside(number: usize) -> String {
     }
 }
 
-fn refused(shown: &str, fault: &NameFault) -> EngineError {
+fn refused(shown: &str, fault: impl fmt::Display) -> EngineError {
     EngineError::new(
         ErrorKind::BadInput,
         format!("{shown} cannot be packed: {fault}; rename it"),
@@ -165,9 +201,10 @@ fn plain_name(path: &Path) -> String {
     let name = path
         .file_name()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let is_plain = |c: char| !c.is_control() && !"\\/:*?\"<>|\u{fffd}".contains(c);
+    let is_plain = |c: char| !is_invisible(c) && !"\\/:*?\"<>|\u{fffd}".contains(c);
     let plain: String = name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
-    let plain = plain.trim_end_matches(['.', ' ']);
+    // A dot before a name hides it.
+    let plain = plain.trim_end_matches(['.', ' ']).trim_start_matches('.');
     match EntryNames::default().add(plain) {
         Ok(()) => plain.to_owned(),
         // The name of a device, or none at all.

@@ -37,8 +37,9 @@ pub struct PreviewRequest {
 pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<Warning>, EngineError> {
     // A name that cannot be written is reported before anything is read.
     is_exact(request)?;
-    let open = OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph))?;
-    preview_graph(&open, Kinds::beside(Some(&request.graph)), request, progress)
+    let trusted = request.evaluator.trusted_with(&request.graph);
+    let (open, kinds) = OpenGraph::open_with_kinds(request.graph.clone(), trusted, progress)?;
+    preview_graph(&open, kinds, request, progress)
 }
 
 /// Writes a preview of a graph in memory and returns warnings.

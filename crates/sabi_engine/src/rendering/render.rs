@@ -108,8 +108,9 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     // Names that cannot be written, and views that do not exist, are reported before anything is read.
     file_names(request)?;
     view_of(&request.view)?;
-    let open = OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph))?;
-    render_graph(&open, Kinds::beside(Some(&request.graph)), request, progress)
+    let trusted = request.evaluator.trusted_with(&request.graph);
+    let (open, kinds) = OpenGraph::open_with_kinds(request.graph.clone(), trusted, progress)?;
+    render_graph(&open, kinds, request, progress)
 }
 
 /// Renders pictures of a graph in memory.

@@ -4,17 +4,19 @@ mod work;
 mod writing;
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use sabi_files::{Disk, FileError, FileLock, LockError, absolute, is_locked, sweep};
+use sabi_files::{Disk, FileError, FileLock, LockError, absolute, is_locked, read_plain, sweep};
 use sabi_graph::Document;
 
 use super::known_contents::KnownContents;
 use super::stroke_files::forget_strokes;
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::SIZE_LIMIT_BYTES;
 use crate::remedy::Remedy;
 use crate::source::strokes::paint_folder;
 pub(super) use work::UnsavedWork;
@@ -52,6 +54,9 @@ pub enum Keeping {
     /// An earlier copy is still being written.
     Postponed,
 }
+
+/// Most bytes of a recovery file: a graph, and drafts of nodes.
+const MOST_BYTES: u64 = 2 * SIZE_LIMIT_BYTES;
 
 /// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
 /// program are left out, see [`recoveries_in_use`]. A file that cannot be read is listed with its error. Files that were not
@@ -175,7 +180,10 @@ impl Recovery {
 
     /// Returns whether the graph's own file has another content than when the copy was written.
     pub fn is_file_changed(&self) -> bool {
-        let now = self.file.as_ref().and_then(|file| fs::read(file).ok());
+        let now = self
+            .file
+            .as_ref()
+            .and_then(|file| read_plain(file, SIZE_LIMIT_BYTES).ok());
         now.is_some_and(|now| !self.known_contents(Some(&now)).is_own(&now))
     }
 
@@ -203,7 +211,9 @@ impl Recovery {
                 format!("{shown}: the recovery file cannot be read: {why}"),
             )
         };
-        let text = fs::read_to_string(&self.path).map_err(|error| damaged(error.to_string()))?;
+        let bytes =
+            read_plain(&self.path, MOST_BYTES).map_err(|unread| damaged(io::Error::from(unread).to_string()))?;
+        let text = String::from_utf8(bytes).map_err(|error| damaged(error.to_string()))?;
         UnsavedWork::read(&text).map_err(damaged)
     }
 

@@ -1,10 +1,9 @@
 //! Saving of a session: to its file, which is looked at first, and to its recovery file.
 
 use std::ffi::OsString;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_files::free_file;
+use sabi_files::{Unread, free_file, read_plain};
 use sabi_graph::{Document, Edit};
 
 use super::graph_write::GraphWrite;
@@ -12,7 +11,7 @@ use super::path_rewrite::PathRewrite;
 use super::{FileState, Keeping, KnownContents, Session};
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
-use crate::opening::document::OpenGraph;
+use crate::opening::document::{OpenGraph, SIZE_LIMIT_BYTES};
 use crate::remedy::Remedy;
 
 /// A document in which paths are rewritten for another folder.
@@ -29,13 +28,14 @@ impl Session {
         let Some(file) = &self.file else {
             return FileState::Same;
         };
-        match fs::read(file) {
+        match read_plain(file, SIZE_LIMIT_BYTES) {
             Ok(bytes) if self.known.is_own(&bytes) => {
                 self.is_apart = false;
                 FileState::Same
             }
             Ok(bytes) if self.known.contains(&bytes) => FileState::Same,
-            Ok(_) => FileState::Another,
+            // What is too large or no ordinary file was not written by this session.
+            Ok(_) | Err(Unread::TooLarge(_) | Unread::NotPlain | Unread::Folder) => FileState::Another,
             Err(_) => {
                 self.is_apart = true;
                 FileState::Gone
@@ -47,7 +47,7 @@ impl Session {
     /// text, but none that is written later.
     pub fn keep_document(&mut self) {
         self.is_apart = true;
-        if let Some(Ok(bytes)) = self.file.as_ref().map(fs::read) {
+        if let Some(Ok(bytes)) = self.file.as_ref().map(|file| read_plain(file, SIZE_LIMIT_BYTES)) {
             self.known.accept(&bytes);
         }
     }
@@ -111,7 +111,7 @@ impl Session {
             let why = format!("{} cannot be read: {error}", file.display());
             EngineError::new(ErrorKind::CannotWrite, why).caused_by(error)
         };
-        let theirs = fs::read(&file).map_err(unread)?;
+        let theirs = read_plain(&file, SIZE_LIMIT_BYTES).map_err(|why| unread(why.into()))?;
         let mut stem = file.file_stem().map_or_else(OsString::new, OsString::from);
         stem.push("-theirs");
         let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or("sabi");

@@ -9,6 +9,8 @@ mod outside;
 mod stroke_links;
 mod strokes;
 
+use std::fs;
+
 use sabi_graph::{Body, Node, Value};
 use tempfile::TempDir;
 

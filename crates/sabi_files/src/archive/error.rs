@@ -62,6 +62,17 @@ pub enum ArchiveError {
         "'{0}' in the archive is no ordinary file but a link or a device, through which files elsewhere could be changed"
     )]
     NotPlain(String),
+    /// An entry that the caller does not take.
+    #[error("'{name}' in the archive is not unpacked: {why}")]
+    Unwanted {
+        /// The entry.
+        name: String,
+        /// Reason of the caller.
+        why: String,
+    },
+    /// Two entries share bytes of the archive, which a small one uses to claim much.
+    #[error("'{0}' in the archive is damaged: it shares its bytes with another entry")]
+    Overlapping(String),
     /// An entry is locked with a password.
     #[error("'{0}' in the archive is encrypted")]
     Encrypted(String),

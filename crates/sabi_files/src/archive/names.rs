@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
+use crate::invisible::is_invisible;
+
 /// Longest part of a name, in bytes: file systems allow 255 bytes or 255 units of 16 bits.
 const LONGEST_PART: usize = 255;
 /// Longest name, in bytes: with the folder before it, it has to be a path.
@@ -21,6 +23,9 @@ pub enum NameFault {
     /// It has a character that Windows refuses.
     #[error("Windows has no names with the character {0:?}")]
     Character(char),
+    /// It has a character that is not seen, or shows the name as another one.
+    #[error("its name has the character U+{:04X}, which is not seen and may show it as another name", u32::from(*.0))]
+    Invisible(char),
     /// It has the name of a device.
     #[error("'{0}' is the name of a device on Windows")]
     Device(String),
@@ -99,6 +104,9 @@ fn check_part(part: &str) -> Result<(), NameFault> {
     }
     if let Some(odd) = part.chars().find(|c| c.is_control() || "\\:*?\"<>|".contains(*c)) {
         return Err(NameFault::Character(odd));
+    }
+    if let Some(odd) = part.chars().find(|c| is_invisible(*c)) {
+        return Err(NameFault::Invisible(odd));
     }
     if part.ends_with(['.', ' ']) {
         return Err(NameFault::End);

@@ -5,6 +5,9 @@ use std::path::Path;
 use super::*;
 use crate::test_folder::listing;
 
+/// Accepts every name.
+const ALL: Accepts<'static> = &|_| Ok(());
+
 /// The fault of the last of some names in one archive.
 fn fault(names: &[&str]) -> Option<NameFault> {
     let mut known = EntryNames::default();
@@ -48,6 +51,11 @@ fn a_name_is_one_that_every_system_can_hold() {
     ] {
         assert_eq!(fault(&[name]), Some(NameFault::Character(odd)), "{name}");
     }
+    for (name, odd) in [("photo_\u{202e}gnp.exe", '\u{202e}'), ("a\u{feff}.png", '\u{feff}')] {
+        let fault = fault(&[name]).expect("a fault");
+        assert_eq!(fault, NameFault::Invisible(odd), "{name}");
+        assert!(fault.to_string().contains(&format!("U+{:04X}", u32::from(odd))));
+    }
     for end in ["a.", "a ", "a /b", "..."] {
         assert_eq!(fault(&[end]), Some(NameFault::End), "{end}");
     }
@@ -89,7 +97,7 @@ fn the_same_files_give_the_same_archive_which_gives_the_files_back() {
     write_archive(&at("two.zip"), &packed, false, &go_on).unwrap();
     let bytes = fs::read(at("one.zip")).unwrap();
     assert!(fs::read(at("two.zip")).unwrap() == bytes && bytes.len() < 2000);
-    let unpacked = UnpackedArchive::read(&at("one.zip"), &at("new/out"), &go_on).unwrap();
+    let unpacked = UnpackedArchive::read(&at("one.zip"), &at("new/out"), ALL, &go_on).unwrap();
     assert_eq!(unpacked.names(), ["B/x", "a/c.txt", "b.png", "copied.bin", "empty"]);
     assert!(!at("new").exists());
     unpacked.commit().unwrap();
@@ -106,7 +114,7 @@ fn a_folder_that_is_there_and_empty_is_filled_and_one_with_files_is_not() {
     let at = |name: &str| folder.path().join(name);
     write_archive(&at("a.zip"), &entries(&[("x/y", b"1"), ("z", b"2")]), false, &|| false).unwrap();
     fs::create_dir(at("out")).unwrap();
-    let read = |target: &str| UnpackedArchive::read(&at("a.zip"), &at(target), &|| false);
+    let read = |target: &str| UnpackedArchive::read(&at("a.zip"), &at(target), ALL, &|| false);
     read("out").unwrap().commit().unwrap();
     assert_eq!(listing(&at("out")), ["x", "z"]);
     assert!(matches!(read("out"), Err(ArchiveError::FolderInUse(_))));
@@ -151,10 +159,10 @@ fn an_archive_is_whole_or_not_there() {
     write(&good, false, false).unwrap();
     assert!(matches!(write(&good, false, false), Err(ArchiveError::Exists(_))));
     write(&entries(&[("b", b"2")]), true, false).unwrap();
-    let read = UnpackedArchive::read(&at("a.zip"), &at("out"), &|| false).unwrap();
+    let read = UnpackedArchive::read(&at("a.zip"), &at("out"), ALL, &|| false).unwrap();
     assert_eq!(read.names(), ["b"]);
     assert!(matches!(
-        UnpackedArchive::read(&at("a.zip"), &at("out"), &|| true),
+        UnpackedArchive::read(&at("a.zip"), &at("out"), ALL, &|| true),
         Err(ArchiveError::Canceled)
     ));
 }
@@ -165,7 +173,7 @@ fn what_a_killed_process_left_of_an_archive_is_removed_and_what_another_one_unpa
     let root = tempfile::tempdir().unwrap();
     let archive = root.path().join("a.zip");
     write_archive(&archive, &entries(&[("a.png", b"a")]), false, &|| false).unwrap();
-    let read = |target: &str| UnpackedArchive::read(&archive, &root.path().join(target), &|| false).unwrap();
+    let read = |target: &str| UnpackedArchive::read(&archive, &root.path().join(target), ALL, &|| false).unwrap();
     let left = |place: &str| {
         let left = root.path().join(place).join(".sabi-Ab12.tmp");
         fs::create_dir_all(left.join("below")).unwrap();
@@ -183,4 +191,48 @@ fn what_a_killed_process_left_of_an_archive_is_removed_and_what_another_one_unpa
     for target in ["first", "filled"] {
         assert_eq!(listing(&root.path().join(target)), ["a.png"]);
     }
+}
+
+#[test]
+fn an_entry_that_the_caller_does_not_take_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let files: [(&str, &[u8]); 2] = [("a.png", b"1"), (".git/config", b"[core]")];
+    write_archive(&at("a.zip"), &entries(&files), false, &|| false).unwrap();
+    let accepts = |name: &str| match name.starts_with('.') {
+        true => Err("it is hidden".to_owned()),
+        false => Ok(()),
+    };
+    let told = UnpackedArchive::read(&at("a.zip"), &at("out"), &accepts, &|| false).unwrap_err();
+    assert_eq!(
+        told.to_string(),
+        "'.git/config' in the archive is not unpacked: it is hidden"
+    );
+    assert_eq!(listing(folder.path()), ["a.zip"]);
+}
+
+#[test]
+fn entries_that_share_their_bytes_are_refused() {
+    // Two directory entries that name one local entry, as archives do that unpack to a million times their size.
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    write_archive(
+        &at("a.zip"),
+        &entries(&[("a.txt", b"x"), ("b.txt", b"x")]),
+        false,
+        &|| false,
+    )
+    .unwrap();
+    let mut bytes = fs::read(at("a.zip")).unwrap();
+    // The signature of an entry of the directory; 42 bytes behind it is the place of the local entry (APPNOTE 4.3.12).
+    let places: Vec<usize> = (0..bytes.len() - 4)
+        .filter(|at| bytes[*at..].starts_with(b"PK\x01\x02"))
+        .collect();
+    assert_eq!(places.len(), 2);
+    let first: [u8; 4] = bytes[places[0] + 42..][..4].try_into().unwrap();
+    bytes[places[1] + 42..][..4].copy_from_slice(&first);
+    fs::write(at("b.zip"), bytes).unwrap();
+    let told = UnpackedArchive::read(&at("b.zip"), &at("out"), ALL, &|| false).unwrap_err();
+    assert!(matches!(told, ArchiveError::Overlapping(_)), "{told}");
+    assert_eq!(listing(folder.path()), ["a.zip", "b.zip"]);
 }

@@ -17,6 +17,9 @@ use crate::error::{FileError, Operation, io_reason};
 use crate::temporary::{TemporaryFolder, is_temporary_name, sweep_folders, temporary_folder_in};
 use crate::whole::{Durability, create_folder, folder_of, sync_folder};
 
+/// Decides whether an archive may have an entry of a name; the error is a clause.
+pub type Accepts<'a> = &'a dyn Fn(&str) -> Result<(), String>;
+
 /// Bytes that are copied at a time, and between two looks at whether the user stopped it.
 const CHUNK: u64 = 1 << 20;
 /// Kind of file in the permissions of Unix, and the two kinds that are unpacked.
@@ -40,18 +43,29 @@ struct Claim {
     is_folder: bool,
 }
 
+/// Bytes of an archive that an entry takes: its header and its data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct ByteRange {
+    start: u64,
+    /// First byte behind it.
+    end: u64,
+    /// Number of the entry.
+    entry: usize,
+}
+
 impl UnpackedArchive {
     /// Unpacks an archive for a folder that does not exist or is empty. Nothing that the archive claims is believed: all names and sizes
-    /// are checked before the first file is written, and the sizes again while they are.
+    /// are checked before the first file is written, and the sizes again while they are. Names that the caller does not accept are refused.
     ///
     /// # Errors
     /// See [`ArchiveError`]; nothing is left behind.
     pub fn read(
         archive: &Path,
         target: &Path,
+        accepts: Accepts<'_>,
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<UnpackedArchive, ArchiveError> {
-        UnpackedArchive::read_on(&Disk::default(), archive, target, is_canceled)
+        UnpackedArchive::read_on(&Disk::default(), archive, target, accepts, is_canceled)
     }
 
     /// Unpacks an archive on a disk, as [`UnpackedArchive::read`] does.
@@ -59,6 +73,7 @@ impl UnpackedArchive {
         disk: &Disk,
         archive: &Path,
         target: &Path,
+        accepts: Accepts<'_>,
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<UnpackedArchive, ArchiveError> {
         let is_there = is_empty_folder_but(target, is_temporary_name)?;
@@ -76,7 +91,7 @@ impl UnpackedArchive {
             why: error.to_string(),
         };
         let mut opened = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
-        let claims = claims(&mut opened)?;
+        let claims = claims(&mut opened, accepts)?;
         let place = if is_there { target } else { existing_folder(target) };
         // A killed process may have left a part of an archive.
         sweep_folders(place);
@@ -98,6 +113,7 @@ impl UnpackedArchive {
             unpacked.names.push(claim.name);
         }
         unpacked.names.sort();
+        unpacked.sync_files(is_canceled)?;
         unpacked.sync_folders()?;
         Ok(unpacked)
     }
@@ -221,12 +237,30 @@ impl UnpackedArchive {
             );
             return Err(damaged(&claim.name, why));
         }
-        self.disk.step(Step::Sync, &path, || file.sync_all()).map_err(refused)
+        Ok(())
+    }
+
+    /// Writes the bytes of all files to the disk. After all of them were written, most are there already: to wait for each one before the
+    /// next is written takes many times as long.
+    fn sync_files(&self, is_canceled: &dyn Fn() -> bool) -> Result<(), ArchiveError> {
+        for name in &self.names {
+            if is_canceled() {
+                return Err(ArchiveError::Canceled);
+            }
+            let path = self.temporary.path().join(name);
+            // Some systems sync only what may be written to.
+            let open = || OpenOptions::new().write(true).open(&path);
+            let synced = self
+                .disk
+                .step(Step::Sync, &path, || open().and_then(|file| file.sync_all()));
+            synced.map_err(|error| FileError::new(Operation::Write, &self.target.join(name), error))?;
+        }
+        Ok(())
     }
 }
 
 /// Checks all that an archive claims.
-fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Vec<Claim>, ArchiveError> {
+fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>, accepts: Accepts<'_>) -> Result<Vec<Claim>, ArchiveError> {
     if archive.len() > MOST_ENTRIES {
         return Err(ArchiveError::TooMany(archive.len()));
     }
@@ -237,6 +271,7 @@ fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Vec<Claim>, Arc
     let mut names = EntryNames::default();
     let mut claims = Vec::new();
     let mut total = 0_u64;
+    let mut ranges = Vec::new();
     for index in 0..archive.len() {
         let entry = archive
             .by_index_raw(index)
@@ -261,6 +296,20 @@ fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Vec<Claim>, Arc
         if entry.encrypted() {
             return Err(ArchiveError::Encrypted(name));
         }
+        if !is_folder {
+            accepts(&name).map_err(|why| ArchiveError::Unwanted {
+                name: name.clone(),
+                why,
+            })?;
+        }
+        ranges.push(ByteRange {
+            start: entry.header_start(),
+            end: entry
+                .data_start()
+                .unwrap_or(entry.header_start()) // An entry without data has its header alone.
+                .saturating_add(entry.compressed_size()),
+            entry: claims.len(),
+        });
         total = total.saturating_add(entry.size());
         claims.push(Claim {
             bytes: entry.size(),
@@ -271,7 +320,11 @@ fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Vec<Claim>, Arc
     if total > MOST_BYTES {
         return Err(ArchiveError::TooLarge(total));
     }
-    Ok(claims)
+    ranges.sort();
+    match ranges.windows(2).find(|pair| pair[1].start < pair[0].end) {
+        Some(pair) => Err(ArchiveError::Overlapping(claims[pair[1].entry].name.clone())),
+        None => Ok(claims),
+    }
 }
 
 fn damaged(name: &str, why: String) -> ArchiveError {

@@ -3,7 +3,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::TrustedPaths;
-use super::project::project_of;
 use crate::address::{is_device_name, is_url, leads_to_network};
 use crate::{PathBase, Refusal, Unread, canonical};
 
@@ -81,24 +80,14 @@ fn the_project_of_a_named_file_is_trusted() {
     let check = || TrustedPaths::of_file(&graph).check(&place.base(), "../pictures/c.png");
     assert_eq!(check(), place.outside("mine/pictures/c.png"));
     for mark in ["sabi.toml", ".git"] {
-        fs::write(place.path("mine").join(mark), b"").unwrap();
+        // What the file of a work tree holds; the file of a project may hold anything.
+        fs::write(place.path("mine").join(mark), b"gitdir: elsewhere").unwrap();
         assert_eq!(check(), Ok(place.path("mine/pictures/c.png")), "{mark}");
         fs::remove_file(place.path("mine").join(mark)).unwrap();
     }
     fs::write(place.path("mine/graphs/sabi.toml"), b"").unwrap();
     fs::write(place.path("mine/sabi.toml"), b"").unwrap();
     assert_eq!(check(), place.outside("mine/pictures/c.png"), "the nearest one counts");
-}
-
-#[test]
-fn the_home_folder_is_no_project() {
-    let place = Place::new();
-    let (home, graphs) = (place.path("mine"), place.path("mine/graphs"));
-    fs::write(home.join(".git"), b"").unwrap();
-    assert_eq!(project_of(&graphs, None), Some(home.as_path()));
-    assert_eq!(project_of(&graphs, Some(&home)), None);
-    assert_eq!(project_of(&graphs, Some(&graphs)), None, "a folder above it");
-    assert_eq!(project_of(&graphs, Some(&place.path("other"))), Some(home.as_path()));
 }
 
 #[cfg(unix)]
@@ -177,6 +166,11 @@ fn devices_are_refused_whatever_is_trusted() {
         device("/proc/self/environ")
     );
     assert_eq!(all.check(&place.base(), "zero.png"), device("/dev/zero"));
+    // Trust does not help with a socket either, and is not advised.
+    let socket = place.path("other/socket");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    let refused = TrustedPaths::default().check(&place.base(), "../../other/socket");
+    assert_eq!(refused, device(socket.to_str().unwrap()));
     assert_eq!(
         all.check(&place.base(), "/etc/.."),
         Ok(PathBuf::from("/")),
@@ -240,7 +234,7 @@ fn a_refusal_is_a_sentence_and_says_what_trust_would_help() {
             Refusal::Device {
                 file: "/dev/zero".into(),
             },
-            "/dev/zero is a device, which files never open",
+            "/dev/zero is a device or a pipe, which files never open",
             None,
         ),
     ] {

@@ -67,6 +67,28 @@ fn chunks_say_which_curve_a_png_uses() {
     );
 }
 
+#[test]
+fn a_color_profile_is_seen_and_not_unpacked() {
+    let mut info = png::Info::with_size(2, 2);
+    info.color_type = png::ColorType::Grayscale;
+    info.bit_depth = png::BitDepth::Eight;
+    info.icc_profile = Some(vec![0; 32 << 20].into());
+    let mut file = Vec::new();
+    let encoder = png::Encoder::with_info(&mut file, info).unwrap();
+    encoder.write_header().unwrap().write_image_data(&[9; 4]).unwrap();
+    assert!(file.len() < 1 << 16, "a small file");
+    assert!(has_profile(&file) && !has_profile(&file[..40]) && !has_profile(b""));
+    let picture = decode("profile.png", &file).unwrap();
+    assert_eq!(
+        (picture.pixels, picture.color_space),
+        (Pixels::U8(vec![9; 4]), Declared::Unknown)
+    );
+    // Its bytes do not matter, and neither does what else the file says.
+    let start = file.windows(4).position(|window| window == b"iCCP").unwrap();
+    file[start + 8..start + 200].fill(7);
+    assert!(has_profile(&file));
+}
+
 fn encoded(format: ImageFormat) -> Vec<u8> {
     let picture = image::RgbImage::from_fn(40, 30, |x, y| image::Rgb([(x * 6) as u8, (y * 8) as u8, 99]));
     let mut bytes = Cursor::new(Vec::new());

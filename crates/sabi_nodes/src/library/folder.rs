@@ -1,8 +1,10 @@
 //! A user's node folder: `<category>/<name>.wgsl` and `lib/<name>.wgsl`.
 
 use std::fs::{self, DirEntry};
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
+
+use sabi_files::{TrustedPaths, Unread};
 
 use super::Library;
 use crate::compile::check_library;
@@ -10,34 +12,49 @@ use crate::fault::Fault;
 use crate::shader_files::shared_path;
 use crate::source_file::{FILE_LIMIT_BYTES, SourceFile};
 
-/// Most files read from one folder.
+/// Most files and folders of a node folder, all its categories together.
 const FOLDER_LIMIT: usize = 4096;
+/// Most bytes of the files of a node folder together.
+const TOTAL_LIMIT_BYTES: usize = 32 << 20;
 
 impl Library {
     /// Reads a user's node folder, in sorted order, and gives the faults of the files that are left out. Reading it again
     /// updates changed nodes, keeps the last good version of faulty ones, and drops nodes without a file.
     ///
-    /// A node of the folder never replaces one from another file.
-    pub fn load_folder(&mut self, folder: &Path) -> Vec<Fault> {
+    /// A node of the folder never replaces one from another file. Nothing outside of the trusted paths is read: a folder from elsewhere
+    /// may hold links to any file, and a fault shows the text of its file.
+    pub fn load_folder(&mut self, folder: &Path, trusted: &TrustedPaths) -> Vec<Fault> {
         let mut faults = Vec::new();
         self.kinds
             .retain(|_, kind| !kind.path().starts_with(folder) || kind.path().exists());
-        for file in wgsl_files(&folder.join("lib"), true, &mut faults) {
-            if let Some((name, text)) = read(&file, &mut faults) {
+        let mut reading = FolderReading::new(trusted);
+        let categories = reading.entries(folder, false, &mut faults);
+        for file in reading.wgsl_files(&folder.join("lib"), true, &mut faults) {
+            if let Some((name, text)) = reading.read(&file, &mut faults) {
                 self.add_library(&file, name, text, &mut faults);
             }
         }
-        for entry in entries(folder, false, &mut faults) {
+        for entry in categories {
             let (path, category) = (entry.path(), entry.file_name());
-            if !path.is_dir() || category == "lib" {
+            if category == "lib" || !path.is_dir() {
                 continue;
             }
-            for file in wgsl_files(&path, false, &mut faults) {
-                if let Some((name, text)) = read(&file, &mut faults) {
+            for file in reading.wgsl_files(&path, false, &mut faults) {
+                if let Some((name, text)) = reading.read(&file, &mut faults) {
                     let category = category.to_string_lossy();
                     self.add_node(format!("{category}/{name}"), file, text, &mut faults);
                 }
             }
+        }
+        if reading.is_over {
+            faults.push(Fault::of_file(
+                folder,
+                format!(
+                    "The folder holds more than {FOLDER_LIMIT} files or {} MiB of nodes, and only some of them are read.",
+                    TOTAL_LIMIT_BYTES >> 20
+                ),
+                "Name a folder that holds nodes only.",
+            ));
         }
         faults
     }
@@ -91,62 +108,125 @@ impl Library {
     }
 }
 
-/// Entries of a folder, sorted by name.
-fn entries(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<DirEntry> {
-    let listed =
-        fs::read_dir(folder).and_then(|entries| entries.take(FOLDER_LIMIT + 1).collect::<io::Result<Vec<DirEntry>>>());
-    match listed {
-        Ok(mut entries) => {
-            if entries.len() > FOLDER_LIMIT {
-                faults.push(Fault::of_file(
-                    folder,
-                    format!("The folder holds more than {FOLDER_LIMIT} files, and only some of them are read."),
-                    "Name a folder that holds nodes only.",
-                ));
-                entries.truncate(FOLDER_LIMIT);
-            }
-            entries.sort_by_key(DirEntry::file_name);
-            entries
-        }
-        Err(error) if may_be_missing && error.kind() == io::ErrorKind::NotFound => Vec::new(),
-        Err(error) => {
-            faults.push(Fault::of_file(
-                folder,
-                format!("The folder cannot be read: {error}."),
-                "",
-            ));
-            Vec::new()
-        }
-    }
-}
-
-/// The WGSL files of a folder, sorted by name.
-fn wgsl_files(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<PathBuf> {
-    let entries = entries(folder, may_be_missing, faults).into_iter();
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-    files.retain(|file| file.extension().is_some_and(|ending| ending == "wgsl") && file.is_file());
+/// Lists the files of a node folder that [`Library::load_folder`] reads, as far as they may be opened.
+pub fn files_of_folder(folder: &Path, trusted: &TrustedPaths) -> Vec<PathBuf> {
+    let mut unread = Vec::new(); // Loading the folder tells of these.
+    let mut reading = FolderReading::new(trusted);
+    let categories = reading.entries(folder, true, &mut unread).into_iter();
+    let folders: Vec<PathBuf> = categories
+        .map(|entry| entry.path())
+        .filter(|path| path.is_dir())
+        .collect();
+    let files = folders
+        .iter()
+        .flat_map(|category| reading.wgsl_files(category, true, &mut unread));
+    let mut files: Vec<PathBuf> = files.collect();
+    files.retain(|file| trusted.check_found(file).is_ok());
     files
 }
 
-/// Name and text of a file, unless it is too large or not text.
-fn read(file: &Path, faults: &mut Vec<Fault>) -> Option<(String, String)> {
-    let name = file.file_stem()?.to_string_lossy().into_owned();
-    let mut bytes = Vec::new();
-    let read = fs::File::open(file).and_then(|opened| opened.take(FILE_LIMIT_BYTES as u64 + 1).read_to_end(&mut bytes));
-    if let Err(error) = read {
-        faults.push(Fault::of_file(file, format!("The file cannot be read: {error}."), ""));
-        return None;
-    }
-    // One byte over the limit lets the reader refuse the file by its size.
-    match String::from_utf8(bytes) {
-        Ok(text) => Some((name, text)),
-        Err(error) if error.as_bytes().len() > FILE_LIMIT_BYTES => {
-            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
-            Some((name, text))
+/// Reading of one node folder, whose limits hold for all its categories together.
+struct FolderReading<'t> {
+    trusted: &'t TrustedPaths,
+    /// Files and folders that may still be listed.
+    left: usize,
+    /// Bytes that may still be read.
+    left_bytes: usize,
+    /// True once something was left out for a limit.
+    is_over: bool,
+}
+
+impl FolderReading<'_> {
+    fn new(trusted: &TrustedPaths) -> FolderReading<'_> {
+        FolderReading {
+            trusted,
+            left: FOLDER_LIMIT,
+            left_bytes: TOTAL_LIMIT_BYTES,
+            is_over: false,
         }
-        Err(_) => {
-            faults.push(Fault::of_file(file, "The file is not UTF-8 text.", "Save it as UTF-8."));
-            None
+    }
+
+    /// Entries of a folder, sorted by name.
+    fn entries(&mut self, folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<DirEntry> {
+        match self.trusted.check_found(folder) {
+            Ok(_) => {}
+            Err(Unread::Missing) if may_be_missing => return Vec::new(),
+            Err(unread) => {
+                faults.push(unread_fault(folder, "folder", &unread));
+                return Vec::new();
+            }
+        }
+        let most = self.left;
+        let listed =
+            fs::read_dir(folder).and_then(|entries| entries.take(most + 1).collect::<io::Result<Vec<DirEntry>>>());
+        match listed {
+            Ok(mut entries) => {
+                if entries.len() > most {
+                    self.is_over = true;
+                    entries.truncate(most);
+                }
+                self.left -= entries.len();
+                entries.sort_by_key(DirEntry::file_name);
+                entries
+            }
+            Err(error) => {
+                faults.push(unread_fault(folder, "folder", &Unread::Other(error.to_string())));
+                Vec::new()
+            }
         }
     }
+
+    /// The WGSL files of a folder, sorted by name.
+    fn wgsl_files(&mut self, folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<PathBuf> {
+        let entries = self.entries(folder, may_be_missing, faults).into_iter();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        files.retain(|file| file.extension().is_some_and(|ending| ending == "wgsl") && !file.is_dir());
+        files
+    }
+
+    /// Name and text of a file, unless it may not be opened, is too large or not text.
+    fn read(&mut self, file: &Path, faults: &mut Vec<Fault>) -> Option<(String, String)> {
+        let name = file.file_stem()?.to_string_lossy().into_owned();
+        if self.left_bytes == 0 {
+            self.is_over = true;
+            return None;
+        }
+        let bytes = match self.trusted.read_found(file, FILE_LIMIT_BYTES as u64) {
+            Ok(bytes) => bytes,
+            Err(unread) => {
+                faults.push(unread_fault(file, "file", &unread));
+                return None;
+            }
+        };
+        self.left_bytes = self.left_bytes.saturating_sub(bytes.len());
+        match String::from_utf8(bytes) {
+            Ok(text) => Some((name, text)),
+            Err(_) => {
+                faults.push(Fault::of_file(file, "The file is not UTF-8 text.", "Save it as UTF-8."));
+                None
+            }
+        }
+    }
+}
+
+/// Fault of a file or folder that is not read.
+fn unread_fault(path: &Path, what: &str, unread: &Unread) -> Fault {
+    let (message, advice) = match unread {
+        Unread::Missing => (format!("The {what} cannot be read: it does not exist."), ""),
+        Unread::Folder => (format!("The {what} cannot be read: it is a folder."), ""),
+        Unread::NotPlain => (
+            format!("The {what} is not read: it is a pipe or a device."),
+            "Put a text file into its place.",
+        ),
+        Unread::TooLarge(_) => (
+            format!("The {what} is larger than {} KiB.", FILE_LIMIT_BYTES / 1024),
+            "Move tables into an image, and shared functions into a library.",
+        ),
+        Unread::Refused(refusal) => (
+            format!("The {what} is not read, because {refusal}."),
+            "Put the file itself into its place.",
+        ),
+        Unread::Other(why) => (format!("The {what} cannot be read: {why}."), ""),
+    };
+    Fault::of_file(path, message, advice)
 }

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use self::entry::{BuiltIn, Entry};
+pub use self::folder::files_of_folder;
 use crate::compile::check_library;
 use crate::fault::Fault;
 use crate::kind::Kind;

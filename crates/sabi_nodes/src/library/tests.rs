@@ -1,5 +1,7 @@
 use std::fs;
 
+use sabi_files::TrustedPaths;
+
 use super::*;
 
 const GOOD: &str = "//! Good\n//! A test.\n//! @was test/former\n//! @use wave\n\n/// The mask.\nfn mask(at: Surface) -> f32 {\n    return wave(at.uv.x);\n}\n";
@@ -142,7 +144,7 @@ fn a_users_folder_adds_nodes_and_libraries() {
     );
     let (mut library, faults) = Library::load(vec![taken], libraries(&[]));
     assert_eq!(faults, []);
-    let mut faults = library.load_folder(folder.path());
+    let mut faults = library.load_folder(folder.path(), &TrustedPaths::default().with_path(folder.path()));
     faults.sort_by_key(|fault| fault.path.clone());
     let told: Vec<String> = faults
         .iter()
@@ -157,13 +159,106 @@ fn a_users_folder_adds_nodes_and_libraries() {
     assert!(library.kind("mine/huge").is_none());
     // Loading it again is a reload.
     fs::remove_file(folder.path().join("mine/bad.wgsl")).unwrap();
-    assert_eq!(library.load_folder(folder.path()).len(), 4);
+    assert_eq!(
+        library
+            .load_folder(folder.path(), &TrustedPaths::default().with_path(folder.path()))
+            .len(),
+        4
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn links_among_node_files_lead_nowhere_else() {
+    use std::os::unix::fs::symlink;
+
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for name in ["graph/nodes/mine", "elsewhere/theirs", "graph/shared"] {
+        fs::create_dir_all(at(name)).unwrap();
+    }
+    fs::write(at("elsewhere/key.txt"), "BEGIN SECRET KEY").unwrap();
+    fs::write(at("elsewhere/theirs/good.wgsl"), GOOD).unwrap();
+    fs::write(at("graph/shared/good.wgsl"), GOOD).unwrap();
+    let nodes = at("graph/nodes");
+    symlink(at("elsewhere/key.txt"), nodes.join("mine/key.wgsl")).unwrap();
+    symlink("/proc/self/environ", nodes.join("mine/environment.wgsl")).unwrap();
+    symlink("/dev/zero", nodes.join("mine/zero.wgsl")).unwrap();
+    symlink(at("elsewhere/theirs"), nodes.join("theirs")).unwrap();
+    symlink(at("elsewhere/theirs"), nodes.join("lib")).unwrap();
+    symlink(at("graph/shared/good.wgsl"), nodes.join("mine/good.wgsl")).unwrap();
+    let pipe = nodes.join("mine/pipe.wgsl");
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let trusted = TrustedPaths::default().with_file(&nodes);
+    let (mut library, _) = Library::load(Vec::new(), libraries(&[("wave", WAVE)]));
+    let mut faults = library.load_folder(&nodes, &trusted);
+    faults.sort_by_key(|fault| fault.path.clone());
+    let told: Vec<_> = faults
+        .iter()
+        .map(|fault| fault.path.strip_prefix(&nodes).unwrap().to_str().unwrap())
+        .collect();
+    assert_eq!(
+        told,
+        [
+            "lib",
+            "mine/environment.wgsl",
+            "mine/key.wgsl",
+            "mine/pipe.wgsl",
+            "mine/zero.wgsl",
+            "theirs"
+        ]
+    );
+    for fault in &faults {
+        let text = fault.to_string();
+        assert!(
+            text.contains("is not read") && !text.contains("SECRET") && fault.snippet.is_empty(),
+            "{text}"
+        );
+    }
+    assert!(
+        library.kind("mine/good").is_some(),
+        "a link within the folder of the graph"
+    );
+    assert_eq!(files_of_folder(&nodes, &trusted), [nodes.join("mine/good.wgsl")]);
+    // A folder that is a link itself is a part of what the graph brings as well.
+    let linked = at("graph/linked");
+    symlink(at("elsewhere"), &linked).unwrap();
+    let faults = library.load_folder(&linked, &trusted);
+    let [fault] = faults.as_slice() else {
+        panic!("{faults:?}")
+    };
+    assert_eq!(fault.path, linked);
+    assert!(files_of_folder(&linked, &trusted).is_empty() && library.kind("theirs/good").is_none());
+    // Whoever trusts the place reads it.
+    let trusted = trusted.with_path(&at("elsewhere"));
+    assert_eq!(library.load_folder(&linked, &trusted), []);
+    assert!(library.kind("theirs/good").is_some());
+}
+
+#[test]
+fn the_limits_of_a_node_folder_hold_for_all_its_categories_together() {
+    let folder = tempfile::tempdir().unwrap();
+    for category in 0..3 {
+        let category = folder.path().join(format!("c{category}"));
+        fs::create_dir(&category).unwrap();
+        for file in 0..2000 {
+            fs::write(category.join(format!("n{file}.wgsl")), "").unwrap();
+        }
+    }
+    let trusted = TrustedPaths::default().with_path(folder.path());
+    assert_eq!(files_of_folder(folder.path(), &trusted).len(), 4096 - 3);
 }
 
 #[test]
 fn a_folder_that_is_not_there_is_told() {
     let mut library = Library::default();
-    let faults = library.load_folder(std::path::Path::new("no/such/folder"));
+    let faults = library.load_folder(std::path::Path::new("no/such/folder"), &TrustedPaths::default());
     assert!(faults[0].message.contains("cannot be read"));
 }
 

@@ -18,14 +18,19 @@ use super::ring::Occupancy;
 use super::topology::Topology;
 use super::udim::udim_sheets;
 use super::walk::Walker;
-use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, TILE, leap, owners};
+use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, Ghost, TILE, leap, owners};
 use crate::model::Mesh;
 
 impl Atlas {
     /// Builds the linked atlas of a mesh: the same bytes for the same mesh and options, on any machine with any
     /// number of threads.
     pub fn build(mesh: &Mesh, options: &AtlasOptions) -> Result<Atlas, AtlasError> {
-        let AtlasOptions { size, page_limit, udim } = *options;
+        let AtlasOptions {
+            size,
+            page_limit,
+            udim,
+            memory_bytes,
+        } = *options;
         if !(16..=16384).contains(&size) {
             return Err(AtlasError::SizeOutOfRange { size });
         }
@@ -42,6 +47,7 @@ impl Atlas {
             orientations: &orientations,
             size,
             page_limit,
+            memory_bytes,
         };
         let mut partition = partition(mesh, &topology, &orientations);
         let udims = udim_sheets(mesh, &partition, udim)?;
@@ -86,6 +92,8 @@ impl Atlas {
             orientations: &orientations,
             size,
             page_limit,
+            // A coarser atlas takes a part of what the first one does.
+            memory_bytes: u64::MAX,
         };
         let partition = Partition::numbered(self.triangle_chart.clone(), self.charts.len());
         let origin = |chart: &Chart| Origin {
@@ -107,6 +115,22 @@ pub(super) fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
         .into_par_iter()
         .map(|triangle| uvs.orientation(triangle))
         .collect()
+}
+
+/// Memory of a texel of a page: its owner, its leap, and what finds them, here and on coarser levels.
+const TEXEL_BYTES: u64 = 8;
+/// Copies of a ghost at a time: as it is found, in the order of its texel, and on coarser levels.
+const GHOST_COPIES: u64 = 3;
+
+/// Estimates the memory of an atlas whose charts are placed, bytes.
+fn placed_bytes(masks: &[Mask], placement: &Placement) -> u64 {
+    let [width, height] = placement.page_size.map(u64::from);
+    let texels = width * height * u64::from(placement.pages);
+    let ghosts: u64 = masks
+        .par_iter()
+        .map(|mask| mask.grown().count().saturating_sub(mask.count()))
+        .sum();
+    texels * TEXEL_BYTES + ghosts * GHOST_COPIES * size_of::<Ghost>() as u64
 }
 
 /// Said where dividing charts would take more texels than an atlas may have.
@@ -139,6 +163,7 @@ impl Plan<'_> {
             return Err(AtlasError::NoArea { size: self.size });
         }
         let placement = place(masks, self.size, self.page_limit)?;
+        self.check_memory(masks.len(), placed_bytes(masks, &placement))?;
         let mut owners = owners::texel_owners(&self.uvs, partition, &placement);
         let leap = leap::leap(self.mesh, &self.uvs, partition, &owners, placement.page_size);
         let occupancy = Occupancy::new(&owners, placement.page_size);
@@ -182,6 +207,19 @@ impl Plan<'_> {
             ghosts,
             leap,
             report,
+        })
+    }
+
+    /// Refuses an atlas of so many charts that takes too many bytes.
+    pub(super) fn check_memory(&self, charts: usize, needed: u64) -> Result<(), AtlasError> {
+        if needed <= self.memory_bytes {
+            return Ok(());
+        }
+        Err(AtlasError::Memory {
+            size: self.size,
+            charts,
+            needed_mib: needed.div_ceil(1 << 20),
+            limit_mib: self.memory_bytes >> 20,
         })
     }
 

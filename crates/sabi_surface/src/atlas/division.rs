@@ -29,6 +29,11 @@ const LEAST_ROOM: u64 = 1 << 14;
 /// Most texels of all charts' rectangles together; each takes a bit while building.
 const RECTANGLES_LIMIT: u64 = 1 << 33;
 
+/// Masks of a chart at a time: its own, and one grown by its ring, before and after its place is known.
+const MASKS: u64 = 3;
+/// Memory of a chart besides its texels.
+const CHART_BYTES: u64 = 256;
+
 impl Plan<'_> {
     /// Returns the mask of each chart, and whether it covers a texel twice. Charts that would not fit are an error before
     /// anything is allocated.
@@ -43,7 +48,7 @@ impl Plan<'_> {
             .map(|&chart| texel_box(&self.uvs, partition.triangles(chart)))
             .collect();
         let limit = self.page_limit - 2 * RINGS;
-        let mut texels = 0u64;
+        let (mut texels, mut mask_bytes) = (0u64, 0u64);
         for (&chart, bounds) in charts.iter().zip(&boxes) {
             let Some([x0, y0, x1, y1]) = *bounds else { continue };
             let (width, height) = ((x1 - x0) as u64, (y1 - y0) as u64);
@@ -58,6 +63,7 @@ impl Plan<'_> {
                 });
             }
             texels += width * height;
+            mask_bytes += (width / 64 + 1) * 8 * height;
         }
         if texels > RECTANGLES_LIMIT {
             let (needed, limit) = (format!("{texels} texels"), format!("{RECTANGLES_LIMIT} texels"));
@@ -68,6 +74,10 @@ impl Plan<'_> {
                 limit,
             });
         }
+        self.check_memory(
+            charts.len(),
+            MASKS * mask_bytes.saturating_add(charts.len() as u64 * CHART_BYTES),
+        )?;
         let bounded = charts.par_iter().zip(boxes);
         Ok(bounded
             .map(|(&chart, bounds)| Mask::of_chart(&self.uvs, partition.triangles(chart), bounds))

@@ -98,6 +98,20 @@ pub enum AtlasError {
         /// Available amount, with its unit.
         limit: String,
     },
+    /// More memory than there is for it.
+    #[error(
+        "at size {size} the layout of the model's {charts} UV charts needs {needed_mib} MiB of memory, and there are {limit_mib} for it"
+    )]
+    Memory {
+        /// Texels for the unit square.
+        size: u32,
+        /// Number of charts.
+        charts: usize,
+        /// Memory that it takes, MiB.
+        needed_mib: u64,
+        /// Memory that it may take, MiB.
+        limit_mib: u64,
+    },
     /// A level below anything useful.
     #[error("level {level} of an atlas of {size} texels would be {level_size} texels, but it has to keep at least 8")]
     LevelTooSmall {

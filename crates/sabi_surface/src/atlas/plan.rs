@@ -15,6 +15,8 @@ pub(super) struct Plan<'a> {
     pub(super) orientations: &'a [i8],
     pub(super) size: u32,
     pub(super) page_limit: u32,
+    /// Most bytes of memory for the atlas.
+    pub(super) memory_bytes: u64,
 }
 
 impl Plan<'_> {

@@ -9,6 +9,7 @@ use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
 use super::gltf::Resolve;
 use super::pictures::Pictures;
+use super::size::check_size;
 use super::submesh::Submesh;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
@@ -49,13 +50,14 @@ pub(super) struct TextureSets {
     pub(super) framed: BTreeSet<u32>,
 }
 
-/// Returns a fault where the triangles of all instances are together more than are handled.
-pub(super) fn check_triangles(instances: impl Iterator<Item = u64>) -> Result<(), Fault> {
-    let total = instances.fold(0, u64::saturating_add);
-    if total > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(total));
+/// Returns a fault where the triangles of all instances are together more than are handled, or than there is memory for.
+pub(super) fn check_triangles(instances: impl Iterator<Item = u64>, memory_bytes: u64) -> Result<(), Fault> {
+    let (mut total, mut count) = (0u64, 0);
+    for triangles in instances {
+        total = total.saturating_add(triangles);
+        count += 1;
     }
-    Ok(())
+    check_size(total, count, memory_bytes)
 }
 
 impl Assembly {

@@ -53,7 +53,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         }
     }
     let claims: Vec<u64> = geometries.iter().map(Geometry::triangles).collect();
-    assembly::check_triangles(shown.iter().map(|shown| claims[places[&shown.mesh.id()]]))?;
+    let triangles = shown.iter().map(|shown| claims[places[&shown.mesh.id()]]);
+    assembly::check_triangles(triangles, options.memory_bytes)?;
     let mut looks = Looks::new(&document);
     let mut assembly = Assembly::default();
     for shown in shown {

@@ -73,7 +73,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         let instance = node.instance(place, &sources[place], &mut warnings);
         assembly.instances.push(instance);
     }
-    assembly::check_triangles(shown.iter().map(|node| node.mesh.num_triangles as u64))?;
+    let triangles = shown.iter().map(|node| node.mesh.num_triangles as u64);
+    assembly::check_triangles(triangles, options.memory_bytes)?;
     let sets = assembly.texture_sets(sources.len());
     let mut budget = Budget::default();
     for (source, sets) in sources.iter().zip(&sets) {

@@ -35,6 +35,7 @@ use self::uv_decoding::UvDecodings;
 use super::blur::warn_of_placing;
 use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
+use super::size::check_size;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, PlacedPrimitive, TextureUvs};
@@ -57,7 +58,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         smooth_degrees: options.smooth_degrees,
     };
     let instances = scene::instances(&source, &mut warnings)?;
-    check_size(&source, &instances, options.memory_bytes)?;
+    check_sizes(&source, &instances, options.memory_bytes)?;
     let mut primitives = source.read_primitives(instances.iter().map(|instance| instance.mesh))?;
     let decodings = UvDecodings::of_primitives(&source, primitives.values().flatten());
     primitives
@@ -238,15 +239,11 @@ fn place<'a>(
 /// Most vertices of all primitives together; vertices that primitives share count for each, since each reads all of them.
 const MOST_VERTICES_READ: u64 = 1 << 31;
 
-/// Memory of a triangle of a mesh at least: its corners, material and part, and half a vertex with a position, a normal, a tangent and
-/// coordinates, as closed surfaces have.
-const TRIANGLE_BYTES: u64 = 12 + 4 + 4 + 24;
-
 /// Most coordinates in UV sets besides the chosen one: twice the number of corners of the largest model.
 const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
 
 /// Checks the sizes that the file claims before anything is allocated for them.
-fn check_size(source: &Source, instances: &[Instance], memory_bytes: u64) -> Result<(), Fault> {
+fn check_sizes(source: &Source, instances: &[Instance], memory_bytes: u64) -> Result<(), Fault> {
     let claims: Vec<u64> = source
         .document
         .meshes
@@ -256,13 +253,12 @@ fn check_size(source: &Source, instances: &[Instance], memory_bytes: u64) -> Res
     let total = instances
         .iter()
         .fold(0u64, |sum, instance| sum.saturating_add(claims[instance.mesh]));
-    if total > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(total));
-    }
-    let needed = total.saturating_mul(TRIANGLE_BYTES);
-    if needed > memory_bytes {
-        return Err(Fault::memory(needed, memory_bytes));
-    }
+    let of_mesh = |mesh: usize| source.document.meshes[mesh].primitives.len() as u64;
+    let all = (0..source.document.meshes.len())
+        .map(of_mesh)
+        .fold(0, u64::saturating_add);
+    let placed = instances.iter().map(|instance| of_mesh(instance.mesh));
+    check_size(total, placed.fold(all, u64::saturating_add), memory_bytes)?;
     let primitives = source.document.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let read = primitives.fold(0u64, |sum, primitive| sum.saturating_add(source.vertices(primitive)));
     if read > MOST_VERTICES_READ {

@@ -18,6 +18,7 @@ use glam::DMat4;
 
 use self::library::Library;
 use self::statements::Statements;
+use super::LoadOptions;
 use super::blur::warn_of_placing;
 use super::completion::{Completion, LACKING_NORMALS};
 use super::error::Fault;
@@ -25,10 +26,10 @@ use super::faces::NONE;
 use super::far::brought_near;
 use super::normals::Missing;
 use super::polygon::Budget;
+use super::size::check_size;
 use super::submesh::Submesh;
 use super::text::decoded;
 use super::warnings::Warnings;
-use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, ModelMaterial};
 
 /// Reads an `.obj` file.
@@ -41,10 +42,7 @@ pub(super) fn read(
     let mut warnings = Warnings::default();
     let text = decoded(bytes);
     let statements = Statements::read(&text, &mut warnings)?;
-    let claim = statements.faces.triangles();
-    if claim > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(claim));
-    }
+    check_size(statements.faces.triangles(), 1, options.memory_bytes)?;
     check_uv_set(&statements, options)?;
     let mut model = Model {
         stem: super::stem(name),

@@ -22,6 +22,7 @@ use super::faces::{Faces, NONE};
 use super::gltf::Resolve;
 use super::normals::Missing;
 use super::polygon::Budget;
+use super::size::check_size;
 use super::submesh::Smoothing;
 use super::warnings::Warnings;
 use super::{LoadOptions, MAX_TRIANGLES};
@@ -53,6 +54,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let mut warnings = Warnings::default();
     let (header, rest) = Header::parse(bytes)?;
     let faces = Reader::new(&header, &mut warnings).read(rest)?;
+    check_size(faces.triangles(), 1, options.memory_bytes)?;
     let has_uvs = !faces.uvs.values.is_empty();
     if options.uv_set > 0 {
         return Err(Fault::UvSet {

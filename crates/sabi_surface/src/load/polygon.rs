@@ -5,6 +5,10 @@ use glam::{DVec2, DVec3, Vec3};
 /// Most point tests for a whole file, since concave faces of thousands of corners take quadratic time.
 const MOST_TESTS: u64 = 200_000_000;
 
+/// Corners of a convex face from which it is halved again and again: a fan of so many is a bundle of slivers, which takes quadratic time
+/// wherever triangles are compared by their boxes.
+const HALVED_CORNERS: usize = 256;
+
 /// Remaining budget of tests.
 pub(super) struct Budget(u64);
 
@@ -30,8 +34,24 @@ pub(super) fn triangulate(corners: &[[f32; 3]], budget: &mut Budget, mut emit: i
             return clip_ears(&flat, budget, emit);
         }
     }
+    if count >= HALVED_CORNERS {
+        return halve(count, emit);
+    }
     for corner in 1..count.saturating_sub(1) {
         emit([0, corner, corner + 1]);
+    }
+}
+
+/// Cuts a convex face by the corner in the middle of those between the ends of each edge of a triangle.
+fn halve(count: usize, mut emit: impl FnMut([usize; 3])) {
+    let mut spans = vec![[0, count - 1]];
+    while let Some([first, last]) = spans.pop() {
+        let middle = first.midpoint(last);
+        if middle == first {
+            continue;
+        }
+        emit([first, middle, last]);
+        spans.extend([[middle, last], [first, middle]]);
     }
 }
 
@@ -70,6 +90,9 @@ fn clip_ears(flat: &[DVec2], budget: &mut Budget, mut emit: impl FnMut([usize; 3
     let mut left: Vec<usize> = (0..flat.len()).collect();
     let mut start = 0;
     while left.len() > 3 {
+        if budget.is_spent() {
+            return halve(left.len(), |triangle| emit(triangle.map(|corner| left[corner])));
+        }
         let count = left.len();
         // The search goes on after the last ear, so that not all triangles share one corner.
         let ear = (0..count)
@@ -85,7 +108,7 @@ fn clip_ears(flat: &[DVec2], budget: &mut Budget, mut emit: impl FnMut([usize; 3
 }
 
 /// Returns true if the triangle at a corner of the remaining polygon is an ear, that is, lies inside it. Always true
-/// once the budget is spent.
+/// once the budget is spent. Every look at a corner costs one test at least.
 fn is_ear(flat: &[DVec2], left: &[usize], corner: usize, budget: &mut Budget) -> bool {
     let count = left.len();
     let at = |corner: usize| flat[left[corner % count]];
@@ -94,6 +117,7 @@ fn is_ear(flat: &[DVec2], left: &[usize], corner: usize, budget: &mut Budget) ->
         return true;
     }
     if area(before, here, after) <= 0.0 {
+        budget.0 = budget.0.saturating_sub(1);
         return false;
     }
     budget.0 = budget.0.saturating_sub(count as u64);
@@ -124,6 +148,48 @@ mod tests {
     fn a_convex_face_is_a_fan() {
         let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         assert_eq!(cut(&face), [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn a_convex_face_of_many_corners_is_no_bundle_of_slivers() {
+        let circle = |count: usize| -> Vec<[f32; 3]> {
+            let angle = |corner: usize| corner as f32 * std::f32::consts::TAU / count as f32;
+            let corners = (0..count).map(|corner| angle(corner).sin_cos());
+            corners.map(|(y, x)| [x, y, 0.0]).collect()
+        };
+        let face = circle(30_000);
+        let triangles = cut(&face);
+        assert_eq!(triangles.len(), face.len() - 2);
+        let covered: f64 = triangles.iter().map(|triangle| area_of(&face, *triangle)).sum();
+        assert!((covered - std::f64::consts::PI).abs() < 1e-4, "{covered}");
+        // Three corners beside each other lie on a line, but for the rounding of their places.
+        assert!(triangles.iter().all(|triangle| area_of(&face, *triangle) > -1e-10));
+        // Longest edges, squared: those of a fan would be 60 000 together.
+        let long = |triangle: &[usize; 3]| {
+            let [a, b, c] = triangle.map(|corner| Vec3::from(face[corner]));
+            a.distance_squared(b)
+                .max(b.distance_squared(c))
+                .max(c.distance_squared(a))
+        };
+        let total: f32 = triangles.iter().map(long).sum();
+        assert!(total < 60.0, "{total}");
+    }
+
+    #[test]
+    fn the_work_for_hollow_faces_has_a_limit() {
+        // A spiral of two arms, most of whose corners are no ears.
+        let arm = |corner: usize, width: f32| {
+            let turn = corner as f32 * 0.01;
+            let (y, x) = turn.sin_cos();
+            [(turn + width) * x, (turn + width) * y, 0.0]
+        };
+        let mut face: Vec<[f32; 3]> = (0..50_000).map(|corner| arm(corner, 1.0)).collect();
+        face.extend((0..50_000).rev().map(|corner| arm(corner, 0.0)));
+        let mut budget = Budget(1_000_000);
+        let mut count = 0;
+        triangulate(&face, &mut budget, |_| count += 1);
+        assert!(budget.is_spent());
+        assert_eq!(count, face.len() - 2);
     }
 
     #[test]

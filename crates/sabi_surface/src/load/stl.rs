@@ -8,6 +8,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use glam::DMat4;
 
+use super::LoadOptions;
 use super::assembly::{Assembly, Instance};
 use super::completion::{Completion, LACKING_NORMALS};
 use super::error::{Fault, damaged};
@@ -16,10 +17,10 @@ use super::gltf::Resolve;
 use super::normals::Missing;
 use super::numbers::number;
 use super::polygon::Budget;
+use super::size::check_size;
 use super::submesh::Smoothing;
 use super::text::{decoded, lines, part_name};
 use super::warnings::Warnings;
-use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::Model;
 
 /// Bytes before the facets of a binary file: a text and their number.
@@ -36,15 +37,13 @@ const REMARKS: [&[u8]; 4] = [b"#", b"//", b";", b"!"];
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
     let mut solids = if is_binary(bytes) {
-        vec![read_binary(bytes, &mut warnings)?]
+        vec![read_binary(bytes, options.memory_bytes, &mut warnings)?]
     } else {
         read_text(&decoded(bytes), &mut warnings)?
     };
     solids.retain(|solid| !solid.faces.faces.is_empty());
     let claim = solids.iter().map(|solid| solid.faces.triangles()).sum();
-    if claim > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(claim));
-    }
+    check_size(claim, solids.len() as u64, options.memory_bytes)?;
     let completion = Completion {
         repaired_normals: LACKING_NORMALS,
         missing: Missing::Flat,
@@ -132,7 +131,7 @@ impl Solid {
     }
 }
 
-fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Solid, Fault> {
+fn read_binary(bytes: &[u8], memory_bytes: u64, warnings: &mut Warnings) -> Result<Solid, Fault> {
     let Some(size) = binary_size(bytes) else {
         return damaged("it is no STL file: it does not begin with `solid`, and is too short for a binary one");
     };
@@ -151,9 +150,7 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Solid, Fault> {
             ));
         }
     };
-    if facets.len() as u64 > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(facets.len() as u64));
-    }
+    check_size(facets.len() as u64, 1, memory_bytes)?;
     if facets.len() as u64 != claim {
         warnings.add(format!(
             "The file says that it has {claim} facets, and has {}; these are read.",

@@ -15,6 +15,10 @@ const LARGE: usize = 12_000;
 /// Approximate limit of triangles of a chart of a large component.
 const CHART_TRIANGLES: f64 = 3_000.0;
 
+/// Most pairs of triangles of a component that the solver may compare: it sorts them into squares as large as four of them by their
+/// boxes, and slivers fill many squares.
+const MOST_PAIRS: f64 = 4e9;
+
 /// A flattened chart.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FlatChart {
@@ -108,6 +112,9 @@ fn unwrapped(mesh: &Mesh, component: &Component) -> Result<Vec<LocalChart>, Stri
     let scale = 1.0 / longest;
     let total: f64 = component.triangles.iter().map(|&triangle| area(mesh, triangle)).sum();
     let count = component.triangles.len();
+    if pairs(mesh, component, total) > MOST_PAIRS {
+        return Err("it is made of slivers, which take too long to compare".to_owned());
+    }
     let limit = total * scale * scale * CHART_TRIANGLES / count as f64;
     let options = uvunwrap::Options {
         density: uvunwrap::Density::Fixed {
@@ -132,6 +139,24 @@ fn unwrapped(mesh: &Mesh, component: &Component) -> Result<Vec<LocalChart>, Stri
         .first()
         .and_then(|found| charts(mesh, component, found, page));
     whole.ok_or_else(|| "the result has no place for some of its vertices".to_owned())
+}
+
+/// Estimates the pairs of triangles that the solver compares: those in one square.
+fn pairs(mesh: &Mesh, component: &Component, total_area: f64) -> f64 {
+    let count = component.triangles.len() as f64;
+    let square = 4.0 * total_area / count;
+    let squares = |triangle: &u32| {
+        let [a, b, c] = mesh.corners(*triangle);
+        let longest = (b - a)
+            .length_squared()
+            .max((c - b).length_squared())
+            .max((a - c).length_squared());
+        // A sliver in any direction fills half of the square over its longest edge, and a regular triangle about one.
+        (0.5 * longest / square).max(1.0)
+    };
+    let filled: f64 = component.triangles.iter().map(squares).sum();
+    let in_each = filled / (count / 4.0).max(1.0);
+    0.5 * filled * in_each
 }
 
 /// Resolution in which the crate returns its charts, texels for the longest side of a component; they are not rounded to it.

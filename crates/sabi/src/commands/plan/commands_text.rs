@@ -6,11 +6,20 @@ use sabi_engine::BakePlan;
 
 use super::not_text;
 use super::shell_word::shell_word;
-use crate::exit::Failure;
+use crate::exit::{Exit, Failure};
 
 /// Commands, each for an item.
 pub(super) fn commands(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     let path = file.to_str().ok_or_else(|| not_text(file))?;
+    // Programs that run lines would run the second half as a command, quoted or not.
+    if path.contains(char::is_control) {
+        let why = format!(
+            "{} cannot be named in commands, each of which is a line, because it has a line break or another control character; \
+             name another file",
+            file.display()
+        );
+        return Err(Failure::new(Exit::CannotWrite, why));
+    }
     // A path must not look like an option.
     let path = if path.starts_with('-') {
         format!("./{path}")

@@ -10,6 +10,7 @@ use serde_json::Value as Json;
 
 use crate::arguments::RunArguments;
 use crate::exit::{Exit, Failure};
+use crate::printable::printable;
 
 /// Result of an item that was baked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -92,7 +93,7 @@ pub(super) fn ended(mut child: Child, step: impl Fn(Phase, usize, usize)) -> End
                 Some((phase, done, of)) => step(phase, done, of),
                 None if is_event(&line) => {}
                 // Standard error may be closed, and then there is nowhere to say so.
-                None => drop(writeln!(io::stderr().lock(), "{line}")),
+                None => drop(writeln!(io::stderr().lock(), "{}", printable(&line))),
             }
         }
         said.join()

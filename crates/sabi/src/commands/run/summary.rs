@@ -1,6 +1,5 @@
 //! Summary of a run; docs/report.md lists the keys.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use sabi_engine::BakePlan;
@@ -8,6 +7,7 @@ use serde::Serialize;
 
 use super::item_process::BakedItem;
 use crate::failure_report::ErrorReport;
+use crate::printable::Page;
 
 /// Summary of a run.
 #[derive(Debug, Serialize)]
@@ -132,12 +132,9 @@ impl Summary {
     }
 
     /// A line for each item.
-    pub(crate) fn table(&self) -> String {
-        let mut table = String::new();
-        for item in &self.items {
-            let _ = writeln!(table, "{:>4}  {:8}  {}", item.item, item.status.name(), item.out);
-        }
-        table
+    pub(crate) fn table(&self) -> Page {
+        let line = |item: &ItemSummary| format!("{:>4}  {:8}  {}", item.item, item.status.name(), item.out);
+        self.items.iter().map(line).collect()
     }
 
     /// A sentence with the counts.

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use sabi_files::{absolute, stored_path, without_detours};
+use sabi_files::{TrustedPaths, absolute, stored_path, without_detours};
+use sabi_nodes::files_of_folder;
 use serde::{Deserialize, Serialize};
 
 use crate::opening::kinds::Kinds;
@@ -45,20 +46,11 @@ pub(crate) fn records(files: impl IntoIterator<Item = PathBuf>) -> Vec<InputReco
 }
 
 /// Lists the node files beside a graph and in the user's folder. All of them count as read: each may take the place of a kind.
-pub(crate) fn node_files(graph: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    let mut folders = Kinds::folders(Some(graph));
-    while let Some(folder) = folders.pop() {
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        for entry in entries {
-            match entry.file_type() {
-                Ok(kind) if kind.is_dir() => folders.push(entry.path()),
-                Ok(_) if entry.path().extension().is_some_and(|ending| ending == "wgsl") => found.push(entry.path()),
-                _ => {}
-            }
-        }
-    }
-    found
+pub(crate) fn node_files(graph: &Path, trusted: &TrustedPaths) -> Vec<PathBuf> {
+    let folders = Kinds::folders(Some(graph)).into_iter();
+    folders
+        .flat_map(|folder| files_of_folder(&folder, &Kinds::trusted_for(&folder, trusted)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -95,7 +87,7 @@ mod tests {
         for name in ["nodes/my.wgsl", "nodes/lib/noise.wgsl", "nodes/notes.txt", "other.wgsl"] {
             std::fs::write(folder.path().join(name), b"").unwrap();
         }
-        let own = node_files(&folder.path().join("graph.sabi")).into_iter();
+        let own = node_files(&folder.path().join("graph.sabi"), &TrustedPaths::default()).into_iter();
         let mut own: Vec<PathBuf> = own.filter(|path| path.starts_with(folder.path())).collect();
         own.sort();
         let expected = ["nodes/lib/noise.wgsl", "nodes/my.wgsl"].map(|name| folder.path().join(name));

@@ -3,9 +3,10 @@
 //! It is written after all files of a bake are in place, so that a set which it describes is complete.
 
 use std::collections::BTreeSet;
+use std::fs::{Metadata, symlink_metadata};
 use std::path::{Path, PathBuf};
 
-use sabi_files::{Disk, FileLock, PathBase, Unread, absolute, read_plain, sweep};
+use sabi_files::{Disk, FileLock, PathBase, Unread, WholeFile, absolute, read_plain, sweep};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
@@ -14,8 +15,10 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::made_of::recipe::{Recipe, moved};
 use crate::baking::report::{BakeReport, REPORT_VERSION};
 use crate::error::{EngineError, ErrorKind};
+use crate::phases::{Progress, stop_if_canceled};
 use crate::program::Build;
 use crate::warning::Warning;
+use crate::remedy::Remedy;
 
 /// Hidden folder in an output folder.
 pub(super) const FOLDER: &str = ".sabi";
@@ -29,6 +32,26 @@ pub(crate) struct Manifest {
     bakes: Vec<Json>,
 }
 
+/// Refuses an output folder whose own folder is a link, which would lead elsewhere, or whose lock is no ordinary file, which would be
+/// waited for.
+pub(crate) fn check_own_folder(folder: &Path) -> Result<(), EngineError> {
+    let own = folder.join(FOLDER);
+    let is_odd =
+        |path: &Path, is_meant: fn(&Metadata) -> bool| symlink_metadata(path).is_ok_and(|found| !is_meant(&found));
+    let odd = match () {
+        () if is_odd(&own, Metadata::is_dir) => (own, "no folder but a link or a file"),
+        () if is_odd(&own.join(LOCK), Metadata::is_file) => (own.join(LOCK), "no ordinary file but a link or a pipe"),
+        () => return Ok(()),
+    };
+    let why = format!(
+        "cannot write into {}: {} is {}; remove it",
+        folder.display(),
+        odd.0.display(),
+        odd.1
+    );
+    Err(EngineError::new(ErrorKind::CannotWrite, why).with_remedies([Remedy::OtherFolder]))
+}
+
 /// Right to change the files of an output folder, which one bake at a time has.
 pub(crate) struct FolderChange {
     disk: Disk,
@@ -39,16 +62,32 @@ pub(crate) struct FolderChange {
 
 impl FolderChange {
     /// Waits until no other bake changes the files of the folder.
-    pub(crate) fn begin(disk: &Disk, folder: &Path) -> FolderChange {
+    ///
+    /// # Errors
+    /// The work was canceled, or the folder's own folder is a link or none.
+    pub(crate) fn begin(disk: &Disk, folder: &Path, progress: &dyn Progress) -> Result<FolderChange, EngineError> {
+        check_own_folder(folder)?;
         let own = folder.join(FOLDER);
-        // Without a lock two bakes at the same moment could forget one of them, which is no reason to have no maps.
-        let lock = FileLock::wait(&own.join(LOCK)).ok();
+        let (mut is_told, mut canceled) = (false, Ok(()));
+        let lock = FileLock::wait(&own.join(LOCK), &mut || {
+            if !is_told {
+                progress.waits(&format!(
+                    "waiting for another bake, which writes into {}",
+                    folder.display()
+                ));
+                is_told = true;
+            }
+            canceled = stop_if_canceled(progress);
+            canceled.is_ok()
+        });
+        canceled?;
         sweep(&own);
-        FolderChange {
+        Ok(FolderChange {
             disk: disk.clone(),
             folder: folder.to_owned(),
-            _lock: lock,
-        }
+            // Without a lock two bakes at the same moment could forget one of them, which is no reason to have no maps.
+            _lock: lock.ok().flatten(),
+        })
     }
 
     /// Records a bake whose files are in place. Warns of documents of earlier bakes that name maps of this one now.
@@ -61,7 +100,10 @@ impl FolderChange {
         let json = json!({ "version": REPORT_VERSION, "bakes": manifest.bakes });
         let text = serde_json::to_string_pretty(&json).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
         let bytes = format!("{text}\n").into_bytes();
-        Ok(self.disk.write_whole(&path(&self.folder), &bytes)?)
+        // A link in its place is replaced and not followed.
+        let mut file = WholeFile::create_on(&self.disk, &path(&self.folder))?;
+        file.write(&bytes)?;
+        Ok(file.commit()?)
     }
 
     /// Gives up; a folder of its own that holds no manifest does not stay.
@@ -78,6 +120,10 @@ impl FolderChange {
 impl Manifest {
     /// Reads the manifest of a folder; an empty one where there is none. Returns why a damaged one cannot be read.
     pub(super) fn read(folder: &Path) -> Result<Manifest, String> {
+        // What is read here decides which files are looked at, also elsewhere.
+        if symlink_metadata(folder.join(FOLDER)).is_ok_and(|found| found.is_symlink()) {
+            return Err("its folder is a link".to_owned());
+        }
         let bytes = match read_plain(&path(folder), MOST_BYTES) {
             Ok(bytes) => bytes,
             Err(Unread::Missing) => return Ok(Manifest::default()),

@@ -1,10 +1,10 @@
 //! Bakes as reports and manifests record them.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use rayon::prelude::*;
-use sabi_files::{PathBase, Unread, absolute, read_plain, stored_path};
+use sabi_files::{PathBase, TrustedPaths, Unread, absolute, is_local, read_plain, stored_path};
 use serde::Deserialize;
 use serde_json::Value as Json;
 
@@ -104,7 +104,33 @@ impl RecordedBake {
         for input in &mut bake.inputs {
             input.path = made_absolute(&input.path, base);
         }
+        bake.refuse_strange_paths(base)?;
         Ok(bake)
+    }
+
+    /// Refuses a record from elsewhere that would have files looked for where nobody named any: on another computer, which learns the
+    /// user's name from that, or outside of the folder of the maps. Returns a clause.
+    fn refuse_strange_paths(&self, base: &PathBase) -> Result<(), String> {
+        let is_here = |path: &str| is_local(&path_of(path).to_string_lossy());
+        let read = self.inputs.iter().map(|input| input.path.as_str());
+        let mut read = read.chain([self.recipe.graph.as_str(), self.recipe.model.file.as_str()]);
+        // A record that lies on another computer itself was named there by the user.
+        if is_local(&base.folder().to_string_lossy())
+            && let Some(strange) = read.find(|path| !is_here(path))
+        {
+            let shown = path_of(strange).display().to_string();
+            return Err(format!(
+                "it names {shown}, which is on another computer and is not looked for"
+            ));
+        }
+        let is_below = |path: &str| {
+            let parts: Vec<Component<'_>> = Path::new(path).components().collect();
+            is_local(path) && !parts.is_empty() && parts.iter().all(|part| matches!(part, Component::Normal(_)))
+        };
+        match self.files().find(|file| !is_below(&file.path)) {
+            Some(file) => Err(format!("it names the map {}, which is in another folder", file.path)),
+            None => Ok(()),
+        }
     }
 
     /// Files that the bake wrote, relative to the output folder.
@@ -156,7 +182,7 @@ impl RecordedBake {
             let stored = stored_path(&absolute(path));
             self.inputs.iter().any(|input| input.path == stored)
         };
-        let mut files = node_files(&path_of(&self.recipe.graph));
+        let mut files = node_files(&path_of(&self.recipe.graph), &TrustedPaths::default());
         files.retain(|path| !is_known(path));
         files
     }

@@ -258,3 +258,38 @@ fn charts_too_small_for_a_texel_are_reported() {
             .all(|&owner| owner & GHOST_BIT != 0 || atlas.triangle_chart[owner as usize] != 6)
     );
 }
+
+#[test]
+fn an_atlas_that_takes_more_memory_than_there_is_is_refused_before_it_is_taken() {
+    // Charts of the whole square: 4 at 2048 texels have 16 MiB of texels with 8 bytes each.
+    let mut mesh = square(Frame::straight([0.0, 0.0], 1.0), 1);
+    let one = mesh.clone();
+    for copy in 1..4 {
+        let first = mesh.positions.len() as u32;
+        mesh.positions
+            .extend(one.positions.iter().map(|[x, y, z]| [*x, *y, z + copy as f32]));
+        mesh.normals.extend(&one.normals);
+        mesh.tangents.extend(&one.tangents);
+        mesh.uvs.extend(&one.uvs);
+        mesh.triangles
+            .extend(one.triangles.iter().map(|corners| corners.map(|v| v + first)));
+        mesh.triangle_material.extend(&one.triangle_material);
+        mesh.triangle_part.extend(&one.triangle_part);
+    }
+    let limited = |memory_bytes: u64| {
+        let options = AtlasOptions {
+            memory_bytes,
+            ..AtlasOptions::new(2048)
+        };
+        Atlas::build(&mesh, &options)
+    };
+    assert!(limited(u64::MAX).is_ok());
+    for memory_bytes in [1 << 20, 64 << 20] {
+        let told = limited(memory_bytes).unwrap_err();
+        assert!(matches!(told, AtlasError::Memory { charts: 4, .. }), "{told}");
+    }
+    assert_eq!(
+        limited(1 << 20).unwrap_err().to_string(),
+        "at size 2048 the layout of the model's 4 UV charts needs 7 MiB of memory, and there are 1 for it"
+    );
+}

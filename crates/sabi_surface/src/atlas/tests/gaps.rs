@@ -150,6 +150,7 @@ fn gaps_are_parted_even_when_there_are_too_many_to_look_for_good_cuts() {
         orientations: &vec![1; mesh.triangles.len()],
         size: SIZE,
         page_limit: 2048,
+        memory_bytes: u64::MAX,
     };
     let partition = partition(&mesh, &topology, plan.orientations);
     let gaps = Gaps {

@@ -10,14 +10,43 @@ use crate::load::error::{Fault, damaged};
 use crate::load::numbers::number;
 use crate::load::warnings::Warnings;
 
+/// Most attributes of an element. The parser compares each with all before it; elements of COLLADA have ten at most.
+const MOST_ATTRIBUTES: usize = 1000;
+
 /// Parses the text; definitions of entities, by which a short text may become a long one, are refused.
 pub(super) fn parsed(text: &str) -> Result<roxmltree::Document<'_>, Fault> {
+    if let Some(count) = most_attributes(text).filter(|count| *count > MOST_ATTRIBUTES) {
+        return damaged(format!(
+            "one of its elements has {count} attributes, and at most {MOST_ATTRIBUTES} are read"
+        ));
+    }
     let options = ParsingOptions {
         allow_dtd: false,
         ..ParsingOptions::default()
     };
     roxmltree::Document::parse_with_options(text, options)
         .or_else(|error| damaged(format!("its XML cannot be read ({error})")))
+}
+
+/// Returns the largest number of attributes of any element, counted by their signs of equality outside of quotes; none without
+/// elements. Text and comments count as elements where they have the marks of these.
+fn most_attributes(text: &str) -> Option<usize> {
+    let tags = text.split('<').skip(1);
+    let count = |tag: &str| {
+        let (mut count, mut quote) = (0, None);
+        for letter in tag.bytes() {
+            match (quote, letter) {
+                (Some(open), letter) if letter == open => quote = None,
+                (Some(_), _) => {}
+                (None, b'"' | b'\'') => quote = Some(letter),
+                (None, b'=') => count += 1,
+                (None, b'>') => break,
+                (None, _) => {}
+            }
+        }
+        count
+    };
+    tags.map(count).max()
 }
 
 /// Elements of the file, by their ids.
@@ -116,4 +145,34 @@ pub(super) fn text<'d>(node: Node<'d, 'd>) -> &'d str {
 pub(super) fn numbers(node: Node<'_, '_>, warnings: &mut Warnings) -> Vec<f64> {
     let words = node.text().map_or("", str::trim).split_ascii_whitespace();
     words.map(|word| number(word, warnings).unwrap_or(f64::NAN)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attributes_are_counted_outside_of_quotes() {
+        for (text, count) in [
+            ("", None),
+            ("<a/>", Some(0)),
+            ("<a b='1' c = \"<\"><d e='x=y=z>='/> f=g=h </a>", Some(2)),
+            ("<a b='it\"s' c=\"'\" d=''>", Some(3)),
+        ] {
+            assert_eq!(most_attributes(text), count, "{text}");
+        }
+    }
+
+    #[test]
+    fn an_element_of_many_attributes_is_refused_before_it_is_parsed() {
+        let attributes: String = (0..300_000).map(|number| format!(" a{number}='1'")).collect();
+        let text = format!("<COLLADA><asset{attributes}/></COLLADA>");
+        let told = parsed(&text).map(|_| ()).unwrap_err().to_string();
+        assert!(
+            told.contains("one of its elements has 300000 attributes, and at most 1000 are read"),
+            "{told}"
+        );
+        let attributes: String = (0..1000).map(|number| format!(" a{number}='1'")).collect();
+        assert!(parsed(&format!("<COLLADA{attributes}/>")).is_ok());
+    }
 }

@@ -1,0 +1,27 @@
+//! Characters of names and texts that show as something else than they are.
+
+/// Returns true for a character that is not seen as itself: one that controls a terminal, breaks a line, or turns the direction of the
+/// text around it, so that `gnp.exe` shows as `exe.png`.
+pub fn is_invisible(letter: char) -> bool {
+    // Joiners (U+200C, U+200D) are part of the spelling of some languages and of emoji.
+    letter.is_control()
+        || matches!(letter,
+            '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_invisible;
+
+    #[test]
+    fn letters_of_all_languages_are_seen_and_marks_of_direction_are_not() {
+        // Classes Cc, Zl, Zp and the marks of UAX #9, and what UTS #39 takes for invisible.
+        for letter in "\0\u{1b}\r\n\t\u{7f}\u{85}\u{9b}\u{202e}\u{2066}\u{200e}\u{2028}\u{feff}\u{e0041}".chars() {
+            assert!(is_invisible(letter), "{letter:?}");
+        }
+        for letter in "aß ключ 錆 مفتاح नि\u{200d} 🏳\u{fe0f}\u{200d}🌈 \u{a0}".chars() {
+            assert!(!is_invisible(letter), "{letter:?}");
+        }
+    }
+}
