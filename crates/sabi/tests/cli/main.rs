@@ -29,6 +29,7 @@ mod packed_models;
 mod packed_places;
 mod packing;
 mod painting;
+mod parts;
 mod place;
 mod planning;
 mod presets;

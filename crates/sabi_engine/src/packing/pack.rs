@@ -19,6 +19,7 @@ use super::rewritten::{RewrittenDocument, ShownModel, rewritten};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
+use crate::opening::linked_model::{ModelOptions, SavedReading};
 use crate::phases::Progress;
 use crate::remedy::Remedy;
 use crate::source::paint::NAME as PAINT;
@@ -31,6 +32,9 @@ pub struct PackRequest {
     pub graph: PathBuf,
     /// Model that goes into the archive.
     pub model: PackedModel,
+    /// Parts of the model that count, and faces that are turned, for the graph in the archive; where nothing is said, as the graph has
+    /// it for this model.
+    pub reading: SavedReading,
     /// The archive.
     pub output: PathBuf,
     /// Packs without files that are missing, which become warnings.
@@ -84,6 +88,7 @@ pub struct PackedFile {
 struct Found {
     needs: Needs,
     model: Option<ModelFiles>,
+    reading: SavedReading,
     /// Node files by their names in the archive.
     nodes: BTreeMap<String, PathBuf>,
     warnings: Vec<String>,
@@ -98,7 +103,7 @@ struct Found {
 pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
     let open = OpenGraph::open_trusting(&request.graph, &request.trusted)?;
     let kinds = Kinds::beside(Some(&request.graph));
-    let found = Found::of(open, &kinds, &request.model)?;
+    let found = Found::of(open, &kinds, (&request.model, &request.reading))?;
     if !found.needs.missing.is_empty() && !request.allows_missing {
         let refused = EngineError::several(ErrorKind::MissingInput, found.needs.missing);
         return Err(refused.with_remedies([Remedy::WithoutMissingFiles]));
@@ -142,7 +147,7 @@ pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<Pack
 }
 
 impl Found {
-    fn of(open: OpenGraph, kinds: &Kinds, model: &PackedModel) -> Result<Found, EngineError> {
+    fn of(open: OpenGraph, kinds: &Kinds, (model, asked): (&PackedModel, &SavedReading)) -> Result<Found, EngineError> {
         let folders = Kinds::folders(Some(&open.path));
         let mut needs = Needs::of(open, kinds)?;
         let (nodes, without_file) = own_nodes(kinds, &folders, &needs.documents);
@@ -151,10 +156,11 @@ impl Found {
         for document in &needs.documents {
             look_for_strokes(document, &mut needs.missing, &mut warnings);
         }
-        let model = model_of(&needs.documents[0], model, &mut needs.missing)?;
+        let (model, reading) = model_of(&needs.documents[0], (model, asked), &mut needs.missing)?;
         Ok(Found {
             needs,
             model,
+            reading,
             nodes,
             warnings,
         })
@@ -198,23 +204,27 @@ impl Found {
         let named = documents.filter_map(|(index, document)| Some((index, document, places.of(&document.path)?)));
         named
             .map(|(index, document, name)| match index {
-                0 => rewritten(document, name, places, &ShownModel::Entry(model)),
+                0 => rewritten(document, name, places, &ShownModel::Entry(model, &self.reading)),
                 _ => rewritten(document, name, places, &ShownModel::AsWritten),
             })
             .collect()
     }
 }
 
-/// The model of a pack, with the files that it names; none if it is missing.
+/// The model of a pack with the files that it names, none if it is missing, and how it is read.
 fn model_of(
     graph: &NamedDocument,
-    model: &PackedModel,
+    (model, asked): (&PackedModel, &SavedReading),
     missing: &mut Vec<String>,
-) -> Result<Option<ModelFiles>, EngineError> {
+) -> Result<(Option<ModelFiles>, SavedReading), EngineError> {
+    let kept = || {
+        let preview = graph.open.document.preview.as_ref();
+        preview.map_or_else(SavedReading::default, |preview| asked.or(preview))
+    };
     let shown = graph.open.path.display();
     let mut trusted = graph.open.trusted.clone();
     let path = match model {
-        PackedModel::None => return Ok(None),
+        PackedModel::None => return Ok((None, kept())),
         PackedModel::File(path) => {
             trusted = trusted.with_file(path);
             named_path(path)
@@ -235,15 +245,20 @@ fn model_of(
                     "{shown}: the graph is shown on the model {}, which is missing",
                     path.display()
                 ));
-                return Ok(None);
+                return Ok((None, kept()));
             }
             path
         }
     };
-    let files = ModelFiles::read(&path, &trusted)?;
+    let options = ModelOptions {
+        reading: asked.clone(),
+        ..ModelOptions::new(&path, 0)
+    };
+    let reading = options.for_graph(&graph.open).reading;
+    let files = ModelFiles::read(&path, &trusted, &reading.parts)?;
     let lacks = files.missing.iter();
     missing.extend(lacks.map(|named| format!("the model {} names {named}, which is missing", path.display())));
-    Ok(Some(files))
+    Ok((Some(files), reading))
 }
 
 /// Adds what the strokes of a document lack.
