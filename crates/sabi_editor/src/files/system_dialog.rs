@@ -67,18 +67,12 @@ impl PathFor {
             PathFor::Save | PathFor::Picture => "Save",
             PathFor::Archive => "Pack",
             PathFor::Model | PathFor::ModelBeside => "Add",
-<<<<<<< HEAD
             PathFor::Image(_)
             | PathFor::Gradient(_)
             | PathFor::BrushPicture
             | PathFor::Stencil
             | PathFor::Missing(_)
             | PathFor::Font => "Choose",
-=======
-            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil | PathFor::Font => {
-                "Choose"
-            }
->>>>>>> 65167a04 (wip)
         }
     }
 
