@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    BakeRequest, CasterChoice, CopyOptions, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions, NoProgress,
+    BakeRequest, CasterChoice, CopyOptions, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions,
     NoProgress, Overlap, Overrides, Seams, bake,
 };
 use sabi_export::{Cover, layouts, set_names};

@@ -44,6 +44,8 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
         Remedy::KeepOwnUvs => &["with --overlap first"],
         Remedy::TilesAsUdim => &["with --udim on"],
         Remedy::TilesRepeat => &["with --udim off"],
+        Remedy::AllParts => &["with --parts '*'"],
+        Remedy::TurnFaces => &["with --turn-faces"],
         Remedy::MergeOverlaps => &["with --overlap merge"],
         Remedy::WithoutModelCopy => &["by leaving out --model"],
         Remedy::OtherMaterial => &["with --material"],

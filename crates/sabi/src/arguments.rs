@@ -19,7 +19,7 @@ use sabi_engine::{MODEL_ENDINGS, TrustedPaths};
 pub(crate) use bake::BakeArguments;
 pub(crate) use batch::{PlanArguments, PlanFormat, RunArguments};
 pub(crate) use edit::EditArguments;
-pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments, SubjectArguments};
+pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments, ReadingArguments, SubjectArguments};
 pub(crate) use inspect::{
     CheckArguments, DoctorArguments, InfoArguments, MeshArguments, NodesArguments, VerifyArguments,
 };

@@ -4,7 +4,6 @@ use std::env;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-
 use clap::error::ErrorKind;
 use sabi_engine::{is_invisible, nearest};
 

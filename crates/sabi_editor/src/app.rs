@@ -2,6 +2,7 @@
 
 mod documents;
 mod flows;
+mod model_reading;
 mod opening;
 mod perform;
 mod recoveries;
@@ -84,7 +85,7 @@ impl Editor {
         for fault in fault {
             shell.fail(fault);
         }
-        let model = (model.as_path(), shell.settings.reading(&model));
+        let model = (model.as_path(), documents.reading(&shell.settings, &model));
         let mut editor = Editor {
             evaluation: Evaluation::new(gpu, model, folders.cache, context),
             row: ModelRow::default(),
@@ -164,6 +165,7 @@ impl Editor {
         self.evaluation.take_events(&context);
         self.mute_what_takes_too_long();
         self.follow_model();
+        self.follow_reading();
         self.follow_row(&context);
         self.follow_exports(&context);
         self.take_node_tip();

@@ -1,10 +1,10 @@
 //! Options for reading a model's file, where the file leaves something open or is wrong. They belong to the model and not to
-//! the graph, which is tried on many models.
+//! the graph, which is tried on many models; the graph keeps those alone that say what of its own model counts.
 
-use std::ops::RangeInclusive;
+use std::ops::{Not, RangeInclusive};
 use std::path::Path;
 
-use sabi_engine::{ModelOptions, Overlap, TrustedPaths, Udim, Up, default_memory_bytes};
+use sabi_engine::{ModelOptions, Overlap, PartChoice, SavedReading, TrustedPaths, Udim, Up, default_memory_bytes};
 use serde::{Deserialize, Serialize};
 
 /// Limits of the factor of lengths.
@@ -19,7 +19,7 @@ pub(crate) const LAST_UV: u32 = 7;
 pub(crate) const LAST_SCENE: u32 = 63;
 
 /// Options for reading a model's file.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct ImportOptions {
     /// Axis of the file that points up.
@@ -41,6 +41,12 @@ pub(crate) struct ImportOptions {
     /// Treatment of charts that overlap in the UV set.
     #[serde(with = "Sharing")]
     pub(crate) overlap: Overlap,
+    /// Parts that count.
+    #[serde(skip_serializing_if = "PartChoice::is_default")]
+    pub(crate) parts: PartChoice,
+    /// True to turn faces that are inside out.
+    #[serde(skip_serializing_if = "Not::not")]
+    pub(crate) turn_faces: bool,
 }
 
 impl Default for ImportOptions {
@@ -53,6 +59,8 @@ impl Default for ImportOptions {
             scene: None,
             udim: Udim::Auto,
             overlap: Overlap::Auto,
+            parts: PartChoice::default(),
+            turn_faces: false,
         }
     }
 }
@@ -74,9 +82,26 @@ impl ImportOptions {
         }
     }
 
+    /// What the graph keeps of the options for its own model.
+    pub(crate) fn saved(&self) -> SavedReading {
+        SavedReading {
+            parts: self.parts.clone(),
+            turn_faces: self.turn_faces,
+        }
+    }
+
+    /// The options with those that the graph keeps replaced.
+    pub(crate) fn with_saved(self, SavedReading { parts, turn_faces }: SavedReading) -> ImportOptions {
+        ImportOptions {
+            parts,
+            turn_faces,
+            ..self
+        }
+    }
+
     /// Engine options for a file at a size.
     pub(crate) fn options(
-        self,
+        &self,
         (file, trusted): (&Path, &TrustedPaths),
         size: u32,
         cache_dir: Option<&Path>,
@@ -88,6 +113,7 @@ impl ImportOptions {
             scale: self.scale,
             scene: self.scene,
             smooth_degrees: self.smooth,
+            reading: self.saved(),
             overlap: self.overlap,
             udim: self.udim,
             size,
@@ -145,11 +171,16 @@ mod tests {
             scene: Some(2),
             udim: Udim::On,
             overlap: Overlap::Merge,
+            parts: PartChoice {
+                parts: Vec::new(),
+                without: vec!["Hull".into()],
+            },
+            turn_faces: true,
         };
         let text = serde_json::to_string(&odd).expect("text");
         assert_eq!(
             text,
-            r#"{"up":"z","uv":1,"scale":0.01,"smooth":30.0,"scene":2,"udim":"on","overlap":"merge"}"#
+            r#"{"up":"z","uv":1,"scale":0.01,"smooth":30.0,"scene":2,"udim":"on","overlap":"merge","parts":{"without":["Hull"]},"turn_faces":true}"#
         );
         assert_eq!(read(&text), Some(odd));
         assert_eq!(read("{}"), Some(ImportOptions::default()));

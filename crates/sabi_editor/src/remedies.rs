@@ -2,7 +2,7 @@
 
 use egui::{Color32, Label, RichText, Ui};
 use sabi_editing::command::DocumentCommand;
-use sabi_engine::{Overlap, Remedy, Udim, advised};
+use sabi_engine::{Overlap, PartChoice, Remedy, Udim, advised};
 
 use crate::action::{Action, ExportAction, ModelAction};
 use crate::bars::WORKING_SIZES;
@@ -24,7 +24,7 @@ pub(crate) fn show(
     color: Color32,
     (sentence, remedies): (&str, &[Remedy]),
     request: Request<'_>,
-    import: ImportOptions,
+    import: &ImportOptions,
 ) -> Option<Action> {
     let offered = |remedy: &Remedy| button(*remedy, request, import);
     let words = remedies.iter().filter(|remedy| offered(remedy).is_none());
@@ -46,9 +46,15 @@ pub(crate) fn show(
 }
 
 /// Label and action of the button that applies a remedy to a request; none where the window has no such action.
-fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option<(String, Action)> {
-    let read = |overlap: Overlap| Action::Model(ModelAction::Read(ImportOptions { overlap, ..import }));
-    let tiles = |udim: Udim| Action::Model(ModelAction::Read(ImportOptions { udim, ..import }));
+fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Option<(String, Action)> {
+    let reread = |options: ImportOptions| Action::Model(ModelAction::Read(options));
+    let read = |overlap: Overlap| {
+        reread(ImportOptions {
+            overlap,
+            ..import.clone()
+        })
+    };
+    let tiles = |udim: Udim| reread(ImportOptions { udim, ..import.clone() });
     match (remedy, request) {
         (Remedy::SmallerSize, Request::Evaluation { size }) => smaller_working_size(size),
         (Remedy::LargerSize, Request::Evaluation { size }) => {
@@ -68,6 +74,21 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
         (Remedy::TilesAsUdim, _) => Some(("Maps for each UV tile".to_owned(), tiles(Udim::On))),
         (Remedy::TilesRepeat, _) => Some(("One set of maps for all UV tiles".to_owned(), tiles(Udim::Off))),
         (Remedy::MergeOverlaps, _) => Some(("Average overlapping UVs".to_owned(), read(Overlap::Merge))),
+        (Remedy::AllParts, _) => {
+            let parts = PartChoice::all();
+            let all = ImportOptions {
+                parts,
+                ..import.clone()
+            };
+            Some(("Take all parts".to_owned(), reread(all)))
+        }
+        (Remedy::TurnFaces, _) => {
+            let turned = ImportOptions {
+                turn_faces: true,
+                ..import.clone()
+            };
+            Some(("Turn faces that are inside out".to_owned(), reread(turned)))
+        }
         (Remedy::IntoThisFolderAnyway, Request::Export(_)) => {
             let action = ExportAction::Start { force: true };
             Some(("Write the textures there anyway".to_owned(), Action::Export(action)))
@@ -143,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_smaller_size_is_the_next_one_that_is_offered() {
-        let import = ImportOptions::default();
+        let import = &ImportOptions::default();
         let offered = |size: u32| button(Remedy::SmallerSize, Request::Evaluation { size }, import);
         let Some((label, Action::Edit(EditCommand::Document(DocumentCommand::SetSize(512))))) = offered(1024) else {
             panic!("512 is the next smaller size");
@@ -161,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_model_is_unwrapped_with_its_other_options_kept() {
-        let import = ImportOptions {
+        let import = &ImportOptions {
             uv: 1,
             ..ImportOptions::default()
         };
@@ -177,7 +198,7 @@ mod tests {
         let request = Request::Evaluation { size: 512 };
         for remedy in [Remedy::SoftwareAdapter, Remedy::TryAgain, Remedy::RaiseBudget] {
             assert!(
-                button(remedy, request, ImportOptions::default()).is_none(),
+                button(remedy, request, &ImportOptions::default()).is_none(),
                 "{remedy:?}"
             );
         }

@@ -283,7 +283,7 @@ impl Settings {
 
     /// Options for reading a model.
     pub(crate) fn reading(&self, model: &Path) -> ImportOptions {
-        let known = self.readings.get(&canonical_if_present(model)).copied();
+        let known = self.readings.get(&canonical_if_present(model)).cloned();
         // A model without options of its own is read with the default.
         known.unwrap_or_default()
     }
@@ -319,7 +319,7 @@ impl Settings {
         self.stencil = self.stencil.sanitized();
         self.readings
             .values_mut()
-            .for_each(|reading| *reading = reading.sanitized());
+            .for_each(|reading| *reading = reading.clone().sanitized());
         self
     }
 }

@@ -210,7 +210,7 @@ impl Slider {
             model_revision: 0,
             coarse_size: 256,
             subjects: vec![ViewSubject::Outputs],
-            inspected: None,
+            inspected: Vec::new(),
             set: None,
             thumbnails: Vec::new(),
             outputs_thumbnail: false,

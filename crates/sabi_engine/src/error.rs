@@ -8,9 +8,10 @@ use std::sync::Arc;
 use sabi_export::ExportError;
 use sabi_files::{FileError, Refusal, StagedError};
 use sabi_gpu::GpuError;
+use sabi_graph::nearest;
 use sabi_image::ImageError;
 use sabi_surface::atlas::AtlasError;
-use sabi_surface::load::{Fault, LoadError};
+use sabi_surface::load::{Fault, LoadError, listed};
 use sabi_view::ViewError;
 
 use crate::remedy::{Remedy, advised};
@@ -84,6 +85,9 @@ pub struct EngineError {
     cause: Option<Arc<dyn Error + Send + Sync>>,
 }
 
+/// Most parts of a model that a sentence names.
+const MOST_PARTS_NAMED: usize = 8;
+
 impl EngineError {
     /// An error of one sentence.
     pub fn new(kind: ErrorKind, message: impl fmt::Display) -> EngineError {
@@ -140,6 +144,19 @@ impl EngineError {
             Some(Fault::Refused { refusal, .. }) => Some(refusal),
             _ => cause.downcast_ref(),
         }
+    }
+
+    /// An error about names that no part of a model has, a sentence for each.
+    fn no_such_parts(model: &str, unknown: &[String], there: &[String]) -> EngineError {
+        let sentence = |name: &String| {
+            let names = || there.iter().map(String::as_str);
+            let advice = match nearest(name.trim_matches('*'), names()) {
+                Some(near) => format!("the nearest is `{near}`"),
+                None => format!("it has {}", listed(names(), MOST_PARTS_NAMED)),
+            };
+            format!("{model}: it has no part `{name}`; {advice}")
+        };
+        EngineError::several(ErrorKind::Usage, unknown.iter().map(sentence).collect())
     }
 
     /// Replaces each sentence by the result of `say`.
@@ -276,14 +293,20 @@ impl From<LoadError> for EngineError {
     fn from(error: LoadError) -> Self {
         let kind = match &error.fault {
             Fault::Memory { .. } => ErrorKind::OutOfMemory,
+            Fault::NoSuchPart { .. } | Fault::NoPart => ErrorKind::Usage,
             _ if error.is_missing() => ErrorKind::MissingInput,
             _ => ErrorKind::BadInput,
         };
         let remedies: &[Remedy] = match &error.fault {
             Fault::Refused { refusal, .. } if refusal.folder().is_some() => &[Remedy::TrustFile],
             Fault::Memory { .. } => &[Remedy::RaiseMemory, Remedy::ReduceTriangles],
+            Fault::NoPart => &[Remedy::AllParts],
             _ => &[],
         };
+        if let Fault::NoSuchPart { unknown, there } = &error.fault {
+            let told = EngineError::no_such_parts(&error.model, unknown, there);
+            return told.with_remedies([Remedy::AllParts]).caused_by(error);
+        }
         EngineError::of(kind, error).with_remedies(remedies.iter().copied())
     }
 }

@@ -63,7 +63,7 @@ pub use opening::cache_dir::default_cache_dir;
 pub use opening::document::OpenGraph;
 pub use opening::environment::{built_in_environments, load_environment, read_panorama};
 pub use opening::kinds::Kinds;
-pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap, Unwrapping};
+pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap, SavedReading, Unwrapping};
 pub use opening::set_file::SetFile;
 pub use opening::setting::read_setting;
 pub use picked_gradient::PickedPicture;
@@ -162,6 +162,7 @@ pub use sabi_nodes::arithmetic;
 /// Strokes of a brush.
 pub use sabi_paint as paint;
 pub use sabi_surface::atlas::Udim;
-pub use sabi_surface::load::{ENDINGS as MODEL_ENDINGS, Up};
+pub use sabi_surface::load::{ENDINGS as MODEL_ENDINGS, PartChoice, Up};
+pub use sabi_surface::model::FilePart;
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

@@ -49,6 +49,10 @@ pub enum Remedy {
     TilesAsUdim,
     /// One set of maps for all UV tiles.
     TilesRepeat,
+    /// All parts of the model, collision hulls and coarser levels of detail as well.
+    AllParts,
+    /// The faces of the model that are inside out turned around.
+    TurnFaces,
     /// The mean of all charts that share a place on the maps.
     MergeOverlaps,
     /// Other UVs, made in a modeling program.
@@ -77,7 +81,7 @@ pub enum Remedy {
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 33] = [
+    pub const ALL: [Remedy; 35] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -99,6 +103,8 @@ impl Remedy {
         Remedy::KeepOwnUvs,
         Remedy::TilesAsUdim,
         Remedy::TilesRepeat,
+        Remedy::AllParts,
+        Remedy::TurnFaces,
         Remedy::MergeOverlaps,
         Remedy::EditUvs,
         Remedy::WithoutModelCopy,
@@ -138,6 +144,8 @@ impl fmt::Display for Remedy {
             Remedy::KeepOwnUvs => "keep the model's own UVs",
             Remedy::TilesAsUdim => "make maps for each UV tile",
             Remedy::TilesRepeat => "take the UV tiles for a texture that repeats",
+            Remedy::AllParts => "take all parts",
+            Remedy::TurnFaces => "turn them around",
             Remedy::MergeOverlaps => "take the mean of overlapping charts",
             Remedy::EditUvs => "change the UVs in a modeling program",
             Remedy::WithoutModelCopy => "do without the copy of the model",

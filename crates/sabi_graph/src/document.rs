@@ -94,6 +94,12 @@ pub struct LibrarySource {
 pub struct Preview {
     /// The model, as a path relative to the graph file.
     pub mesh: Option<String>,
+    /// Names of the parts of the model that are taken; none for all except hulls and coarser levels of detail.
+    pub parts: Vec<String>,
+    /// Names of the parts of the model that are left out.
+    pub without: Vec<String>,
+    /// True to turn faces of the model that are inside out.
+    pub turn_faces: bool,
     /// Side of the preview's textures in texels.
     pub size: Option<u32>,
     /// Variant of the main graph that is shown; `None` shows the graph's own values.

@@ -261,9 +261,24 @@ pub(crate) static NOTE: ObjectKeys = ObjectKeys {
 /// The preview.
 pub(crate) static PREVIEW: ObjectKeys = ObjectKeys {
     name: "preview",
-    about: "What a graph is shown on while it is edited; bakes do not read it.",
+    about: "What a graph is shown on while it is edited. Bakes read of it alone how its model is read.",
     keys: &[
         key("mesh", Shape::Text, "Model, relative to the graph file."),
+        key(
+            "parts",
+            Shape::Texts,
+            "Names of the parts of the model that are taken; without it all but hulls and coarser levels of detail.",
+        ),
+        key(
+            "without",
+            Shape::Texts,
+            "Names of the parts of the model that are left out.",
+        ),
+        key(
+            "turn_faces",
+            Shape::Flag,
+            "True to turn faces of the model that are inside out.",
+        ),
         key("size", Shape::Whole, "Texels along a side."),
         key("variant", Shape::Text, "Variant that is shown."),
         key(

@@ -109,8 +109,12 @@ fn read_library(json: Json) -> Result<LibrarySource, ReadError> {
 
 fn read_preview(json: Json) -> Result<Preview, ReadError> {
     let mut fields = Fields::of(json, "preview", &format::PREVIEW)?;
+    let names = |texts: Vec<(usize, String)>| texts.into_iter().map(|(_, name)| name).collect();
     Ok(Preview {
         mesh: fields.text("mesh")?,
+        parts: fields.texts("parts").map(names)?,
+        without: fields.texts("without").map(names)?,
+        turn_faces: fields.flag("turn_faces")?,
         size: fields.whole("size")?,
         variant: fields.text("variant")?,
         views: read_views(&mut fields)?,

@@ -48,11 +48,13 @@ fn group_item(group: &GroupDef) -> Item {
 
 fn put_description(object: &mut OrderedObject, description: &Description) {
     object.put_some("about", description.about.as_deref());
-    let words = &description.words;
-    object.put_some(
-        "words",
-        Some(words.iter().map(String::as_str).collect::<Vec<_>>()).filter(|words| !words.is_empty()),
-    );
+    put_texts(object, "words", &description.words);
+}
+
+/// Puts a list of texts unless it is empty.
+fn put_texts(object: &mut OrderedObject, key: &str, texts: &[String]) {
+    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+    object.put_some(key, Some(texts).filter(|texts| !texts.is_empty()));
 }
 
 fn library_item(library: &LibrarySource) -> Item {
@@ -109,6 +111,9 @@ fn reference_item(from: &OutputRef) -> Item {
 fn preview_item(preview: &Preview) -> Item {
     let mut object = OrderedObject::default();
     object.put_some("mesh", preview.mesh.as_deref());
+    put_texts(&mut object, "parts", &preview.parts);
+    put_texts(&mut object, "without", &preview.without);
+    object.put_some("turn_faces", preview.turn_faces.then_some(true));
     object.put_some("size", preview.size);
     object.put_some("variant", preview.variant.as_deref());
     object.put_map("views", &preview.views, view_item);

@@ -123,6 +123,19 @@ impl Bvh {
         })
     }
 
+    /// Counts the triangles that a ray without end crosses, of those for whose number `counts` returns true.
+    pub(crate) fn crossed(&self, origin: [f32; 3], direction: [f32; 3], counts: impl Fn(u32) -> bool) -> u32 {
+        let mut crossed = 0;
+        if let Some(ray) = self.scaled(origin, direction, f32::INFINITY) {
+            self.tree.ray_traverse_anyhit(ray, |ray, id| {
+                let triangle = self.tree.primitive_indices[id];
+                let is_hit = || self.triangles[triangle as usize].intersect(ray).is_finite();
+                crossed += u32::from(counts(triangle) && is_hit());
+            });
+        }
+        crossed
+    }
+
     /// The hierarchy, in scaled space; `primitive_indices` lead to triangles of the mesh.
     pub fn tree(&self) -> &CwBvh {
         &self.tree

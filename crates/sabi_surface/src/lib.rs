@@ -37,6 +37,7 @@ pub mod load;
 pub mod model;
 pub mod near;
 pub mod openness;
+pub mod orientation;
 pub mod patch;
 pub mod pieces;
 pub mod points;

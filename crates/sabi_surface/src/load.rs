@@ -2,6 +2,7 @@
 //!
 //! The readers check everything that a file claims, return a model with warnings or an error, and never panic.
 
+mod arealess;
 mod assembly;
 mod beside;
 mod blur;
@@ -13,10 +14,12 @@ mod far;
 mod fbx;
 mod format;
 mod gltf;
+mod listed;
 mod normals;
 mod numbers;
 mod obj;
 mod opacity;
+mod parts;
 mod pictures;
 mod ply;
 mod polygon;
@@ -27,6 +30,7 @@ mod stl;
 mod submesh;
 mod tangents;
 mod text;
+mod turning;
 mod unit_vector;
 mod warnings;
 
@@ -43,6 +47,8 @@ pub use self::error::{Fault, LoadError};
 pub use self::format::ENDINGS;
 use self::format::{Format, format_of, refused_format};
 pub use self::gltf::UnpackedVertices;
+pub use self::listed::listed;
+pub use self::parts::PartChoice;
 use self::repeating::repeating;
 pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
@@ -57,7 +63,7 @@ pub const MAX_FILE_BYTES: u64 = 32 << 30;
 const MOST_SMOOTH_DEGREES: f32 = 180.0;
 
 /// Options of reading a model.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LoadOptions {
     /// UV set that becomes [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`, or the n-th set of a mesh in FBX and COLLADA; OBJ
     /// and PLY have set 0 alone.
@@ -72,6 +78,10 @@ pub struct LoadOptions {
     /// Angle between faces up to which their shading is smooth, degrees, 0 to 180; `None` for the normals of the file. The
     /// triangles that share a material of a glTF or COLLADA mesh are smoothed by themselves.
     pub smooth_degrees: Option<f32>,
+    /// Parts that count.
+    pub parts: PartChoice,
+    /// True to turn faces that are inside out; see [`crate::orientation`].
+    pub turns_faces: bool,
     /// Most bytes of memory for the files of a model together, for what they unpack to, and for its mesh, each. What would take
     /// more is refused before.
     pub memory_bytes: u64,
@@ -85,6 +95,8 @@ impl Default for LoadOptions {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
+            parts: PartChoice::default(),
+            turns_faces: false,
             memory_bytes: u64::MAX,
         }
     }

@@ -1,6 +1,7 @@
 //! A loaded model: plain data, checked on loading.
 
 mod file_origins;
+mod file_parts;
 mod finish;
 mod uv_decoding;
 
@@ -13,6 +14,7 @@ use glam::DVec3;
 use sabi_files::{Refusal, TrustedPaths};
 
 pub use self::file_origins::{FileOrigins, PlacedPrimitive};
+pub use self::file_parts::{FilePart, LeftOut};
 pub use self::finish::{ModelFinish, Scaled};
 pub use self::uv_decoding::UvDecoding;
 
@@ -32,6 +34,10 @@ pub struct Model {
     /// Names of the parts (mesh instances), indexed by [`Mesh::triangle_part`]. Connected triangles
     /// of a part are a piece: see [`crate::pieces`].
     pub parts: Vec<String>,
+    /// Parts that the file has, in its order: those of the model, and those that were left out of it.
+    pub file_parts: Vec<FilePart>,
+    /// Faces that were turned, because they were inside out.
+    pub turned_faces: usize,
     /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
     pub files: Vec<PathBuf>,
     /// Places of files that it names and that do not exist; of very many only the first.

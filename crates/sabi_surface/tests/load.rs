@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot make its input has failed")]
 #![allow(clippy::print_stdout, reason = "tests say what they left out")]
 
+#[path = "load/arealess.rs"]
+mod arealess;
 #[path = "load/beside.rs"]
 mod beside;
 #[path = "load/builder.rs"]
@@ -45,6 +47,8 @@ mod oracle;
 mod origins;
 #[path = "load/packed_quad.rs"]
 mod packed_quad;
+#[path = "load/parts.rs"]
+mod parts;
 #[path = "load/placing.rs"]
 mod placing;
 #[path = "load/ply.rs"]
@@ -65,3 +69,5 @@ mod smoothing;
 mod stl;
 #[path = "load/storage.rs"]
 mod storage;
+#[path = "load/turning.rs"]
+mod turning;

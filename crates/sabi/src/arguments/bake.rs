@@ -9,7 +9,7 @@ use super::{EvaluationArguments, MapArguments, model_file};
 use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi bake` that shape the maps, which a report has already.
-const SHAPING: [&str; 30] = [
+const SHAPING: [&str; 33] = [
     "graph",
     "mesh",
     "size",
@@ -18,6 +18,9 @@ const SHAPING: [&str; 30] = [
     "scale",
     "scene",
     "smooth",
+    "parts",
+    "without",
+    "turn_faces",
     "overlap",
     "udim",
     "set",

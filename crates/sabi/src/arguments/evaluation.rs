@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use sabi_engine::{
     AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides,
-    SetFile, TrustedPaths, Udim, Up, default_cache_dir, default_memory_bytes, read_setting, without_paint,
+    PartChoice, SavedReading, SetFile, TrustedPaths, Udim, Up, default_cache_dir, default_memory_bytes, read_setting,
+    without_paint,
 };
 
 use super::model_file;
@@ -22,6 +23,34 @@ pub(crate) struct MapArguments {
     pub(crate) size: u32,
 }
 
+/// Options for reading a model that a graph may have for its own.
+#[derive(Debug, Args)]
+pub(crate) struct ReadingArguments {
+    /// Only these parts of the model, by their names, whatever these mean; * stands for any text and ? for one letter, so '*' for all
+    /// of them. Without it, collision hulls and coarser levels of detail are left out by their names
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', help_heading = "Model")]
+    parts: Vec<String>,
+    /// Leave these parts of the model out, by their names; * and ? as for --parts
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', help_heading = "Model")]
+    without: Vec<String>,
+    /// Turn faces that are inside out: against the faces around them, or inward on a closed body
+    #[arg(long, help_heading = "Model")]
+    turn_faces: bool,
+}
+
+impl ReadingArguments {
+    /// Options of the engine. Where they say nothing, a graph decides that names the model.
+    pub(crate) fn reading(&self) -> SavedReading {
+        SavedReading {
+            parts: PartChoice {
+                parts: self.parts.clone(),
+                without: self.without.clone(),
+            },
+            turn_faces: self.turn_faces,
+        }
+    }
+}
+
 /// Options for reading a model.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArguments {
@@ -35,6 +64,8 @@ pub(crate) struct ModelArguments {
     /// normals of the file: 30 to 60 for models that come with flat faces
     #[arg(long, value_name = "ANGLE", value_parser = smoothing_angle, help_heading = "Model")]
     pub(crate) smooth: Option<f32>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArguments,
     /// Scene of a glTF file, by its number from 0 on; without it the one that the file names
     #[arg(long, value_name = "N", help_heading = "Model")]
     pub(crate) scene: Option<u32>,
@@ -82,6 +113,7 @@ impl ModelArguments {
             scale: self.scale,
             scene: self.scene,
             smooth_degrees: self.smooth,
+            reading: self.reading.reading(),
             overlap: match self.overlap {
                 OverlapChoice::Auto => Overlap::Auto,
                 OverlapChoice::First => Overlap::First,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::model_file;
+use super::{ReadingArguments, model_file};
 use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi pack`.
@@ -30,6 +30,8 @@ pub(crate) struct PackArguments {
     pub(crate) output: PathBuf,
     #[arg(long, value_name = "FILE", conflicts_with = "no_mesh", help = model_file(", in place of the one that the graph names"))]
     pub(crate) mesh: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArguments,
     /// Leave the model out
     #[arg(long)]
     pub(crate) no_mesh: bool,

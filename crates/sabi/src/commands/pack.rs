@@ -16,6 +16,7 @@ pub(crate) fn run(arguments: &PackArguments, trusted: &TrustedPaths, terminal: &
             Some(mesh) => PackedModel::File(mesh.clone()),
             None => PackedModel::OfGraph,
         },
+        reading: arguments.reading.reading(),
         output: arguments.output.clone(),
         allows_missing: arguments.allow_missing,
         replaces: arguments.force,

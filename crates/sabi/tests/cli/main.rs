@@ -30,6 +30,7 @@ mod packed_models;
 mod packed_places;
 mod packing;
 mod painting;
+mod parts;
 mod place;
 mod planning;
 mod presets;

@@ -10,7 +10,7 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{FileState, Keeping, NodeDraft, Session, TrustedPaths};
+use sabi_engine::{FileState, Keeping, NodeDraft, SavedReading, Session, TrustedPaths};
 
 use super::recoveries::Recoveries;
 use crate::action::LibraryKind;
@@ -67,6 +67,8 @@ pub(crate) struct Documents {
     pub(crate) kinds_reading: KindsReading,
     /// True once the user has chosen a model for the open graph, which it names from then on.
     pub(crate) is_model_chosen: bool,
+    /// What the graph said about how its model is read when that was last looked at.
+    pub(super) seen_reading: SavedReading,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
     /// True while a parameter is dragged: an undo step is open, and fast results are preferred.
@@ -134,6 +136,7 @@ impl Documents {
             watching,
             kinds_reading: KindsReading::default(),
             is_model_chosen: false,
+            seen_reading: SavedReading::default(),
             is_file_foreign: false,
             is_dragging: false,
             autosave: Autosave::default(),
@@ -331,7 +334,10 @@ impl Documents {
             Ok(mesh) => mesh,
             Err(refused) => return self.document.notify(refused.to_string()),
         };
-        let edit = changed_preview(&self.document, |preview| preview.mesh = Some(mesh));
+        let edit = changed_preview(&self.document, |preview| {
+            preview.mesh = Some(mesh);
+            evaluation.model.import_options().saved().put_into(preview);
+        });
         self.document.edit_aside(edit);
     }
 

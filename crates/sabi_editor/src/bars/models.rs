@@ -1,13 +1,14 @@
 //! The strip of models above the viewport, and the menu of how their files are read.
 
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use egui::containers::menu::MenuButton;
 use egui::emath::Numeric;
-use egui::{Button, DragValue, Margin, RichText, ScrollArea, Ui, WidgetInfo, WidgetType};
+use egui::{Button, Checkbox, DragValue, Margin, RichText, ScrollArea, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_engine::{Overlap, Udim, Up};
+use sabi_engine::{FilePart, Overlap, PartChoice, Udim, Up};
 
 use super::{bar, stay_open};
 use crate::action::{Action, ModelAction};
@@ -188,20 +189,23 @@ fn beside_entry(ui: &mut Ui, context: &ViewContext<'_>, model: &Path, actions: &
 }
 
 fn options(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
-    let reading = context.evaluation.model.import_options();
-    let is_usual = reading == ImportOptions::default();
+    let model = &context.evaluation.model;
+    let reading = model.import_options();
+    let is_usual = *reading == ImportOptions::default();
     let theme = context.theme;
     let color = if is_usual { theme.text } else { theme.accent };
     let sign = RichText::new(icon::SLIDERS_HORIZONTAL).color(color);
     let menu = MenuButton::from_button(Button::new(sign).frame(false)).config(stay_open());
-    let (button, _) = menu.ui(ui, |ui| import_menu(ui, reading, actions));
+    let (button, _) = menu.ui(ui, |ui| {
+        import_menu(ui, reading, model.file_parts(), actions);
+    });
     button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "How the model is read"));
-    button.on_hover_text("Import settings: up axis, UVs, scale");
+    button.on_hover_text("Import settings: up axis, UVs, scale, parts");
 }
 
 /// Menu of what the file of a model leaves open.
-fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
-    let mut wanted = now;
+fn import_menu(ui: &mut Ui, now: &ImportOptions, parts: &[FilePart], actions: &mut Vec<Action>) {
+    let mut wanted = now.clone();
     ui.label("Up axis");
     ui.horizontal(|ui| {
         for (axis, name) in [(Up::Y, "+Y"), (Up::Z, "+Z"), (Up::X, "+X")] {
@@ -218,6 +222,8 @@ fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
         let degrees = now.smooth.unwrap_or(USUAL_SMOOTH_ANGLE);
         settled(ui, "Up to, degrees", degrees, SMOOTH_ANGLES, 1.0)
     });
+    ui.checkbox(&mut wanted.turn_faces, "Turn faces that are inside out")
+        .on_hover_text("Faces against those around them, and those of closed bodies that look inward.");
     let mut is_scene_chosen = now.scene.is_some();
     ui.checkbox(&mut is_scene_chosen, "Choose the scene")
         .on_hover_text("Takes a scene of a glTF file by its number, in place of the one that the file names.");
@@ -242,11 +248,83 @@ fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
     ] {
         ui.radio_value(&mut wanted.overlap, overlap, name);
     }
-    if now != ImportOptions::default() && ui.button("Reset").clicked() {
+    if let Some(choice) = part_list(ui, parts) {
+        wanted.parts = choice;
+    }
+    if *now != ImportOptions::default() && ui.button("Reset").clicked() {
         wanted = ImportOptions::default();
     }
-    if wanted != now {
+    if wanted != *now {
         actions.push(Action::Model(ModelAction::Read(wanted)));
+    }
+}
+
+/// Height of the list of parts, points.
+const LONGEST_PARTS: f32 = 160.0;
+
+/// List of the parts of a file, each with a check box; returns the choice once one is clicked.
+fn part_list(ui: &mut Ui, parts: &[FilePart]) -> Option<PartChoice> {
+    let mut names: Vec<&str> = Vec::new();
+    let mut known: BTreeSet<&str> = BTreeSet::new();
+    let mut taken: BTreeSet<&str> = BTreeSet::new();
+    let mut usual: BTreeSet<&str> = BTreeSet::new();
+    for part in parts {
+        let name = part.name.as_str();
+        if known.insert(name) {
+            names.push(name);
+        }
+        taken.extend(part.left_out.is_none().then_some(name));
+        usual.extend(part.is_usual.then_some(name));
+    }
+    // A file of one part leaves nothing to choose.
+    if names.len() < 2 {
+        return None;
+    }
+    ui.separator();
+    ui.label("Parts");
+    let mut clicked = None;
+    let height = ui.spacing().interact_size.y;
+    ScrollArea::vertical()
+        .id_salt("parts")
+        .max_height(LONGEST_PARTS)
+        .show_rows(ui, height, names.len(), |ui, rows| {
+            for name in &names[rows] {
+                let mut is_taken = taken.contains(name);
+                // The last one stays: a model has a part.
+                let is_last = is_taken && taken.len() == 1;
+                let entry = ui.add_enabled(!is_last, Checkbox::new(&mut is_taken, *name));
+                if entry.changed() {
+                    clicked = Some((*name, is_taken));
+                }
+            }
+        });
+    let (name, is_taken) = clicked?;
+    if is_taken {
+        taken.insert(name);
+    } else {
+        taken.remove(name);
+    }
+    Some(choice_of(&names, &taken, &usual))
+}
+
+/// The shortest choice that takes some of the parts, of which the usual ones are taken without any.
+fn choice_of(names: &[&str], taken: &BTreeSet<&str>, usual: &BTreeSet<&str>) -> PartChoice {
+    let listed = |is_listed: &dyn Fn(&str) -> bool| -> Vec<String> {
+        let names = names.iter().filter(|name| is_listed(name));
+        names.map(|name| (*name).to_owned()).collect()
+    };
+    if taken.is_subset(usual) {
+        return PartChoice {
+            parts: Vec::new(),
+            without: listed(&|name| usual.contains(name) && !taken.contains(name)),
+        };
+    }
+    if taken.len() == names.len() {
+        return PartChoice::all();
+    }
+    PartChoice {
+        parts: listed(&|name| taken.contains(name)),
+        without: Vec::new(),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_engine::{EngineError, LiveModel, ModelOptions, TrustedPaths, Warning};
+use sabi_engine::{EngineError, FilePart, LiveModel, ModelOptions, TrustedPaths, Warning};
 
 use crate::import_options::ImportOptions;
 
@@ -88,8 +88,15 @@ impl RequestedModel {
     }
 
     /// Options for reading the file.
-    pub(crate) fn import_options(&self) -> ImportOptions {
-        self.import
+    pub(crate) fn import_options(&self) -> &ImportOptions {
+        &self.import
+    }
+
+    /// Parts that the file has, as far as it was read.
+    pub(crate) fn file_parts(&self) -> &[FilePart] {
+        let of_file = self.good.as_ref().filter(|good| good.options.path == self.options.path);
+        let model = of_file.and(self.received.as_ref());
+        model.map_or(&[], |model| &model.linked.model.file_parts)
     }
 
     /// Options for reading the model at a size, texels.
@@ -121,7 +128,7 @@ impl RequestedModel {
     /// Requests the model again, since its file changed.
     pub(crate) fn reread(&mut self) {
         let file = self.file().to_owned();
-        self.replace(&file, self.import);
+        self.replace(&file, self.import.clone());
     }
 
     /// Requests the model at a size, texels.
@@ -170,14 +177,14 @@ impl RequestedModel {
         self.return_to_good();
         let is_another = self.file() != left;
         self.refused = is_another.then_some(left);
-        Some((self.file().to_owned(), self.import))
+        Some((self.file().to_owned(), self.import.clone()))
     }
 
     /// Requests the last model again that could be shown.
     fn return_to_good(&mut self) {
         if let Some(good) = &self.good {
             self.options = good.options.clone();
-            self.import = good.import;
+            self.import = good.import.clone();
             self.revision = good.revision;
             self.file_since = good.file_since;
         }
@@ -205,7 +212,7 @@ impl RequestedModel {
                 self.received = Some(model);
                 self.good = Some(Good {
                     options: self.options.clone(),
-                    import: self.import,
+                    import: self.import.clone(),
                     revision,
                     file_since: self.file_since,
                 });

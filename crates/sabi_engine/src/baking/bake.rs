@@ -33,7 +33,7 @@ use crate::opening::cache_dir::cache_budget_bytes;
 use crate::opening::document::OpenGraph;
 use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
-use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
+use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport, parts_left_out};
 use crate::opening::overlap::OverlapTotals;
 use crate::phases::{PhaseClock, PhaseTimes, Progress, stop_if_canceled};
 use crate::program::Build;
@@ -374,6 +374,8 @@ fn report(
             unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, atlas.size)),
             decoded_uvs: DecodedUvs::of(linked),
             smooth_degrees: linked.smooth_degrees,
+            parts_left_out: parts_left_out(&linked.model),
+            turned_faces: linked.model.turned_faces,
         },
         adapter: BakeAdapter {
             name: adapter.name.clone(),

@@ -169,6 +169,10 @@ pub struct BakedMesh {
     pub decoded_uvs: Vec<DecodedUvs>,
     /// Angle between faces up to which the shading was smoothed, degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
+    /// Names of the parts of the file that were left out.
+    pub parts_left_out: Vec<String>,
+    /// Faces that were turned, because they were inside out.
+    pub turned_faces: usize,
 }
 
 /// The adapter of a bake.

@@ -30,7 +30,7 @@ const fn option(name: &'static str, takes: &'static str, apply: Apply) -> ItemOp
     ItemOption { name, takes, apply }
 }
 
-const OPTIONS: [ItemOption; 19] = [
+const OPTIONS: [ItemOption; 22] = [
     option("all_maps", "true or false", |request, value| {
         request.all_maps = value.as_bool()?;
         Some(())
@@ -102,6 +102,10 @@ const OPTIONS: [ItemOption; 19] = [
         };
         Some(())
     }),
+    option("parts", "a list of parts of the model", |request, value| {
+        request.evaluator.model.reading.parts.parts = texts(value)?;
+        Some(())
+    }),
     option("scale", "a number above 0", |request, value| {
         request.evaluator.model.scale = above_zero(value)? as f32;
         Some(())
@@ -121,6 +125,10 @@ const OPTIONS: [ItemOption; 19] = [
     option("smooth", "an angle in degrees, from 0 to 180", |request, value| {
         let degrees = value.as_f64()? as f32;
         request.evaluator.model.smooth_degrees = Some(is_smoothing_angle(degrees).then_some(degrees)?);
+        Some(())
+    }),
+    option("turn_faces", "true or false", |request, value| {
+        request.evaluator.model.reading.turn_faces = value.as_bool()?;
         Some(())
     }),
     option("udim", "'auto', 'on' or 'off'", |request, value| {
@@ -147,6 +155,10 @@ const OPTIONS: [ItemOption; 19] = [
     }),
     option("with_model", "true or false", |request, value| {
         request.model = value.as_bool()?.then(CopyOptions::default);
+        Some(())
+    }),
+    option("without", "a list of parts of the model", |request, value| {
+        request.evaluator.model.reading.parts.without = texts(value)?;
         Some(())
     }),
 ];

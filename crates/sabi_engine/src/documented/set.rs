@@ -33,6 +33,9 @@ fn recipe() -> Recipe {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
+            parts: vec![text()],
+            without: vec![text()],
+            turn_faces: true,
             overlap: Overlap::Auto,
             udim: Udim::Auto,
         },
@@ -105,6 +108,8 @@ fn the_report_of_a_bake_has_the_documented_keys() {
             unwrapped: unwrapped(),
             decoded_uvs: decoded_uvs(),
             smooth_degrees: None,
+            parts_left_out: vec![text()],
+            turned_faces: 1,
         },
         adapter: BakeAdapter {
             name: text(),

@@ -150,7 +150,7 @@ impl Evaluator {
         let mut times = PhaseTimes::default();
         let trusting = ModelOptions {
             trusted: options.model.trusted.clone().with(&open.trusted),
-            ..options.model.clone()
+            ..options.model.for_graph(open)
         };
         let model = times.load.time(|| LinkedModel::load_model(&trusting, progress))?;
         progress.advance(Phase::Load, 1, 1);

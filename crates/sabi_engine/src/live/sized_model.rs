@@ -208,11 +208,12 @@ impl SizedModel {
         let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
         let source_warnings = self.source_warnings.iter().filter(move |(of, _)| is_of_now(of));
         let of_model = self.traces_rays.then(|| self.model.linked.solidity.get()).flatten();
-        let sentences = self.unused_outputs.iter().chain(of_model.into_iter().flatten());
+        let sentences = self.unused_outputs.iter();
         let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
         let source_warnings = source_warnings.map(|(_, warning)| warning);
         let evaluator = self.evaluator.warnings().iter();
-        evaluator.chain(source_warnings).cloned().chain(sentences)
+        let warnings = evaluator.chain(source_warnings).chain(of_model.into_iter().flatten());
+        warnings.cloned().chain(sentences)
     }
 
     /// Checks the model for what rays cannot rely on, if the current request traces any.

@@ -1,6 +1,7 @@
 //! Model with its linked atlas.
 
 mod fitted_model;
+mod saved_reading;
 mod unwrapping;
 
 use std::path::{Path, PathBuf};
@@ -22,7 +23,9 @@ use serde::{Deserialize, Serialize};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::memory::default_memory_bytes;
 use crate::phases::{Phase, Progress, stop_if_canceled, unless_canceled};
+use crate::warning::Warning;
 pub use fitted_model::FittedModel;
+pub use saved_reading::SavedReading;
 use unwrapping::{Unwrap, unwrap_model, unwrapping};
 
 /// Options for loading a model.
@@ -40,6 +43,8 @@ pub struct ModelOptions {
     pub scene: Option<u32>,
     /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
     pub smooth_degrees: Option<f32>,
+    /// Parts that count, and faces that are turned; where nothing is said, a graph decides that names the model.
+    pub reading: SavedReading,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
     /// Treatment of UVs in several tiles.
@@ -80,6 +85,7 @@ impl ModelOptions {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
+            reading: SavedReading::default(),
             overlap: Overlap::Auto,
             udim: Udim::Auto,
             size,
@@ -130,7 +136,7 @@ pub struct LinkedModel {
     area: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
     /// Warnings about what rays cannot rely on.
-    pub(crate) solidity: OnceLock<Vec<String>>,
+    pub(crate) solidity: OnceLock<Vec<Warning>>,
     /// True if the atlas was read from the cache.
     pub atlas_was_cached: bool,
     /// Largest side of the bounding box, model units.
@@ -191,6 +197,8 @@ impl LinkedModel {
             scale: options.scale,
             scene: options.scene,
             smooth_degrees: options.smooth_degrees,
+            parts: options.reading.parts.clone(),
+            turns_faces: options.reading.turn_faces,
             memory_bytes: options.memory_bytes,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();

@@ -1,7 +1,8 @@
 //! A model and its atlas in numbers, for `sabi mesh` and the report of a bake; docs/report.md lists the keys.
 
 use sabi_export::set_names;
-use sabi_surface::model::UvDecoding;
+use sabi_surface::model::{Model, UvDecoding};
+use sabi_surface::orientation::turned_faces;
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Unwrapping};
@@ -17,6 +18,8 @@ pub struct MeshReport {
     pub vertices: usize,
     /// Names of the model's parts.
     pub parts: Vec<String>,
+    /// Names of the parts of the file that were left out.
+    pub parts_left_out: Vec<String>,
     /// Connected pieces of all parts.
     pub pieces: usize,
     /// Names of the materials, as files are named after them.
@@ -27,6 +30,10 @@ pub struct MeshReport {
     pub decoded_uvs: Vec<DecodedUvs>,
     /// Angle between faces up to which the shading was smoothed, degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
+    /// Faces that were turned, because they were inside out.
+    pub turned_faces: usize,
+    /// Faces that are inside out.
+    pub inside_out_faces: usize,
     /// True if vertices have colors.
     pub vertex_colors: bool,
     /// Largest side of the bounding box, model units.
@@ -138,6 +145,12 @@ impl UnwrappingReport {
     }
 }
 
+/// Lists the parts that a file has and its model has not.
+pub(crate) fn parts_left_out(model: &Model) -> Vec<String> {
+    let left_out = model.file_parts.iter().filter(|part| part.left_out.is_some());
+    left_out.map(|part| part.name.clone()).collect()
+}
+
 /// Describes a model and its atlas.
 pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
     let (mesh, report) = (&linked.model.mesh, &linked.atlas.report);
@@ -146,11 +159,14 @@ pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
         triangles: mesh.triangles.len(),
         vertices: mesh.positions.len(),
         parts: linked.model.parts.clone(),
+        parts_left_out: parts_left_out(&linked.model),
         pieces: linked.pieces.boxes.len(),
         materials: set_names(&linked.model),
         unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, linked.atlas.size)),
         decoded_uvs: DecodedUvs::of(linked),
         smooth_degrees: linked.smooth_degrees,
+        turned_faces: linked.model.turned_faces,
+        inside_out_faces: turned_faces(mesh).len(),
         vertex_colors: !mesh.colors.is_empty(),
         largest_side: linked.largest_side as f32,
         size: linked.atlas.size,

@@ -2,12 +2,18 @@
 
 use std::collections::BTreeSet;
 
+use sabi_surface::load::listed;
+use sabi_surface::model::LeftOut;
+
 use crate::opening::coverage;
 use crate::opening::linked_model::LinkedModel;
 use crate::opening::overlap::OverlapTotals;
 use crate::opening::tiles;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
+
+/// Most parts that a warning names.
+const MOST_NAMED: usize = 12;
 
 impl LinkedModel {
     /// Lists the warnings about the model and its atlas, which do not depend on a graph.
@@ -17,7 +23,30 @@ impl LinkedModel {
         let shares = OverlapTotals::of(self).warning(self).into_iter();
         let all = sentences.chain(tiles::warnings(self)).chain(shares);
         let all = all.chain(coverage::warnings(self));
-        all.chain(self.refused_files()).collect()
+        all.chain(self.parts_left_out()).chain(self.refused_files()).collect()
+    }
+
+    /// Warns about parts that were left out by what their names mean.
+    fn parts_left_out(&self) -> Option<Warning> {
+        let parts = self.model.file_parts.iter();
+        let by_name = parts.filter(|part| matches!(part.left_out, Some(LeftOut::Hull | LeftOut::CoarserLevel)));
+        let names: BTreeSet<&str> = by_name.map(|part| part.name.as_str()).collect();
+        let (are, their) = match names.len() {
+            0 => return None,
+            1 => (
+                "is",
+                "its name says that it is a collision hull or a coarser level of detail",
+            ),
+            _ => (
+                "are",
+                "their names say that they are collision hulls or coarser levels of detail",
+            ),
+        };
+        let named = listed(names.into_iter(), MOST_NAMED);
+        Some(Warning::new(
+            format!("{named} {are} left out, since {their}"),
+            [Remedy::AllParts],
+        ))
     }
 
     /// Warns about files that the model names and may not open.

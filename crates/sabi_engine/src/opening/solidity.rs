@@ -4,11 +4,14 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use sabi_plan::{Plan, Step};
 use sabi_surface::model::Mesh;
+use sabi_surface::orientation::{LEAST_VOLUME, turned_faces};
 
 use crate::opening::linked_model::LinkedModel;
+use crate::remedy::Remedy;
+use crate::warning::Warning;
 
 /// Lists warnings about the model for a plan that traces rays; none for others.
-pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<String> {
+pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<Warning> {
     let traces_rays = |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
     if !plan.steps.iter().any(traces_rays) {
         return Vec::new();
@@ -17,24 +20,27 @@ pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<String> {
 }
 
 /// Lists warnings about the model for rays; computed once.
-pub(crate) fn of_model(linked: &LinkedModel) -> &[String] {
+pub(crate) fn of_model(linked: &LinkedModel) -> &[Warning] {
     linked.solidity.get_or_init(|| warnings_about(linked))
 }
 
-fn warnings_about(linked: &LinkedModel) -> Vec<String> {
+fn warnings_about(linked: &LinkedModel) -> Vec<Warning> {
     let report = &linked.atlas.report;
-    let mut warnings = Vec::new();
+    let mesh = &linked.model.mesh;
+    let turned = turned_warning(mesh);
+    let mut warnings: Vec<Warning> = Vec::new();
+    let mut warn = |sentence: String| warnings.push(sentence.into());
     if report.border_edges > 0 {
-        warnings.push(format!(
+        warn(format!(
             "The model is open at {}: rays leave it through the openings, so thickness, edges and creases are weaker \
              near them, and a surface without thickness has none.",
             edges(report.border_edges)
         ));
-    } else {
-        warnings.extend(inside_warning(&linked.model.mesh).map(str::to_owned));
+    } else if turned.is_none() {
+        inside_warning(mesh).map(str::to_owned).into_iter().for_each(&mut warn);
     }
     if report.nonmanifold_edges > 0 {
-        warnings.push(format!(
+        warn(format!(
             "More than two faces meet at {}: the inside of the model is not defined there, so edges and thickness may \
              be wrong.",
             edges(report.nonmanifold_edges)
@@ -42,13 +48,31 @@ fn warnings_about(linked: &LinkedModel) -> Vec<String> {
     }
     let crossings = crossings(linked);
     if crossings > 0 {
-        warnings.push(format!(
+        warn(format!(
             "The model intersects itself at {}: the parts inside count as close surfaces, so creases and occlusion are \
              stronger there, and thickness ends at these parts.",
             edges(crossings)
         ));
     }
-    warnings
+    turned.into_iter().chain(warnings).collect()
+}
+
+/// Returns a warning about faces that are inside out.
+fn turned_warning(mesh: &Mesh) -> Option<Warning> {
+    let (turned, all) = (turned_faces(mesh).len(), mesh.triangles.len());
+    let sentence = match turned {
+        0 => return None,
+        _ if turned == all => {
+            "The model is inside out: its faces point inward, so edges and creases are swapped and all of it \
+                               counts as enclosed"
+                .to_owned()
+        }
+        _ => format!(
+            "{turned} of {all} faces of the model are inside out, against the faces around them or inward, so edges and \
+             creases are swapped there and they count as enclosed"
+        ),
+    };
+    Some(Warning::new(sentence, [Remedy::TurnFaces]))
 }
 
 /// Counts edges that pass through a face of the same piece, once for each of their triangles. Different pieces of a part may
@@ -96,20 +120,11 @@ fn edges(count: u32) -> String {
 /// Returns a warning about the inside of a closed model.
 fn inside_warning(mesh: &Mesh) -> Option<&'static str> {
     let (volume, area) = measured(mesh);
-    if volume.abs() <= LEAST_VOLUME * area.powf(1.5) {
-        return Some(
-            "The model has no inside: its faces lie back to back, so thickness, edges and creases have no effect. Give \
-             it a thickness in a modeling program.",
-        );
-    }
-    (volume < 0.0).then_some(
-        "The model is inside out: its faces point inward, so edges and creases are swapped and all of it counts as \
-         enclosed. Flip its faces in a modeling program.",
+    (volume.abs() <= LEAST_VOLUME * area.powf(1.5)).then_some(
+        "The model has no inside: its faces lie back to back, so thickness, edges and creases have no effect. Give it a \
+         thickness in a modeling program.",
     )
 }
-
-/// Volume relative to the area below which it counts as rounding error; a sheet of paper has dozens of times as much.
-const LEAST_VOLUME: f64 = 1e-6;
 
 /// Computes the enclosed volume, negative where faces point inward, and the area.
 fn measured(mesh: &Mesh) -> (f64, f64) {

@@ -24,7 +24,10 @@ pub(super) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
 /// Warns about surfaces that were unwrapped since their UVs repeat.
 fn unwrapped<'n>(linked: &LinkedModel, name: impl Fn(u32) -> &'n str) -> Option<Warning> {
     let most = linked.repeats.iter().map(|repeats| repeats.times).reduce(f64::max)?;
-    let names = linked.repeats.iter().map(|repeats| format!("'{}'", name(repeats.material)));
+    let names = linked
+        .repeats
+        .iter()
+        .map(|repeats| format!("'{}'", name(repeats.material)));
     let which = names.collect::<Vec<_>>().join(", ");
     let onto = match linked.repeats.len() {
         1 => "the surface was unwrapped onto a sheet of its own",

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, Uri, read_plain, without_detours};
-use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, Up, load_bytes};
+use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, PartChoice, load_bytes};
 
 use super::entries::{is_picture, is_usual_ending};
 use crate::error::{EngineError, ErrorKind};
@@ -21,13 +21,13 @@ pub(super) struct ModelFiles {
 }
 
 impl ModelFiles {
-    /// Reads a model for the files that it names, as far as it may open them.
+    /// Reads the parts of a model that count for the files that they name, as far as it may open them.
     ///
     /// # Errors
     /// It cannot be loaded, names two files that would have one place, or names a file that is none of a model: one from elsewhere must not
     /// make anyone send other files of their computer.
-    pub(super) fn read(path: &Path, trusted: &TrustedPaths) -> Result<ModelFiles, EngineError> {
-        let search = Search::of_model(path, trusted)?;
+    pub(super) fn read(path: &Path, trusted: &TrustedPaths, parts: &PartChoice) -> Result<ModelFiles, EngineError> {
+        let search = Search::of_model(path, trusted, parts)?;
         if let Some(refusal) = search.refused.first() {
             let refused = EngineError::refused(refusal);
             return Err(refused.map_messages(|why| format!("{} names a file that is not read: {why}", path.display())));
@@ -72,7 +72,7 @@ impl ModelFiles {
 /// # Errors
 /// The model cannot be loaded.
 pub(crate) fn files_of_model(path: &Path, trusted: &TrustedPaths) -> Result<BTreeMap<String, PathBuf>, EngineError> {
-    let mut files = Search::of_model(path, trusted)?.named;
+    let mut files = Search::of_model(path, trusted, &PartChoice::all())?.named;
     let own = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     files.insert(own.into_owned(), path.to_owned());
     Ok(files)
@@ -108,7 +108,7 @@ struct Search<'t> {
 
 impl<'t> Search<'t> {
     /// Reads a model, and looks for the files that it names.
-    fn of_model(path: &Path, trusted: &'t TrustedPaths) -> Result<Search<'t>, EngineError> {
+    fn of_model(path: &Path, trusted: &'t TrustedPaths, parts: &PartChoice) -> Result<Search<'t>, EngineError> {
         let shown = path.display();
         let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
             Unread::Missing => EngineError::new(
@@ -130,12 +130,9 @@ impl<'t> Search<'t> {
         };
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let options = LoadOptions {
-            uv_set: 0,
-            up: Up::Y,
-            scale: 1.0,
-            scene: None,
-            smooth_degrees: None,
+            parts: parts.clone(),
             memory_bytes: default_memory_bytes(),
+            ..LoadOptions::default()
         };
         let loaded = load_bytes(&name, &bytes, &mut |written| search.find(written), &options);
         // That a file may not be opened says more than what is missing without it.

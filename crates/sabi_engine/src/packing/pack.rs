@@ -19,6 +19,7 @@ use super::rewritten::{RewrittenDocument, ShownModel, rewritten};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
+use crate::opening::linked_model::{ModelOptions, SavedReading};
 use crate::phases::{Progress, unless_canceled};
 use crate::remedy::Remedy;
 use crate::source::paint::NAME as PAINT;
@@ -34,6 +35,9 @@ pub struct PackRequest {
     pub graph: PathBuf,
     /// Model that goes into the archive.
     pub model: PackedModel,
+    /// Parts of the model that count, and faces that are turned, for the graph in the archive; where nothing is said, as the graph has
+    /// it for this model.
+    pub reading: SavedReading,
     /// The archive.
     pub output: PathBuf,
     /// Packs without files that are missing, which become warnings.
@@ -87,6 +91,7 @@ pub struct PackedFile {
 struct Found {
     needs: Needs,
     model: Option<ModelFiles>,
+    reading: SavedReading,
     /// Node files by their names in the archive.
     nodes: BTreeMap<String, PathBuf>,
     warnings: Vec<String>,
@@ -100,7 +105,7 @@ struct Found {
 /// behind.
 pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
     let (open, kinds) = OpenGraph::open_with_kinds(request.graph.clone(), request.trusted.clone(), progress)?;
-    let found = Found::of(open, &kinds, &request.model, progress)?;
+    let found = Found::of(open, &kinds, request, progress)?;
     if !found.needs.missing.is_empty() && !request.allows_missing {
         let refused = EngineError::several(ErrorKind::MissingInput, found.needs.missing);
         return Err(refused.with_remedies([Remedy::WithoutMissingFiles]));
@@ -145,7 +150,12 @@ pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<Pack
 }
 
 impl Found {
-    fn of(open: OpenGraph, kinds: &Kinds, model: &PackedModel, progress: &dyn Progress) -> Result<Found, EngineError> {
+    fn of(
+        open: OpenGraph,
+        kinds: &Kinds,
+        request: &PackRequest,
+        progress: &dyn Progress,
+    ) -> Result<Found, EngineError> {
         let folders = Kinds::folders(Some(&open.path));
         let mut needs = Needs::of(open, kinds)?;
         let (nodes, without_file) = own_nodes(kinds, &folders, &needs.documents);
@@ -154,10 +164,11 @@ impl Found {
         for document in &needs.documents {
             look_for_strokes(document, &mut needs.missing, &mut warnings);
         }
-        let model = model_of(&needs.documents[0], model, &mut needs.missing, progress)?;
+        let (model, reading) = model_of(&needs.documents[0], request, &mut needs.missing, progress)?;
         Ok(Found {
             needs,
             model,
+            reading,
             nodes,
             warnings,
         })
@@ -210,24 +221,29 @@ impl Found {
         let named = documents.filter_map(|(index, document)| Some((index, document, places.of(&document.path)?)));
         named
             .map(|(index, document, name)| match index {
-                0 => rewritten(document, name, places, &ShownModel::Entry(model)),
+                0 => rewritten(document, name, places, &ShownModel::Entry(model, &self.reading)),
                 _ => rewritten(document, name, places, &ShownModel::AsWritten),
             })
             .collect()
     }
 }
 
-/// The model of a pack, with the files that it names; none if it is missing.
+/// The model of a pack with the files that it names, none if it is missing, and how it is read.
 fn model_of(
     graph: &NamedDocument,
-    model: &PackedModel,
+    request: &PackRequest,
     missing: &mut Vec<String>,
     progress: &dyn Progress,
-) -> Result<Option<ModelFiles>, EngineError> {
+) -> Result<(Option<ModelFiles>, SavedReading), EngineError> {
+    let (model, asked) = (&request.model, &request.reading);
+    let kept = || {
+        let preview = graph.open.document.preview.as_ref();
+        preview.map_or_else(SavedReading::default, |preview| asked.or(preview))
+    };
     let shown = graph.open.path.display();
     let mut trusted = graph.open.trusted.clone();
     let path = match model {
-        PackedModel::None => return Ok(None),
+        PackedModel::None => return Ok((None, kept())),
         PackedModel::File(path) => {
             trusted = trusted.with_file(path);
             named_path(path)
@@ -248,16 +264,21 @@ fn model_of(
                     "{shown}: the graph is shown on the model {}, which is missing",
                     path.display()
                 ));
-                return Ok(None);
+                return Ok((None, kept()));
             }
             path
         }
     };
-    let read = path.clone();
-    let files = unless_canceled(progress, move || ModelFiles::read(&read, &trusted))??;
+    let options = ModelOptions {
+        reading: asked.clone(),
+        ..ModelOptions::new(&path, 0)
+    };
+    let reading = options.for_graph(&graph.open).reading;
+    let (read, parts) = (path.clone(), reading.parts.clone());
+    let files = unless_canceled(progress, move || ModelFiles::read(&read, &trusted, &parts))??;
     let lacks = files.missing.iter();
     missing.extend(lacks.map(|named| format!("the model {} names {named}, which is missing", path.display())));
-    Ok(Some(files))
+    Ok((Some(files), reading))
 }
 
 /// Adds what the strokes of a document lack.

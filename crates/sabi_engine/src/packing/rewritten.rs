@@ -7,6 +7,7 @@ use sabi_graph::{Document, Preview};
 
 use super::named_files::{NamedDocument, whole_path, without_model};
 use super::places::Places;
+use crate::opening::linked_model::SavedReading;
 use crate::session::path_rewrite::document_with_paths;
 
 /// Folder that stands for the archive where paths are computed.
@@ -25,8 +26,8 @@ pub(super) struct RewrittenDocument {
 pub(super) enum ShownModel<'a> {
     /// As its file says: that of a group file is not packed, and no bake needs it.
     AsWritten,
-    /// This entry, or none.
-    Entry(Option<&'a str>),
+    /// This entry, or none, and how it is read.
+    Entry(Option<&'a str>, &'a SavedReading),
 }
 
 /// Returns a document with the paths that its files have in the archive; those of missing files stay.
@@ -49,10 +50,14 @@ pub(super) fn rewritten(
     let shown = original.preview.as_ref().and_then(|preview| preview.mesh.as_deref());
     let mesh = match model {
         ShownModel::AsWritten => shown.map(str::to_owned),
-        ShownModel::Entry(entry) => entry.map(|entry| path_to(entry, name, shown.unwrap_or(""))),
+        ShownModel::Entry(entry, _) => entry.map(|entry| path_to(entry, name, shown.unwrap_or(""))),
     };
     if mesh.is_some() || document.preview.is_some() {
-        document.preview.get_or_insert_with(Preview::default).mesh = mesh;
+        let preview = document.preview.get_or_insert_with(Preview::default);
+        preview.mesh = mesh;
+        if let ShownModel::Entry(_, reading) = model {
+            reading.put_into(preview);
+        }
     }
     let text = match document == *original {
         true => named.open.text.to_string(),

@@ -1,4 +1,4 @@
-//! New vertex data in the document of a glTF model: UVs of an unwrapped model, smoothed normals, and tangents. Vertices that these
+//! New vertex data in the document of a glTF model: UVs of an unwrapped model, smoothed normals, tangents, and faces that were turned. Vertices that these
 //! split are duplicated with all that the file has of them, byte for byte: joints and weights, morph targets, other UVs and
 //! attributes of programs. So skins, animations and everything else that refers to the meshes stays.
 
@@ -127,7 +127,10 @@ impl GeometryEdits<'_> {
     /// Returns true if a primitive has to be changed: its vertices are other ones, or are moved to other places on the maps.
     fn must_change(&self, placed: &PlacedPrimitive) -> bool {
         let is_tiled = |material| self.tiles.0.has(material);
-        self.model.is_smoothed || self.is_unwrapped(placed) || self.material(placed).is_some_and(is_tiled)
+        self.model.is_smoothed
+            || placed.is_turned
+            || self.is_unwrapped(placed)
+            || self.material(placed).is_some_and(is_tiled)
     }
 
     /// The parts of a primitive, of a material in several tiles one for each tile.

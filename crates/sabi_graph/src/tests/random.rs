@@ -197,18 +197,26 @@ fn a_fit() -> impl Strategy<Value = Fit> {
 fn a_preview() -> impl Strategy<Value = Preview> {
     (
         prop::option::of(any::<String>()),
+        prop::collection::vec(any::<String>(), 0..3),
+        prop::collection::vec(any::<String>(), 0..3),
+        any::<bool>(),
         prop::option::of(any::<u32>()),
         prop::option::of(any::<String>()),
         prop::collection::btree_map(a_name(), a_view(), 0..3),
         values(),
     )
-        .prop_map(|(mesh, size, variant, views, extra)| Preview {
-            mesh,
-            size,
-            variant,
-            views,
-            extra,
-        })
+        .prop_map(
+            |(mesh, parts, without, turn_faces, size, variant, views, extra)| Preview {
+                mesh,
+                parts,
+                without,
+                turn_faces,
+                size,
+                variant,
+                views,
+                extra,
+            },
+        )
 }
 
 fn a_group() -> impl Strategy<Value = GroupDef> {

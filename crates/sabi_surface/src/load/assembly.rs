@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DMat4;
 
+use super::arealess::LeftOutAreas;
 use super::blur::warn_of_placing;
 use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
@@ -11,6 +12,7 @@ use super::gltf::Resolve;
 use super::pictures::Pictures;
 use super::size::check_size;
 use super::submesh::Submesh;
+use super::turning::Turning;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Model, ModelMaterial, TextureUvs};
@@ -78,13 +80,17 @@ impl Assembly {
 
     /// Places all instances, and keeps the materials in use and the pictures that they name.
     pub(super) fn into_model(
-        self,
+        mut self,
         name: &str,
         resolve: &mut Resolve,
         options: &LoadOptions,
         mut warnings: Warnings,
     ) -> Result<Model, Fault> {
-        let has = |what: fn(&Submesh) -> bool| self.meshes.iter().flatten().any(what);
+        let names = self.instances.iter().map(|instance| instance.name.as_str());
+        let file_parts = options.parts.of_file(names, &mut warnings)?;
+        let mut is_taken = file_parts.iter().map(|part| part.left_out.is_none());
+        self.instances.retain(|_| is_taken.next() == Some(true));
+        let has = |what: fn(&Submesh) -> bool| self.placements(|submesh, _| what(submesh)).any(|has| has);
         if !has(|submesh| !submesh.triangles.is_empty()) {
             return Err(warnings.into_fault());
         }
@@ -98,18 +104,23 @@ impl Assembly {
         let mut model = Model {
             stem: super::stem(name),
             middle,
+            file_parts,
             ..Model::default()
         };
         model.mesh.uv_set = with_uvs.then_some(options.uv_set);
         model.mesh.texture_uvs = self.empty_sets()?;
         let mut without_uvs = BTreeSet::new();
         let (mut lost, mut blurred) = (0, 0);
+        let mut arealess = LeftOutAreas::default();
+        let mut turning = Turning::new(options.turns_faces);
         for instance in &self.instances {
             let part = model.parts.len() as u32;
+            let mut dropped = 0;
             for submesh in &self.meshes[instance.mesh] {
                 let mut placed = submesh.placed(world_from_file * instance.file_from_mesh);
                 lost += placed.drop_broken();
                 blurred += placed.blurred;
+                dropped += placed.drop_arealess();
                 for material in &mut placed.materials {
                     *material = self.material_of(instance, *material);
                 }
@@ -117,13 +128,17 @@ impl Assembly {
                     without_uvs.extend(placed.materials.iter().copied());
                 }
                 placed.parts = vec![part; placed.triangles.len()];
+                turning.hold(&placed);
                 placed.append_to(&mut model.mesh, with_uvs, with_colors);
             }
-            if model.mesh.triangle_part.last() == Some(&part) {
+            let is_left = model.mesh.triangle_part.last() == Some(&part);
+            if is_left {
                 model.parts.push(instance.name.clone());
             }
+            arealess.add(dropped, &instance.name, is_left);
         }
         warn_of_placing(blurred, &mut warnings);
+        arealess.tell(&mut warnings);
         if lost > 0 {
             warnings.add(format!(
                 "{} reached out of the range of numbers once placed and had to be left out.",
@@ -133,6 +148,7 @@ impl Assembly {
         if model.mesh.triangles.is_empty() {
             return Err(warnings.into_fault());
         }
+        turning.apply(&mut model, [with_uvs, with_colors], &mut warnings);
         model.without_uvs = without_uvs;
         number_materials(self.materials, &mut model);
         self.pictures.read(resolve, &mut model, &mut warnings);

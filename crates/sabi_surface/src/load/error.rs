@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 
 use sabi_files::Refusal;
 
+use super::listed::listed;
+
 /// A model that could not be loaded, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{model}: {fault}")]
@@ -76,6 +78,17 @@ pub enum Fault {
         /// Scenes that exist.
         there: String,
     },
+    /// Parts were asked for by names that none has.
+    #[error("it has no part {}; its parts are {}", listed(unknown.iter().map(String::as_str), MOST_NAMES), listed(there.iter().map(String::as_str), MOST_NAMES))]
+    NoSuchPart {
+        /// The names that were asked for.
+        unknown: Vec<String>,
+        /// The names of its parts, sorted.
+        there: Vec<String>,
+    },
+    /// The choice of parts leaves none.
+    #[error("the choice of its parts leaves none")]
+    NoPart,
     /// The file contradicts itself or its format.
     #[error("the file is damaged: {0}")]
     Damaged(String),
@@ -100,6 +113,9 @@ pub enum Fault {
     #[error("faces cannot be smoothed up to an angle of {0}; give degrees from 0 (all flat) to 180 (all smooth)")]
     Smooth(f32),
 }
+
+/// Most names in a sentence.
+const MOST_NAMES: usize = 8;
 
 impl Fault {
     /// A model that takes more memory than there is for it, bytes.

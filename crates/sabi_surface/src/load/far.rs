@@ -1,9 +1,10 @@
 //! Recentering of models far from the origin of their scene, such as parts of maps and buildings, where 32-bit floats are
 //! too coarse for their shape and for rays that start on it.
 
-use glam::{DMat4, DVec3, Vec3};
+use glam::{DMat4, DVec3};
 
 use super::Submesh;
+use super::arealess::corners_with_area;
 
 /// Ratio of distance to size above which a model is moved to the origin. Below it positions are exact to better than a
 /// hundred-thousandth of the model's size.
@@ -16,10 +17,7 @@ pub(super) fn brought_near<'p>(
     submeshes: impl Iterator<Item = (&'p Submesh, DMat4)>,
 ) -> (DMat4, [f64; 3]) {
     let placed = submeshes.map(|(submesh, file_from_mesh)| (submesh, world_from_file * file_from_mesh));
-    let points = placed.flat_map(|(submesh, world_from_mesh)| {
-        let positions = submesh.positions.iter();
-        positions.map(move |at| world_from_mesh.transform_point3(submesh.origin + Vec3::from(*at).as_dvec3()))
-    });
+    let points = placed.flat_map(|(submesh, world_from_mesh)| corners_with_area(submesh, world_from_mesh));
     let middle = far_middle(points);
     (DMat4::from_translation(-middle) * world_from_file, middle.to_array())
 }

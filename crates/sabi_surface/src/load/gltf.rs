@@ -32,10 +32,12 @@ use self::source::Source;
 pub use self::unpacked::UnpackedVertices;
 pub(super) use self::unpacked::unpack;
 use self::uv_decoding::UvDecodings;
+use super::arealess::LeftOutAreas;
 use super::blur::warn_of_placing;
 use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
 use super::size::check_size;
+use super::turning::Turning;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, PlacedPrimitive, TextureUvs};
@@ -57,7 +59,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         scene: options.scene,
         smooth_degrees: options.smooth_degrees,
     };
-    let instances = scene::instances(&source, &mut warnings)?;
+    let mut instances = scene::instances(&source, &mut warnings)?;
+    let names = instances.iter().map(|instance| instance.name.as_str());
+    let file_parts = options.parts.of_file(names, &mut warnings)?;
+    let mut is_taken = file_parts.iter().map(|part| part.left_out.is_none());
+    instances.retain(|_| is_taken.next() == Some(true));
     check_sizes(&source, &instances, options.memory_bytes)?;
     let mut primitives = source.read_primitives(instances.iter().map(|instance| instance.mesh))?;
     let decodings = UvDecodings::of_primitives(&source, primitives.values().flatten());
@@ -79,13 +85,33 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let mut model = Model {
         stem: super::stem(name),
         middle,
+        file_parts,
         ..Model::default()
     };
     model.mesh.uv_set = with_uvs.then_some(options.uv_set);
     model.mesh.texture_uvs = empty_sets(primitives.values().flatten());
     let mut materials = Materials::default();
-    let placed = (world_from_file, [with_uvs, with_colors]);
-    let Placed { lost, blurred } = place_all(&instances, placed, &primitives, &mut materials, &mut model);
+    let with = [with_uvs, with_colors];
+    let mut placing = Placing {
+        world_from_file,
+        with,
+        materials: &mut materials,
+        model: &mut model,
+        turning: Turning::new(options.turns_faces),
+        arealess: LeftOutAreas::default(),
+        lost: 0,
+        blurred: 0,
+    };
+    for instance in &instances {
+        placing.place(instance, primitives.get(&instance.mesh).into_iter().flatten());
+    }
+    let Placing {
+        turning,
+        arealess,
+        lost,
+        blurred,
+        ..
+    } = placing;
     warn_of_placing(blurred, &mut warnings);
     if lost > 0 {
         warnings.add(format!(
@@ -93,9 +119,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
             counted(lost, TRIANGLES)
         ));
     }
+    arealess.tell(&mut warnings);
     if model.mesh.triangles.is_empty() {
         return Err(nothing_there(&document, warnings));
     }
+    turning.apply(&mut model, with, &mut warnings);
     drop_idle_frames(&mut model.mesh, primitives.values().flatten());
     model.without_uvs = without_uvs
         .iter()
@@ -168,72 +196,61 @@ fn gather_warnings<'a>(
     without_uvs
 }
 
-/// Numbers of triangles that placing did not leave as they were.
-#[derive(Default)]
-struct Placed {
-    /// Triangles that reached out of the range of numbers.
+/// Placing of instances in a model.
+struct Placing<'p> {
+    world_from_file: DMat4,
+    /// Whether any primitive has UVs, and colors.
+    with: [bool; 2],
+    materials: &'p mut Materials,
+    model: &'p mut Model,
+    turning: Turning,
+    arealess: LeftOutAreas,
+    /// Triangles that are out of the range of numbers once placed.
     lost: usize,
     /// Triangles that lost their shape.
     blurred: usize,
 }
 
-/// Adds all instances to the model.
-fn place_all(
-    instances: &[Instance],
-    (world_from_file, with): (DMat4, [bool; 2]),
-    primitives: &BTreeMap<usize, Vec<LoadedPrimitive>>,
-    materials: &mut Materials,
-    model: &mut Model,
-) -> Placed {
-    let mut all = Placed::default();
-    for instance in instances {
-        let primitives = primitives.get(&instance.mesh).into_iter().flatten();
-        let Placed { lost, blurred } = place(instance, world_from_file, primitives, with, materials, model);
-        all.lost += lost;
-        all.blurred += blurred;
-    }
-    all
-}
-
-/// Adds the primitives of an instance to the model as one part.
-fn place<'a>(
-    instance: &Instance,
-    world_from_file: DMat4,
-    primitives: impl Iterator<Item = &'a LoadedPrimitive>,
-    [with_uvs, with_colors]: [bool; 2],
-    materials: &mut Materials,
-    model: &mut Model,
-) -> Placed {
-    let part = model.parts.len() as u32;
-    let mut all = Placed::default();
-    let world_from_mesh = world_from_file * instance.file_from_mesh;
-    for (number, primitive) in primitives.enumerate() {
-        let mut placed = primitive.submesh.placed(world_from_mesh);
-        all.lost += placed.drop_broken();
-        all.blurred += placed.blurred;
-        if placed.triangles.is_empty() {
-            continue;
+impl Placing<'_> {
+    /// Adds the primitives of an instance to the model as one part.
+    fn place<'a>(&mut self, instance: &Instance, primitives: impl Iterator<Item = &'a LoadedPrimitive>) {
+        let model = &mut *self.model;
+        let part = model.parts.len() as u32;
+        let [with_uvs, with_colors] = self.with;
+        let world_from_mesh = self.world_from_file * instance.file_from_mesh;
+        let mut dropped = 0;
+        for (number, primitive) in primitives.enumerate() {
+            let mut placed = primitive.submesh.placed(world_from_mesh);
+            self.lost += placed.drop_broken();
+            self.blurred += placed.blurred;
+            dropped += placed.drop_arealess();
+            if placed.triangles.is_empty() {
+                continue;
+            }
+            placed.materials = vec![self.materials.slot(primitive.material); placed.triangles.len()];
+            placed.parts = vec![part; placed.triangles.len()];
+            self.turning.hold(&placed);
+            let origins = model.origins.get_or_insert_default();
+            origins.vertices.append(&mut placed.sources);
+            let first = model.mesh.triangles.len() as u32;
+            origins.placed.push(PlacedPrimitive {
+                node: instance.node,
+                mesh: instance.mesh,
+                primitive: number,
+                triangles: first..first + placed.triangles.len() as u32,
+                model_from_file: DMat3::from_mat4(world_from_mesh).to_cols_array_2d(),
+                is_turned: false,
+                has_own_tangents: primitive.has_own_tangents,
+                uv_sets: primitive.uv_sets.last().map_or(0, |last| last.saturating_add(1)),
+            });
+            placed.append_to(&mut model.mesh, with_uvs, with_colors);
         }
-        placed.materials = vec![materials.slot(primitive.material); placed.triangles.len()];
-        placed.parts = vec![part; placed.triangles.len()];
-        let origins = model.origins.get_or_insert_default();
-        origins.vertices.append(&mut placed.sources);
-        let first = model.mesh.triangles.len() as u32;
-        origins.placed.push(PlacedPrimitive {
-            node: instance.node,
-            mesh: instance.mesh,
-            primitive: number,
-            triangles: first..first + placed.triangles.len() as u32,
-            model_from_file: DMat3::from_mat4(world_from_mesh).to_cols_array_2d(),
-            has_own_tangents: primitive.has_own_tangents,
-            uv_sets: primitive.uv_sets.last().map_or(0, |last| last.saturating_add(1)),
-        });
-        placed.append_to(&mut model.mesh, with_uvs, with_colors);
+        let is_left = model.mesh.triangle_part.last() == Some(&part);
+        if is_left {
+            model.parts.push(instance.name.clone());
+        }
+        self.arealess.add(dropped, &instance.name, is_left);
     }
-    if model.mesh.triangle_part.last() == Some(&part) {
-        model.parts.push(instance.name.clone());
-    }
-    all
 }
 
 /// Most vertices of all primitives together; vertices that primitives share count for each, since each reads all of them.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::submesh::{Smoothing, Submesh};
+use super::submesh::{MadeNormals, Smoothing, Submesh};
 use super::unit_vector::unit;
 
 /// Computation of missing normals.
@@ -30,6 +30,12 @@ pub(super) fn complete(submesh: &mut Submesh, missing: Missing) -> usize {
     let count = lost.iter().filter(|lost| **lost).count();
     if count == 0 {
         return 0;
+    }
+    if count == lost.len() {
+        submesh.made_normals = Some(match missing {
+            Missing::Flat => MadeNormals::Flat,
+            Missing::Crease => MadeNormals::Crease,
+        });
     }
     let faces = face_normals(submesh);
     let made = match missing {
@@ -76,6 +82,37 @@ pub(super) fn replace(submesh: &mut Submesh, degrees: f32) {
     }
     submesh.normals = vec![[0.0; 3]; submesh.positions.len()];
     submesh.normals = submesh.split_by(&corners);
+    submesh.made_normals = Some(MadeNormals::Smooth(degrees));
+}
+
+/// Gives faces that were turned normals on their new outside: those that were computed are computed again, and those of the file
+/// are reversed at corners of these faces where they point inward.
+pub(super) fn follow_turned(submesh: &mut Submesh, is_turned: &[bool]) {
+    let remake = |submesh: &mut Submesh, missing: Missing| {
+        submesh.normals.clear();
+        complete(submesh, missing);
+    };
+    match submesh.made_normals {
+        Some(MadeNormals::Flat) => remake(submesh, Missing::Flat),
+        Some(MadeNormals::Crease) => remake(submesh, Missing::Crease),
+        Some(MadeNormals::Smooth(degrees)) => replace(submesh, degrees),
+        None => {
+            let outward = |(corner, vertex): (usize, &u32)| {
+                let normal = Vec3::from(submesh.normals[*vertex as usize]);
+                let face = face_normal(submesh, corner / 3).as_vec3();
+                let is_inward = is_turned[corner / 3] && normal.dot(face) < 0.0;
+                if is_inward { -normal } else { normal }.to_array()
+            };
+            let corners: Vec<[f32; 3]> = submesh
+                .triangles
+                .as_flattened()
+                .iter()
+                .enumerate()
+                .map(outward)
+                .collect();
+            submesh.normals = submesh.split_by(&corners);
+        }
+    }
 }
 
 fn face_normals(submesh: &Submesh) -> Vec<DVec3> {

@@ -19,6 +19,7 @@ use glam::DMat4;
 use self::library::Library;
 use self::statements::Statements;
 use super::LoadOptions;
+use super::arealess::LeftOutAreas;
 use super::blur::warn_of_placing;
 use super::completion::{Completion, LACKING_NORMALS};
 use super::error::Fault;
@@ -29,8 +30,9 @@ use super::polygon::Budget;
 use super::size::check_size;
 use super::submesh::Submesh;
 use super::text::decoded;
+use super::turning::Turning;
 use super::warnings::Warnings;
-use crate::model::{Mesh, Model, ModelMaterial};
+use crate::model::{FilePart, Mesh, Model, ModelMaterial};
 
 /// Reads an `.obj` file.
 pub(super) fn read(
@@ -41,11 +43,12 @@ pub(super) fn read(
 ) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
     let text = decoded(bytes);
-    let statements = Statements::read(&text, &mut warnings)?;
+    let mut statements = Statements::read(&text, &mut warnings)?;
     check_size(statements.faces.triangles(), 1, options.memory_bytes)?;
     check_uv_set(&statements, options)?;
     let mut model = Model {
         stem: super::stem(name),
+        file_parts: choose_parts(&mut statements, name, options, &mut warnings)?,
         ..Model::default()
     };
     let without_uvs = without_uvs(&statements);
@@ -62,6 +65,7 @@ pub(super) fn read(
     if placed.drop_broken() > 0 {
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
     }
+    drop_arealess(&mut placed, &statements, name, &mut warnings);
     if placed.triangles.is_empty() {
         if warnings.is_empty() && !statements.faces.positions.is_empty() {
             warnings.add("it is a cloud of points without faces; make a mesh of them first");
@@ -74,17 +78,72 @@ pub(super) fn read(
     }
     let slots = number_materials(&statements, &mut library, &mut placed, &mut model, &mut warnings);
     model.without_uvs = without_uvs.iter().filter_map(|slot| slots.get(slot).copied()).collect();
-    number_parts(&statements, &mut placed, &mut model);
+    number_parts(&statements, name, &mut placed, &mut model);
     library.pictures.read(resolve, &mut model, &mut warnings);
     let (with_uvs, with_colors) = (!placed.uvs.is_empty(), !placed.colors.is_empty());
     let mut mesh = Mesh {
         uv_set: with_uvs.then_some(0),
         ..Mesh::default()
     };
+    let mut turning = Turning::new(options.turns_faces);
+    turning.hold(&placed);
     placed.append_to(&mut mesh, with_uvs, with_colors);
     model.mesh = mesh;
+    turning.apply(&mut model, [with_uvs, with_colors], &mut warnings);
     model.warnings = warnings.finish();
     Ok(model)
+}
+
+/// Name of a part: that of the file where its faces have none.
+fn part_name(statements: &Statements, part: u32, file: &str) -> String {
+    let name = &statements.parts[part as usize];
+    if name.is_empty() {
+        super::stem(file)
+    } else {
+        name.clone()
+    }
+}
+
+/// Keeps the faces of the parts that are taken; returns all parts that have any.
+fn choose_parts(
+    statements: &mut Statements,
+    file: &str,
+    options: &LoadOptions,
+    warnings: &mut Warnings,
+) -> Result<Vec<FilePart>, Fault> {
+    let used: BTreeSet<u32> = statements.faces.faces.iter().map(|face| face.part).collect();
+    let names: Vec<String> = used.iter().map(|part| part_name(statements, *part, file)).collect();
+    let parts = options.parts.of_file(names.iter().map(String::as_str), warnings)?;
+    let taken = used.into_iter().zip(&parts).filter(|(_, part)| part.left_out.is_none());
+    let taken: BTreeSet<u32> = taken.map(|(part, _)| part).collect();
+    statements.faces.faces.retain(|face| taken.contains(&face.part));
+    Ok(parts)
+}
+
+/// Removes triangles that have no area, and warns of them.
+fn drop_arealess(placed: &mut Submesh, statements: &Statements, file: &str, warnings: &mut Warnings) {
+    let of_parts = |placed: &Submesh| {
+        let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+        for part in &placed.parts {
+            *counts.entry(*part).or_default() += 1;
+        }
+        counts
+    };
+    let before = of_parts(placed);
+    if placed.drop_arealess() == 0 {
+        return;
+    }
+    let after = of_parts(placed);
+    let mut left_out = LeftOutAreas::default();
+    for (part, count) in before {
+        let left = after.get(&part).copied();
+        left_out.add(
+            count - left.unwrap_or(0),
+            &part_name(statements, part, file),
+            left.is_some(),
+        );
+    }
+    left_out.tell(warnings);
 }
 
 /// Returns the submesh in world space, and its origin in the file's own world; see [`Model::middle`].
@@ -173,15 +232,12 @@ fn number_materials(
 }
 
 /// Keeps the parts in use, in the file's order.
-fn number_parts(statements: &Statements, submesh: &mut Submesh, model: &mut Model) {
+fn number_parts(statements: &Statements, file: &str, submesh: &mut Submesh, model: &mut Model) {
     let used: BTreeSet<u32> = submesh.parts.iter().copied().collect();
     let mut new_from_old = BTreeMap::new();
     for old in used {
         new_from_old.insert(old, model.parts.len() as u32);
-        let name = statements.parts[old as usize].clone();
-        model
-            .parts
-            .push(if name.is_empty() { model.stem.clone() } else { name });
+        model.parts.push(part_name(statements, old, file));
     }
     for part in &mut submesh.parts {
         *part = new_from_old[part];

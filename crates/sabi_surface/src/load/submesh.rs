@@ -21,6 +21,8 @@ pub(crate) struct Submesh {
     pub(crate) blurred_by_file: usize,
     /// Zero where a vertex has none.
     pub(crate) normals: Vec<[f32; 3]>,
+    /// Origin of the normals where they are not those of the file.
+    pub(crate) made_normals: Option<MadeNormals>,
     pub(crate) tangents: Vec<[f32; 4]>,
     pub(crate) uvs: Vec<[f32; 2]>,
     /// Sets besides `uvs` that textures of its material use, numbers rising.
@@ -50,6 +52,17 @@ pub(crate) enum Smoothing {
     Group(u32),
 }
 
+/// Origin of normals that are none of the file's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum MadeNormals {
+    /// One for each triangle, where the file has none at all.
+    Flat,
+    /// Smooth up to a crease, where the file has none at all.
+    Crease,
+    /// Smooth up to an angle between faces, degrees, in place of the file's.
+    Smooth(f32),
+}
+
 impl Submesh {
     /// Removes triangles with a position that is no number, and vertices that no triangle uses; returns the number of triangles
     /// removed.
@@ -66,12 +79,10 @@ impl Submesh {
                 .iter()
                 .map(|corners| corners.iter().all(|v| finite[*v as usize]))
                 .collect();
-            retain(&mut self.triangles, &keep);
-            retain(&mut self.materials, &keep);
-            retain(&mut self.parts, &keep);
-            retain(&mut self.smoothing, &keep);
+            self.retain_triangles(&keep);
+        } else {
+            self.drop_unused();
         }
-        self.drop_unused();
         before - self.triangles.len()
     }
 
@@ -82,7 +93,7 @@ impl Submesh {
         std::mem::swap(&mut self.tangents, &mut other.tangents);
     }
 
-    fn drop_unused(&mut self) {
+    pub(super) fn drop_unused(&mut self) {
         let mut used = vec![false; self.positions.len()];
         for corner in self.triangles.as_flattened() {
             used[*corner as usize] = true;
@@ -268,7 +279,7 @@ impl Submesh {
     }
 }
 
-fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
+pub(super) fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
     let mut keep = keep.iter();
     values.retain(|_| keep.next() == Some(&true));
     // Primitives that share their vertices would otherwise each keep memory for all of them.

@@ -27,6 +27,8 @@ pub struct PlacedPrimitive {
     pub triangles: Range<u32>,
     /// Columns of the matrix that carries vectors of the file's mesh to the model.
     pub model_from_file: [[f64; 3]; 3],
+    /// True if faces of it were turned, so that their corners are not in the file's order.
+    pub is_turned: bool,
     /// True if the tangents of [`Mesh::uvs`] are those of the file.
     pub has_own_tangents: bool,
     /// Number of its UV sets: the highest one and one.

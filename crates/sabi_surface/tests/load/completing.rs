@@ -97,7 +97,8 @@ fn a_crowd_in_one_place_is_not_waited_for() {
     );
     let sentence =
         "Too many triangles of mesh `crowd` meet in one place to make tangents by the standard; theirs are arbitrary.";
-    assert_eq!(file.model().warnings, [sentence]);
+    let arealess = "What has no area, such as a part that is scaled to nothing, is left out: `crowd`.";
+    assert_eq!(file.model().warnings, [sentence, arealess]);
 }
 
 #[test]

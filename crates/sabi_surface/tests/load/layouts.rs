@@ -84,12 +84,12 @@ fn sparse_over(file: &mut Gltf, base: usize, indices: &[u8], component: u32) -> 
 #[test]
 fn signed_integers_reach_exactly_minus_one() {
     let file = stored(|file| {
-        let accessor = file.accessor(I16, "VEC3", 3, &shorts(&[0x8000, 0, 0, 0x8001, 0, 0, 0, 32767, 0]));
+        let accessor = file.accessor(I16, "VEC3", 3, &shorts(&[0x8000, 0, 0, 0x8001, 0, 32767, 0, 32767, 0]));
         edited(file, accessor, json!({ "normalized": true }))
     });
     assert_eq!(
         file.model().mesh.positions,
-        [[-1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        [[-1.0, 0.0, 0.0], [-1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]
     );
 }
 

@@ -163,11 +163,11 @@ fn every_component_type_reads_as_the_same_numbers_or_is_answered() {
 #[test]
 fn the_smallest_signed_numbers_are_minus_one() {
     let mut file = Gltf::triangle();
-    let accessor = file.accessor(I8, "VEC3", 3, &[0x80, 0, 0, 0x81, 0, 0, 0, 127, 0]);
+    let accessor = file.accessor(I8, "VEC3", 3, &[0x80, 0, 0, 0x81, 0, 127, 0, 127, 0]);
     file.json["accessors"][accessor]["normalized"] = json!(true);
     file.primitive()["attributes"]["POSITION"] = json!(accessor);
     let mesh = file.model().mesh;
-    assert_eq!(mesh.positions, [[-1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(mesh.positions, [[-1.0, 0.0, 0.0], [-1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
 }
 
 #[test]

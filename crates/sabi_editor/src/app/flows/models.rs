@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use egui::Context;
+use sabi_engine::SavedReading;
 
 use super::super::Editor;
 use sabi_engine::io_reason;
@@ -22,8 +23,8 @@ impl Editor {
         let path = in_canonical_folder(path);
         // The model that was the first one takes the place of the one that becomes it.
         let before = self.evaluation.model.file().to_owned();
-        self.row.replace(&path, (&before, self.shell.settings.reading(&before)));
-        self.evaluation.model.replace(&path, self.shell.settings.reading(&path));
+        self.row.replace(&path, (&before, self.reading(&before)));
+        self.evaluation.model.replace(&path, self.reading(&path));
     }
 
     /// Puts a model that is shown now on the strip, and says why one is not shown.
@@ -69,14 +70,40 @@ impl Editor {
     /// Reads the shown model with other options, now and whenever it is shown again.
     pub(in crate::app) fn read_model(&mut self, reading: ImportOptions) {
         let file = self.evaluation.model.file().to_owned();
-        self.shell.settings.remember_reading(&file, reading);
+        self.keep_reading(&file, &reading);
         self.evaluation.model.replace(&file, reading);
     }
 
     /// Shows the model again that was there before the one that is being read.
     pub(in crate::app) fn cancel_reading(&mut self) {
         if let Some((file, reading)) = self.evaluation.model.cancel() {
-            self.shell.settings.remember_reading(&file, reading);
+            self.keep_reading(&file, &reading);
+        }
+    }
+
+    /// Keeps the options for reading a model: in the graph what that keeps of its own model, the others in the settings.
+    fn keep_reading(&mut self, file: &Path, reading: &ImportOptions) {
+        let kept = match self.documents.keep_reading(file, reading) {
+            true => reading.clone().with_saved(SavedReading::default()),
+            false => reading.clone(),
+        };
+        self.shell.settings.remember_reading(file, kept);
+    }
+
+    /// Options for reading a model.
+    fn reading(&self, model: &Path) -> ImportOptions {
+        self.documents.reading(&self.shell.settings, model)
+    }
+
+    /// Reads the shown model otherwise after a step was undone that says how the graph's model is read.
+    pub(in crate::app) fn follow_reading(&mut self) {
+        if !self.documents.takes_new_reading() {
+            return;
+        }
+        let file = self.evaluation.model.file().to_owned();
+        let reading = self.reading(&file);
+        if reading.saved() != self.evaluation.model.import_options().saved() {
+            self.evaluation.model.replace(&file, reading);
         }
     }
 
@@ -97,7 +124,7 @@ impl Editor {
             let sentence = format!("{} could not be written: {}", path.display(), io_reason(&error));
             return self.shell.fail(sentence);
         }
-        let model = (path.as_path(), self.shell.settings.reading(&path));
+        let model = (path.as_path(), self.reading(&path));
         let added = self.row.add(&self.evaluation, model, &self.shell.context);
         self.shell.allow(added);
     }

@@ -26,6 +26,7 @@ impl Editor {
         let request = PackRequest {
             graph,
             model: PackedModel::File(model),
+            reading: self.evaluation.model.import_options().saved(),
             output,
             // Missing files are named beside the number of packed ones.
             allows_missing: true,

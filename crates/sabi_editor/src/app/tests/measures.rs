@@ -3,7 +3,7 @@
 use sabi_engine::{Overlap, Session, Up};
 use sabi_graph::Fit;
 
-use super::Window;
+use super::{Window, beside};
 
 #[test]
 fn the_size_that_is_worked_at_is_chosen_in_the_status_bar() {
@@ -26,6 +26,43 @@ fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
     assert_eq!(window.document().contents().fit, Fit::Length(0.1));
     window.undo(2);
     assert_eq!(window.document().contents().fit, Fit::Unit);
+}
+
+#[test]
+fn the_parts_of_the_graphs_model_are_chosen_in_its_import_settings_and_kept_in_the_graph() {
+    let mut window = Window::with(|folders| {
+        let folder = beside(folders);
+        let square = "vt 0 0\nvt 1 0\nvt 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+        let parts = ["Rock_LOD0", "Rock_LOD1", "Moss"].map(|name| format!("o {name}\nf 1/1 2/2 3/3\n"));
+        std::fs::write(folder.join("rock.obj"), format!("{square}{}", parts.concat())).unwrap();
+        let graph = r#"{ "format": "sabi", "version": 1, "name": "", "preview": { "mesh": "rock.obj" }, "nodes": {} }"#;
+        std::fs::write(folder.join("rock.sabi"), graph).unwrap();
+        Session::open(&folder.join("rock.sabi"), folders.recovery.as_deref()).unwrap()
+    });
+    let rock = window.document().session.file().unwrap().with_extension("obj");
+    window.harness.state_mut().take_model(&rock);
+    let shows = |window: &mut Window, expected: &[&str]| {
+        window.until("the parts", |editor| {
+            let (_, is_loaded) = editor.evaluation.model.loaded();
+            let received = editor.evaluation.model.received.as_ref();
+            is_loaded && received.is_some_and(|model| model.linked.model.parts == expected)
+        });
+    };
+    let preview = |window: &Window| window.document().contents().preview.clone().unwrap();
+    shows(&mut window, &["Rock_LOD0", "Moss"]);
+    window.click("How the model is read");
+    window.click("Moss");
+    shows(&mut window, &["Rock_LOD0"]);
+    assert_eq!(preview(&window).without, ["Moss"]);
+    window.click("Rock_LOD1");
+    shows(&mut window, &["Rock_LOD0", "Rock_LOD1"]);
+    assert_eq!(preview(&window).parts, ["Rock_LOD0", "Rock_LOD1"]);
+    assert!(preview(&window).without.is_empty());
+    let request = window.editor().bake_request("maps".into(), false);
+    assert_eq!(request.evaluator.model.reading.parts.parts, ["Rock_LOD0", "Rock_LOD1"]);
+    window.undo(2);
+    shows(&mut window, &["Rock_LOD0", "Moss"]);
+    assert!(window.editor().shell.settings.readings.is_empty(), "the graph keeps it");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Recipes of bakes: all that the maps depend on, besides the program, the adapter and the content of the files.
 
 use std::fmt::Display;
+use std::ops::Not;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -11,7 +12,7 @@ use sabi_files::{
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::{Fit, Overrides, Value};
 use sabi_surface::atlas::Udim;
-use sabi_surface::load::Up;
+use sabi_surface::load::{PartChoice, Up};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::recorded_fit;
@@ -20,7 +21,7 @@ use crate::baking::seams::Seams;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::EvaluatorOptions;
 use crate::opening::document::OpenGraph;
-use crate::opening::linked_model::{ModelOptions, Overlap};
+use crate::opening::linked_model::{ModelOptions, Overlap, SavedReading};
 use crate::opening::memory::default_memory_bytes;
 use crate::source::paint::without_paint;
 
@@ -93,6 +94,15 @@ pub struct ModelRecipe {
     pub scene: Option<u32>,
     /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
     pub smooth_degrees: Option<f32>,
+    /// Names of the parts that are taken; none for all except hulls and coarser levels of detail.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<String>,
+    /// Names of the parts that are left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub without: Vec<String>,
+    /// True to turn faces that are inside out.
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub turn_faces: bool,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
     /// Treatment of UVs in several tiles.
@@ -129,6 +139,9 @@ impl Recipe {
                 scale: model.scale,
                 scene: model.scene,
                 smooth_degrees: model.smooth_degrees,
+                parts: model.reading.parts.parts.clone(),
+                without: model.reading.parts.without.clone(),
+                turn_faces: model.reading.turn_faces,
                 overlap: model.overlap,
                 udim: model.udim,
             },
@@ -168,6 +181,13 @@ impl Recipe {
                     scale: model.scale,
                     scene: model.scene,
                     smooth_degrees: model.smooth_degrees,
+                    reading: SavedReading {
+                        parts: PartChoice {
+                            parts: model.parts.clone(),
+                            without: model.without.clone(),
+                        },
+                        turn_faces: model.turn_faces,
+                    },
                     overlap: model.overlap,
                     udim: model.udim,
                     size: self.size,

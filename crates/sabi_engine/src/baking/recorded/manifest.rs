@@ -17,8 +17,8 @@ use crate::baking::report::{BakeReport, REPORT_VERSION};
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Progress, stop_if_canceled};
 use crate::program::Build;
-use crate::warning::Warning;
 use crate::remedy::Remedy;
+use crate::warning::Warning;
 
 /// Hidden folder in an output folder.
 pub(super) const FOLDER: &str = ".sabi";

@@ -165,7 +165,7 @@ impl<'a> Rewriter<'a> {
         if let WrittenTangents::Removed = attributes.tangents {
             remove_tangents(primitive);
         }
-        if attributes.are_as_stored() && !part.is_split {
+        if attributes.are_as_stored() && !part.is_split && !placed.is_turned {
             return Ok(());
         }
         let frame = Frame::of(placed);
@@ -179,7 +179,9 @@ impl<'a> Rewriter<'a> {
         }
         attributes.remove_replaced(primitive);
         // Vertices that primitives share would otherwise have values for all of them in each.
-        if !part.is_split && slots.are_whole() && 2 * slots.sources.len() >= count {
+        // The indices of turned faces are others.
+        let keeps_indices = !part.is_split && !placed.is_turned;
+        if keeps_indices && slots.are_whole() && 2 * slots.sources.len() >= count {
             let vertices = spread(&slots, count);
             self.write(document, primitive, attributes, &frame, &vertices);
             return Ok(());
@@ -203,13 +205,14 @@ impl<'a> Rewriter<'a> {
             .is_some_and(|targets| !targets.is_empty());
         let set = self.set(placed, part);
         let baked = set.and_then(|set| self.edits.tangents.get(&set));
+        let has_new_normals = model.is_smoothed || placed.is_turned;
         let tangents = match baked {
             // Fixed normals would be wrong on flat faces that move.
-            Some(Tangents::New) if morphs && !has("NORMAL") && !model.is_smoothed => WrittenTangents::AsTheyAre,
+            Some(Tangents::New) if morphs && !has("NORMAL") && !has_new_normals => WrittenTangents::AsTheyAre,
             Some(Tangents::New) if placed.has_own_tangents => WrittenTangents::AsTheyAre,
             Some(Tangents::New) => WrittenTangents::New(&mesh.tangents),
             Some(Tangents::Unused) if has(TANGENT) => WrittenTangents::Removed,
-            None if model.is_smoothed && has(TANGENT) => {
+            None if has_new_normals && has(TANGENT) => {
                 own_tangents(mesh, model.materials.get(material.unwrap_or(0) as usize))
             }
             _ => WrittenTangents::AsTheyAre,
@@ -217,7 +220,7 @@ impl<'a> Rewriter<'a> {
         let frames_normals = matches!(tangents, WrittenTangents::New(_)) && !has("NORMAL");
         Attributes {
             uvs: self.uvs(placed, part),
-            normals: (model.is_smoothed || frames_normals).then_some(&mesh.normals),
+            normals: (has_new_normals || frames_normals).then_some(&mesh.normals),
             tangents,
         }
     }

@@ -184,6 +184,55 @@ fn a_smoothed_model_is_copied_with_the_normals_that_its_maps_were_made_for() {
     assert_ne!(corners(&flat), corners(&read));
 }
 
+/// A GLB file with some triangles of its first primitive turned inside out.
+fn with_turned_faces(mut file: Vec<u8>, faces: &[usize]) -> Vec<u8> {
+    let text_end = 20 + u32::from_le_bytes(file[12..16].try_into().unwrap()) as usize;
+    let document: Json = serde_json::from_slice(&file[20..text_end]).unwrap();
+    let indices = document["meshes"][0]["primitives"][0]["indices"].as_u64().unwrap();
+    let accessor = &document["accessors"][indices as usize];
+    let number = |of: &Json, key: &str| of[key].as_u64().unwrap_or(0) as usize;
+    let view = &document["bufferViews"][number(accessor, "bufferView")];
+    let size = match number(accessor, "componentType") {
+        5121 => 1,
+        5123 => 2,
+        _ => 4,
+    };
+    let first = text_end + 8 + number(view, "byteOffset") + number(accessor, "byteOffset");
+    for face in faces {
+        for byte in 0..size {
+            let corner = first + (3 * face + 1) * size + byte;
+            file.swap(corner, corner + size);
+        }
+    }
+    file
+}
+
+#[test]
+fn faces_that_were_turned_look_outward_in_the_copy() {
+    let good = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/cube.glb");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cube.glb");
+    fs::write(&path, with_turned_faces(fs::read(&good).unwrap(), &[0, 3, 7])).unwrap();
+    let turning = LoadOptions {
+        turns_faces: true,
+        ..LoadOptions::default()
+    };
+    let model = load(&path, &turning).unwrap();
+    assert_eq!(model.turned_faces, 3);
+    let copy = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default()).unwrap();
+    let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
+    let made = folder.path().join("made.glb");
+    fs::write(&made, &finished.copy.bytes).unwrap();
+    let corners = |model: &Model| -> Vec<([f32; 3], [f32; 3], [f32; 2])> {
+        let mesh = &model.mesh;
+        let all = mesh.triangles.iter().flatten().map(|at| *at as usize);
+        all.map(|at| (mesh.positions[at], mesh.normals[at].map(f32::round), mesh.uvs[at]))
+            .collect()
+    };
+    let [was, is] = [&good, &made].map(|path| corners(&load(path, &LoadOptions::default()).unwrap()));
+    assert_eq!(is, was);
+}
+
 #[test]
 fn a_model_that_changed_meanwhile_is_a_sentence() {
     let folder = tempfile::tempdir().unwrap();

@@ -43,7 +43,7 @@ fn copy_of(file: &File, options: &LoadOptions) -> (FinishedCopy, Model, Model) {
     fs::write(&path, &finished.copy.bytes).unwrap();
     let plain = LoadOptions {
         smooth_degrees: None,
-        ..*options
+        ..options.clone()
     };
     let copied = load(&path, &plain).unwrap();
     (finished, model, copied)

@@ -1,0 +1,53 @@
+//! What the open graph keeps about how its model is read.
+
+use std::path::Path;
+
+use sabi_editing::document_settings::changed_preview;
+use sabi_engine::SavedReading;
+
+use super::documents::Documents;
+use crate::import_options::ImportOptions;
+use crate::paths::canonical_if_present;
+use crate::settings::Settings;
+
+impl Documents {
+    /// Options for reading a model: of the settings, and of the open graph if it is the graph's model.
+    pub(super) fn reading(&self, settings: &Settings, model: &Path) -> ImportOptions {
+        let reading = settings.reading(model);
+        match self.is_own_model(model) {
+            true => reading.with_saved(self.saved_reading()),
+            false => reading,
+        }
+    }
+
+    /// Keeps what the open graph keeps of the options for its own model; returns whether a model is that.
+    pub(super) fn keep_reading(&mut self, model: &Path, reading: &ImportOptions) -> bool {
+        if !self.is_own_model(model) {
+            return false;
+        }
+        let wanted = reading.saved();
+        if wanted != self.saved_reading() {
+            let edit = changed_preview(&self.document, |preview| wanted.put_into(preview));
+            self.document.edit("Change how the model is read", vec![edit]);
+        }
+        true
+    }
+
+    /// Returns whether the open graph says something else about its model than when this was last asked.
+    pub(super) fn takes_new_reading(&mut self) -> bool {
+        let now = self.saved_reading();
+        let is_new = now != self.seen_reading;
+        self.seen_reading = now;
+        is_new
+    }
+
+    fn saved_reading(&self) -> SavedReading {
+        let preview = self.document.contents().preview.as_ref();
+        preview.map_or_else(SavedReading::default, SavedReading::of_preview)
+    }
+
+    fn is_own_model(&self, model: &Path) -> bool {
+        let named = self.named_model();
+        named.is_some_and(|named| canonical_if_present(&named) == canonical_if_present(model))
+    }
+}

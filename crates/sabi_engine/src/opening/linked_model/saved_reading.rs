@@ -1,0 +1,66 @@
+//! What a graph says about how its model is read.
+
+use sabi_files::canonical;
+use sabi_graph::Preview;
+use sabi_surface::load::PartChoice;
+
+use super::ModelOptions;
+use crate::opening::document::OpenGraph;
+
+/// Parts of a model that count, and treatment of faces that are inside out: what is wrong with the model that a graph is made for, and so
+/// is kept in the graph.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SavedReading {
+    /// Parts that count.
+    pub parts: PartChoice,
+    /// True to turn faces that are inside out.
+    pub turn_faces: bool,
+}
+
+impl SavedReading {
+    /// Returns what the preview of a graph says about its model.
+    pub fn of_preview(preview: &Preview) -> SavedReading {
+        SavedReading {
+            parts: PartChoice {
+                parts: preview.parts.clone(),
+                without: preview.without.clone(),
+            },
+            turn_faces: preview.turn_faces,
+        }
+    }
+
+    /// Says it in the preview of a graph.
+    pub fn put_into(&self, preview: &mut Preview) {
+        preview.parts = self.parts.parts.clone();
+        preview.without = self.parts.without.clone();
+        preview.turn_faces = self.turn_faces;
+    }
+
+    /// Returns what is asked for, and otherwise what a preview says.
+    pub(crate) fn or(&self, preview: &Preview) -> SavedReading {
+        let saved = SavedReading::of_preview(preview);
+        SavedReading {
+            parts: match self.parts.is_default() {
+                true => saved.parts,
+                false => self.parts.clone(),
+            },
+            turn_faces: self.turn_faces || saved.turn_faces,
+        }
+    }
+}
+
+impl ModelOptions {
+    /// Returns the options with what a graph says where these say nothing, if it names this model.
+    pub(crate) fn for_graph(&self, open: &OpenGraph) -> ModelOptions {
+        let named = open.document.preview.as_ref();
+        let preview = named.filter(|preview| {
+            let file = preview.mesh.as_ref().map(|mesh| open.base().resolve(mesh));
+            let named = file.and_then(|file| canonical(&file).ok());
+            named.is_some() && named == canonical(&self.path).ok()
+        });
+        ModelOptions {
+            reading: preview.map_or_else(|| self.reading.clone(), |preview| self.reading.or(preview)),
+            ..self.clone()
+        }
+    }
+}
