@@ -4,7 +4,6 @@
 
 use std::collections::BTreeMap;
 
-use crate::format::ObjectKeys;
 use crate::value::{Value, number_text};
 
 /// Object to be written, with its keys in order.
@@ -44,9 +43,9 @@ impl OrderedObject {
     }
 
     /// Adds unknown keys, sorted, without those that are known keys of this version.
-    pub(crate) fn put_extra(&mut self, extra: &BTreeMap<String, Value>, known: &ObjectKeys) {
+    pub(crate) fn put_extra(&mut self, extra: &BTreeMap<String, Value>, is_known: impl Fn(&str) -> bool) {
         for (key, value) in extra {
-            if !known.has(key) {
+            if !is_known(key.as_str()) {
                 self.put(key, value.clone());
             }
         }

@@ -55,7 +55,7 @@ pub fn advice_on<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> St
             let asked = letters(word).unwrap_or_default(); // An endless word is like none.
             // A stable sort: of several that are as much alike, the first.
             alike.sort_by_cached_key(|name| {
-                let letters = letters(name).unwrap_or_default();
+                let letters = letters(name).unwrap_or_default(); // As above.
                 let is_part = letters.windows(asked.len().max(1)).any(|part| part == asked);
                 (!is_part, distance(&asked, &letters))
             });

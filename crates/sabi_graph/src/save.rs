@@ -26,7 +26,7 @@ impl Document {
         object.put_map("groups", &self.groups, group_item);
         put_ports(&mut object, &self.inputs, &self.outputs);
         put_nodes(&mut object, &self.graph);
-        object.put_extra(&self.extra, &format::DOCUMENT);
+        object.put_extra(&self.extra, |key| format::DOCUMENT.has(key));
         object.into_text()
     }
 }
@@ -42,7 +42,7 @@ fn group_item(group: &GroupDef) -> Item {
     put_panel(&mut object, &group.graph);
     put_ports(&mut object, &group.inputs, &group.outputs);
     put_nodes(&mut object, &group.graph);
-    object.put_extra(&group.extra, &format::GROUP);
+    object.put_extra(&group.extra, |key| format::GROUP.has(key));
     Item::Object(object)
 }
 
@@ -61,7 +61,7 @@ fn library_item(library: &LibrarySource) -> Item {
     let mut object = OrderedObject::default();
     object.put("file", library.file.as_str());
     object.put("digest", library.digest.as_str());
-    object.put_extra(&library.extra, &format::LIBRARY);
+    object.put_extra(&library.extra, |key| format::LIBRARY.has(key));
     Item::Object(object)
 }
 
@@ -100,7 +100,7 @@ fn node_item(node: &Node) -> Item {
     let rows = rows.filter(|(rows, _)| *rows != NodeRows::All);
     object.put_some("rows", rows.map(|(_, name)| *name));
     object.put_some("named_wires", node.display.has_named_wires.then_some(true));
-    object.put_extra(&node.extra, &format::NODE);
+    object.put_extra(&node.extra, |key| format::NODE.has(key));
     Item::Object(object)
 }
 
@@ -117,7 +117,7 @@ fn preview_item(preview: &Preview) -> Item {
     object.put_some("size", preview.size);
     object.put_some("variant", preview.variant.as_deref());
     object.put_map("views", &preview.views, view_item);
-    object.put_extra(&preview.extra, &format::PREVIEW);
+    object.put_extra(&preview.extra, |key| format::PREVIEW.has(key));
     Item::Object(object)
 }
 
@@ -128,7 +128,7 @@ fn view_item(view: &SavedView) -> Item {
     object.put("pitch", view.pitch);
     object.put("distance", view.distance);
     object.put_some("parallel", view.is_parallel.then_some(true));
-    object.put_extra(&view.extra, &format::VIEW);
+    object.put_extra(&view.extra, |key| format::VIEW.has(key));
     Item::Object(object)
 }
 
@@ -142,7 +142,7 @@ fn exposed_item(knob: &Exposed) -> Item {
     object.put_some("order", knob.order);
     object.put_some("range", knob.range.map(|ends| ends.to_vec()));
     object.put_some("default", knob.default.clone());
-    object.put_extra(&knob.extra, &format::EXPOSED);
+    object.put_extra(&knob.extra, |key| format::EXPOSED.has(key));
     Item::Object(object)
 }
 
@@ -159,7 +159,7 @@ fn input_item(input: &GroupInput) -> Item {
     object.put("to", slots(&input.to));
     object.put_some("type", input.ty.map(|ty| ty.to_string()));
     object.put_some("label", input.label.as_deref());
-    object.put_extra(&input.extra, &format::INPUT);
+    object.put_extra(&input.extra, |key| format::INPUT.has(key));
     Item::Object(object)
 }
 
@@ -168,7 +168,7 @@ fn frame_item(frame: &Frame) -> Item {
     object.put_some("title", frame.title.as_deref());
     object.put_some("color", frame.color.as_deref());
     object.put("nodes", frame.nodes.iter().map(NodeId::as_str).collect::<Vec<_>>());
-    object.put_extra(&frame.extra, &format::FRAME);
+    object.put_extra(&frame.extra, |key| format::FRAME.has(key));
     Item::Object(object)
 }
 
@@ -178,7 +178,7 @@ fn note_item(note: &Note) -> Item {
     object.put("pos", note.pos.map(f64::from).to_vec());
     object.put("width", f64::from(note.width));
     object.put_some("color", note.color.as_deref());
-    object.put_extra(&note.extra, &format::NOTE);
+    object.put_extra(&note.extra, |key| format::NOTE.has(key));
     Item::Object(object)
 }
 

@@ -152,7 +152,7 @@ impl Header {
                 }
             };
             // Of 4 bits, two colors take turns.
-            let half = |byte: u8, at: usize| if at % 2 == 0 { byte >> 4 } else { byte & 15 };
+            let half = |byte: u8, at: usize| if at.is_multiple_of(2) { byte >> 4 } else { byte & 15 };
             match (*count, *value) {
                 (0, 0) => (x, y) = (0, y + 1),
                 (0, 1) => break,

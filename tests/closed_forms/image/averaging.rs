@@ -91,7 +91,7 @@ fn clear_pixels_give_no_color_to_the_opaque_ones_beside_them() {
     // Red columns between clear black ones, four pixels wide, so that texels see both.
     let codes: Vec<u8> = (0..SIDE * SIDE)
         .flat_map(|at| {
-            if at % SIDE / 4 % 2 == 0 {
+            if (at % SIDE / 4).is_multiple_of(2) {
                 [255, 0, 0, 255]
             } else {
                 [0, 0, 0, 0]

@@ -166,7 +166,7 @@ fn the_stages_of_a_bake_are_the_time_that_it_took() {
     let stages = report["stages_ms"].as_object().unwrap();
     assert_eq!(
         stages.keys().collect::<Vec<_>>(),
-        ["atlas", "compile", "encode", "load", "run"]
+        ["load", "atlas", "compile", "run", "encode"]
     );
     let sum: f64 = stages.values().filter_map(Json::as_f64).sum();
     assert!(sum > 0.0 && sum <= process, "{sum} of {process}");

@@ -196,7 +196,10 @@ impl ItemPlanner<'_> {
         // What is told shows paths as they are written; a plan needs whole ones.
         request.graph = whole_path(&self.from, &draft.graph.written);
         request.evaluator.model.path = whole_path(&self.from, &draft.model.written);
-        let out = whole_path(&self.from, &out_folder(draft).map_err(bad)?);
+        // As it was told for all drafts.
+        let out = out_folder(draft)
+            .map_err(|why| bad(format!("{}: {}: {why}", self.matrix.path.display(), draft.row.words)))?;
+        let out = whole_path(&self.from, &out);
         // A missing one was told by the check.
         let files_of_presets = presets.iter().filter_map(|(_, file)| file.as_ref());
         let files_of_presets = files_of_presets.filter(|file| file.exists());

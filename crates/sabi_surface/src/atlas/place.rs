@@ -187,9 +187,9 @@ mod tests {
                 size / 256,
                 "small charts"
             );
-            let cell = u64::from(cell_side(size, &squares(100, 4 * size), 8192));
-            let cells = 100 * u64::from(4 * size / cell as u32).pow(2);
-            assert!(cells <= 8 * 256 * 256, "1600 maps in cells of {cell} texels");
+            let cell = cell_side(size, &squares(100, 1024), 8192);
+            let cells = 100 * (1024 / cell).pow(2);
+            assert!(cells <= 8 * 256 * 256, "100 charts of 1024² in cells of {cell} texels");
         }
         assert_eq!(cell_side(256, &[], 8192), 1);
     }

@@ -157,14 +157,15 @@ impl Manifest {
             let Ok(known) = RecordedBake::of(earlier, base) else {
                 return false;
             };
-            if is_same_set(&known.recipe, &recipe.clone().with_absolute_paths(base)) {
-                return false;
-            }
             let count = known.files().count();
             let left = known
                 .files()
                 .filter(|file| !written.contains(file.path.as_str()))
                 .count();
+            // One whose names have another seed or variant keeps all of its files.
+            if left < count && is_same_set(&known.recipe, &recipe.clone().with_absolute_paths(base)) {
+                return false;
+            }
             if left < count {
                 without_files(earlier, &written);
                 stale.extend(known.documents().filter(|document| !written.contains(document)).map(|document| {

@@ -20,8 +20,8 @@ fn writer(folder: &Path) -> BakeWriter {
 /// The output of a channel of a bake of that channel alone.
 fn output(folder: &Path, options: &SetOptions, channel: Channel, pixels: &ChannelPixels) -> OutputRecord {
     let outputs = bake_set(folder, options, &[(channel.clone(), pixels.clone())]);
-    let its = outputs.into_iter().filter(|output| output.channel == channel.name());
-    its.last().unwrap()
+    let mut its = outputs.into_iter().filter(|output| output.channel == channel.name());
+    its.next_back().unwrap()
 }
 
 #[test]
