@@ -3,7 +3,7 @@
 use sabi_image::{Pixels, decode};
 use serde_json::Value as Json;
 
-use crate::place::{Place, graph};
+use crate::place::Place;
 
 /// Every source whose data is read by triangle, with an output for each.
 const SOURCES: &str = r#"    "model": { "kind": "source/model" },
@@ -16,6 +16,10 @@ const SOURCES: &str = r#"    "model": { "kind": "source/model" },
     "out_random": { "kind": "output/mask", "params": { "name": "random" }, "inputs": { "source": "parts.id" } },
     "out_normal": { "kind": "output/vector", "params": { "name": "facing" }, "inputs": { "source": "facing.normal" } },
     "out_own": { "kind": "output/color", "params": { "name": "own" }, "inputs": { "source": "model.base_color" } }"#;
+
+fn sources() -> String {
+    format!("{{ \"format\": \"sabi\", \"version\": 1, \"nodes\": {{\n{SOURCES}\n}} }}")
+}
 
 /// Two squares that meet at a right angle, each a part with a vertex color and a material, with UVs apart from each other.
 fn fold(materials: [&str; 2]) -> String {
@@ -63,7 +67,7 @@ fn no_map_has_a_texel_of_the_neighboring_part_or_color() {
     let place = Place::new();
     place.write("fold.obj", fold(["plain", "plain"]));
     place.write("fold.mtl", MATERIALS);
-    place.write("sources.sabi", graph(SOURCES));
+    place.write("sources.sabi", sources());
     let maps = [
         "--mesh-map",
         "id",
@@ -98,7 +102,7 @@ fn no_map_of_a_material_has_a_texel_of_the_neighboring_one() {
     let place = Place::new();
     place.write("fold.obj", fold(["red", "blue"]));
     place.write("fold.mtl", MATERIALS);
-    place.write("sources.sabi", graph(SOURCES));
+    place.write("sources.sabi", sources());
     let maps = [
         "--mesh-map",
         "material_id",

@@ -105,7 +105,10 @@ fn a_face_of_many_corners_without_coordinates_is_laid_flat() {
     let arguments = ["mesh", "round.obj", "--size", "64", "--no-cache", "--json"];
     let read = within(&place, 4_000_000, &arguments).good();
     let report: Value = serde_json::from_str(&read.stdout).unwrap();
-    assert_eq!(report["triangles"], 29_998);
+    // Most of its triangles are thinner than its positions are exact, and are counted as left out.
+    let triangles = report["triangles"].as_u64().unwrap();
+    let thin = format!("{} triangles without an area", 29_998 - triangles);
+    assert!(triangles > 5000 && read.stderr.contains(&thin), "{triangles}: {}", read.stderr);
 }
 
 #[test]

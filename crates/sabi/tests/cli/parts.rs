@@ -185,11 +185,10 @@ fn a_report_and_a_matrix_have_the_choice_of_parts() {
         left_out(&place.read("first.json")),
         serde_json::json!(["Rock_LOD1", "UCX_Rock", "Moss"])
     );
-    let matrix = "[[bake]]\ngraphs = [\"rust.sabi\"]\nmodels = [\"rock.obj\"]\nsize = 16\nout = \"maps\"\nparts = [\"Moss\"]\n\
-                  turn_faces = true\n";
+    let matrix = "version = 1\nout = \"maps\"\n[[bake]]\ngraphs = [\"rust.sabi\"]\nmodels = [\"rock.obj\"]\nsizes = [16]\n\
+                  parts = [\"Moss\"]\nturn_faces = true\n";
     place.write("matrix.toml", matrix);
-    let plan = place.sabi(&["plan", "matrix.toml"]).good().stdout;
-    place.write("plan.jsonl", plan);
+    place.sabi(&["plan", "matrix.toml"]).good();
     place.sabi(&["run", "plan.jsonl", "--adapter", "cpu"]).good();
     let record: Json = serde_json::from_slice(&place.read("maps/.sabi/bakes.json")).unwrap();
     assert_eq!(

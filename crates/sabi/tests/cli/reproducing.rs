@@ -198,8 +198,10 @@ fn the_same_bake_again_does_nothing_until_something_changes() {
     assert!(is_done(&[]), "another graph");
     fs::write(place.path("out").join(MAPS[0]), b"damaged").unwrap();
     assert!(is_done(&[]), "a damaged map");
-    fs::create_dir(place.path("nodes")).unwrap();
-    place.write("nodes/notes.wgsl", "// no node");
+    fs::create_dir_all(place.path("nodes/own")).unwrap();
+    place.write("nodes/notes.wgsl", "// beside the categories, where no node is read");
+    assert!(!is_done(&[]), "a file that is not read");
+    place.write("nodes/own/notes.wgsl", "// no node");
     assert!(is_done(&[]), "another node file");
     assert!(!is_done(&[]));
 }

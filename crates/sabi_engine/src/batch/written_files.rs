@@ -154,7 +154,7 @@ impl<'p> Walk<'p> {
                         // Links may lead in circles.
                         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
                         if is_folder && !entry.file_name().to_string_lossy().starts_with('.') {
-                            self.go(entry.path(), at);
+                            self.go(folder.join(entry.file_name()), at);
                         }
                     }
                 }
@@ -162,7 +162,7 @@ impl<'p> Walk<'p> {
                     let pattern = pattern.clone();
                     for entry in self.entries(&folder, progress)? {
                         if pattern.matches_with(&entry.file_name().to_string_lossy(), SHELL) {
-                            self.take(entry.path(), at, is_last);
+                            self.take(folder.join(entry.file_name()), at, is_last);
                         }
                     }
                 }
@@ -189,6 +189,8 @@ impl<'p> Walk<'p> {
     /// Lists a folder; one that cannot be read has nothing that can be baked.
     fn entries(&mut self, folder: &Path, progress: &dyn Progress) -> Result<Vec<DirEntry>, String> {
         let mut found = Vec::new();
+        // The folder of a matrix that is named without one is the current folder.
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             self.looked_at += 1;
             if self.looked_at > MOST_LOOKED_AT {

@@ -100,18 +100,19 @@ impl RecordedBake {
     /// Reads a bake that is recorded in a file of a base; returns why it cannot be read.
     pub(super) fn of(json: &Json, base: &PathBase) -> Result<RecordedBake, String> {
         let mut bake = RecordedBake::deserialize(json).map_err(|error| error.to_string())?;
+        // Made absolute, the path of another computer looks like one of this.
+        bake.refuse_strange_paths(base)?;
         bake.recipe = bake.recipe.with_absolute_paths(base);
         for input in &mut bake.inputs {
             input.path = made_absolute(&input.path, base);
         }
-        bake.refuse_strange_paths(base)?;
         Ok(bake)
     }
 
     /// Refuses a record from elsewhere that would have files looked for where nobody named any: on another computer, which learns the
     /// user's name from that, or outside of the folder of the maps. Returns a clause.
     fn refuse_strange_paths(&self, base: &PathBase) -> Result<(), String> {
-        let is_here = |path: &str| is_local(&path_of(path).to_string_lossy());
+        let is_here = |path: &str| is_local(path) && is_local(&path_of(path).to_string_lossy());
         let read = self.inputs.iter().map(|input| input.path.as_str());
         let mut read = read.chain([self.recipe.graph.as_str(), self.recipe.model.file.as_str()]);
         // A record that lies on another computer itself was named there by the user.
