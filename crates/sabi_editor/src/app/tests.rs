@@ -236,7 +236,7 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
         .with_size(vec2(1600.0, 900.0))
         .with_step_dt(1.0 / 60.0)
         .with_max_steps(4);
-    let mut harness = builder.wgpu_setup(setup).build_eframe(move |context| {
+    builder.wgpu_setup(setup).build_eframe(move |context| {
         let render = context.wgpu_render_state.clone().expect(INSTALL);
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone()).expect(INSTALL);
         let beginning = InitialState {
@@ -248,16 +248,15 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
             is_start: false,
             at_end: || {},
         };
-        Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover)
-    });
-    let editor = harness.state_mut();
-    // One sample, so that pictures are quick.
-    editor.views.model.shot.samples = 1;
-    if kept.layout.is_none() {
-        // Most tests look at the texture as well.
-        editor.shell.dock.arrange(Workspace::Texture);
-    }
-    harness
+        let mut editor = Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover);
+        // One sample, so that pictures are quick.
+        editor.views.model.shot.samples = 1;
+        if kept.layout.is_none() {
+            // Most tests look at the texture as well. Before the first frame, so that places on the screen hold from then on.
+            editor.shell.dock.arrange(Workspace::Texture);
+        }
+        editor
+    })
 }
 
 /// A model that is quick to evaluate.
