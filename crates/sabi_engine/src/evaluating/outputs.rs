@@ -206,12 +206,22 @@ mod tests {
         );
         assert_eq!(
             duplicate_map_names(&graph),
-            ["nodes 'a' and 'b' (output/mask) both export a map named 'wear'; give one of them another name"]
+            [
+                "nodes 'a' and 'b' (output/mask) export maps named 'Wear' and 'wear', which are one file on systems that ignore \
+                 capital letters; give one of them another name"
+            ]
         );
         let color = mask("b", "Wear").replace("output/mask", "output/color");
         assert_eq!(
             duplicate_map_names(&flat(&[mask("a", "wear"), color].join(","))),
-            ["nodes 'a' and 'b' (output/color) both export a map named 'Wear'; give one of them another name"]
+            [
+                "nodes 'a' and 'b' (output/color) export maps named 'wear' and 'Wear', which are one file on systems that ignore \
+                 capital letters; give one of them another name"
+            ]
+        );
+        assert_eq!(
+            duplicate_map_names(&flat(&[mask("a", "wear"), mask("b", "wear")].join(","))),
+            ["nodes 'a' and 'b' (output/mask) both export a map named 'wear'; give one of them another name"]
         );
         let muted = mask("b", "Wear").replace("\"params\"", "\"muted\": true, \"params\"");
         assert!(duplicate_map_names(&flat(&[mask("a", "Wear"), muted].join(","))).is_empty());

@@ -383,10 +383,10 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
     use Level::{Points, Texels};
     const FINEST: Level = Level::FINEST;
     // Levels here have texels of 0.001, 0.002, 0.004 and 0.008, and points of 0.016 and 0.008; a blur wants three points for its
-    // radius, or a little more texels.
+    // radius, or 2.4 texels.
     assert_eq!(moves(&plan(0.0045)), [] as [[Level; 2]; 0]);
     // Both read the noise on the same level, so it is moved there once.
-    let coarse = Texels(1);
+    let coarse = Texels(2);
     assert_eq!(
         moves(&plan(0.012)),
         [[FINEST, coarse], [coarse, FINEST], [coarse, FINEST]]
@@ -400,13 +400,19 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
     }
     // A kernel that reads no texture is evaluated on ghosts, too.
     let text = plan(0.012).to_string();
-    assert!(text.contains("pass c -> s1 level 1\n"), "{text}");
+    assert!(text.contains("pass c -> s1 level 2\n"), "{text}");
 }
 
 #[test]
 fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved_to_the_finest() {
-    let down = [Level::Texels(1), Level::FINEST];
-    for (width, moves) in [(0.015, &[][..]), (0.03, &[down]), (0.9, &[down])] {
+    // Twice as wide from twenty finest texels on, four times from eighty on.
+    let down = |level| [Level::Texels(level), Level::FINEST];
+    for (width, moves) in [
+        (0.015, vec![]),
+        (0.03, vec![down(1)]),
+        (0.07, vec![down(1)]),
+        (0.9, vec![down(2)]),
+    ] {
         let lines = format!("a surface/edges width={width}\nb adjust/levels source=a\nout output/mask source=b");
         let (plan, errors) = Bench::new().plan(&graph(&lines), Mode::Interactive);
         assert_eq!(errors, []);

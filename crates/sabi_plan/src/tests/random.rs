@@ -109,11 +109,16 @@ struct Reader<'n> {
 
 impl Reader<'_> {
     fn value(&self, formula: &Formula, texel: f64) -> f64 {
-        let param = |param: usize| match &self.ready.values[param] {
+        let stored = |param: usize| match &self.ready.values[param] {
             ParamValue::Unsigned(value) => f64::from(*value),
             ParamValue::Signed(value) => f64::from(*value),
             ParamValue::Floats(values) => f64::from(values[0]),
             ParamValue::Text(_) => 0.0,
+        };
+        // Graphs have angles in degrees, and formulas in radians.
+        let param = |param: usize| match &self.kind.params[param].ty.role {
+            Role::Angle => stored(param).to_radians(),
+            _ => stored(param),
         };
         formula.value(&Variables {
             param: &param,

@@ -160,7 +160,10 @@ fn a_ball_far_away_stays_a_ball_in_all_formats() {
 fn corners_that_no_face_names_do_not_keep_a_model_far() {
     let idle = format!("{}v 0 0 0\nv nan 0 0\n", obj(MIDDLE));
     assert!(DVec3::from(read("ball.obj", idle.as_bytes()).middle).distance(MIDDLE.into()) < 1e-9);
-    let named = format!("{idle}f 7 7 7\n");
+    // Nor does a face without an area, but one with an area does.
+    let without_area = format!("{idle}f 7 7 7\n");
+    assert!(DVec3::from(read("ball.obj", without_area.as_bytes()).middle).distance(MIDDLE.into()) < 1e-9);
+    let named = format!("{}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 7 8 9\n", obj(MIDDLE));
     assert_eq!(read("ball.obj", named.as_bytes()).middle, [0.0; 3]);
 }
 
@@ -169,7 +172,9 @@ fn shape_that_is_lost_even_so_is_told() {
     let reaching = format!("{}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 7 8 9\n", obj(MIDDLE));
     let told = "The shape of 8 triangles is lost: the model reaches so far that positions of 32 bits are too coarse for it. \
                 Export parts that are far apart as models of their own, and leave out what lies far away.";
-    assert_eq!(read("two.obj", reaching.as_bytes()).warnings, [told]);
+    // What has no shape has no area, and is left out.
+    let left_out = "8 triangles without an area, away from the surface, had to be left out.";
+    assert_eq!(read("two.obj", reaching.as_bytes()).warnings, [told, left_out]);
 
     let mut apart = Gltf::triangle();
     apart.json["nodes"] =

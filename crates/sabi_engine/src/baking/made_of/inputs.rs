@@ -84,13 +84,21 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let nodes = folder.path().join("nodes/lib");
         std::fs::create_dir_all(&nodes).unwrap();
-        for name in ["nodes/my.wgsl", "nodes/lib/noise.wgsl", "nodes/notes.txt", "other.wgsl"] {
+        std::fs::create_dir_all(folder.path().join("nodes/own")).unwrap();
+        // Beside the categories, no node is read.
+        for name in [
+            "nodes/own/my.wgsl",
+            "nodes/lib/noise.wgsl",
+            "nodes/own/notes.txt",
+            "nodes/beside.wgsl",
+            "other.wgsl",
+        ] {
             std::fs::write(folder.path().join(name), b"").unwrap();
         }
         let own = node_files(&folder.path().join("graph.sabi"), &TrustedPaths::default()).into_iter();
         let mut own: Vec<PathBuf> = own.filter(|path| path.starts_with(folder.path())).collect();
         own.sort();
-        let expected = ["nodes/lib/noise.wgsl", "nodes/my.wgsl"].map(|name| folder.path().join(name));
+        let expected = ["nodes/lib/noise.wgsl", "nodes/own/my.wgsl"].map(|name| folder.path().join(name));
         assert_eq!(own, expected);
     }
 }
