@@ -108,7 +108,11 @@ fn a_face_of_many_corners_without_coordinates_is_laid_flat() {
     // Most of its triangles are thinner than its positions are exact, and are counted as left out.
     let triangles = report["triangles"].as_u64().unwrap();
     let thin = format!("{} triangles without an area", 29_998 - triangles);
-    assert!(triangles > 5000 && read.stderr.contains(&thin), "{triangles}: {}", read.stderr);
+    assert!(
+        triangles > 5000 && read.stderr.contains(&thin),
+        "{triangles}: {}",
+        read.stderr
+    );
 }
 
 #[test]

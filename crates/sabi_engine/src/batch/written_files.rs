@@ -190,7 +190,11 @@ impl<'p> Walk<'p> {
     fn entries(&mut self, folder: &Path, progress: &dyn Progress) -> Result<Vec<DirEntry>, String> {
         let mut found = Vec::new();
         // The folder of a matrix that is named without one is the current folder.
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let folder = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             self.looked_at += 1;
             if self.looked_at > MOST_LOOKED_AT {

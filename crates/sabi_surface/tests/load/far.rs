@@ -180,7 +180,8 @@ fn shape_that_is_lost_even_so_is_told() {
     apart.json["nodes"] =
         json!([{ "mesh": 0 }, { "mesh": 0, "translation": [3e7, 0.0, 0.3], "scale": [0.7, 0.7, 0.7] }]);
     let told = told.replace("8 triangles", "1 triangle");
-    assert_eq!(apart.model().warnings, [told]);
+    let left_out = "What has no area, such as a part that is scaled to nothing, is left out: `leaf`.";
+    assert_eq!(apart.model().warnings, [told.as_str(), left_out]);
 }
 
 #[test]
