@@ -18,6 +18,8 @@ pub(crate) struct Reading {
     pub(crate) is_inverted: bool,
     /// True for normals whose green points down, as in DirectX.
     pub(crate) is_green_down: bool,
+    /// True if it counts only where the picture has an alpha, since other presets give the name to a picture without one.
+    pub(crate) needs_alpha: bool,
 }
 
 /// Set and map that the name of a file denotes.
@@ -36,6 +38,9 @@ const GRAY: Option<&str> = Some("mask");
 const RED: Option<&str> = Some("r");
 const GREEN: Option<&str> = Some("g");
 const BLUE: Option<&str> = Some("b");
+const ALPHA: Option<&str> = Some("alpha");
+/// Input of *Combine material* for the opacity.
+const OPACITY: &str = "alpha";
 
 /// Words of other tools that name a picture, in lower case and without spaces, and the channels in it with the outputs of the
 /// image node.
@@ -167,11 +172,22 @@ impl KnownNames {
             output: *output,
             is_inverted: false,
             is_green_down: false,
+            needs_alpha: false,
         });
+        let in_alpha = |(_, readings): &(String, Vec<Reading>), channel: &str| {
+            let mut readings = readings.iter();
+            readings.any(|reading| reading.channel == channel && reading.output == ALPHA)
+        };
+        // Without alpha a picture is opaque, as a material is without opacity. Any other channel would be wrong.
+        let needs_alpha = |reading: &Reading| {
+            let is_certain = of_presets.iter().all(|preset| in_alpha(preset, &reading.channel));
+            reading.output == ALPHA && reading.channel != OPACITY && !is_certain
+        };
         let own = own.into_iter().flat_map(|(_, readings)| readings.clone());
         let others = others.into_iter().flat_map(|(_, readings)| readings.clone());
         let mut all: Vec<Reading> = Vec::new();
-        for reading in own.chain(conventional).chain(others) {
+        for mut reading in own.chain(conventional).chain(others) {
+            reading.needs_alpha = needs_alpha(&reading);
             let is_taken = |known: &Reading| known.channel == reading.channel || known.output == reading.output;
             if !all.iter().any(is_taken) {
                 all.push(reading);
@@ -184,7 +200,7 @@ impl KnownNames {
 /// How a part of a preset's picture is read; none where it is no channel of *Combine material*.
 fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
     let channel = match part.channel.as_deref()? {
-        "opacity" => "alpha",
+        "opacity" => OPACITY,
         "normal" => "slope",
         // A direction in the tangent frame, which an image node gives for normals alone.
         "anisotropy" => return None,
@@ -193,7 +209,7 @@ fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
     let output = match (part.components.start, part.components.len()) {
         (0, 3) if channel == "slope" => Some("slope"),
         (0, 3) => COLOR,
-        (_, 1) if part.is_alpha => Some("alpha"),
+        (_, 1) if part.is_alpha => ALPHA,
         (0, 1) if picture.is_gray => GRAY,
         (0, 1) => RED,
         (1, 1) => GREEN,
@@ -205,6 +221,7 @@ fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
         output,
         is_inverted: part.is_inverted,
         is_green_down: part.is_green_down,
+        needs_alpha: false,
     })
 }
 
@@ -269,14 +286,16 @@ fn is_stored(word: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Set and channels of a name: `occlusion=r`, with `!` for what is inverted and `↓` for green that points down.
+    /// Set and channels of a name: `occlusion=r`, with `!` for what is inverted, `↓` for green that points down, and `?` for what
+    /// counts only where the picture has an alpha.
     fn told(name: &str) -> Option<(String, String)> {
         let name = MapName::of(Path::new(name))?;
         let readings = name.readings.iter().map(|reading| {
             let output = reading.output.unwrap_or("color");
             let inverted = if reading.is_inverted { "!" } else { "" };
             let down = if reading.is_green_down { "↓" } else { "" };
-            format!("{}={inverted}{output}{down}", reading.channel)
+            let unsure = if reading.needs_alpha { "?" } else { "" };
+            format!("{}={inverted}{output}{down}{unsure}", reading.channel)
         });
         Some((name.set, readings.collect::<Vec<_>>().join(" ")))
     }
@@ -333,7 +352,9 @@ mod tests {
             ("old_crate_base_color.png", "base_color=color alpha=alpha"),
             ("old_crate_coat_roughness.png", "coat_roughness=mask"),
             ("old_crate_ClearcoatRoughness.png", "coat_roughness=mask"),
-            ("old_crate_sheen.png", "sheen=color"),
+            // glTF has the roughness in alpha; the raw maps, Blender's and MaterialX's have a picture of its own for it.
+            ("old_crate_sheen.png", "sheen=color sheen_roughness=alpha?"),
+            ("old_crate_sheen_roughness.png", "sheen_roughness=mask"),
             ("old_crate_transmission.png", "transmission=mask"),
             ("old_crate_world_normal.png", ""),
             ("old_crate_anisotropy.png", ""),

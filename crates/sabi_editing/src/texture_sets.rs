@@ -1,6 +1,8 @@
 //! Import of texture sets: a node for each image file, and a node that combines them into a material.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::catalog::label_of;
@@ -202,7 +204,9 @@ impl Sets {
                     known.any(|known| known.channel == channel)
                 };
                 let new = name.readings.into_iter();
-                let readings: Vec<Reading> = new.filter(|reading| !is_given(&reading.channel)).collect();
+                let readings: Vec<Reading> = new
+                    .filter(|reading| !is_given(&reading.channel) && (!reading.needs_alpha || is_png_with_alpha(file)))
+                    .collect();
                 if !readings.is_empty() {
                     let file = file.clone();
                     set.push(SetPicture { file, readings });
@@ -240,6 +244,18 @@ fn place_of(channel: &str) -> usize {
         "emission",
     ];
     usual.iter().position(|known| *known == channel).unwrap_or(usual.len())
+}
+
+/// Returns whether a file is a PNG with an alpha, by its header alone. The presets that pack a channel into the alpha of a picture that
+/// others write without one write PNG.
+fn is_png_with_alpha(file: &Path) -> bool {
+    // Signature, length and kind of the first chunk, width, height, bits, and the kind of colors.
+    const HEADER_BYTES: usize = 26;
+    const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+    const WITH_ALPHA: [u8; 2] = [4, 6];
+    let mut header = [0; HEADER_BYTES];
+    let is_read = file.is_file() && File::open(file).is_ok_and(|mut file| file.read_exact(&mut header).is_ok());
+    is_read && header.starts_with(SIGNATURE) && WITH_ALPHA.contains(&header[HEADER_BYTES - 1])
 }
 
 fn name_of(file: &Path) -> String {

@@ -143,6 +143,28 @@ fn the_smoothness_of_a_mask_map_is_inverted_to_a_roughness() {
 }
 
 #[test]
+fn the_roughness_of_sheen_is_read_from_the_alpha_where_the_picture_has_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Kind of the colors in the header of a PNG: 2 is RGB and 6 is RGB with alpha, 4 is gray with alpha.
+    let png = |kind: u8| [b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x01\0\0\0\x01\x08".as_slice(), &[kind]].concat();
+    let sheen = folder.path().join("crate_Sheen.png");
+    let own = folder.path().join("crate_SheenRoughness.png");
+    std::fs::write(&own, png(0)).expect("a picture");
+    let alpha = Some(("source/image".to_owned(), Some("alpha".to_owned())));
+    let mask = Some(("source/image".to_owned(), Some("mask".to_owned())));
+    for (kind, wanted) in [(6, alpha), (2, None)] {
+        std::fs::write(&sheen, png(kind)).expect("a picture");
+        let mut document = opened("", "");
+        texture_sets::add(&mut document, &[sheen.clone()], [0.0; 2]);
+        assert_eq!(reads(&document, "sheen"), Some(("source/image".to_owned(), None)));
+        assert_eq!(reads(&document, "sheen_roughness"), wanted, "colors of kind {kind}");
+        let mut document = opened("", "");
+        texture_sets::add(&mut document, &[sheen.clone(), own.clone()], [0.0; 2]);
+        assert_eq!(reads(&document, "sheen_roughness"), mask, "a picture of its own");
+    }
+}
+
+#[test]
 fn a_map_of_its_own_goes_before_one_that_packs_several() {
     let mut document = opened("", "");
     let set = files(&["wall_arm.png", "wall_rough.png", "wall_diff.png"]);
