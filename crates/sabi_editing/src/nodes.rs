@@ -132,8 +132,8 @@ fn place_new(
     })
 }
 
-/// Place for a new node with these ports, where it is not stacked on another one: this place, or else the nearest one beside, above
-/// or below what is there. Nodes that overlap at their borders are not stacked.
+/// Place for a new node with these ports, where it covers no other one: this place, or else the nearest one beside, above or below
+/// what is there; to the right or below where the other sides are about as near, since graphs are read in that direction.
 pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32; 2] {
     let size = node_size::size_of(face);
     let boxes: Vec<[[f32; 2]; 2]> = document
@@ -147,14 +147,7 @@ pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32
             is_apart(0) || is_apart(1)
         })
     };
-    let is_inside = |at: [f32; 2], [pos, of]: [[f32; 2]; 2]| {
-        let is_within = |axis: usize| (pos[axis]..pos[axis] + of[axis]).contains(&at[axis]);
-        is_within(0) && is_within(1)
-    };
-    let middle = |[pos, of]: [[f32; 2]; 2]| [0, 1].map(|axis| pos[axis] + of[axis] / 2.0);
-    let own = [place, size];
-    let is_on = |other: &[[f32; 2]; 2]| is_inside(middle(own), *other) || is_inside(middle(*other), own);
-    if !boxes.iter().any(is_on) {
+    if is_free(place) {
         return place;
     }
     let [x, y] = place;
@@ -163,7 +156,10 @@ pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32
         let high = [0, 1].map(|axis| pos[axis] + of[axis] + GAP);
         [[high[0], y], [x, high[1]], [low[0], y], [x, low[1]]]
     });
-    let distance = |[to_x, to_y]: &[f32; 2]| (to_x - x).hypot(to_y - y);
+    let distance = |[to_x, to_y]: &[f32; 2]| {
+        let is_back = *to_x < x || *to_y < y;
+        (to_x - x).hypot(to_y - y) + if is_back { GAP } else { 0.0 }
+    };
     let nearest = beside
         .filter(|place| is_free(*place))
         .min_by(|one, other| distance(one).total_cmp(&distance(other)));

@@ -225,14 +225,20 @@ fn a_node_of_the_main_graph_is_muted_once_and_from_everywhere() {
 }
 
 #[test]
-fn a_node_that_would_be_stacked_on_another_one_lies_beside_it() {
+fn a_node_that_would_cover_another_one_lies_beside_it() {
     let document = opened("", r#""n": { "kind": "noise/cells", "pos": [0, 0] }"#);
     let face = document.face(&id("n")).cloned().expect("a node");
     let size = node_size::size_of(&face);
-    let at_border = [0.0, size[1] - 10.0];
-    assert_eq!(nodes::uncovered(&document, &face, at_border), at_border);
+    let free = [0.0, size[1]];
+    assert_eq!(nodes::uncovered(&document, &face, free), free);
+    // At a border, it moves by no more than it covers and the space between nodes.
+    let [x, y] = nodes::uncovered(&document, &face, [0.0, size[1] - 10.0]);
+    assert!(x == 0.0 && (size[1]..size[1] + 30.0).contains(&y), "{x} {y}");
     for place in [[0.0, 0.0], [30.0, -20.0], [90.0, 100.0]] {
         let [x, y] = nodes::uncovered(&document, &face, place);
         assert!(x.abs() >= size[0] || y.abs() >= size[1], "{place:?}: {x} {y}");
     }
+    // To the right, as it is read, although the left is nearer by less than anybody sees.
+    let [x, y] = nodes::uncovered(&document, &face, [-0.4, 0.0]);
+    assert!(x >= size[0] && y == 0.0, "{x} {y}");
 }
