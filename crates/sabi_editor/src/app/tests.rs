@@ -62,7 +62,6 @@ use sabi_engine::{AdapterChoice, Gpu, Session, TrustedPaths};
 
 use super::{Editor, Folders, Handover, InitialState};
 use crate::dock::Workspace;
-use crate::settings::Settings;
 use crate::window::configuration;
 
 /// Message where there is no Vulkan driver.
@@ -231,7 +230,6 @@ fn beside(folders: &Folders) -> &Path {
 fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'static, Editor> {
     let setup = configuration(&AdapterChoice::Cpu).wgpu_setup;
     let model = cube(&folders);
-    let (kept, _) = Settings::load(folders.settings.as_deref());
     let builder = Harness::builder()
         .with_size(vec2(1600.0, 900.0))
         .with_step_dt(1.0 / 60.0)
@@ -251,7 +249,7 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
         let mut editor = Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover);
         // One sample, so that pictures are quick.
         editor.views.model.shot.samples = 1;
-        if kept.layout.is_none() {
+        if editor.shell.settings.layout.is_none() {
             // Most tests look at the texture as well. Before the first frame, so that places on the screen hold from then on.
             editor.shell.dock.arrange(Workspace::Texture);
         }

@@ -137,12 +137,13 @@ fn a_layer_is_renamed_blended_and_masked_in_its_row() {
     let choose = |window: &mut Window, way: &[&str]| {
         window.click_with(at, PointerButton::Secondary, Modifiers::NONE);
         for entry in way {
-            let library = window.editor().shell.dock.rects[&Panel::Library];
             let is_entry = |role| matches!(role, Role::Button | Role::RadioButton);
             let found = by().label_contains(entry).predicate(move |node| is_entry(node.role()));
-            // Entries with a menu of their own end in an arrow, and other buttons have longer names.
+            // Entries with a menu of their own end in an arrow, and other buttons have longer names. The library has entries of the
+            // same names, scrolled out of the window.
+            let screen = window.harness.ctx.content_rect();
             let found = window.harness.query_all(found);
-            let found = found.filter(|node| !library.contains(node.rect().center()));
+            let found = found.filter(|node| screen.contains_rect(node.rect()));
             let found = found.min_by_key(|node| node.accesskit_node().label().map_or(0, |label| label.len()));
             let entry = found.expect("an entry").rect().center();
             window.click_at(entry);

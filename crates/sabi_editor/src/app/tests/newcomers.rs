@@ -87,11 +87,12 @@ fn a_layer_that_is_added_outside_of_the_view_is_brought_into_it() {
 
 #[test]
 fn the_names_of_a_groups_inputs_are_seen_whole_when_it_is_entered() {
+    // The nodes are so near that they are drawn with their ports and names rather than as cards.
     let name = "where_the_old_paint_of_the_boards_is_gone";
     let text = r#"{ "format": "sabi", "version": 1,
         "groups": { "Wear": { "inputs": { "NAME": { "to": ["a.source"] } }, "outputs": { "mask": "b" }, "nodes": {
             "a": { "kind": "adjust/levels", "pos": [0, 0] },
-            "b": { "kind": "adjust/invert", "inputs": { "source": "a" }, "pos": [900, 0] } } } },
+            "b": { "kind": "adjust/invert", "inputs": { "source": "a" }, "pos": [300, 0] } } } },
         "nodes": { "g": { "kind": "graph/group", "group": "Wear" } } }"#;
     let mut window = Window::of(&text.replace("NAME", name));
     window.double_click(window.title(&id("g")));
@@ -167,8 +168,15 @@ fn a_paint_layer_is_one_click_from_the_layers_and_is_painted_at_once() {
     let paint = window.document().selected_one().expect("the paint node").clone();
     assert_eq!(window.list(paint.as_str()).expect("strokes").strokes.len(), 1);
     assert_eq!(window.editor().seen(), ViewSubject::Outputs);
-    // Another one is painted on in its turn.
-    window.press("Paint layer");
+    // Another one is painted on in its turn. The row of the first one has the name of the button.
+    let panel = window.editor().shell.dock.rects[&Panel::Stack];
+    let named = window.harness.get_all_by_role_and_label(Role::Button, "Paint layer");
+    let mut buttons = named
+        .map(|node| node.rect())
+        .filter(|rect| panel.contains_rect(*rect) && rect.height() < 40.0);
+    let button = buttons.next().expect("the button").center();
+    drop(buttons);
+    window.click_at(button);
     assert!(window.editor().looks.is_painting);
     assert_eq!(window.titles(), ["Paint layer", "Paint layer", "Model"]);
 }
