@@ -3,9 +3,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use egui::{
-    Align, Align2, Area, Button, Context, Frame, Layout, Order, RichText, Stroke, Ui, WidgetInfo, WidgetType, vec2,
-};
+use egui::{Align2, Area, Button, Context, Frame, Label, Order, RichText, Stroke, Ui, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
 
 use crate::theme::Theme;
@@ -16,6 +14,8 @@ const SHOWN_FOR: Duration = Duration::from_secs(6);
 const MOST: usize = 4;
 /// Width of the sentences, points.
 const WIDTH: f32 = 560.0;
+/// Room behind a sentence for the button that closes it, points.
+const CLOSE_WIDTH: f32 = 28.0;
 /// Way from the lower edge of the window to the sentences, points.
 const ABOVE_EDGE: f32 = 40.0;
 
@@ -139,14 +139,17 @@ impl Notices {
 /// Draws a sentence about a failure with a button that closes it. Returns whether it was pressed.
 fn failure_row(ui: &mut Ui, theme: &Theme, sentence: &str) -> bool {
     ui.set_width(WIDTH);
-    ui.with_layout(Layout::right_to_left(Align::TOP), |ui| {
+    // As high as the text. A layout from the right would be as high as the window.
+    ui.horizontal_top(|ui| {
+        ui.colored_label(theme.fault, icon::WARNING);
+        let width = ui.available_width() - CLOSE_WIDTH;
+        ui.vertical(|ui| {
+            ui.set_width(width);
+            // Text that can be selected, since its paths may be needed elsewhere.
+            ui.add(Label::new(RichText::new(sentence)).wrap().selectable(true));
+        });
         let close = ui.add(Button::new(icon::X).frame(false)).on_hover_text("Close");
         close.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Close the message"));
-        ui.with_layout(Layout::left_to_right(Align::TOP).with_main_wrap(true), |ui| {
-            ui.colored_label(theme.fault, icon::WARNING);
-            // Text that can be selected, since its paths may be needed elsewhere.
-            ui.add(egui::Label::new(RichText::new(sentence)).wrap().selectable(true));
-        });
         close.clicked()
     })
     .inner
