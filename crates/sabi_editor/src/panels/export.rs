@@ -4,7 +4,7 @@ mod preset_menu;
 
 use std::time::Duration;
 
-use egui::{Button, Grid, Label, OpenUrl, ProgressBar, RichText, TextEdit, Ui};
+use egui::{Button, Grid, Label, OpenUrl, ProgressBar, RichText, ScrollArea, TextEdit, Ui};
 use sabi_engine::{Remedy, export_channels, name_pattern_fault, path_text};
 
 use self::preset_menu::PresetMenu;
@@ -16,6 +16,9 @@ use crate::paths::canonical_if_present;
 use crate::remedies::{self, Request};
 use crate::settings::export::{ExportChoices, ExportPadding, ExportPlace, SIZES};
 use crate::theme::{Theme, space};
+
+/// Height that stays free below the choices for the button that exports and for the first lines of its result, points.
+const BELOW_CHOICES: f32 = 110.0;
 
 /// Panel of exports.
 #[derive(Default)]
@@ -32,17 +35,24 @@ impl View for ExportPanel {
         let mut actions = Vec::new();
         let mut chosen = context.settings.export.clone();
         let mut place = context.exports.place.clone();
-        let grid = Grid::new("export").num_columns(2).spacing([space::USUAL, space::USUAL]);
-        grid.show(ui, |ui| {
-            if let Some(preset) = self.presets.show(&chosen.preset, ui) {
-                chosen.preset = preset;
-            }
-            choices(&mut chosen, ui, context.theme);
-            self.folder(&mut place, ui);
-            let has_variants = !context.document.contents().graph.variants().is_empty();
-            switches(&mut chosen, &mut place, has_variants, ui);
+        // The button that exports stays in sight, however long the list of files is.
+        let area = ScrollArea::vertical()
+            .id_salt("choices")
+            .max_height((ui.available_height() - BELOW_CHOICES).max(0.0))
+            .auto_shrink([false, true]);
+        area.show(ui, |ui| {
+            let grid = Grid::new("export").num_columns(2).spacing([space::USUAL, space::USUAL]);
+            grid.show(ui, |ui| {
+                if let Some(preset) = self.presets.show(&chosen.preset, ui) {
+                    chosen.preset = preset;
+                }
+                choices(&mut chosen, ui, context.theme);
+                self.folder(&mut place, ui);
+                let has_variants = !context.document.contents().graph.variants().is_empty();
+                switches(&mut chosen, &mut place, has_variants, ui);
+            });
+            self.presets.files(&chosen.preset, ui, context.theme);
         });
-        self.presets.files(&chosen.preset, ui, context.theme);
         if chosen != context.settings.export {
             actions.push(ExportAction::Choose(chosen));
         }
@@ -68,7 +78,7 @@ impl ExportPanel {
         let theme = context.theme;
         let request = Request::Export(&context.settings.export);
         let import = context.evaluation.model.import_options();
-        let area = egui::ScrollArea::vertical().auto_shrink(false);
+        let area = ScrollArea::vertical().auto_shrink(false);
         let shown = area.show(ui, |ui| match &context.exports.result {
             Some(Ok(written)) if written.files.is_empty() => {
                 let why = "Every channel is the same everywhere, so that there is nothing to write; switch on \"Include \

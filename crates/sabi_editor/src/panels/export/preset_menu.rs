@@ -1,14 +1,11 @@
 //! Choice of the preset, and the files that it writes.
 
-use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
+use egui::{ComboBox, Grid, RichText, Ui};
 use sabi_engine::{
     ListedPreset, PresetDescription, PresetFile, default_preset_folder, describe_preset, export_presets,
 };
 
 use crate::theme::{Theme, space};
-
-/// Height of the list of files, points.
-const LIST_HEIGHT: f32 = 110.0;
 
 /// Presets as they were found when the menu was last opened.
 #[derive(Default)]
@@ -66,11 +63,7 @@ impl PresetMenu {
         }
         ui.collapsing(format!("Files of {chosen}"), |ui| {
             ui.label(RichText::new(&preset.about).color(theme.quiet));
-            // The button that exports stays in sight.
-            let area = ScrollArea::vertical()
-                .max_height(LIST_HEIGHT)
-                .auto_shrink([false, true]);
-            area.show(ui, |ui| table(&preset, ui, theme));
+            table(&preset, ui, theme);
         });
     }
 
