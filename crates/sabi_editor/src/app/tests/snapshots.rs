@@ -72,7 +72,14 @@ fn knobs_look_as_they_did() {
         ("bend", Shade::Dark, "knobs_of_a_curve"),
     ] {
         let mut window = Window::on(node, shade);
-        let part = window.part_of(Panel::Parameters, [360.0, 260.0]);
+        // A curve shows the histogram of what it reads above its points.
+        let height = if node == "bend" {
+            window.until("the histogram", |editor| editor.views.parameters.has_histogram());
+            330.0
+        } else {
+            260.0
+        };
+        let part = window.part_of(Panel::Parameters, [360.0, height]);
         results.add(window.compare(name, part));
     }
 }
