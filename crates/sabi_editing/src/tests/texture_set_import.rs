@@ -146,7 +146,8 @@ fn the_smoothness_of_a_mask_map_is_inverted_to_a_roughness() {
 fn the_roughness_of_sheen_is_read_from_the_alpha_where_the_picture_has_one() {
     let folder = tempfile::tempdir().expect("a folder");
     // Kind of the colors in the header of a PNG: 2 is RGB and 6 is RGB with alpha, 4 is gray with alpha.
-    let png = |kind: u8| [b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x01\0\0\0\x01\x08".as_slice(), &[kind]].concat();
+    let header = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x01\0\0\0\x01\x08";
+    let png = |kind: u8| [header.as_slice(), &[kind]].concat();
     let sheen = folder.path().join("crate_Sheen.png");
     let own = folder.path().join("crate_SheenRoughness.png");
     std::fs::write(&own, png(0)).expect("a picture");
