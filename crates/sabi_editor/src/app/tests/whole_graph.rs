@@ -24,18 +24,18 @@ fn file_of_the_graph() -> Json {
         },
         "nodes": {
             "edges_k7f2": { "kind": "surface/edges", "params": { "width": 0.03 }, "pos": [0, 0] },
-            "grain_m3x9": { "kind": "noise/simplex", "params": { "seed": 7 }, "pos": [0, 220] },
+            "grain_m3x9": { "kind": "noise/simplex", "params": { "seed": 7 }, "pos": [0, 260] },
             "out": { "kind": "output/material", "inputs": { "material": "rust_a81c" }, "pos": [780, 60] },
             "paint_0b5e": { "kind": "source/material", "params": { "color": "#3c5a6e" }, "pos": [260, -120] },
             "rust_a81c": { "kind": "effect/layer", "inputs": { "base": "paint_0b5e", "mask": "worn_p2dd" },
                 "params": { "color": "#6b3a1e", "roughness": 0.9 }, "pos": [520, 60] },
             "worn_p2dd": { "kind": "blend/mask", "inputs": { "above": "grain_m3x9", "below": "edges_k7f2" },
-                "pos": [260, 80] }
+                "pos": [260, 150] }
         }
     })
 }
 
-/// Adds a node with its upper left corner at a place of the canvas.
+/// Adds a node with its upper left corner at a place of the canvas where it covers no other.
 fn add_at(window: &mut Window, place: [f32; 2], query: &str) -> NodeId {
     window.point(window.screen(place));
     window.key(Key::Tab);
@@ -48,9 +48,9 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
     let ends = [window.on_canvas([0.1, 0.1]), window.on_canvas([0.14, 0.4])];
     window.drag_along(&ends, PointerButton::Middle, Modifiers::NONE);
     let edges = add_at(window, [0.0, 0.0], "edges");
-    let grain = add_at(window, [0.0, 220.0], "clouds");
+    let grain = add_at(window, [0.0, 260.0], "clouds");
     let paint = add_at(window, [260.0, -120.0], "source material");
-    let worn = add_at(window, [260.0, 80.0], "blend mask");
+    let worn = add_at(window, [260.0, 150.0], "blend mask");
     let rust = add_at(window, [520.0, 60.0], "effect layer");
     let out = add_at(window, [780.0, 60.0], "material output");
     window.wire((&edges, "mask"), (&worn, "below"));
@@ -63,8 +63,7 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
     // New nodes get seeds of their own; Backspace gives a knob its default back.
     window.click_at(window.knob("Seed"));
     window.key(Key::Backspace);
-    // Its title is below the node above it.
-    window.click_at(window.rect(&grain).center());
+    window.click_at(window.title(&grain));
     window.set_number("Seed", "7");
     window.click_at(window.title(&paint));
     window.set_color("Color", "#3c5a6e");
@@ -72,7 +71,7 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
     window.set_color("Color", "#6b3a1e");
     window.set_number("Roughness", "0.9");
     window.click_at(window.title(&edges));
-    window.click_with(window.rect(&grain).center(), PointerButton::Primary, Modifiers::SHIFT);
+    window.click_with(window.title(&grain), PointerButton::Primary, Modifiers::SHIFT);
     window.key(Key::C);
     let strip = window.screen([100.0, -35.0]);
     window.double_click(strip);
@@ -93,8 +92,7 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
 
 /// Puts a knob of a node on the panel, and keeps what it was turned to once as a variant.
 fn publish(window: &mut Window, worn: &NodeId) {
-    // Its title is below the node above it.
-    window.click_at(window.rect(worn).center());
+    window.click_at(window.title(worn));
     window.click_with(window.knob("Opacity"), PointerButton::Secondary, Modifiers::NONE);
     window.press("Expose parameter");
     window.key(Key::Escape);
@@ -108,7 +106,7 @@ fn publish(window: &mut Window, worn: &NodeId) {
     window.click("Change the panel");
     window.set_number("Rust amount", "0.9");
     window.fill("Name of a variant", "heavy");
-    window.click_at(window.rect(worn).center());
+    window.click_at(window.title(worn));
     window.click_at(window.knob("Opacity"));
     window.key(Key::Backspace);
 }
