@@ -226,6 +226,6 @@ fn a_model_that_takes_long_can_be_left_and_the_one_before_stays() {
     window.until("rest", |editor| !editor.evaluation.is_busy());
     assert!(window.editor().evaluation.model.loaded().1);
     assert!(!window.editor().documents.models.files.contains(&grid));
-    window.add([0.3, 0.3], "invert");
-    window.until("its picture", |editor| editor.thumbnail_of(&id("invert")).is_some());
+    let added = window.add([0.3, 0.3], "invert");
+    window.until("its picture", |editor| editor.thumbnail_of(&added).is_some());
 }
