@@ -13,6 +13,8 @@ const INSTALL: &str =
 /// Time limit of a wait: longer than anything takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 const SIZE: [u32; 2] = [1600, 900];
+/// Time without a change after which the screen rests.
+const STILL: Duration = Duration::from_secs(2);
 /// Pause after each step of a drag.
 const DRAG_STEP: Duration = Duration::from_millis(750);
 /// Changed pixels from which on a menu or a node has come or gone: less than either has, and more than a caret.
@@ -120,6 +122,15 @@ impl Display {
             assert!(began.elapsed() < PATIENCE, "{what} did not come");
             sleep(Duration::from_millis(200));
         }
+    }
+
+    /// Waits until a part of the screen has stayed as it is for a while.
+    pub(crate) fn until_still(&self, part: [usize; 4], what: &str) {
+        self.until(what, || {
+            let before = self.screen();
+            sleep(STILL);
+            self.screen().part(part).eq(before.part(part))
+        });
     }
 
     /// Does something and waits until much of a part of the screen has changed.

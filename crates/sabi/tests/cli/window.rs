@@ -9,8 +9,8 @@ use crate::place::{Place, software_adapter};
 
 const EMPTY: &str = r#"{ "format": "sabi", "version": 1, "name": "", "nodes": {} }"#;
 /// Places of the panels of a new installation on a screen of 1600 × 900.
-const MODEL: [usize; 4] = [10, 120, 530, 560];
-const GRAPH: [usize; 4] = [560, 80, 1250, 860];
+const MODEL: [usize; 4] = [10, 120, 640, 800];
+const GRAPH: [usize; 4] = [665, 80, 1250, 860];
 /// Offset from the corner of a node to its only output: below its title, one input and three knobs.
 const OUTPUT_OF_CLOUDS: [i32; 2] = [200, 28 + 4 * 19 + 9];
 /// Offset to its first input.
@@ -58,6 +58,8 @@ fn plus(one: [i32; 2], other: [i32; 2]) -> [i32; 2] {
 /// Adds a node by the menu with its corner at a place.
 fn add(display: &Display, at: [i32; 2], name: &str) {
     display.point(at);
+    // The picture of an earlier node comes later than the node, and would pass for the menu.
+    display.until_still(GRAPH, "rest");
     display.until_changed(GRAPH, "the menu", || display.key("Tab"));
     display.hands(&["type", "--delay", "40", name]);
     display.until_changed(GRAPH, "a node in place of the menu", || display.key("Return"));
@@ -77,7 +79,7 @@ fn a_window_takes_mouse_and_keys_saves_what_was_made_and_opens_it_again() {
     let (place, display) = (Place::new(), Display::new());
     place.write("new.sabi", EMPTY);
     let window = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
-    let [clouds, levels] = [[580, 120], [900, 200]];
+    let [clouds, levels] = [[690, 120], [1000, 200]];
     add(&display, clouds, "clouds");
     add(&display, levels, "levels");
     // While a kernel is compiled the window stands still, and a whole drag would be one frame.
@@ -112,7 +114,7 @@ fn what_was_not_saved_when_the_program_was_killed_is_offered_and_comes_back() {
     let (place, display) = (Place::new(), Display::new());
     place.write("new.sabi", EMPTY);
     let window = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
-    add(&display, [700, 300], "clouds");
+    add(&display, [800, 300], "clouds");
     let kept = place.path(".config/sabi/unsaved");
     let is_kept = || std::fs::read_dir(&kept).is_ok_and(|mut files| files.next().is_some());
     display.until("a copy of what is not saved", is_kept);
