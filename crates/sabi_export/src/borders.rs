@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
+use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, Ghost};
 
 use crate::layout::{Cover, NONE, SetLayout};
 use crate::{Channel, ChannelPixels, MeshMap};
@@ -160,7 +160,11 @@ impl Pages<'_> {
     fn ghost(&self, pixel: usize) -> Option<BorderGhost> {
         let texel = *self.layout.source.get(pixel)? as usize;
         let owner = *self.atlas.owners.get(texel)?;
-        let chart = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?.chart;
+        let ghost = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?;
+        if self.shows_own_border(ghost) {
+            return None;
+        }
+        let chart = ghost.chart;
         let at = (texel, pixel);
         // Of texels that are equally near the first one is taken, as when ghosts are anchored.
         let near = offsets().filter(|offset| self.is_own(chart, at, *offset));
@@ -176,6 +180,14 @@ impl Pages<'_> {
             step: nearest.map(|step| -step as i8),
             own: own.fold(0, |bits, offset| bits | 1 << bit(offset)),
         })
+    }
+
+    /// Returns whether a ghost lies beyond a border of the surface: it goes on with what its own chart has beside it, and shows no
+    /// neighbor.
+    fn shows_own_border(&self, ghost: &Ghost) -> bool {
+        let near = [0, 1].map(|axis| (ghost.target_texel[axis] - ghost.texel[axis] as f32 - 0.5).abs());
+        self.atlas.triangle_chart.get(ghost.target_triangle as usize) == Some(&ghost.chart)
+            && near.iter().all(|distance| *distance <= REACH as f32 + 1.0)
     }
 
     /// Returns whether the texel at an offset from another is owned by a chart and shown by its pixel.

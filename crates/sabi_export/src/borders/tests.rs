@@ -7,8 +7,9 @@ use crate::{Padding, PaddingMap, set_keys};
 /// Pixels along a side of the maps.
 const SIZE: u32 = 32;
 
-/// Two charts of one material with two rings of ghosts each: columns 4 to 12 and 20 to 28 of rows 4 to 28.
-fn two_charts() -> Atlas {
+/// Two charts of one material with two rings of ghosts each: columns 4 to 12 and 20 to 28 of rows 4 to 28. Ghosts show the other chart,
+/// or the border of their own.
+fn two_charts(show_neighbors: bool) -> Atlas {
     let mut made = atlas(
         SIZE,
         SIZE,
@@ -23,6 +24,10 @@ fn two_charts() -> Atlas {
             }
         }
     }
+    for ghost in &mut made.ghosts {
+        ghost.target_triangle = if show_neighbors { 1 - ghost.chart } else { ghost.chart };
+        ghost.target_texel = [0, 1].map(|axis| ghost.texel[axis] as f32 + 0.5);
+    }
     made
 }
 
@@ -32,8 +37,16 @@ fn maps<const N: usize>(
     channel: &Channel,
     value: impl Fn(u32, u32, u32, bool) -> [f32; N] + Sync,
 ) -> [ChannelPixels; 2] {
-    let atlas = two_charts();
-    let layout = SetLayout::new(&atlas, set_keys(&atlas)[0]);
+    maps_of(&two_charts(true), channel, value)
+}
+
+/// The same of another atlas.
+fn maps_of<const N: usize>(
+    atlas: &Atlas,
+    channel: &Channel,
+    value: impl Fn(u32, u32, u32, bool) -> [f32; N] + Sync,
+) -> [ChannelPixels; 2] {
+    let layout = SetLayout::new(atlas, set_keys(atlas)[0]);
     let padding = PaddingMap::new(&layout, Padding::Infinite);
     let texel = |at: usize| {
         let (x, y) = (at as u32 % SIZE, at as u32 / SIZE);
@@ -44,7 +57,7 @@ fn maps<const N: usize>(
     };
     let laid_out = padding.gather(&layout, channel, 0, texel);
     let mut settled = laid_out.clone();
-    if ChartBorders::new(&atlas, &layout).repeat_charts(channel, &mut settled) {
+    if ChartBorders::new(atlas, &layout).repeat_charts(channel, &mut settled) {
         padding.pad(channel, &mut settled);
     }
     [laid_out, settled]
@@ -143,6 +156,13 @@ fn a_jump_of_one_component_is_seen_under_grain_of_another() {
         };
         assert!(*own >= 0.5 && *other == 0.0, "pixel {pixel}: {red} {blue}");
     }
+}
+
+#[test]
+fn beyond_a_border_of_the_surface_nothing_is_a_jump() {
+    let kink = |_, _, _, is_owned| [f32::from(u8::from(is_owned))];
+    let [laid_out, settled] = maps_of(&two_charts(false), &Channel::Roughness, kink);
+    assert!(laid_out == settled);
 }
 
 #[test]
