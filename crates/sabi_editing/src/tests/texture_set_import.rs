@@ -156,7 +156,7 @@ fn the_roughness_of_sheen_is_read_from_the_alpha_where_the_picture_has_one() {
     for (kind, wanted) in [(6, alpha), (2, None)] {
         std::fs::write(&sheen, png(kind)).expect("a picture");
         let mut document = opened("", "");
-        texture_sets::add(&mut document, &[sheen.clone()], [0.0; 2]);
+        texture_sets::add(&mut document, std::slice::from_ref(&sheen), [0.0; 2]);
         assert_eq!(reads(&document, "sheen"), Some(("source/image".to_owned(), None)));
         assert_eq!(reads(&document, "sheen_roughness"), wanted, "colors of kind {kind}");
         let mut document = opened("", "");

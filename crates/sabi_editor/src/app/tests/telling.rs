@@ -8,7 +8,6 @@ use std::path::Path;
 use egui_kittest::kittest::Queryable;
 use sabi_engine::Session;
 
-use super::hands::id;
 use super::safety::CLOUDS;
 use super::{Window, beside, graph_text};
 use crate::dock::Panel;
