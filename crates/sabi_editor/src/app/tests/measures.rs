@@ -45,10 +45,10 @@ fn the_parts_of_the_graphs_model_are_chosen_in_its_import_settings_and_kept_in_t
         window.until("the parts", |editor| {
             let (_, is_loaded) = editor.evaluation.model.loaded();
             let received = editor.evaluation.model.received.as_ref();
-            is_loaded && received.is_some_and(|model| model.linked.model.parts == expected)
+            let is_received = received.is_some_and(|model| model.linked.model.parts == expected);
+            // Parts are listed once the model has proved good.
+            is_loaded && is_received && !editor.evaluation.model.file_parts().is_empty()
         });
-        // Its warnings get a badge in the bar, which moves what is beside it.
-        window.settle();
     };
     let preview = |window: &Window| window.document().contents().preview.clone().unwrap();
     shows(&mut window, &["Rock_LOD0", "Moss"]);
