@@ -197,7 +197,7 @@ impl KnownNames {
     }
 }
 
-/// How a part of a preset's picture is read; none where it is no channel of *Combine material*.
+/// Reading of a part of a preset's picture; none where it is no channel of *Combine material*.
 fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
     let channel = match part.channel.as_deref()? {
         "opacity" => OPACITY,

@@ -308,7 +308,7 @@ fn node_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
     ))
 }
 
-/// What can be done in a graph that nothing was done in yet.
+/// Hint in a graph in which nothing was done yet.
 fn hint(keys: &KeyMap) -> [String; 2] {
     let add = keys.shown(Command::Canvas(CanvasCommand::AddMenu));
     [

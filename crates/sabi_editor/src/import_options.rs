@@ -82,7 +82,7 @@ impl ImportOptions {
         }
     }
 
-    /// What the graph keeps of the options for its own model.
+    /// Options that the graph keeps for its own model.
     pub(crate) fn saved(&self) -> SavedReading {
         SavedReading {
             parts: self.parts.clone(),

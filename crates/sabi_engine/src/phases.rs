@@ -165,7 +165,7 @@ pub(crate) fn unless_canceled<T: Send + 'static>(
     let span = tracing::Span::current();
     let started = thread::Builder::new().stack_size(STACK_BYTES).spawn(move || {
         let done = span.in_scope(work);
-        // Nobody takes the result of work that was canceled.
+        // The result of work that was canceled is not taken.
         let _ = give.send(done);
     });
     let thread = started.map_err(|error| {

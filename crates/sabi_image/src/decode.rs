@@ -104,7 +104,7 @@ enum Format {
     Exr,
     Ktx2,
     Hdr,
-    /// What the `image` crate decodes.
+    /// Format that the `image` crate decodes.
     Other(ImageFormat),
 }
 

@@ -60,7 +60,7 @@ pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, Im
     }
 }
 
-/// What the file says of its pixels.
+/// Sizes, kind and places of the pixels, as the file says them.
 struct Header {
     /// Bytes of the header behind the file header.
     size: u32,
@@ -242,7 +242,7 @@ mod tests {
         // Three single codes, filled up to a word; then two colors in turn.
         let four = [0, 3, 0x12, 0x30, 0, 0, 3, 0x31, 0, 0, 0, 1];
         assert_eq!(codes(&file([3, 2], 4, 2, &PALETTE, &four)), [W, R, W, R, G, W].concat());
-        // What the data do not reach.
+        // Pixels that the data do not reach.
         assert_eq!(
             codes(&file([3, 2], 8, 1, &PALETTE, &[1, 3])),
             [K, K, K, W, K, K].concat()

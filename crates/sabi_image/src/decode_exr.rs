@@ -20,8 +20,20 @@ const LARGEST_HALF: f32 = 65504.0;
 
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
+/// Size and layers of the picture in a file, by its headers.
+struct Headers {
+    size: DecodedSize,
+    /// Layers that make a picture, the one that is shown by default first.
+    layers: Vec<ExrLayer>,
+}
+
 /// Rejects unsupported files by their headers alone.
 pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
+    read_headers(name, bytes).map(|headers| headers.size)
+}
+
+/// Reads the headers of a file, and rejects unsupported ones.
+fn read_headers(name: &str, bytes: &[u8]) -> Result<Headers, ImageError> {
     // The flag of files with deep parts (OpenEXR file layout, version field, bit 11).
     if bytes.get(5).is_some_and(|flags| flags & 0x08 != 0) {
         return Err(unsupported(name, DEEP));
@@ -38,21 +50,21 @@ pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageEr
     if all_bytes > MAX_DECODED_BYTES {
         return Err(unsupported(name, "its layers take more than 1 GiB together"));
     }
-    layers_of(name, &parts_of(&meta))?;
     let pixels = |header: &Header| header.layer_size.area() as u64;
-    Ok(DecodedSize {
-        // All channels are decoded, and four of them become the picture.
-        bytes: all_bytes,
-        pixels: meta.headers.iter().map(pixels).max().unwrap_or(0), // There is a layer.
+    Ok(Headers {
+        size: DecodedSize {
+            // All channels are decoded, and four of them become the picture.
+            bytes: all_bytes,
+            pixels: meta.headers.iter().map(pixels).max().unwrap_or(0), // There is a layer.
+        },
+        layers: layers_of(name, &parts_of(&meta))?,
     })
 }
 
 /// Lists the names of the layers of a file that make a picture, the one that is shown by default first, by its headers alone.
 pub(crate) fn exr_layer_names(name: &str, bytes: &[u8]) -> Result<Vec<String>, ImageError> {
-    check_exr(name, bytes)?;
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| explain(name, error))?;
-    let layers = layers_of(name, &parts_of(&meta))?;
-    Ok(layers.into_iter().map(|layer| layer.name).collect())
+    let headers = read_headers(name, bytes)?;
+    Ok(headers.layers.into_iter().map(|layer| layer.name).collect())
 }
 
 /// Decodes the display window of a layer, or of the one that is shown by default; pixels of it that the file does not have are 0.

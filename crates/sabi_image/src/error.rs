@@ -78,18 +78,21 @@ pub enum ImageError {
 /// Most layers that a sentence names.
 const NAMED_LAYERS: usize = 12;
 
+/// Returns names of layers as a list in a sentence, of many only the first.
+pub fn listed_layers(layers: &[String]) -> String {
+    let named = layers.iter().take(NAMED_LAYERS).map(String::as_str).collect::<Vec<_>>();
+    let named = named.join(", ");
+    match layers.len().saturating_sub(NAMED_LAYERS) {
+        0 => named,
+        more => format!("{named} and {more} more"),
+    }
+}
+
 /// Layers of a file as half a sentence.
 fn layers_there(layers: &[String]) -> String {
-    let named = layers
-        .iter()
-        .take(NAMED_LAYERS)
-        .map(String::as_str)
-        .collect::<Vec<_>>()
-        .join(", ");
-    match layers.len().saturating_sub(NAMED_LAYERS) {
-        _ if layers.is_empty() => "only OpenEXR files have layers, so leave the name empty".to_owned(),
-        0 => format!("it has {named}"),
-        more => format!("it has {named} and {more} more"),
+    match layers.is_empty() {
+        true => "only OpenEXR files have layers, so leave the name empty".to_owned(),
+        false => format!("it has {}", listed_layers(layers)),
     }
 }
 

@@ -39,7 +39,7 @@ pub use decode::{check_header, decode, decode_layer, decoded_size, layer_names};
 pub use encode_exr::{ExrSamples, encode_exr};
 pub use encode_png::{PngData, PngOptions, encode_png};
 pub use encode_tga::encode_tga;
-pub use error::ImageError;
+pub use error::{ImageError, listed_layers};
 pub use picture::{Declared, LinearPicture, Picture, Pixels};
 pub use quantize::{DitheredRow, level, quantize_u8, quantize_u16, rounded};
 pub use size_limits::{DecodedSize, MAX_DECODED_BYTES, MAX_SIDE};

@@ -164,7 +164,7 @@ impl Body {
         if has_inside && (self.is_mixed() || self.volume < 0.0) && !inside.has(self) {
             return Some(self.volume < 0.0);
         }
-        // Which side is meant cannot be told where each has as much area.
+        // Equal areas do not tell the side that is meant.
         let is_undecided = self.areas[0] == self.areas[1];
         (self.is_mixed() && !is_undecided).then_some(self.areas[0] < self.areas[1])
     }

@@ -128,7 +128,7 @@ fn clear_pixels_give_no_color_to_the_opaque_ones_beside_them() {
             assert!(least > 0.998, "{params} at {size}: red is {least}");
         }
     }
-    // Where alpha holds other data, a texel over both kinds of columns has the plain mean.
+    // A texel over both kinds of columns has the plain mean where alpha holds other data.
     let data = red(&json!({ "file": file, "alpha_is": "data", "tiles": [4, 4] }), 16);
     assert!(data.iter().all(|(color, _)| (color - 0.5).abs() < 0.01), "{data:?}");
 }

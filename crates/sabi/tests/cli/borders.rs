@@ -62,25 +62,23 @@ fn pictures(report: &Json) -> Vec<String> {
     paths.filter(|path| path.ends_with(".png")).collect()
 }
 
-#[test]
-fn no_map_has_a_texel_of_the_neighboring_part_or_color() {
+/// Bakes all maps of the fold and some of its mesh, with padding everywhere; also returns the names of the files.
+fn baked(materials: [&str; 2], mesh_maps: &[&str]) -> (Place, Vec<String>) {
     let place = Place::new();
-    place.write("fold.obj", fold(["plain", "plain"]));
+    place.write("fold.obj", fold(materials));
     place.write("fold.mtl", MATERIALS);
     place.write("sources.sabi", sources());
-    let maps = [
-        "--mesh-map",
-        "id",
-        "--mesh-map",
-        "world_normal",
-        "--all-maps",
-        "--padding",
-        "infinite",
-        "--json",
-    ];
-    let run = place.bake("sources.sabi", "fold.obj", &maps).good();
+    let mut arguments = vec!["--all-maps", "--padding", "infinite", "--json"];
+    arguments.extend(mesh_maps.iter().flat_map(|map| ["--mesh-map", map]));
+    let run = place.bake("sources.sabi", "fold.obj", &arguments).good();
     let report: Json = serde_json::from_str(&run.stdout).unwrap();
     let files = pictures(&report);
+    (place, files)
+}
+
+#[test]
+fn no_map_has_a_texel_of_the_neighboring_part_or_color() {
+    let (place, files) = baked(["plain", "plain"], &["id", "world_normal"]);
     for name in ["vertex", "part", "random", "id", "world_normal"] {
         let file = files.iter().find(|file| file.ends_with(&format!("_{name}.png")));
         let file = file.unwrap_or_else(|| panic!("{name}: {files:?}"));
@@ -99,21 +97,7 @@ fn no_map_has_a_texel_of_the_neighboring_part_or_color() {
 
 #[test]
 fn no_map_of_a_material_has_a_texel_of_the_neighboring_one() {
-    let place = Place::new();
-    place.write("fold.obj", fold(["red", "blue"]));
-    place.write("fold.mtl", MATERIALS);
-    place.write("sources.sabi", sources());
-    let maps = [
-        "--mesh-map",
-        "material_id",
-        "--all-maps",
-        "--padding",
-        "infinite",
-        "--json",
-    ];
-    let run = place.bake("sources.sabi", "fold.obj", &maps).good();
-    let report: Json = serde_json::from_str(&run.stdout).unwrap();
-    let files = pictures(&report);
+    let (place, files) = baked(["red", "blue"], &["material_id"]);
     let own = [
         "red_own.png",
         "blue_own.png",

@@ -67,7 +67,7 @@ pub(crate) struct Documents {
     pub(crate) kinds_reading: KindsReading,
     /// True once the user has chosen a model for the open graph, which it names from then on.
     pub(crate) is_model_chosen: bool,
-    /// What the graph said about how its model is read when that was last looked at.
+    /// Reading of the model that the graph named when it was last looked at.
     pub(super) seen_reading: SavedReading,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,

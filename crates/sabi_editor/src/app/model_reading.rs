@@ -1,4 +1,4 @@
-//! What the open graph keeps about how its model is read.
+//! Choices that the open graph keeps for reading its model.
 
 use std::path::Path;
 

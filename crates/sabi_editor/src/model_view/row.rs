@@ -274,7 +274,7 @@ fn state_of(evaluation: &Evaluation, has_picture: bool) -> Option<String> {
     }
 }
 
-/// What the evaluation on a model is doing; none while it waits for its turn.
+/// Activity of the evaluation on a model; none while it waits for its turn.
 fn doing(evaluation: &Evaluation) -> Option<String> {
     evaluation.activity().map(|activity| activity_text(&activity))
 }

@@ -14,7 +14,7 @@ pub struct PresetPicture {
     pub name: String,
     /// True if it has one color component.
     pub is_gray: bool,
-    /// What its components hold; a component that holds one number everywhere is missing.
+    /// Contents of its components; a component that holds one number everywhere is missing.
     pub parts: Vec<PicturePart>,
 }
 

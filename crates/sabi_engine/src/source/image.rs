@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sabi_gpu::{GpuError, ImageConstants, ImageShader, SourceCanvas, SourceDraw, SourceShader};
 use sabi_graph::PortType;
-use sabi_image::{Declared, Picture, Pixels};
+use sabi_image::{Declared, Picture, Pixels, listed_layers};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
@@ -158,7 +158,7 @@ pub(super) fn draw(
             warnings.push(mistake);
         }
     }
-    let (shader, constants) = kernel(canvas, step, of, (open, reading), &picture).map_err(unread)?;
+    let (shader, constants) = kernel(canvas, step, of, open, reading, &picture).map_err(unread)?;
     canvas.draw(&SourceDraw {
         shader: SourceShader::Image(shader),
         constants,
@@ -172,7 +172,8 @@ fn kernel(
     canvas: &SourceCanvas<'_>,
     step: &SourceStep,
     of: Output,
-    (open, reading): (&OpenPicture, Reading),
+    open: &OpenPicture,
+    reading: Reading,
     table: &PictureTable,
 ) -> Result<(ImageShader, ImageConstants), NoSuchValue> {
     let (picture, values) = (&open.picture, &step.values);
@@ -223,7 +224,7 @@ fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: Output) -> Resul
             "node '{}' ({NAME}): {file} has {} layers, of which {shown} is shown; its parameter layer chooses another: {}",
             step.id,
             open.layers.len(),
-            listed(others)
+            listed_layers(others)
         ));
     }
     if open.has_non_numbers {
@@ -233,21 +234,4 @@ fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: Output) -> Resul
         ));
     }
     Ok(sentences)
-}
-
-/// Most layers that a sentence names.
-const NAMED_LAYERS: usize = 12;
-
-/// Names in a sentence.
-fn listed(names: &[String]) -> String {
-    let named = names
-        .iter()
-        .take(NAMED_LAYERS)
-        .map(String::as_str)
-        .collect::<Vec<_>>()
-        .join(", ");
-    match names.len().saturating_sub(NAMED_LAYERS) {
-        0 => named,
-        more => format!("{named} and {more} more"),
-    }
 }

@@ -306,7 +306,7 @@ mod tests {
             });
             let color = MipChain::new(odd, Reading::of(false, true)).down_to(1).pixel(1, 0, 0);
             assert_eq!(color[..3], [1.0, 0.0, 0.0]);
-            // Where alpha is a value among others, nothing is weighed.
+            // Nothing is weighed where alpha is a value among others.
             let plain = MipChain::new(picture, PLAIN).down_to(1);
             assert_eq!(plain.pixel(1, 0, 0), [0.5, 0.0, 0.0, 0.5]);
         }

@@ -229,7 +229,7 @@ fn open_materials<'a>(
         texture.missing = missing;
         Some(texture)
     };
-    // Where a material ignores alpha, colors of clear pixels are seen like any other.
+    // Colors of clear pixels are seen like any other where a material ignores alpha.
     let opaque = |material: &ModelMaterial| Reading {
         by_alpha: !material.ignores_alpha,
         ..COLORS

@@ -60,7 +60,7 @@ fn stamp(path: &Path) -> Option<Stamp> {
     Some((metadata.len(), metadata.modified().ok()?))
 }
 
-/// What is shown of a file.
+/// Picture that is shown of a file.
 #[derive(Clone, Copy)]
 struct Shown<'a> {
     /// Hash of the file's bytes.

@@ -80,7 +80,7 @@ impl WantedFile<'_> {
         Ok((WrittenFile { record, file, was_kept }, bytes))
     }
 
-    /// What the file holds less than its channel has; `material` is the stem of its set.
+    /// Returns the values of its channel that the file cannot hold; `material` is the stem of its set.
     pub(super) fn cut(&self, material: &str) -> Option<CutMap> {
         let is_held = |channel: &Channel| {
             let maps = self.preset.maps_of(channel);

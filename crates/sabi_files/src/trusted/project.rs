@@ -144,7 +144,7 @@ mod owner {
     }
 }
 
-/// Who may write into a folder is left to the system here.
+/// Permissions of folders are left to the system here.
 #[cfg(not(unix))]
 mod owner {
     use std::path::Path;

@@ -235,7 +235,7 @@ fn links_among_node_files_lead_nowhere_else() {
     };
     assert_eq!(fault.path, linked);
     assert!(files_of_folder(&linked, &trusted).is_empty() && library.kind("theirs/good").is_none());
-    // Whoever trusts the place reads it.
+    // It is read once the place is trusted.
     let trusted = trusted.with_path(&at("elsewhere"));
     assert_eq!(library.load_folder(&linked, &trusted), []);
     assert!(library.kind("theirs/good").is_some());

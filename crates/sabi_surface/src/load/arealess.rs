@@ -15,7 +15,7 @@ const NO_HEIGHT: f64 = 1e-12;
 /// Most names in a sentence.
 const MOST_NAMES: usize = 8;
 
-/// What was left out for lack of an area.
+/// Parts and triangles left out for lack of an area.
 #[derive(Default)]
 pub(super) struct LeftOutAreas {
     parts: BTreeSet<String>,

@@ -2,15 +2,19 @@
 
 /// Returns names as a list in a sentence, of many only the first: `` `a`, `b` and 3 more ``.
 pub fn listed<'n>(names: impl Iterator<Item = &'n str>, most: usize) -> String {
-    let mut quoted: Vec<String> = names.map(|name| format!("`{name}`")).collect();
-    let more = quoted.len().saturating_sub(most);
+    joined(names.map(|name| format!("`{name}`")).collect(), most)
+}
+
+/// Returns words as a list in a sentence, of many only the first.
+pub(super) fn joined(mut words: Vec<String>, most: usize) -> String {
+    let more = words.len().saturating_sub(most);
     if more > 0 {
-        quoted.truncate(most);
-        quoted.push(format!("{more} more"));
+        words.truncate(most);
+        words.push(format!("{more} more"));
     }
-    match quoted.as_slice() {
+    match words.as_slice() {
         [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
-        quoted => quoted.concat(),
+        words => words.concat(),
     }
 }
 

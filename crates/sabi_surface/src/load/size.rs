@@ -8,7 +8,7 @@ use super::error::Fault;
 const TRIANGLE_BYTES: u64 = 12 + 4 + 4 + 24;
 /// Meshes that a triangle is in at a time: as the file has it, and placed in the scene.
 const COPIES: u64 = 2;
-/// What an atlas keeps for a triangle: its neighbors, its chart and its corners.
+/// Memory that an atlas keeps for a triangle: its neighbors, its chart and its corners.
 const ATLAS_BYTES: u64 = 12 + 4 + 24;
 /// Memory of a primitive, or of a mesh that is placed, besides its triangles: lists, names, a transform.
 const PRIMITIVE_BYTES: u64 = 1024;

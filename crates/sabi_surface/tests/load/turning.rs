@@ -40,7 +40,7 @@ fn uv([x, y, z]: [f32; 3]) -> [f32; 2] {
     [x + 0.5 * z, y + 0.25 * z]
 }
 
-/// What a file says about normals.
+/// Statement of a file about normals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Normals {
     /// Nothing: they are computed.

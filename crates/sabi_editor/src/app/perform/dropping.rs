@@ -12,7 +12,7 @@ use crate::dock::Panel;
 use crate::model_view::drop_place::DropPlace;
 use crate::theme::{space, type_size};
 
-/// What a node that is dropped at a place becomes.
+/// Result of dropping a node at a place.
 enum DropTarget {
     /// The mask of a layer.
     Mask(NodeId),

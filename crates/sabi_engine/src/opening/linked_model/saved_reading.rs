@@ -1,4 +1,4 @@
-//! What a graph says about how its model is read.
+//! Choices that a graph saves for reading its model.
 
 use sabi_files::canonical;
 use sabi_graph::Preview;

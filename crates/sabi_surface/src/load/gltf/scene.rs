@@ -7,6 +7,7 @@ use super::document::{Document, Node};
 use super::skin::Skins;
 use super::source::Source;
 use crate::load::error::{Fault, damaged};
+use crate::load::listed::joined;
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
@@ -156,16 +157,10 @@ const MOST_SCENES_NAMED: usize = 8;
 
 /// Labels of scenes, as a list.
 fn scene_labels(document: &Document, scenes: impl Iterator<Item = usize>) -> String {
-    let mut labels: Vec<String> = scenes.map(|scene| document.scene_label(scene)).collect();
-    let more = labels.len().saturating_sub(MOST_SCENES_NAMED);
-    if more > 0 {
-        labels.truncate(MOST_SCENES_NAMED);
-        labels.push(format!("{more} more"));
-    }
-    match labels.as_slice() {
-        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
-        labels => labels.concat(),
-    }
+    joined(
+        scenes.map(|scene| document.scene_label(scene)).collect(),
+        MOST_SCENES_NAMED,
+    )
 }
 
 /// Nodes that are no children.
