@@ -85,7 +85,7 @@ fn place() -> Place {
         place.write(name, GRAPH);
     }
     place.write("matrix.toml", MATRIX);
-    place.write("look.toml", block("README.md", "variant = \"desert\""));
+    place.write("look.toml", block("docs/command-line.md", "variant = \"desert\""));
     place.write("studio.toml", block("docs/presets.md", "name = \"studio\""));
     place
 }
@@ -179,8 +179,10 @@ fn runs(page: &str, least: usize) {
 }
 
 #[test]
-fn the_commands_of_the_first_page_do_what_they_say() {
-    runs("README.md", 16);
+fn the_commands_of_the_first_pages_do_what_they_say() {
+    runs("README.md", 5);
+    runs("docs/command-line.md", 11);
+    runs("docs/rendering.md", 4);
 }
 
 #[test]
