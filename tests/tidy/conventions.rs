@@ -3,21 +3,8 @@
 use sabi_tidy::{assert_none, ending, files_below, text_of};
 
 use crate::crate_folders;
-use crate::matches::catch_alls;
 use crate::modules::Modules;
 use crate::rules::*;
-
-/// Rust files of all crates but those of tests and benches.
-fn sources_without_tests() -> impl Iterator<Item = String> {
-    let is_source = |path: &String| {
-        let steps: Vec<&str> = path.split('/').collect();
-        ending(path) == "rs"
-            && !steps
-                .iter()
-                .any(|step| matches!(*step, "tests" | "tests.rs" | "benches" | "examples"))
-    };
-    files_below("crates").into_iter().filter(is_source)
-}
 
 #[test]
 fn modules_of_a_crate_form_no_circles() {
@@ -36,41 +23,6 @@ fn modules_of_a_crate_form_no_circles() {
                 circle.join(", ")
             )
         }));
-    }
-    assert_none(faults);
-}
-
-#[test]
-fn every_command_and_action_is_named_where_it_is_handled() {
-    let mut faults = Vec::new();
-    for path in sources_without_tests() {
-        for name in catch_alls(&text_of(&path), &HANDLED_BY_NAME) {
-            faults.push(format!(
-                "{path}: a match over `{name}` ends in a catch-all, so a new one that is not handled would compile: name \
-                 each."
-            ));
-        }
-    }
-    assert_none(faults);
-}
-
-#[test]
-fn a_default_in_place_of_a_missing_value_has_its_reason_beside_it() {
-    let mut faults = Vec::new();
-    for path in sources_without_tests() {
-        let text = text_of(&path);
-        let lines: Vec<&str> = text.lines().take_while(|line| line.trim() != "#[cfg(test)]").collect();
-        for (number, line) in lines.iter().enumerate() {
-            let is_comment = |line: &str| line.trim_start().starts_with("//");
-            let before = number.checked_sub(1).map(|before| lines[before]);
-            let has_reason = line.contains("// ") || before.is_some_and(is_comment);
-            if line.contains(".unwrap_or_default()") && !has_reason {
-                faults.push(format!(
-                    "{path}:{}: say beside `unwrap_or_default` why nothing is missing here, or handle the case.",
-                    number + 1
-                ));
-            }
-        }
     }
     assert_none(faults);
 }

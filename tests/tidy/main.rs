@@ -2,15 +2,12 @@
 
 mod conventions;
 mod dependencies;
-mod functions;
 mod literals;
-mod matches;
 mod modules;
 mod rules;
 
 use std::fs;
 
-use functions::functions_of;
 use literals::{flag_in, literals_of};
 use rules::*;
 use sabi_tidy::{assert_none, ending, files_below, is_code, root, text_of};
@@ -31,7 +28,7 @@ fn no_crate_below_the_front_ends_names_a_flag() {
         let sources = files_below(&format!("crates/{name}/src"));
         for path in sources.into_iter().filter(|path| ending(path) == "rs") {
             for (line, text) in literals_of(&text_of(&path)) {
-                if let Some(flag) = flag_in(text) {
+                if let Some(flag) = flag_in(&text) {
                     faults.push(format!(
                         "{path}:{line}: `{flag}` is a flag of the command line: say what is the case, and give a `Remedy` \
                          that each front end says in its own words."
@@ -53,25 +50,6 @@ fn files_are_short_enough_to_read() {
             faults.push(format!(
                 "{path} has {lines} lines: split it where it changes its subject, at most {MOST_LINES_OF_A_FILE}."
             ));
-        }
-    }
-    assert_none(faults);
-}
-
-#[test]
-fn functions_are_short_enough_to_read() {
-    let mut faults = Vec::new();
-    for path in files_below(".").into_iter().filter(|path| is_code(path)) {
-        for (name, line, lines) in functions_of(&text_of(&path)) {
-            let is_excused = LONGER_FUNCTIONS
-                .iter()
-                .any(|(function, _)| *function == format!("{path}: {name}"));
-            if lines > MOST_LINES_OF_A_FUNCTION && !is_excused {
-                faults.push(format!(
-                    "{path}:{line}: `{name}` has {lines} lines: give its steps names, at most \
-                     {MOST_LINES_OF_A_FUNCTION}."
-                ));
-            }
         }
     }
     assert_none(faults);
@@ -154,12 +132,5 @@ fn every_exception_still_has_something_to_excuse() {
             text_of(path).lines().count() > MOST_LINES_OF_A_FILE,
             "{path} no longer needs its exception ({reason})."
         );
-    }
-    for (function, reason) in LONGER_FUNCTIONS {
-        let (path, name) = function.split_once(": ").unwrap();
-        let is_needed = functions_of(&text_of(path))
-            .iter()
-            .any(|(own, _, lines)| own == name && *lines > MOST_LINES_OF_A_FUNCTION);
-        assert!(is_needed, "{function} no longer needs its exception ({reason}).");
     }
 }

@@ -2,7 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::functions::without_texts;
+use petgraph::algo::tarjan_scc;
+use petgraph::graph::DiGraph;
+use proc_macro2::{TokenStream, TokenTree};
+use syn::visit::{self, Visit};
 
 /// The way to a module from its crate's root; the root itself has none.
 pub(crate) type ModulePath = Vec<String>;
@@ -18,38 +21,36 @@ pub(crate) struct Modules {
 impl Modules {
     /// Reads the files of a crate, given as the path from its `src` folder and the text. Files of tests are left out.
     pub(crate) fn read(files: &[(String, String)]) -> Modules {
-        let module_of = |path: &str| -> ModulePath {
-            let without_ending = path.strip_suffix(".rs").unwrap_or(path);
-            let mut steps: ModulePath = without_ending.split('/').map(str::to_owned).collect();
-            if steps
-                .last()
-                .is_some_and(|last| matches!(last.as_str(), "lib" | "main" | "mod"))
-            {
-                steps.pop();
+        let mut paths_of_modules = BTreeMap::new();
+        for (path, text) in files {
+            let module = module_of(path);
+            if module.iter().any(|step| step == "tests") {
+                continue;
             }
-            steps
-        };
-        let modules = files.iter().map(|(path, text)| (module_of(path), text));
-        let modules: Vec<_> = modules
-            .filter(|(path, _)| !path.iter().any(|step| step == "tests"))
-            .collect();
+            let file = syn::parse_file(text).unwrap_or_else(|error| panic!("{path}: {error}"));
+            let mut paths = Paths::default();
+            paths.visit_file(&file);
+            paths_of_modules.insert(module, paths);
+        }
         let mut read = Modules {
-            named: modules.iter().map(|(path, _)| (path.clone(), Vec::new())).collect(),
+            named: paths_of_modules
+                .keys()
+                .map(|module| (module.clone(), Vec::new()))
+                .collect(),
             imported: BTreeMap::new(),
         };
-        for (module, text) in modules {
-            let tokens = without_tests(&tokens_of(text));
-            let mut named = Vec::new();
-            for (path, is_import) in paths_of(&tokens) {
-                let Some(absolute) = read.absolute(&module, &path) else {
-                    continue;
-                };
-                if let Some(name) = absolute.last().filter(|_| is_import) {
-                    let imported = read.imported.entry(module.clone()).or_default();
-                    imported.insert(name.clone(), absolute.clone());
-                }
-                named.push(absolute);
-            }
+        for (module, paths) in paths_of_modules {
+            let imported: Vec<ModulePath> = paths
+                .imported
+                .iter()
+                .filter_map(|path| read.absolute(&module, path))
+                .collect();
+            let named = paths.named.iter().filter_map(|path| read.absolute(&module, path));
+            let named = imported.iter().cloned().chain(named).collect();
+            let names = imported
+                .into_iter()
+                .filter_map(|path| Some((path.last()?.clone(), path)));
+            read.imported.insert(module.clone(), names.collect());
             read.named.insert(module, named);
         }
         read
@@ -102,7 +103,7 @@ impl Modules {
     /// Circles between modules that have the same parent, where a module stands for all that is inside it: no module may need
     /// another that needs it, whichever of their files say so. What parent and child name of each other does not count.
     pub(crate) fn circles(&self) -> Vec<Vec<String>> {
-        let mut siblings: BTreeMap<ModulePath, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
+        let mut siblings: BTreeMap<ModulePath, BTreeSet<(String, String)>> = BTreeMap::new();
         for (module, named) in &self.named {
             for path in named {
                 let target = self.target(path, 0);
@@ -113,179 +114,160 @@ impl Modules {
                     .count();
                 if let (Some(one), Some(other)) = (module.get(shared), target.get(shared)) {
                     let parent = siblings.entry(module[..shared].to_vec()).or_default();
-                    parent.entry(one.clone()).or_default().insert(other.clone());
+                    parent.insert((one.clone(), other.clone()));
                 }
             }
         }
-        let in_parent = |(parent, edges): (&ModulePath, &BTreeMap<String, BTreeSet<String>>)| {
-            let full = |name: &String| [parent.as_slice(), std::slice::from_ref(name)].concat().join("::");
-            let circles = circles_of(edges);
-            circles
-                .into_iter()
-                .map(|circle| circle.iter().map(full).collect())
-                .collect::<Vec<Vec<String>>>()
-        };
-        siblings.iter().flat_map(in_parent).collect()
+        let mut circles = Vec::new();
+        for (parent, edges) in &siblings {
+            let names: BTreeSet<&String> = edges.iter().flat_map(|(from, to)| [from, to]).collect();
+            let mut graph = DiGraph::new();
+            let nodes: BTreeMap<&String, _> = names.into_iter().map(|name| (name, graph.add_node(name))).collect();
+            for (from, to) in edges {
+                graph.add_edge(nodes[from], nodes[to], ());
+            }
+            for component in tarjan_scc(&graph).into_iter().filter(|circle| circle.len() > 1) {
+                let full = |node| {
+                    [parent.as_slice(), std::slice::from_ref(graph[node])]
+                        .concat()
+                        .join("::")
+                };
+                let circle: BTreeSet<String> = component.into_iter().map(full).collect();
+                circles.push(circle.into_iter().collect());
+            }
+        }
+        circles
     }
 }
 
-/// Groups of names that all reach each other.
-fn circles_of(edges: &BTreeMap<String, BTreeSet<String>>) -> Vec<Vec<String>> {
-    let reached_from = |start: &String| {
-        let mut reached = BTreeSet::new();
-        let mut open = vec![start];
-        while let Some(name) = open.pop() {
-            for next in edges.get(name).into_iter().flatten() {
-                if reached.insert(next.clone()) {
-                    open.push(next);
-                }
-            }
+/// The way to the module that a file of a crate's `src` folder holds.
+fn module_of(path: &str) -> ModulePath {
+    let without_ending = path.strip_suffix(".rs").unwrap_or(path);
+    let mut steps: ModulePath = without_ending.split('/').map(str::to_owned).collect();
+    if steps
+        .last()
+        .is_some_and(|last| matches!(last.as_str(), "lib" | "main" | "mod"))
+    {
+        steps.pop();
+    }
+    steps
+}
+
+/// Paths in a file, outside of items that exist for tests alone.
+#[derive(Default)]
+struct Paths {
+    /// Those of `use`, whose trees are written out.
+    imported: Vec<ModulePath>,
+    /// All others of more than one step.
+    named: Vec<ModulePath>,
+}
+
+impl Visit<'_> for Paths {
+    fn visit_item(&mut self, item: &syn::Item) {
+        if !is_for_tests(item) {
+            visit::visit_item(self, item);
         }
-        reached
+    }
+
+    fn visit_item_use(&mut self, item: &syn::ItemUse) {
+        import(&item.tree, &mut Vec::new(), &mut self.imported);
+    }
+
+    fn visit_path(&mut self, path: &syn::Path) {
+        if path.segments.len() > 1 {
+            let steps = path.segments.iter().map(|segment| segment.ident.to_string());
+            self.named.push(steps.collect());
+        }
+        visit::visit_path(self, path);
+    }
+
+    fn visit_macro(&mut self, invocation: &syn::Macro) {
+        name_in_tokens(invocation.tokens.clone(), &mut self.named);
+        visit::visit_macro(self, invocation);
+    }
+}
+
+/// Returns true for an item under `#[cfg(test)]`.
+fn is_for_tests(item: &syn::Item) -> bool {
+    let attributes = match item {
+        syn::Item::Mod(item) => &item.attrs,
+        syn::Item::Use(item) => &item.attrs,
+        syn::Item::Fn(item) => &item.attrs,
+        syn::Item::Impl(item) => &item.attrs,
+        syn::Item::Struct(item) => &item.attrs,
+        syn::Item::Const(item) => &item.attrs,
+        _ => return false,
     };
-    let reached: BTreeMap<&String, BTreeSet<String>> = edges.keys().map(|name| (name, reached_from(name))).collect();
-    let mut circles: Vec<Vec<String>> = Vec::new();
-    for (name, own) in &reached {
-        let is_known = circles.iter().any(|circle| circle.contains(name));
-        if own.contains(*name) && !is_known {
-            let both_ways = |other: &&String| reached.get(other).is_some_and(|back| back.contains(*name));
-            circles.push(own.iter().filter(both_ways).cloned().collect());
+    attributes.iter().any(|attribute| {
+        let is_test = |list: &syn::MetaList| list.path.is_ident("cfg") && list.tokens.to_string() == "test";
+        attribute.meta.require_list().is_ok_and(is_test)
+    })
+}
+
+/// Writes out a tree of `use`.
+fn import(tree: &syn::UseTree, before: &mut ModulePath, imported: &mut Vec<ModulePath>) {
+    match tree {
+        syn::UseTree::Path(path) => {
+            before.push(path.ident.to_string());
+            import(&path.tree, before, imported);
+            before.pop();
         }
-    }
-    circles
-}
-
-/// Words and signs of a Rust file, without comments and texts; `::` and `=>` are one sign each.
-pub(crate) fn tokens_of(text: &str) -> Vec<String> {
-    let code = without_texts(text);
-    let mut tokens = Vec::new();
-    let mut rest = code.trim_start();
-    while let Some(first) = rest.chars().next() {
-        let length = if first.is_alphanumeric() || first == '_' {
-            rest.find(|c: char| !c.is_alphanumeric() && c != '_')
-                .unwrap_or(rest.len())
-        } else if rest.starts_with("::") || rest.starts_with("=>") {
-            2
-        } else {
-            first.len_utf8()
-        };
-        let (token, after) = rest.split_at(length);
-        tokens.push(token.to_owned());
-        rest = after.trim_start();
-    }
-    tokens
-}
-
-/// The tokens without items that exist for tests alone.
-fn without_tests(tokens: &[String]) -> Vec<String> {
-    let marker = ["#", "[", "cfg", "(", "test", ")", "]"];
-    let mut kept = Vec::new();
-    let mut at = 0;
-    while at < tokens.len() {
-        if tokens[at..]
-            .iter()
-            .zip(marker)
-            .filter(|(token, mark)| token == mark)
-            .count()
-            == marker.len()
-        {
-            at = end_of_item(tokens, at + marker.len());
-        } else {
-            kept.push(tokens[at].clone());
-            at += 1;
-        }
-    }
-    kept
-}
-
-/// Returns the index after an item: after its `;`, or after the brace that closes its first brace.
-fn end_of_item(tokens: &[String], start: usize) -> usize {
-    let mut depth = 0_usize;
-    for (at, token) in tokens.iter().enumerate().skip(start) {
-        match token.as_str() {
-            ";" if depth == 0 => return at + 1,
-            "{" => depth += 1,
-            "}" => {
-                depth = depth.saturating_sub(1);
-                if depth == 0 {
-                    return at + 1;
-                }
+        syn::UseTree::Name(syn::UseName { ident }) | syn::UseTree::Rename(syn::UseRename { ident, .. }) => {
+            let mut path = before.clone();
+            // `self` behind a module means the module.
+            if ident != "self" || path.is_empty() {
+                path.push(ident.to_string());
             }
-            _ => {}
+            imported.push(path);
         }
+        syn::UseTree::Glob(_) => imported.push(before.clone()),
+        syn::UseTree::Group(group) => group.items.iter().for_each(|tree| import(tree, before, imported)),
     }
-    tokens.len()
 }
 
-/// All paths of more than one step, and whether a `use` imports them; trees of `use` are written out.
-fn paths_of(tokens: &[String]) -> Vec<(ModulePath, bool)> {
-    let mut paths = Vec::new();
-    let mut at = 0;
-    while at < tokens.len() {
-        // `use<'a>` in a type captures a lifetime and imports nothing.
-        if tokens[at] == "use" && tokens.get(at + 1).is_some_and(|next| next != "<") {
-            at = read_tree(tokens, at + 1, &[], &mut paths);
-            continue;
+/// Paths among the tokens of a macro, which have no grammar.
+fn name_in_tokens(tokens: TokenStream, named: &mut Vec<ModulePath>) {
+    let mut path = ModulePath::new();
+    // Signs since the last word: two of them, both `:`, continue a path.
+    let mut colons = 0;
+    let mut end = |path: &mut ModulePath| {
+        if path.len() > 1 {
+            named.push(std::mem::take(path));
         }
-        let mut end = at;
-        while is_word(&tokens[end]) && tokens.get(end + 1).is_some_and(|sign| sign == "::") && end + 2 < tokens.len() {
-            end += 2;
-        }
-        if end > at {
-            let steps = tokens[at..=end].iter().step_by(2);
-            paths.push((steps.filter(|step| is_word(step)).cloned().collect(), false));
-        }
-        at = end + 1;
-    }
-    paths
-}
-
-fn is_word(token: &str) -> bool {
-    token.starts_with(|c: char| c.is_alphabetic() || c == '_')
-}
-
-/// Reads one branch of a tree of `use` and returns where it ends.
-fn read_tree(tokens: &[String], start: usize, before: &[String], paths: &mut Vec<(ModulePath, bool)>) -> usize {
-    let mut path = before.to_vec();
-    let mut at = start;
-    while let Some(token) = tokens.get(at) {
-        match token.as_str() {
-            "{" => {
-                at += 1;
-                while tokens.get(at).is_some_and(|token| token != "}") {
-                    // Behind each branch stands its comma.
-                    at = match tokens[at].as_str() {
-                        "," => at + 1,
-                        _ => read_tree(tokens, at, &path, paths).max(at + 1),
-                    };
+        path.clear();
+    };
+    let mut groups = Vec::new();
+    for token in tokens {
+        match token {
+            TokenTree::Ident(word) => {
+                if colons != 2 {
+                    end(&mut path);
                 }
-                return at + 1;
+                path.push(word.to_string());
+                colons = 0;
             }
-            "as" => at += 2,
-            "::" => at += 1,
-            "*" => at += 1,
-            word if !is_word(word) => break,
-            word => {
-                // `self` behind a module means the module.
-                if word != "self" || path.is_empty() {
-                    path.push(word.to_owned());
-                }
-                at += 1;
+            TokenTree::Punct(sign) if sign.as_char() == ':' => colons += 1,
+            TokenTree::Group(group) => {
+                end(&mut path);
+                groups.push(group.stream());
             }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => end(&mut path),
         }
     }
-    paths.push((path, true));
-    at
+    end(&mut path);
+    for group in groups {
+        name_in_tokens(group, named);
+    }
 }
 
 #[test]
-fn a_circle_is_found_through_imports_and_names_that_are_exported_again() {
+fn a_circle_is_found_through_imports_macros_and_names_that_are_exported_again() {
     let file = |path: &str, text: &str| (path.to_owned(), text.to_owned());
     let files = [
         file("lib.rs", "mod a; mod b; mod c; pub use b::Deep;"),
         file("a.rs", "use crate::{Deep, c::{self, Plain as Other}};"),
         file("b.rs", "mod deep; pub use deep::Deep;"),
-        file("b/deep.rs", "fn f() { let x = crate::a::g(); }"),
+        file("b/deep.rs", "fn f() { assert!(x, \"{}\", (crate::a::g())); }"),
         file(
             "c.rs",
             "// crate::a::g\n#[cfg(test)]\nmod tests { use crate::a::g; }\nconst TEXT: &str = \"crate::a::g\";",

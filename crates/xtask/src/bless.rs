@@ -1,8 +1,8 @@
 //! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window, and
 //! `cargo xtask bless library` the graphs of the effect library, and `cargo xtask bless schema` the JSON schema of graph files.
 
-use crate::project::{Project, TaskError, finish};
-use crate::vulkan::{self, Driver};
+use xtask::project::{Project, TaskError, finish};
+use xtask::vulkan::{self, Driver};
 
 /// Writes the goldens of a kind or of all, the pictures of the window, or the graphs of the library.
 pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError> {

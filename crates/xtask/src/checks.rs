@@ -2,9 +2,9 @@
 
 use std::process::Stdio;
 
-use crate::display;
-use crate::project::{Project, TaskError, finish};
-use crate::vulkan::{self, Driver};
+use xtask::display;
+use xtask::project::{Project, TaskError, finish};
+use xtask::vulkan::{self, Driver};
 
 /// Name of a check, and cargo's arguments for it.
 type Check = (&'static str, &'static [&'static str]);

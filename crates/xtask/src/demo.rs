@@ -1,7 +1,7 @@
 //! `cargo xtask demo`: from a fresh clone to a baked texture set and a picture.
 
-use crate::project::{Project, TaskError, finish};
-use crate::vulkan::{self, Driver};
+use xtask::project::{Project, TaskError, finish};
+use xtask::vulkan::{self, Driver};
 
 const GRAPH: &str = "graphs/examples/army-paint.sabi";
 const MODEL: &str = "assets/meshes/crate.glb";

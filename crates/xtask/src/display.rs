@@ -14,7 +14,7 @@ const PROGRAMS: [&str; 2] = ["Xvfb", "xdotool"];
 const LIBRARIES: [&str; 2] = ["libxkbcommon-x11.so.0", "libX11-xcb.so.1"];
 
 /// Makes sure that the window can be tested, and installs the missing packages where that is possible.
-pub(crate) fn ensure(project: &Project) -> Result<(), TaskError> {
+pub fn ensure(project: &Project) -> Result<(), TaskError> {
     if !cfg!(target_os = "linux") {
         // Elsewhere the window is tested without a screen only.
         return Ok(());

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::SystemTime;
 
-use crate::packages::{Requirement, program};
-use crate::project::{Project, TaskError, create_folder, finish, output_of, write_file};
+use xtask::packages::{Requirement, program};
+use xtask::project::{Project, TaskError, create_folder, finish, output_of, write_file};
 
 /// Seconds of each target.
 const SECONDS: u64 = 60;

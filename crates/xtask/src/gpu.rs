@@ -11,9 +11,9 @@ mod tests_run;
 
 use std::path::{Path, PathBuf};
 
-use crate::project::{Project, TaskError, create_folder, write_file};
 use adapters::Adapter;
 use pack::Pack;
+use xtask::project::{Project, TaskError, create_folder, write_file};
 
 /// Folder of the report and its files, relative to the root.
 const FOLDER: &str = "target/gpu";

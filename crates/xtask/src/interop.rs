@@ -5,9 +5,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use crate::packages::program;
-use crate::project::{Project, TaskError, create_folder, finish};
-use crate::vulkan::{self, Driver};
+use xtask::packages::program;
+use xtask::project::{Project, TaskError, create_folder, finish};
+use xtask::vulkan::{self, Driver};
 
 /// Python packages of the checks, with the versions that they were written for.
 const PYTHON_PACKAGES: [&str; 5] = [

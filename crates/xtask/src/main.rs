@@ -2,26 +2,17 @@
 //! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`,
 //! `cargo xtask gpu`, `cargo xtask interop`, `cargo xtask fuzz`, `cargo xtask soak`.
 
-mod assets;
 mod bless;
 mod checks;
 mod demo;
-mod display;
-mod effects;
 mod fuzz;
 mod gpu;
 mod interop;
-mod packages;
-mod pictures;
-mod project;
-mod reference;
-mod small_png;
 mod soak;
-mod vulkan;
 
 use std::process::ExitCode;
 
-use project::{Project, TaskError};
+use xtask::project::{Project, TaskError, finish};
 
 const HELP: &str = "\
 cargo xtask demo      set up, build in release, bake an army crate into out/army-paint and draw it
@@ -51,11 +42,11 @@ fn main() -> ExitCode {
     let result = match task.as_deref() {
         Some("demo") => Project::find().and_then(|project| demo::run(&project)),
         Some("test") => Project::find().and_then(|project| checks::run(&project)),
-        Some("assets") => Project::find().and_then(|project| assets::run(&project, &rest)),
         Some("bless") => Project::find().and_then(|project| bless::run(&project, rest.first().map(String::as_str))),
-        Some("reference") => Project::find().and_then(|project| reference::run(&project, &rest)),
-        Some("pictures") => Project::find().and_then(|project| pictures::run(&project, &rest)),
-        Some("library") => Project::find().and_then(|project| effects::run(&project, &rest)),
+        // A tool of its own, so that the others start without its build.
+        Some(made @ ("assets" | "reference" | "pictures" | "library")) => {
+            Project::find().and_then(|project| make_assets(&project, made, &rest))
+        }
         Some("gpu") => gpu::run(&rest),
         Some("fuzz") => Project::find().and_then(|project| fuzz::run(&project, &rest)),
         Some("soak") => Project::find().and_then(|project| soak::run(&project, &rest)),
@@ -76,4 +67,11 @@ fn main() -> ExitCode {
             ExitCode::from(stop.code)
         }
     }
+}
+
+/// Has `sabi_assets` write files of the repository.
+fn make_assets(project: &Project, task: &str, arguments: &[String]) -> Result<(), TaskError> {
+    let mut command = project.cargo(&["run", "--quiet", "--package", "sabi_assets", "--", task])?;
+    command.args(arguments);
+    finish(command, task)
 }

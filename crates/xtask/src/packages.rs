@@ -8,7 +8,7 @@ use std::process::Command;
 use crate::project::{Project, TaskError, finish};
 
 /// Finds a shared library in the usual folders or in the linker's cache.
-pub(crate) fn find_library(name: &str) -> Option<PathBuf> {
+pub fn find_library(name: &str) -> Option<PathBuf> {
     let architecture = format!("/usr/lib/{}-linux-gnu", env::consts::ARCH);
     let mut folders: Vec<PathBuf> = env::var_os("LD_LIBRARY_PATH")
         .iter()
@@ -46,19 +46,19 @@ fn library_in_listing(listing: &str, name: &str) -> Option<PathBuf> {
 }
 
 /// Programs or libraries that a task needs, and packages that have them.
-pub(crate) struct Requirement {
+pub struct Requirement {
     /// Noun for the whole in sentences.
-    pub(crate) what: &'static str,
+    pub what: &'static str,
     /// Packages, by the names that Debian gives them.
-    pub(crate) packages: &'static [&'static str],
+    pub packages: &'static [&'static str],
     /// Instructions for systems without apt.
-    pub(crate) by_hand: &'static str,
+    pub by_hand: &'static str,
 }
 
 impl Requirement {
     /// Installs the packages if something is missing and apt is there. `missing` names the missing part as the start of a
     /// sentence.
-    pub(crate) fn ensure(&self, project: &Project, missing: impl Fn() -> Option<String>) -> Result<(), TaskError> {
+    pub fn ensure(&self, project: &Project, missing: impl Fn() -> Option<String>) -> Result<(), TaskError> {
         let Some(sentence) = missing() else { return Ok(()) };
         self.install(project, &sentence)?;
         match missing() {
@@ -129,7 +129,7 @@ fn is_root() -> bool {
 }
 
 /// Finds a program on the path.
-pub(crate) fn program(name: &str) -> Option<PathBuf> {
+pub fn program(name: &str) -> Option<PathBuf> {
     let path: OsString = env::var_os("PATH")?;
     env::split_paths(&path)
         .map(|folder| folder.join(name))

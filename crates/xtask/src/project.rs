@@ -9,16 +9,16 @@ use serde_json::Value;
 
 /// Failure that ends a task early.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct TaskError {
+pub struct TaskError {
     /// Exit code.
-    pub(crate) code: u8,
+    pub code: u8,
     /// Description of the failure and how to correct it.
-    pub(crate) sentence: String,
+    pub sentence: String,
 }
 
 impl TaskError {
     /// Creates an error with an exit code.
-    pub(crate) fn new(code: u8, sentence: impl Into<String>) -> TaskError {
+    pub fn new(code: u8, sentence: impl Into<String>) -> TaskError {
         TaskError {
             code,
             sentence: sentence.into(),
@@ -26,23 +26,23 @@ impl TaskError {
     }
 
     /// Creates an error with the exit code 1.
-    pub(crate) fn failed(sentence: impl Into<String>) -> TaskError {
+    pub fn failed(sentence: impl Into<String>) -> TaskError {
         TaskError::new(1, sentence)
     }
 }
 
 /// The project's folders, absolute.
 #[derive(Clone, Debug)]
-pub(crate) struct Project {
+pub struct Project {
     /// The workspace's root.
-    pub(crate) root: PathBuf,
+    pub root: PathBuf,
     /// Target folder of cargo.
-    pub(crate) target: PathBuf,
+    pub target: PathBuf,
 }
 
 impl Project {
     /// Finds the folders by asking cargo, so that every way to move the target folder is respected.
-    pub(crate) fn find() -> Result<Project, TaskError> {
+    pub fn find() -> Result<Project, TaskError> {
         let here = env::var_os("CARGO_MANIFEST_DIR").unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
         let root = Path::new(&here).join("../..");
         let root = root.canonicalize().map_err(|error| {
@@ -77,7 +77,7 @@ impl Project {
     }
 
     /// Returns the project in the current folder, on a machine that need not have cargo.
-    pub(crate) fn here() -> Result<Project, TaskError> {
+    pub fn here() -> Result<Project, TaskError> {
         let root =
             env::current_dir().map_err(|error| TaskError::failed(format!("There is no current folder: {error}.")))?;
         if !root.join("shaders").is_dir() {
@@ -89,20 +89,20 @@ impl Project {
     }
 
     /// Creates a cargo command in the root, which builds where this program was built.
-    pub(crate) fn cargo(&self, arguments: &[&str]) -> Result<Command, TaskError> {
+    pub fn cargo(&self, arguments: &[&str]) -> Result<Command, TaskError> {
         let mut command = self.command(cargo().as_ref())?;
         command.args(arguments).env("CARGO_TARGET_DIR", &self.target);
         Ok(command)
     }
 
     /// Returns the path of `sabi`, which a profile of cargo built.
-    pub(crate) fn sabi(&self, profile: &str) -> PathBuf {
+    pub fn sabi(&self, profile: &str) -> PathBuf {
         let name = format!("sabi{}", env::consts::EXE_SUFFIX);
         self.target.join(profile).join(name)
     }
 
     /// Creates a command in the root, with a private folder for run-time files, which Vulkan's window-system layers ask for.
-    pub(crate) fn command(&self, program: &Path) -> Result<Command, TaskError> {
+    pub fn command(&self, program: &Path) -> Result<Command, TaskError> {
         let mut command = Command::new(program);
         command.current_dir(&self.root);
         if cfg!(target_os = "linux") && env::var_os("XDG_RUNTIME_DIR").is_none() {
@@ -131,28 +131,28 @@ fn private_folder(folder: &Path) -> Result<(), TaskError> {
 }
 
 /// Creates a folder and the folders above it.
-pub(crate) fn create_folder(folder: &Path) -> Result<(), TaskError> {
+pub fn create_folder(folder: &Path) -> Result<(), TaskError> {
     fs::create_dir_all(folder).map_err(|error| not_written(folder, &error))
 }
 
 /// Writes a file.
-pub(crate) fn write_file(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), TaskError> {
+pub fn write_file(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), TaskError> {
     fs::write(path, bytes).map_err(|error| not_written(path, &error))
 }
 
 /// Error for a file or folder that cannot be written.
-pub(crate) fn not_written(path: &Path, error: &dyn Display) -> TaskError {
+pub fn not_written(path: &Path, error: &dyn Display) -> TaskError {
     TaskError::failed(format!("{} cannot be written: {error}.", path.display()))
 }
 
 /// Runs a command and returns its output, whatever its exit code.
-pub(crate) fn output_of(command: &mut Command) -> Result<Output, TaskError> {
+pub fn output_of(command: &mut Command) -> Result<Output, TaskError> {
     let output = command.output();
     output.map_err(|error| TaskError::failed(format!("{:?} could not be started: {error}.", command.get_program())))
 }
 
 /// Runs a command that writes to the terminal; its failure becomes the task's own, exit code included.
-pub(crate) fn finish(mut command: Command, what: &str) -> Result<(), TaskError> {
+pub fn finish(mut command: Command, what: &str) -> Result<(), TaskError> {
     let status = command.status().map_err(|error| {
         TaskError::failed(format!(
             "{what} could not be started ({:?}): {error}.",

@@ -9,10 +9,10 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::display;
-use crate::project::{Project, TaskError, create_folder, finish, not_written};
-use crate::vulkan::{self, Driver};
 use hands::{Hands, SIZE};
+use xtask::display;
+use xtask::project::{Project, TaskError, create_folder, finish, not_written};
+use xtask::vulkan::{self, Driver};
 
 const GRAPH: &str = "graphs/examples/army-paint.sabi";
 const MODEL: &str = "assets/meshes/crate.glb";

@@ -10,7 +10,7 @@ use crate::project::{Project, TaskError};
 
 /// Vulkan driver that a task needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Driver {
+pub enum Driver {
     /// Any graphics card or software driver.
     Any,
     /// Mesa's software driver: the one that expected pictures are made with.
@@ -27,7 +27,7 @@ const VULKAN: Requirement = Requirement {
 const LOADER: &str = "libvulkan.so.1";
 
 /// Makes sure that there is a driver, and installs Mesa's where that is possible.
-pub(crate) fn ensure(project: &Project, driver: Driver) -> Result<(), TaskError> {
+pub fn ensure(project: &Project, driver: Driver) -> Result<(), TaskError> {
     if !cfg!(target_os = "linux") {
         // Metal and Direct3D come with the system.
         return Ok(());

@@ -268,7 +268,7 @@ fn a_file_of_strokes_is_described_and_anything_else_is_refused() {
     let place = Place::new();
     let strokes = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../xtask/src/reference/specimen.paint/crate.strokes"
+        "/../sabi_assets/src/reference/specimen.paint/crate.strokes"
     );
     let report = json(&place.sabi(&["paint", "info", strokes, "--json"]).good().stdout);
     assert_eq!(

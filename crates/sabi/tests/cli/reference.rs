@@ -1,7 +1,7 @@
 //! The node reference in docs/nodes is what the nodes say.
 
 // The text is made here once more, by the same code as `cargo xtask reference`.
-#[path = "../../../xtask/src/reference/pages.rs"]
+#[path = "../../../sabi_assets/src/reference/pages.rs"]
 mod pages;
 
 use std::collections::BTreeSet;

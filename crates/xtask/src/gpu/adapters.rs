@@ -6,7 +6,7 @@ use std::process::Stdio;
 use serde_json::Value;
 
 use super::pack::{Pack, Role};
-use crate::project::{Project, TaskError, output_of};
+use xtask::project::{Project, TaskError, output_of};
 
 /// An adapter.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use std::{env, fs};
 
 use serde_json::Value;
 
-use crate::project::{Project, TaskError, create_folder, output_of};
+use xtask::project::{Project, TaskError, create_folder, output_of};
 
 /// Role of a program, which is also the prefix of its file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,7 +4,7 @@ use std::process::Stdio;
 
 use super::adapters::Adapter;
 use super::pack::{Pack, Role};
-use crate::project::{Project, TaskError, output_of};
+use xtask::project::{Project, TaskError, output_of};
 
 /// Results of one program of tests.
 #[derive(Clone, Debug, PartialEq, Eq)]

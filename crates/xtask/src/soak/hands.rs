@@ -2,7 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-use crate::project::TaskError;
+use xtask::project::TaskError;
 
 /// Pixels of the display.
 pub(crate) const SIZE: [u32; 2] = [1600, 900];

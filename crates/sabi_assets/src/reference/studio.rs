@@ -11,10 +11,10 @@ use super::pages::pictures_of;
 use super::picture::Texture;
 use super::scene::{Look, SIDE, render};
 use super::specimen::{Specimen, specimen};
-use crate::assets::glb::Model;
-use crate::assets::model;
-use crate::project::{Project, TaskError, create_folder, write_file};
+use crate::models::glb::Model;
+use crate::models::model;
 use crate::small_png::{encode, read};
+use xtask::project::{Project, TaskError, create_folder, write_file};
 
 /// Size limit of a picture of the reference.
 pub(crate) const MOST_BYTES: usize = 24 * 1024;

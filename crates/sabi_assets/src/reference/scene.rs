@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};
 
 use super::picture::{Texture, linear_from_srgb, srgb8_from_linear};
-use crate::assets::glb::{Model, index};
+use crate::models::glb::{Model, index};
 
 /// Pixels of a finished picture's side, and samples a pixel along each axis.
 pub(crate) const SIDE: usize = 288;

@@ -6,7 +6,7 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use super::group::Group;
-use crate::project::{Project, TaskError, create_folder, finish, write_file};
+use xtask::project::{Project, TaskError, create_folder, finish, write_file};
 
 /// Model that is baked: the largest of the program's own.
 const MODEL: &str = "assets/meshes/figure.glb";

@@ -1,4 +1,4 @@
-//! The project's own models, written as GLB, and environments: the same bytes on every run.
+//! The project's own models, written as GLB: the same bytes on every run.
 
 mod ball;
 mod bar;
@@ -8,7 +8,6 @@ mod chain;
 mod chair;
 mod column;
 mod crate_box;
-mod environments;
 mod figure;
 mod fixings;
 pub(crate) mod glb;
@@ -28,7 +27,7 @@ use std::path::Path;
 
 use glb::Model;
 
-use crate::project::{Project, TaskError, create_folder, write_file};
+use xtask::project::{Project, TaskError, create_folder, write_file};
 
 /// A model's name and what makes it.
 type Maker = (&'static str, fn() -> Model);
@@ -53,24 +52,18 @@ pub(crate) fn model(name: &str) -> Option<Model> {
     MAKERS.iter().find(|(own, _)| *own == name).map(|(_, make)| make())
 }
 
-/// Writes all models and environments into the project, or with `--million` the large one to where it is wanted.
-pub(crate) fn run(project: &Project, arguments: &[String]) -> Result<(), TaskError> {
-    match arguments {
-        [] => {
-            let folder = project.root.join("assets/meshes");
-            MAKERS.iter().try_for_each(|(_, make)| {
-                let model = make();
-                write(&model, &folder.join(format!("{}.glb", model.name)))
-            })?;
-            environments::write_all(project)
-        }
-        [flag] if flag == "--million" => write(&figure::million(), &project.target.join("meshes/figure-million.glb")),
-        [flag, file] if flag == "--million" => write(&figure::million(), Path::new(file)),
-        _ => {
-            let advice = "`cargo xtask assets` takes nothing, or `--million` and a file to write.";
-            Err(TaskError::new(2, advice.to_owned()))
-        }
-    }
+/// Writes all models into the project.
+pub(crate) fn write_all(project: &Project) -> Result<(), TaskError> {
+    let folder = project.root.join("assets/meshes");
+    MAKERS.iter().try_for_each(|(_, make)| {
+        let model = make();
+        write(&model, &folder.join(format!("{}.glb", model.name)))
+    })
+}
+
+/// Writes the figure in more than a million triangles.
+pub(crate) fn write_million(path: &Path) -> Result<(), TaskError> {
+    write(&figure::million(), path)
 }
 
 /// Writes a model, and prints its size.

@@ -15,8 +15,8 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::project::{Project, TaskError, create_folder, finish, not_written, output_of, write_file};
-use crate::vulkan::{self, Driver};
+use xtask::project::{Project, TaskError, create_folder, finish, not_written, output_of, write_file};
+use xtask::vulkan::{self, Driver};
 
 /// Folder of the pages, relative to the root.
 const FOLDER: &str = "docs/nodes";

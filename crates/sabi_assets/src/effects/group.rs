@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::CATEGORIES;
-use crate::project::TaskError;
+use xtask::project::TaskError;
 
 /// Folder of the groups, relative to the root.
 pub(super) const GROUPS: &str = "graphs/library";

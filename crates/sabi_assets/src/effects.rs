@@ -7,8 +7,8 @@ mod pictures;
 mod times;
 
 use self::group::{GROUPS, groups};
-use crate::project::{Project, TaskError, create_folder, finish, write_file};
-use crate::vulkan::{self, Driver};
+use xtask::project::{Project, TaskError, create_folder, finish, write_file};
+use xtask::vulkan::{self, Driver};
 
 /// Folder of the pages and pictures, relative to the root.
 const FOLDER: &str = "docs/library";

@@ -5,8 +5,8 @@ use std::process::Stdio;
 
 use super::FOLDER;
 use super::group::Group;
-use crate::project::{Project, TaskError, finish, not_written, write_file};
 use crate::small_png::{Picture, encode, read};
+use xtask::project::{Project, TaskError, finish, not_written, write_file};
 
 /// Size of a picture of one model or variant, and bytes that a strip of them may take.
 const TILE: [usize; 2] = [320, 240];

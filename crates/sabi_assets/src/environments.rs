@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, dvec3};
 
-use crate::project::{Project, TaskError, create_folder, write_file};
+use xtask::project::{Project, TaskError, create_folder, write_file};
 
 const WIDTH: usize = 512;
 const HEIGHT: usize = 256;

@@ -6,9 +6,9 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
-use crate::project::{Project, TaskError, create_folder, finish, not_written, write_file};
 use crate::small_png::{encode, read};
-use crate::vulkan::{self, Driver};
+use xtask::project::{Project, TaskError, create_folder, finish, not_written, write_file};
+use xtask::vulkan::{self, Driver};
 
 /// Folder of the pictures, relative to the root.
 const FOLDER: &str = "docs/pictures";

@@ -1,0 +1,7 @@
+//! Folders of the project, commands that run in them, and what they need of the machine: for `cargo xtask` and for
+//! the tools that it starts.
+
+pub mod display;
+pub mod packages;
+pub mod project;
+pub mod vulkan;
