@@ -3,16 +3,17 @@
 //! A fault of a node is reported at that node, and the rest of the graph is still evaluated. A fault of a group instance
 //! prevents the evaluation of the whole graph.
 
-use sabi_graph::{Document, Edit, GROUP_KIND, Overrides, Preview, SlotRef, flatten};
+use std::sync::Arc;
+
+use sabi_graph::{Document, Edit, GROUP_KIND, Node, Overrides, Preview, SlotRef, Value, flatten, takes_values};
+
+/// Reads a group file by its name; none if it cannot be read.
+type ReadShared<'a> = &'a mut dyn FnMut(&str) -> Option<Arc<Document>>;
 
 /// Returns the reason why nothing could be evaluated after these edits; none if nothing can be evaluated now either. `read`
 /// reads group files by their names.
-pub(crate) fn reason_lost_by(
-    document: &Document,
-    edits: &[Edit],
-    read: &mut dyn FnMut(&str) -> Option<Document>,
-) -> Option<String> {
-    if edits.iter().all(|edit| keeps_instances(document, edit)) {
+pub(crate) fn reason_lost_by(document: &Document, edits: &[Edit], read: ReadShared<'_>) -> Option<String> {
+    if edits.iter().all(|edit| keeps_instances(document, edit, read)) {
         return None;
     }
     let mut after = document.clone();
@@ -24,12 +25,17 @@ pub(crate) fn reason_lost_by(
 }
 
 /// Returns whether an edit cannot break a group instance, in which case the costly check is skipped.
-fn keeps_instances(document: &Document, edit: &Edit) -> bool {
+fn keeps_instances(document: &Document, edit: &Edit, read: ReadShared<'_>) -> bool {
     match edit {
-        Edit::Batch(edits) => edits.iter().all(|edit| keeps_instances(document, edit)),
-        Edit::SetParam { body, node, .. } => {
+        Edit::Batch(edits) => edits.iter().all(|edit| keeps_instances(document, edit, read)),
+        Edit::SetParam {
+            body,
+            node,
+            param,
+            value,
+        } => {
             let node = document.body(body).ok().and_then(|graph| graph.node(node.as_str()));
-            node.is_none_or(|node| node.kind != GROUP_KIND)
+            node.is_none_or(|node| node.kind != GROUP_KIND || takes_value(document, node, param, value.as_ref(), read))
         }
         Edit::SetPreview { preview } => {
             let variant = |preview: &Option<Preview>| preview.as_ref().and_then(|preview| preview.variant.clone());
@@ -64,9 +70,23 @@ fn keeps_instances(document: &Document, edit: &Edit) -> bool {
     }
 }
 
+/// Returns whether the group of an instance surely takes a value, or its absence.
+fn takes_value(document: &Document, instance: &Node, param: &str, value: Option<&Value>, read: ReadShared<'_>) -> bool {
+    let mut params = instance.params.clone();
+    match value {
+        Some(value) => params.insert(param.to_owned(), value.clone()),
+        None => params.remove(param),
+    };
+    let group = instance.group.as_deref();
+    group.is_some_and(|group| takes_values(document, group, &params, read))
+}
+
 /// Returns the reason why the graph cannot be evaluated with its own values, or with the variant that is shown.
-fn evaluation_fault(document: &Document, read: &mut dyn FnMut(&str) -> Option<Document>) -> Option<String> {
-    let mut read = |name: &str| read(name).ok_or_else(|| "it cannot be read; open it to see why".to_owned());
+fn evaluation_fault(document: &Document, read: ReadShared<'_>) -> Option<String> {
+    let mut read = |name: &str| {
+        let file = read(name).map(Arc::unwrap_or_clone);
+        file.ok_or_else(|| "it cannot be read; open it to see why".to_owned())
+    };
     let (own, shown) = (Overrides::default(), Overrides::of_preview(document));
     let shown = Some(shown).filter(|shown| *shown != own);
     let mut faults = std::iter::once(own).chain(shown);

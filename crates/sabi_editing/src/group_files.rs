@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::SystemTime;
 
 use sabi_engine::{OpenGraph, PathBase, TrustedPaths, Unread};
@@ -13,7 +14,7 @@ type Stamp = Option<(u64, SystemTime)>;
 
 #[derive(Default)]
 pub(crate) struct GroupFiles {
-    known: BTreeMap<PathBuf, (Stamp, Option<Document>)>,
+    known: BTreeMap<PathBuf, (Stamp, Option<Arc<Document>>)>,
 }
 
 impl GroupFiles {
@@ -25,12 +26,21 @@ impl GroupFiles {
     /// Returns a reader of the files that a graph names.
     pub(crate) fn reader<'a>(&'a mut self, graph: &'a OpenGraph) -> impl FnMut(&str) -> Option<Document> + 'a {
         let base = graph.base();
-        move |written| self.read((&base, &graph.trusted), written)
+        move |written| self.read(&base, &graph.trusted, written).map(Arc::unwrap_or_clone)
+    }
+
+    /// Returns a reader of the files that a graph names, which copies none of them.
+    pub(crate) fn shared_reader<'a>(
+        &'a mut self,
+        graph: &'a OpenGraph,
+    ) -> impl FnMut(&str) -> Option<Arc<Document>> + 'a {
+        let base = graph.base();
+        move |written| self.read(&base, &graph.trusted, written)
     }
 
     /// Returns a graph file that a file of the base names; none if it cannot be read or may not be opened, which the evaluation
     /// reports.
-    pub(crate) fn read(&mut self, (base, trusted): (&PathBase, &TrustedPaths), written: &str) -> Option<Document> {
+    pub(crate) fn read(&mut self, base: &PathBase, trusted: &TrustedPaths, written: &str) -> Option<Arc<Document>> {
         if matches!(trusted.check(base, written), Err(Unread::Refused(_))) {
             return None;
         }
@@ -42,7 +52,7 @@ impl GroupFiles {
         {
             return document.clone();
         }
-        let document = OpenGraph::open(path).ok().map(|open| open.document);
+        let document = OpenGraph::open(path).ok().map(|open| Arc::new(open.document));
         self.known.insert(path.to_owned(), (stamp, document.clone()));
         document
     }

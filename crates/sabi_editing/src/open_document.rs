@@ -213,7 +213,8 @@ impl OpenDocument {
 
     /// Reads a graph file that a file of the base uses as a group, if it can be read.
     pub(crate) fn read_group_file(&mut self, base: &PathBase, written: &str) -> Option<Document> {
-        self.group_files.read((base, &self.session.graph().trusted), written)
+        let file = self.group_files.read(base, &self.session.graph().trusted, written);
+        file.map(Arc::unwrap_or_clone)
     }
 
     /// Applies edits as [`OpenDocument::edit`] does, and selects nodes if they were applied.
@@ -268,7 +269,7 @@ impl OpenDocument {
     }
 
     fn why_not_evaluable_after(&mut self, edits: &[Edit]) -> Option<String> {
-        let mut read = self.group_files.reader(self.session.graph());
+        let mut read = self.group_files.shared_reader(self.session.graph());
         evaluability::reason_lost_by(self.session.document(), edits, &mut read)
     }
 

@@ -3,12 +3,14 @@
 mod definitions;
 mod error;
 mod expand;
+mod instance_values;
 mod knobs;
 mod trace;
 
 use std::collections::BTreeMap;
 
 pub use error::FlattenError;
+pub use instance_values::takes_values;
 pub use knobs::INSTANCE_KNOBS;
 
 use crate::{Document, Fit, Value};

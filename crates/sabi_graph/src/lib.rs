@@ -50,7 +50,7 @@ pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
 pub use flatten::{
     FlatGraph, FlatNode, FlatRef, FlattenError, INSTANCE_KNOBS, NodeRef, Overrides, ResultOrigin, flatten,
-    flatten_and_find,
+    flatten_and_find, takes_values,
 };
 pub use format::{FormatKey, FormatObject, UnknownKey, format_objects, format_schema, unknown_keys};
 pub use graph::{Exposed, Frame, Graph, Node};

@@ -6,6 +6,7 @@ mod finding;
 mod fits;
 mod flat;
 mod group_files;
+mod instance_values;
 mod moved;
 mod panel;
 mod random;

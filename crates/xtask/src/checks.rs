@@ -1,7 +1,9 @@
-//! `cargo xtask test`: everything that must hold before a change is shared, cheapest first.
+//! `cargo xtask test`: everything that must hold before a change is shared, cheapest first. `cargo xtask nightly`: what changes seldom
+//! break, or what takes too long to wait for.
 
 use std::process::Stdio;
 
+use crate::{fuzz, soak};
 use xtask::display;
 use xtask::project::{Project, TaskError, finish};
 use xtask::vulkan::{self, Driver};
@@ -55,9 +57,12 @@ const TESTS: Check = (
 const DOC_TESTS: Check = ("Doc tests", &["test", "--doc", "--workspace", "--locked"]);
 const DOCUMENTATION: Check = ("Documentation", &["doc", "--workspace", "--no-deps", "--locked"]);
 
-const CHECKS: [Check; 6] = [FORMAT, CLIPPY, WITHOUT_EDITOR, TESTS, DOC_TESTS, DOCUMENTATION];
+/// What a change has to pass.
+const CHECKS: [Check; 4] = [FORMAT, CLIPPY, TESTS, DOC_TESTS];
+/// What is checked once a night.
+const NIGHTLY_CHECKS: [Check; 2] = [WITHOUT_EDITOR, DOCUMENTATION];
 
-/// Sets up and runs every check; the first that fails ends it, with its own exit code.
+/// Sets up and runs every check of a change; the first that fails ends it, with its own exit code.
 pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
     for (tool, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if !answers(project, tool)? {
@@ -68,20 +73,29 @@ pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
     }
     vulkan::ensure(project, Driver::Software)?;
     display::ensure(project)?;
-    for (number, (name, arguments)) in CHECKS.iter().enumerate() {
-        eprintln!(
-            "\n[{}/{}] {name}: cargo {}",
-            number + 1,
-            CHECKS.len(),
-            arguments.join(" ")
-        );
+    run_all(project, &CHECKS)?;
+    eprintln!("\nAll {} checks passed.", CHECKS.len());
+    Ok(())
+}
+
+/// Runs the nightly checks, every fuzz target for a minute, and the soak for as many minutes as the arguments say.
+pub(crate) fn run_nightly(project: &Project, arguments: &[String]) -> Result<(), TaskError> {
+    run_all(project, &NIGHTLY_CHECKS)?;
+    fuzz::run(project, &[])?;
+    soak::run(project, arguments)
+}
+
+/// Runs checks in their order; the first that fails ends it.
+fn run_all(project: &Project, checks: &[Check]) -> Result<(), TaskError> {
+    for (number, (name, arguments)) in checks.iter().enumerate() {
+        let count = checks.len();
+        eprintln!("\n[{}/{count}] {name}: cargo {}", number + 1, arguments.join(" "));
         let mut command = project.cargo(arguments)?;
         if arguments[0] == "doc" {
             command.env("RUSTDOCFLAGS", "-D warnings");
         }
         finish(command, name)?;
     }
-    eprintln!("\nAll {} checks passed.", CHECKS.len());
     Ok(())
 }
 
@@ -101,7 +115,7 @@ mod tests {
 
     #[test]
     fn no_check_resolves_other_dependencies_than_those_of_the_lock_file() {
-        for (name, arguments) in CHECKS {
+        for (name, arguments) in CHECKS.into_iter().chain(NIGHTLY_CHECKS) {
             assert_eq!(arguments.contains(&"--locked"), name != FORMAT.0, "{name}");
         }
     }

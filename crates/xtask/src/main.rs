@@ -1,4 +1,4 @@
-//! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
+//! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask nightly`, `cargo xtask assets`,
 //! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`,
 //! `cargo xtask gpu`, `cargo xtask interop`, `cargo xtask fuzz`, `cargo xtask soak`.
 
@@ -16,7 +16,9 @@ use xtask::project::{Project, TaskError, finish};
 
 const HELP: &str = "\
 cargo xtask demo      set up, build in release, bake an army crate into out/army-paint and draw it
-cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
+cargo xtask test      set up, then format check, clippy, tests and doc tests
+cargo xtask nightly   the build without the editor, the documentation, every fuzz target for a minute, and the soak; with a
+                      number, the soak takes so many minutes
 cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
                       write only the figure in a million triangles, into target/meshes or FILE
 cargo xtask bless K   write the goldens of node kind K again, of all, pictures of the window,
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
     let result = match task.as_deref() {
         Some("demo") => Project::find().and_then(|project| demo::run(&project)),
         Some("test") => Project::find().and_then(|project| checks::run(&project)),
+        Some("nightly") => Project::find().and_then(|project| checks::run_nightly(&project, &rest)),
         Some("bless") => Project::find().and_then(|project| bless::run(&project, rest.first().map(String::as_str))),
         // A tool of its own, so that the others start without its build.
         Some(made @ ("assets" | "reference" | "pictures" | "library")) => {

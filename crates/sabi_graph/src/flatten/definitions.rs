@@ -203,7 +203,7 @@ impl<'a> Definitions<'a> {
 }
 
 /// Resolves a path written in `file` against the folder of `file`; absolute paths stay.
-fn resolve(file: &str, path: &str) -> String {
+pub(super) fn resolve(file: &str, path: &str) -> String {
     let path = path.replace('\\', "/");
     let has_drive = path.as_bytes().get(1) == Some(&b':');
     let (root, folder) = match path.strip_prefix('/') {
