@@ -60,7 +60,7 @@ pub use model_copy::{
     Scaled, Treatment, baked_materials, unwrapped_materials,
 };
 pub use name_pattern::{NameParts, NamePattern, folder_name};
-pub use names::{file_stem, set_names};
+pub use names::{file_stem, set_names, sheet_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, CutMap, DocumentRecord, DocumentedMaterial, LeftOut, OutputRecord};
 pub use seams::SeamSamples;
