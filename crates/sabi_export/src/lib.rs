@@ -46,7 +46,7 @@ mod shown;
 mod write;
 
 pub use bands::BandGather;
-pub use borders::{BorderRule, ChartBorders};
+pub use borders::{BorderGhost, BorderRule, ChartBorders, STEEPER};
 pub use channel::{Channel, ChannelPixels, OutputKind};
 pub use constant::Value;
 pub use encoded_files::EncodedFiles;

@@ -183,7 +183,7 @@ fn value_extents(
 }
 
 /// Makes the look of one result, taken as opaque: a material with its maps, any other type as numbers or colors. Where charts
-/// overlap it shows what a bake writes there; see [`Evaluator::shares`].
+/// overlap and at the borders of charts it shows what a bake writes there; see [`Evaluator::exported`].
 fn look(
     evaluator: &Evaluator,
     run: &mut Run,
@@ -192,7 +192,7 @@ fn look(
     mut cache: Option<&mut ResultCache>,
 ) -> Result<MaterialLook, EngineError> {
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
-    let shares = evaluator.shares()?;
+    let exported = evaluator.exported()?;
     let value_type = match result.stored.ty {
         PortType::Mask => NodeType::Mask,
         PortType::Color => NodeType::Color,
@@ -202,13 +202,14 @@ fn look(
                 surface,
                 run,
                 material_slots(result),
-                shares,
+                exported,
                 (options, cache.as_deref_mut()),
             )?;
             return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };
-    let texture = gpu.kept_result_texture(surface, run, result.slots[0], shares, cache)?;
+    let plane = (result.slots[0], result.stored.planes()[0]);
+    let texture = gpu.shown_result(surface, run, plane, exported, cache)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, value_type }),
         ..neutral_look()
