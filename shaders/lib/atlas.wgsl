@@ -133,12 +133,6 @@ fn ghost_read(index: u32) -> GhostRead {
     return GhostRead(bitcast<vec2f>(row.xy), row.z, row.w);
 }
 
-// Column, row and page of a texel, counted page by page and row by row, on pages of a size.
-fn texel_of_index(index: u32, size: vec2u) -> vec3i {
-    let line = index / size.x;
-    return vec3i(vec3u(index % size.x, line % size.y, line / size.y));
-}
-
 fn owner_of(texel: vec3i) -> u32 {
     if texel.x < 0 {
         return EMPTY;

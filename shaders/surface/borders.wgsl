@@ -4,7 +4,7 @@
 //! @use atlas
 
 struct Borders {
-    // Ghosts in the table.
+    // Ghosts of the atlas.
     ghost_count: u32,
     // Workgroups along x.
     row_length: u32,
@@ -21,8 +21,9 @@ struct Borders {
 }
 
 @group(1) @binding(0) var<uniform> borders: Borders;
-// A texel; and a bit for each texel around its anchor, row by row, that the chart owns, and the step from there, see `STEP_BIT`.
-@group(1) @binding(1) var<storage, read> border_ghosts: array<vec2u>;
+// For each ghost a bit for each texel around its anchor, row by row, that the chart owns, and the step from there, see `STEP_BIT`; 0 for
+// ghosts that always stay as they are.
+@group(1) @binding(1) var<storage, read> border_ghosts: array<u32>;
 @group(1) @binding(2) var field: texture_2d_array<f32>;
 
 // Texels on each side of an anchor that are looked at, and along a side of what is looked at.
@@ -31,9 +32,8 @@ const SIDE: i32 = 5;
 // First bit of the step from an anchor to its ghost, numbered like the texels around the anchor.
 const STEP_BIT: u32 = 25u;
 
-// A ghost with the value that is shown for it.
+// What is shown for a ghost.
 struct ShownGhost {
-    texel: vec3i,
     value: vec4f,
     // Whether that is the value of its chart.
     is_changed: bool,
@@ -75,20 +75,24 @@ fn steeper_of(most: vec4f, difference: vec4f) -> vec4f {
 }
 
 fn shown_ghost(index: u32) -> ShownGhost {
+    let link = ghost_link(index);
+    let texel = vec3i(i32(link.texel & 0xffffu), i32(link.texel >> 16u), i32(link.page));
     let row = border_ghosts[index];
-    let texel = texel_of_index(row.x, textureDimensions(field));
     let own = value_of(texel);
-    let at = i32(row.y >> STEP_BIT);
+    let at = i32(row >> STEP_BIT);
     let step = vec2i(at % SIDE, at / SIDE) - REACH;
+    let is_kept = row == 0u || (borders.keeps_first_ring != 0u && all(abs(step) <= vec2i(1)));
+    if is_kept {
+        return ShownGhost(own, false);
+    }
     let anchor = texel - vec3i(step, 0);
     let nearest = value_of(anchor);
-    let is_kept = borders.keeps_first_ring != 0u && all(abs(step) <= vec2i(1));
-    if is_kept || all(own == nearest) {
-        return ShownGhost(texel, own, false);
+    if all(own == nearest) {
+        return ShownGhost(own, false);
     }
-    let most = borders.steeper * length(vec2f(step)) * steepest(anchor, row.y);
+    let most = borders.steeper * length(vec2f(step)) * steepest(anchor, row);
     let jumps = abs(own - nearest) > most;
     let three = vec3<bool>(any(jumps.xyz));
     let changed = vec4<bool>(select(jumps.xyz, three, borders.are_three_together != 0u), jumps.w);
-    return ShownGhost(texel, select(own, nearest, changed), any(changed));
+    return ShownGhost(select(own, nearest, changed), any(changed));
 }

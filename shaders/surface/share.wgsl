@@ -19,18 +19,24 @@ struct Share {
 @group(1) @binding(3) var field: texture_2d_array<f32>;
 @group(1) @binding(4) var shown: StoredField;
 
+// Column, row and page.
+fn unpacked_texel(index: u32) -> vec3i {
+    let size = textureDimensions(field);
+    let line = index / size.x;
+    return vec3i(vec3u(index % size.x, line % size.y, line / size.y));
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
     let index = (group.y * share.row_length + group.x) * 64u + local;
     if index >= share.group_count {
         return;
     }
-    let size = textureDimensions(field);
     let first = starts[index] + 1u;
     let count = texels[first - 1u];
     var value = vec4f(0.0);
     for (var at = first; at < first + count; at += 1u) {
-        let source = texel_of_index(texels[at], size);
+        let source = unpacked_texel(texels[at]);
         let more = textureLoad(field, source.xy, source.z, 0);
         // A single source keeps its bits.
         value = select(value + more, more, at == first);
@@ -42,7 +48,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lo
         }
     }
     for (var at = first + count; at < starts[index + 1u]; at += 1u) {
-        let place = texel_of_index(texels[at], size);
+        let place = unpacked_texel(texels[at]);
         textureStore(shown, place.xy, place.z, value);
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use half::f16;
 use sabi_engine::{ModelOptions, NoProgress, Seams};
 use sabi_export::{BorderRule, ChartBorders, STEEPER};
-use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported};
+use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported, ResultCache};
 use sabi_plan::Mode as Plans;
 use sabi_tests::{Baked, MadeMesh, MeshFile, OnMesh, Pictured, even_light, project};
 use sabi_view::{Mode, Viewpoint};
@@ -114,38 +114,52 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
     let target = on_mesh.target("coat");
     let evaluator = &mut on_mesh.evaluator;
     let plan = evaluator.plan(&[target], Plans::Bake { fuse: true }).expect("a plan");
-    let mut run = evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
+    let mut cache = ResultCache::new(1 << 30);
+    let mut run = evaluator
+        .run(&plan, SUBMISSION, &NoProgress, Some(&mut cache))
+        .expect("a run");
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let atlas = &evaluator.linked().atlas;
     let rule = ChartBorders::of_atlas(atlas);
     assert!(rule.ghosts().len() > 1000);
     let ghosts = rule.ghosts().iter().map(|ghost| BorderGhost {
-        texel: ghost.pixel,
+        index: ghost.index,
         step: ghost.step,
         own: ghost.own,
     });
-    let borders = Borders::upload(gpu, ghosts, STEEPER).expect("borders");
+    let borders = Borders::upload(gpu, surface, ghosts, STEEPER).expect("borders");
     let exported = Exported {
         borders: Some(&borders),
-        shares: None,
+        ..Exported::default()
+    };
+    let changes = Exported {
+        changes_results: true,
+        ..exported
     };
     let result = &plan.results[0];
     let planes = result.stored.planes();
     assert!(planes.len() >= 3, "{planes:?}");
     for (plane, slot) in planes.into_iter().zip(result.slots.clone()) {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
-        let shown = gpu
-            .shown_result(surface, &mut run, (slot, plane), exported, None)
-            .expect("a map");
+        let mut shown_of = |exported: Exported<'_>| {
+            let shown = gpu.shown_result(surface, &mut run, (slot, plane), exported, Some(&mut cache));
+            shown.expect("a map")
+        };
+        let shown = shown_of(exported);
+        assert_eq!(shown_of(exported), shown, "a cache keeps the copy");
         assert_eq!(
             gpu.read(surface, &plan, &run, slot).expect("a plane"),
             before,
             "the result stays as it is"
         );
-        let mut bytes = Vec::new();
-        for page in 0..atlas.pages {
-            gpu.read_layer(&shown, page, 0, &mut bytes).expect("a page");
-        }
+        let read = |texture: &_| {
+            let mut bytes = Vec::new();
+            for page in 0..atlas.pages {
+                gpu.read_layer(texture, page, 0, &mut bytes).expect("a page");
+            }
+            bytes
+        };
+        let bytes = read(&shown);
         // Four half floats, the only format of its size.
         let is_half = before.bytes().len() == 8 * before.len();
         let own = numbers(before.bytes(), is_half);
@@ -179,5 +193,10 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             .filter(|(one, other)| one.to_bits() != other.to_bits())
             .count();
         assert_eq!(differing, 0, "{plane:?}");
+        let changed = gpu
+            .shown_result(surface, &mut run, (slot, plane), changes, None)
+            .expect("a map");
+        assert_eq!(changed, run.texture(slot).expect("the result"), "it is changed itself");
+        assert!(read(&changed) == bytes, "{plane:?}");
     }
 }

@@ -161,7 +161,7 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     // One of each format that a plane has.
     let exported = Exported {
         shares: Some(&shares),
-        borders: None,
+        ..Exported::default()
     };
     let planes = plan.results[0].stored.planes().into_iter();
     for (plane, slot) in planes.zip(plan.results[0].slots.clone()) {

@@ -33,6 +33,8 @@ pub struct ChartBorders {
 /// Ghost that gives a pixel its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BorderGhost {
+    /// Its index among the ghosts of the atlas.
+    pub index: u32,
     /// Its pixel.
     pub pixel: u32,
     /// Pixel of the nearest texel that its chart owns.
@@ -183,7 +185,8 @@ impl Pages<'_> {
     fn ghost(&self, at: (usize, usize)) -> Option<BorderGhost> {
         let (texel, pixel) = at;
         let owner = *self.atlas.owners.get(texel)?;
-        let ghost = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?;
+        let index = owner & !GHOST_BIT;
+        let ghost = self.atlas.ghosts.get(index as usize)?;
         if self.shows_own_border(ghost) {
             return None;
         }
@@ -195,6 +198,7 @@ impl Pages<'_> {
         let anchor = (texel, self.pixel(pixel, texel, nearest));
         let own = offsets().filter(|offset| self.is_own(chart, anchor, *offset));
         Some(BorderGhost {
+            index,
             pixel: pixel as u32,
             anchor: anchor.1 as u32,
             step: nearest.map(|step| -step as i8),

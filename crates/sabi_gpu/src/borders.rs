@@ -1,10 +1,10 @@
 //! Borders of charts on shown maps: ghosts beyond a jump of the data, which repeat their own chart as those of exported maps do.
 
 use sabi_nodes::kind::Channel;
-use sabi_nodes::link::{Format, Plane};
+use sabi_nodes::link::Plane;
 use sabi_nodes::wgsl_struct;
 
-use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
+use crate::bindings::{read_entry, texture_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
@@ -23,8 +23,8 @@ pub(crate) const STEP_BIT: u32 = 25;
 /// Ghost whose own chart has a texel near it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BorderGhost {
-    /// Its texel, page by page and row by row.
-    pub texel: u32,
+    /// Its index among the ghosts of the atlas.
+    pub index: u32,
     /// Texels from the nearest texel of its chart, its anchor, across and down; at most two.
     pub step: [i8; 2],
     /// The 5 × 5 texels around the anchor, a bit each, row by row: set where the chart owns the texel.
@@ -33,9 +33,8 @@ pub struct BorderGhost {
 
 /// Ghosts of an atlas on the device that repeat their chart where they lie beyond a jump.
 pub struct Borders {
-    count: u32,
     steeper: f32,
-    /// Rows as `borders.wgsl` reads them.
+    /// A word for each ghost of the atlas, as `borders.wgsl` reads them.
     ghosts: wgpu::Buffer,
 }
 
@@ -87,31 +86,38 @@ wgsl_struct! {
 }
 
 impl Borders {
-    /// Uploads the ghosts of an atlas. One lies beyond a jump if it differs from its anchor by more than `steeper` times the largest
-    /// step between neighboring texels of the chart around there, for each texel of its distance.
-    pub fn upload(gpu: &Gpu, ghosts: impl IntoIterator<Item = BorderGhost>, steeper: f32) -> Result<Borders, GpuError> {
-        let row = |ghost: BorderGhost| {
+    /// Uploads the ghosts of the atlas of a surface. One lies beyond a jump if it differs from its anchor by more than `steeper` times the
+    /// largest step between neighboring texels of the chart around there, for each texel of its distance.
+    pub fn upload(
+        gpu: &Gpu,
+        surface: &GpuSurface,
+        ghosts: impl IntoIterator<Item = BorderGhost>,
+        steeper: f32,
+    ) -> Result<Borders, GpuError> {
+        let mut words = vec![0_u32; surface.ghosts.all.count as usize];
+        for ghost in ghosts {
             let [x, y] = ghost.step.map(|step| (i32::from(step) + 2) as u32);
-            [ghost.texel, ghost.own | (5 * y + x) << STEP_BIT]
-        };
-        let rows: Vec<[u32; 2]> = ghosts.into_iter().map(row).collect();
+            if let Some(word) = words.get_mut(ghost.index as usize) {
+                *word = ghost.own | (5 * y + x) << STEP_BIT;
+            }
+        }
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let bytes: &[u8] = bytemuck::cast_slice(&rows);
+        let bytes: &[u8] = bytemuck::cast_slice(&words);
         let buffer = storage_buffer(gpu, "the borders of charts", bytes.len() as u64, limit)?;
         if !bytes.is_empty() {
             gpu.queue.write_buffer(&buffer, 0, bytes);
         }
         Ok(Borders {
-            count: rows.len() as u32,
             steeper,
             ghosts: buffer,
         })
     }
 
-    fn constants(&self, kind: BorderKind, place: usize) -> BorderConstants {
+    fn constants(&self, surface: &GpuSurface, kind: BorderKind, place: usize) -> BorderConstants {
+        let count = surface.ghosts.all.count;
         BorderConstants {
-            ghost_count: self.count,
-            row_length: ROW.min(self.count.div_ceil(GROUP)),
+            ghost_count: count,
+            row_length: ROW.min(count.div_ceil(GROUP)),
             place: place as u32,
             are_three_together: u32::from(kind.together == 3),
             keeps_first_ring: u32::from(kind.keeps_first_ring),
@@ -129,7 +135,7 @@ impl Gpu {
         borders: &Borders,
         of: &[(&wgpu::Texture, BorderKind)],
     ) -> Result<Vec<bool>, GpuError> {
-        if borders.count == 0 || of.is_empty() {
+        if surface.ghosts.all.count == 0 || of.is_empty() {
             return Ok(vec![false; of.len()]);
         }
         let bytes = (of.len() * size_of::<u32>()) as u64;
@@ -143,7 +149,7 @@ impl Gpu {
         })?;
         self.queue.write_buffer(&found, 0, &vec![0; bytes as usize]);
         for (place, (texture, kind)) in of.iter().enumerate() {
-            let constants = borders.constants(*kind, place);
+            let constants = borders.constants(surface, *kind, place);
             let entries = [uniform_entry(0), read_entry(1), texture_entry(2), write_entry(3)];
             let dispatch = BorderDispatch {
                 shader: FixedShader::FindJumps,
@@ -151,7 +157,7 @@ impl Gpu {
                 constants,
                 output: found.as_entire_binding(),
             };
-            self.dispatch_borders(surface, borders, texture, dispatch)?;
+            self.submit_compute_pass(|pass| self.encode_borders(pass, surface, borders, texture, dispatch))?;
         }
         let readback = self.readback_buffer(bytes)?;
         let mapping = self.start_mapping(&found, &readback, bytes);
@@ -161,7 +167,7 @@ impl Gpu {
         })
     }
 
-    /// Writes the ghosts of a texture on the atlas into a copy of it; those beyond a jump repeat their chart.
+    /// Writes the ghosts of a texture on the atlas into a copy of it, or into itself; those beyond a jump repeat their chart.
     pub(crate) fn repeat_charts(
         &self,
         surface: &GpuSurface,
@@ -169,25 +175,28 @@ impl Gpu {
         [texture, shown]: [&wgpu::Texture; 2],
         kind: BorderKind,
     ) -> Result<(), GpuError> {
-        let format: Format = format_of(texture)?;
-        let entries = [
-            uniform_entry(0),
-            read_entry(1),
-            texture_entry(2),
-            storage_entry(3, format),
-        ];
-        let view = array_view(shown);
+        let links = &surface.ghosts.all;
+        if links.count == 0 {
+            return Ok(());
+        }
+        let entries = [uniform_entry(0), read_entry(1), texture_entry(2), write_entry(3)];
         let dispatch = BorderDispatch {
-            shader: FixedShader::RepeatCharts(format),
+            shader: FixedShader::GatherBorders,
             entries: &entries,
-            constants: borders.constants(kind, 0),
-            output: wgpu::BindingResource::TextureView(&view),
+            constants: borders.constants(surface, kind, 0),
+            output: links.values.as_entire_binding(),
         };
-        self.dispatch_borders(surface, borders, texture, dispatch)
+        let format = format_of(texture)?;
+        // One submission, since all textures share the buffer of values.
+        self.submit_compute_pass(|pass| {
+            self.encode_borders(pass, surface, borders, texture, dispatch)?;
+            self.encode_scattered_ghosts(pass, surface, (shown, format))
+        })
     }
 
-    fn dispatch_borders(
+    fn encode_borders(
         &self,
+        pass: &mut wgpu::ComputePass<'_>,
         surface: &GpuSurface,
         borders: &Borders,
         texture: &wgpu::Texture,
@@ -207,14 +216,12 @@ impl Gpu {
         );
         let links = &surface.ghosts.all;
         let bound = links.surface_group.get_or_init(|| self.surface_group(surface, links));
-        let groups = borders.count.div_ceil(GROUP);
-        self.submit_compute_pass(|pass| {
-            pass.set_pipeline(&kernel.pipeline);
-            pass.set_bind_group(0, bound, &[]);
-            pass.set_bind_group(1, &group, &[]);
-            pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
-            Ok(())
-        })
+        let groups = links.count.div_ceil(GROUP);
+        pass.set_pipeline(&kernel.pipeline);
+        pass.set_bind_group(0, bound, &[]);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
+        Ok(())
     }
 }
 

@@ -67,7 +67,7 @@ pub fn mirrors() -> Vec<Mirror> {
         "surface/scatter_filled",
         "surface/scatter_ghosts",
     ];
-    let over_borders = ["surface/find_jumps", "surface/repeat_charts"];
+    let over_borders = ["surface/find_jumps", "surface/gather_borders"];
     mirrors
         .extend(over_borders.map(|file| Mirror::workgroup("the borders' GROUP", file, "main", [borders::GROUP, 1, 1])));
     mirrors.extend(over_links.map(|file| Mirror::workgroup("the links' GROUP", file, "main", [links::GROUP, 1, 1])));

@@ -21,6 +21,9 @@ pub struct Exported<'a> {
     pub shares: Option<&'a Shares>,
     /// Ghosts that repeat their chart beyond a jump.
     pub borders: Option<&'a Borders>,
+    /// True if ghosts are changed in the results themselves, since nothing but what is shown reads these results any more: no map has a
+    /// copy for its borders then.
+    pub changes_results: bool,
 }
 
 /// Map of a run that is to be shown.
@@ -46,6 +49,18 @@ impl Gpu {
         maps: Vec<ShownMap>,
         mut cache: Option<&mut ResultCache>,
     ) -> Result<Vec<wgpu::Texture>, GpuError> {
+        if let (Some(borders), true) = (exported.borders, exported.changes_results) {
+            for map in &maps {
+                self.repeat_charts(surface, borders, [&map.texture; 2], map.kind)?;
+            }
+            let exported = Exported {
+                borders: None,
+                ..exported
+            };
+            let maps = maps.into_iter();
+            let shown = maps.map(|map| self.shown_map(surface, run, exported, map, None));
+            return shown.collect();
+        }
         let mut known: Vec<Option<wgpu::Texture>> = Vec::new();
         for map in &maps {
             known.push(cache.as_deref_mut().and_then(|cache| known_map(map, exported, cache)));

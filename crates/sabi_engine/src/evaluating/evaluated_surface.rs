@@ -185,11 +185,11 @@ impl EvaluatedSurface {
         }
         let found = ChartBorders::of_atlas(&self.linked.atlas);
         let ghosts = found.ghosts().iter().map(|ghost| BorderGhost {
-            texel: ghost.pixel,
+            index: ghost.index,
             step: ghost.step,
             own: ghost.own,
         });
-        let uploaded = Borders::upload(gpu, ghosts, STEEPER)?;
+        let uploaded = Borders::upload(gpu, &self.on_device, ghosts, STEEPER)?;
         // Another thread that was faster has computed the same value.
         Ok(self.borders.get_or_init(|| uploaded))
     }

@@ -303,6 +303,7 @@ impl Evaluator {
         Ok(Exported {
             shares: self.shares()?,
             borders: Some(self.surface.borders(&self.gpu)?),
+            changes_results: false,
         })
     }
 
