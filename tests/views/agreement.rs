@@ -1,6 +1,7 @@
 //! The viewport shows the same values as the export.
 
 use glam::{Vec2, Vec3};
+use sabi_export::{BorderRule, ChartBorders};
 use sabi_gpu::PlaneData;
 use sabi_tests::{OnMesh, Pictured, even_light, project};
 use sabi_view::{Mode, Picked, Shot, Viewpoint};
@@ -17,12 +18,26 @@ const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "dents", "node
         "params": { "color": "#3050a0", "roughness": 0.9, "height": 0.02 } },
     "out": { "kind": "output/material", "inputs": { "material": "coat" } } } }"##;
 
-/// A plane between the four texels around what was picked, as a texture filter of an engine would read the map.
-pub(crate) fn between(plane: &PlaneData, on_mesh: &OnMesh, picked: &Picked) -> [f32; 4] {
+/// Values of a plane's texels as they are stored.
+pub(crate) fn stored(plane: &PlaneData) -> Vec<[f32; 4]> {
+    (0..plane.len()).map(|texel| plane.texel(texel)).collect()
+}
+
+/// Values of a plane's texels as they are exported: ghosts repeat their chart where the data jumps. The first three numbers of a texel
+/// belong together.
+fn exported(plane: &PlaneData, on_mesh: &OnMesh) -> Vec<[f32; 4]> {
+    let mut texels = stored(plane);
+    let borders = ChartBorders::of_atlas(&on_mesh.evaluator.linked().atlas);
+    borders.repeat_values(BorderRule::AtJumps, 4, 0..3, texels.as_flattened_mut());
+    texels
+}
+
+/// Values between the four texels around what was picked, as a texture filter of an engine would read the map.
+pub(crate) fn between(texels: &[[f32; 4]], on_mesh: &OnMesh, picked: &Picked) -> [f32; 4] {
     let at = Vec2::from(picked.texel) - 0.5;
     let (corner, weight) = (at.floor(), at - at.floor());
     let [x, y] = [corner.x as u32, corner.y as u32];
-    let value = |dx: u32, dy: u32| glam::Vec4::from(plane.texel(on_mesh.index([picked.page, x + dx, y + dy])));
+    let value = |dx: u32, dy: u32| glam::Vec4::from(texels[on_mesh.index([picked.page, x + dx, y + dy])]);
     let top = value(0, 0).lerp(value(1, 0), weight.x);
     let bottom = value(0, 1).lerp(value(1, 1), weight.x);
     top.lerp(bottom, weight.y).to_array()
@@ -54,6 +69,7 @@ fn normals_are_those_of_the_exported_map_decoded_in_its_frame() {
         let mesh = project(&format!("assets/meshes/{mesh}.glb"));
         let mut pictured = Pictured::new(GRAPH, &mesh, 256, &even_light(1.0));
         let normals = pictured.on_mesh.evaluate("coat").normals.expect("normals");
+        let normals = exported(&normals, &pictured.on_mesh);
         let camera = pictured.camera(Viewpoint::THREE_QUARTER, SIZE);
         let of_mode = |mode| Shot {
             mode,
@@ -87,8 +103,8 @@ fn channels_have_the_codes_that_are_exported() {
     let mesh = project("assets/meshes/bench.glb");
     let mut pictured = Pictured::new(GRAPH, &mesh, 256, &even_light(1.0));
     let evaluated = pictured.on_mesh.evaluate("coat");
-    let color = &evaluated.planes[0].1;
-    let surface = &evaluated.planes[1].1;
+    let color = stored(&evaluated.planes[0].1);
+    let surface = stored(&evaluated.planes[1].1);
     let camera = pictured.camera(Viewpoint::FRONT, SIZE);
     let shot = |mode| Shot {
         mode,
@@ -99,7 +115,7 @@ fn channels_have_the_codes_that_are_exported() {
     let code = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as i32;
     let mut compared = 0;
     for (pixel, picked) in seen(&pictured, &camera, SIZE).filter(|(_, picked)| is_inside(picked)) {
-        let linear = between(color, &pictured.on_mesh, &picked);
+        let linear = between(&color, &pictured.on_mesh, &picked);
         let codes = base_color.rgba[4 * pixel..].iter();
         for (value, shown) in linear.into_iter().zip(codes).take(3) {
             let expected = i32::from(sabi_image::srgb8_from_linear(value));
@@ -109,7 +125,7 @@ fn channels_have_the_codes_that_are_exported() {
                 "color at {pixel}: {shown} and not {expected}"
             );
         }
-        let expected = code(between(surface, &pictured.on_mesh, &picked)[0]);
+        let expected = code(between(&surface, &pictured.on_mesh, &picked)[0]);
         let shown = i32::from(roughness.rgba[4 * pixel]);
         assert!(
             (shown - expected).abs() <= 1,

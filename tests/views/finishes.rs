@@ -5,7 +5,7 @@ use sabi_nodes::link::Plane;
 use sabi_tests::{Pictured, even_light, project};
 use sabi_view::{Mode, Shot, Viewpoint};
 
-use crate::agreement::between;
+use crate::agreement::{between, stored};
 use crate::{is_inside, seen};
 
 const SIZE: [u32; 2] = [96, 96];
@@ -110,7 +110,7 @@ fn rare_channels_are_shown_as_they_are_exported() {
         (Mode::Subsurface, Channel::Subsurface, 0, true),
         (Mode::Transmission, Channel::Subsurface, 3, false),
     ] {
-        let plane = plane_of(channel);
+        let plane = stored(plane_of(channel));
         let shown = pictured.pixels(
             &Shot {
                 mode,
@@ -120,7 +120,7 @@ fn rare_channels_are_shown_as_they_are_exported() {
         );
         let mut compared = 0;
         for (pixel, picked) in seen(&pictured, &camera, SIZE).filter(|(_, picked)| is_inside(picked)) {
-            let value = between(plane, &pictured.on_mesh, &picked)[at];
+            let value = between(&plane, &pictured.on_mesh, &picked)[at];
             let expected = match is_color {
                 true => i32::from(sabi_image::srgb8_from_linear(value)),
                 false => (value.clamp(0.0, 1.0) * 255.0).round() as i32,

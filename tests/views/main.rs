@@ -2,6 +2,7 @@
 
 mod agreement;
 mod bloom;
+mod borders;
 mod clay;
 mod default_look;
 mod extents;

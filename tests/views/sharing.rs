@@ -5,7 +5,7 @@ use std::time::Duration;
 use glam::Vec2;
 use sabi_engine::{Kinds, LinkedModel, ModelOptions, NoProgress, Overlap, Seams};
 use sabi_export::{NONE, SetLayout, layouts};
-use sabi_gpu::Shares;
+use sabi_gpu::{Exported, Shares};
 use sabi_image::{LinearPicture, decode};
 use sabi_plan::Mode as Plans;
 use sabi_tests::{Baked, Evaluated, MadeMesh, MeshFile, OnMesh, Pictured, Quad, even_light, project};
@@ -13,8 +13,8 @@ use sabi_view::{Mode, Shot, Viewpoint};
 
 use crate::seen;
 
-const SIZE: [u32; 2] = [160, 80];
-const TEXELS: u32 = 128;
+pub(crate) const SIZE: [u32; 2] = [160, 80];
+pub(crate) const TEXELS: u32 = 128;
 const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// Another color and height at each place in space.
@@ -28,7 +28,7 @@ const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "clouds", "nod
 
 /// A square that faces the eye, `left` of the y axis or right of it, whose picture reaches from one place of the map to
 /// another.
-fn square(left: f32, [from, to]: [[f32; 2]; 2]) -> Quad {
+pub(crate) fn square(left: f32, [from, to]: [[f32; 2]; 2]) -> Quad {
     let right = left + 0.9;
     Quad {
         corners: [[left, 0.0, 0.0], [right, 0.0, 0.0], [right, 0.9, 0.0], [left, 0.9, 0.0]],
@@ -70,7 +70,7 @@ fn read(map: &LinearPicture, texel: [f32; 2]) -> glam::Vec4 {
 
 /// The most that a mode shows beside what the engine reads of a map, in parts of the range 0 to 1; at all pixels of the
 /// model, up to its very border.
-fn difference(pictured: &Pictured, map: &LinearPicture, mode: Mode, encode: impl Fn(f32) -> f32) -> f32 {
+pub(crate) fn difference(pictured: &Pictured, map: &LinearPicture, mode: Mode, encode: impl Fn(f32) -> f32) -> f32 {
     let camera = pictured.camera(Viewpoint::FRONT, SIZE);
     let shot = Shot {
         mode,
@@ -92,7 +92,7 @@ fn difference(pictured: &Pictured, map: &LinearPicture, mode: Mode, encode: impl
     most
 }
 
-fn map(baked: &Baked, name: &str, is_srgb: bool) -> LinearPicture {
+pub(crate) fn map(baked: &Baked, name: &str, is_srgb: bool) -> LinearPicture {
     decode(name, &baked.map(name)).expect("a map").linear_rgba(is_srgb)
 }
 
@@ -159,17 +159,24 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let shares = Shares::upload(gpu, evaluator.surface(), evaluator.linked().shared_texels().groups()).expect("shares");
     // One of each format that a plane has.
-    for slot in plan.results[0].slots.clone() {
+    let exported = Exported {
+        shares: Some(&shares),
+        ..Exported::default()
+    };
+    let planes = plan.results[0].stored.planes().into_iter();
+    for (plane, slot) in planes.zip(plan.results[0].slots.clone()) {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
         let shown = gpu
-            .result_texture(surface, &mut run, slot, Some(&shares))
+            .shown_result(surface, &mut run, (slot, plane), exported, None)
             .expect("a copy");
         let after = gpu.read(surface, &plan, &run, slot).expect("a plane");
         assert_eq!(before, after);
         let mut bytes = Vec::new();
         gpu.read_layer(&shown, 0, 0, &mut bytes).expect("a layer");
         assert_ne!(bytes, after.bytes()[..bytes.len()]);
-        let same = gpu.result_texture(surface, &mut run, slot, None).expect("the texture");
+        let same = gpu
+            .shown_result(surface, &mut run, (slot, plane), Exported::default(), None)
+            .expect("the texture");
         assert_eq!(
             same,
             run.texture(slot).expect("the texture"),

@@ -13,7 +13,7 @@ use sabi_export::{Channel, ConstantRecord, DocumentRecord, DocumentedMaterial, E
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
 use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
-use crate::opening::overlap::{MaterialOverlap, OverlapReport};
+use crate::opening::overlap::{MaterialOverlap, OverlapReport, SetReport};
 use crate::{
     FileDescription, GraphDescription, GraphOutput, GroupDescription, InputDescription, KnobDescription,
     NodeDescription, OutputDescription, PackReport, PackedFile, ParamDescription, PresetDescription, PresetDocument,
@@ -118,6 +118,10 @@ fn the_description_of_a_model_has_the_documented_keys() {
         charts: 1,
         coverage: 0.5,
         overlap: overlap(),
+        sets: vec![SetReport {
+            udim: Some(1001),
+            ..SetReport::default()
+        }],
         overlapping_charts: 1,
         stacked_charts: 1,
         mirrored_charts: 1,

@@ -130,7 +130,7 @@ pub use graph_info::graph_description::{
 pub use graph_info::graph_files::FileDescription;
 pub use opening::memory::default_memory_bytes;
 pub use opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport, describe_mesh};
-pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
+pub use opening::overlap::{MaterialOverlap, OverlapReport, SetOverlap, SetReport, SharedPairs};
 pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
 
 // Sessions: edits, files and what watches them.

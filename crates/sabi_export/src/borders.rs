@@ -20,27 +20,29 @@ const REACH: i64 = sabi_surface::atlas::RINGS as i64;
 const SIDE: usize = 2 * REACH as usize + 1;
 /// Multiple of the largest step between neighboring texels of the chart up to which a ghost, for each texel of its distance, may differ
 /// from them: twice, since what is smooth may be steeper there.
-const STEEPER: f32 = 2.0;
+pub const STEEPER: f32 = 2.0;
 
-/// Ghosts of a texture set with the texels of their charts around them.
+/// Ghosts of a map with the texels of their charts around them. The map is a texture set, or the atlas itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartBorders {
-    /// Pixels along a side of the set.
-    size: usize,
+    /// Pixels of the map across and down, the pages of an atlas below each other.
+    size: [usize; 2],
     ghosts: Vec<BorderGhost>,
 }
 
 /// Ghost that gives a pixel its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct BorderGhost {
+pub struct BorderGhost {
+    /// Its index among the ghosts of the atlas.
+    pub index: u32,
     /// Its pixel.
-    pixel: u32,
+    pub pixel: u32,
     /// Pixel of the nearest texel that its chart owns.
     anchor: u32,
     /// Texels from the anchor to the ghost, across and down.
-    step: [i8; 2],
+    pub step: [i8; 2],
     /// Neighborhood of the anchor, a bit a texel, row by row: set where the chart owns the texel and its pixel shows it.
-    own: u32,
+    pub own: u32,
 }
 
 /// Treatment of the ghosts of a map.
@@ -68,16 +70,39 @@ impl BorderRule {
 impl ChartBorders {
     /// Finds the ghosts of a set; `layout` is made of `atlas`.
     pub fn new(atlas: &Atlas, layout: &SetLayout) -> ChartBorders {
-        let pages = Pages { atlas, layout };
+        let pages = Pages {
+            atlas,
+            layout: Some(layout),
+        };
         let pixels = layout.cover.par_iter().enumerate();
         let ghosts = pixels
             .filter(|(_, cover)| **cover == Cover::Ghost)
-            .filter_map(|(pixel, _)| pages.ghost(pixel))
+            .filter_map(|(pixel, _)| pages.ghost((*layout.source.get(pixel)? as usize, pixel)))
             .collect();
         ChartBorders {
-            size: layout.size as usize,
+            size: [layout.size as usize; 2],
             ghosts,
         }
+    }
+
+    /// Finds the ghosts of an atlas that is shown itself: its pixels are its texels, page by page and row by row.
+    pub fn of_atlas(atlas: &Atlas) -> ChartBorders {
+        let pages = Pages { atlas, layout: None };
+        let [width, height] = atlas.page_size.map(|side| side as usize);
+        let texels = atlas.ghosts.par_iter().map(|ghost| {
+            let [x, y, page] = ghost.texel.map(|at| at as usize);
+            (page * height + y) * width + x
+        });
+        let ghosts = texels.filter_map(|texel| pages.ghost((texel, texel))).collect();
+        ChartBorders {
+            size: [width, height * atlas.pages as usize],
+            ghosts,
+        }
+    }
+
+    /// The ghosts, for those that apply [`ChartBorders::repeat_values`] elsewhere.
+    pub fn ghosts(&self) -> &[BorderGhost] {
+        &self.ghosts
     }
 
     /// Lets the ghosts of a channel repeat their own charts, and returns whether any changed. Padding is not touched; see
@@ -149,32 +174,31 @@ impl BorderGhost {
     }
 }
 
-/// Atlas and layout of a set.
+/// Atlas and layout of a set; none where the atlas itself is shown.
 struct Pages<'a> {
     atlas: &'a Atlas,
-    layout: &'a SetLayout,
+    layout: Option<&'a SetLayout>,
 }
 
 impl Pages<'_> {
-    /// Returns the ghost that gives a pixel its value; `None` where no texel of its chart is shown near it.
-    fn ghost(&self, pixel: usize) -> Option<BorderGhost> {
-        let texel = *self.layout.source.get(pixel)? as usize;
+    /// Returns the ghost that gives a pixel its value, by texel and pixel; `None` where no texel of its chart is shown near it.
+    fn ghost(&self, at: (usize, usize)) -> Option<BorderGhost> {
+        let (texel, pixel) = at;
         let owner = *self.atlas.owners.get(texel)?;
-        let ghost = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?;
+        let index = owner & !GHOST_BIT;
+        let ghost = self.atlas.ghosts.get(index as usize)?;
         if self.shows_own_border(ghost) {
             return None;
         }
         let chart = ghost.chart;
-        let at = (texel, pixel);
         // Of texels that are equally near the first one is taken, as when ghosts are anchored.
         let near = offsets().filter(|offset| self.is_own(chart, at, *offset));
         let nearest = near.min_by_key(|[x, y]| (x * x + y * y, *y, *x))?;
-        let anchor = (
-            self.moved(texel, nearest)?,
-            wrapped(pixel, nearest, self.layout.size as usize),
-        );
+        let texel = self.moved(texel, nearest)?;
+        let anchor = (texel, self.pixel(pixel, texel, nearest));
         let own = offsets().filter(|offset| self.is_own(chart, anchor, *offset));
         Some(BorderGhost {
+            index,
             pixel: pixel as u32,
             anchor: anchor.1 as u32,
             step: nearest.map(|step| -step as i8),
@@ -197,11 +221,19 @@ impl Pages<'_> {
         };
         let owner = self.atlas.owners[texel];
         let is_owned = owner != EMPTY && owner & GHOST_BIT == 0;
-        let pixel = wrapped(pixel, offset, self.layout.size as usize);
-        is_owned
-            && self.atlas.triangle_chart.get(owner as usize) == Some(&chart)
-            && self.layout.source[pixel] != NONE
-            && self.layout.source[pixel] as usize == texel
+        let is_shown = |layout: &SetLayout| {
+            let shown = layout.source[self.pixel(pixel, texel, offset)];
+            shown != NONE && shown as usize == texel
+        };
+        is_owned && self.atlas.triangle_chart.get(owner as usize) == Some(&chart) && self.layout.is_none_or(is_shown)
+    }
+
+    /// Returns the pixel at an offset from another, where it shows this texel.
+    fn pixel(&self, pixel: usize, texel: usize, offset: [i64; 2]) -> usize {
+        match self.layout {
+            Some(layout) => wrapped(pixel, offset, [layout.size as usize; 2]),
+            None => texel,
+        }
     }
 
     /// Returns the texel at an offset from another on the same page.
@@ -224,10 +256,10 @@ fn bit([x, y]: [i64; 2]) -> usize {
 }
 
 /// Returns the pixel at an offset from another, in a map that repeats.
-fn wrapped(pixel: usize, [x, y]: [i64; 2], size: usize) -> usize {
-    let side = size as i64;
+fn wrapped(pixel: usize, [x, y]: [i64; 2], size: [usize; 2]) -> usize {
+    let [width, height] = size.map(|side| side as i64);
     let at = pixel as i64;
-    ((at / side + y).rem_euclid(side) * side + (at % side + x).rem_euclid(side)) as usize
+    ((at / width + y).rem_euclid(height) * width + (at % width + x).rem_euclid(width)) as usize
 }
 
 #[cfg(test)]

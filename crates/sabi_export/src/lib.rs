@@ -46,7 +46,7 @@ mod shown;
 mod write;
 
 pub use bands::BandGather;
-pub use borders::{BorderRule, ChartBorders};
+pub use borders::{BorderGhost, BorderRule, ChartBorders, STEEPER};
 pub use channel::{Channel, ChannelPixels, OutputKind};
 pub use constant::Value;
 pub use encoded_files::EncodedFiles;
@@ -60,7 +60,7 @@ pub use model_copy::{
     Scaled, Treatment, baked_materials, unwrapped_materials,
 };
 pub use name_pattern::{NameParts, NamePattern, folder_name};
-pub use names::{file_stem, set_names};
+pub use names::{file_stem, set_names, sheet_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, CutMap, DocumentRecord, DocumentedMaterial, LeftOut, OutputRecord};
 pub use seams::SeamSamples;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_surface::model::Model;
+use sabi_surface::model::{Model, ModelMaterial};
 
 /// Longest stem of a file name, bytes: leaves room for suffixes within the 255 that file systems allow.
 const LONGEST_STEM: usize = 120;
@@ -57,6 +57,19 @@ fn is_device(stem: &str) -> bool {
             .is_some_and(|rest| rest.len() == 1 && rest.chars().all(|digit| digit.is_ascii_digit()))
     };
     matches!(first.as_str(), "CON" | "PRN" | "AUX" | "NUL") || numbered("COM") || numbered("LPT")
+}
+
+/// A file name stem for each sheet of the model: that of each material, or one like that of a single unnamed material where all share
+/// one sheet.
+pub fn sheet_names(model: &Model) -> Vec<String> {
+    if !model.mesh.is_one_sheet {
+        return set_names(model);
+    }
+    set_names(&Model {
+        stem: model.stem.clone(),
+        materials: vec![ModelMaterial::default()],
+        ..Model::default()
+    })
 }
 
 /// A file name stem for each material of the model, all different even where upper and lower case count as the same. A

@@ -13,6 +13,9 @@ const PLANS: usize = 12;
 /// Results whose extents are remembered.
 const EXTENTS: usize = 16;
 
+/// Maps of which it is remembered whether they have ghosts beyond a jump.
+const JUMPS: usize = 64;
+
 /// Result, and the component that is asked for.
 pub(crate) type ExtentKey = (ResultKey, u32);
 
@@ -35,6 +38,8 @@ pub struct ResultCache {
     plans: VecDeque<Plan>,
     /// Extents of the tiles of results that were asked for last, the latest at the end.
     extents: VecDeque<(ExtentKey, Vec<TileExtent>)>,
+    /// Maps that were asked whether they have ghosts beyond a jump, with the answers, the latest at the end.
+    jumps: VecDeque<(ResultKey, bool)>,
     /// Cached ray hits, within a quarter of the budget.
     pub(crate) hits: HitCache,
 }
@@ -49,6 +54,7 @@ impl ResultCache {
             textures: BTreeMap::new(),
             plans: VecDeque::new(),
             extents: VecDeque::new(),
+            jumps: VecDeque::new(),
             hits: HitCache::new(budget_bytes / 4),
         }
     }
@@ -99,6 +105,21 @@ impl ResultCache {
         self.extents.push_back((key, extents));
         if self.extents.len() > EXTENTS {
             self.extents.pop_front();
+        }
+    }
+
+    /// Whether a map has ghosts beyond a jump; none where it is not known.
+    pub(crate) fn jumps(&self, key: &ResultKey) -> Option<bool> {
+        let known = self.jumps.iter().find(|(known, _)| known == key);
+        known.map(|(_, jumps)| *jumps)
+    }
+
+    /// Remembers whether a map has ghosts beyond a jump.
+    pub(crate) fn put_jumps(&mut self, key: ResultKey, jumps: bool) {
+        self.jumps.retain(|(known, _)| *known != key);
+        self.jumps.push_back((key, jumps));
+        if self.jumps.len() > JUMPS {
+            self.jumps.pop_front();
         }
     }
 

@@ -69,6 +69,20 @@ impl Gpu {
         })
     }
 
+    /// Writes the values that were gathered for all ghosts.
+    pub(crate) fn encode_scattered_ghosts(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        surface: &GpuSurface,
+        (texture, format): (&wgpu::Texture, Format),
+    ) -> Result<(), GpuError> {
+        let links = &surface.ghosts.all;
+        let group = links.surface_group.get_or_init(|| self.surface_group(surface, links));
+        pass.set_bind_group(0, group, &[]);
+        let dispatch = (FillRound::Cubic, FillDispatch::Scatter);
+        self.encode_dispatch(pass, links, (&array_view(texture), format), dispatch)
+    }
+
     /// Fills the linked texels of one texture; `surface_group` binds the surface with these links.
     pub(crate) fn fill_links(
         &self,
@@ -92,22 +106,33 @@ impl Gpu {
             return Ok(());
         }
         let view = array_view(texture);
-        let groups = links.count.div_ceil(GROUP);
         pass.set_bind_group(0, surface_group, &[]);
         for round in rounds {
-            let with_ghosts = usize::from(matches!(round, FillRound::WithGhosts | FillRound::Settled));
             for dispatch in FillDispatch::of_round(*round, format) {
-                let kernel = self.fill_kernel(*round, *dispatch, format)?;
-                let constants = links.constants[with_ghosts].as_entire_binding();
-                let view = wgpu::BindingResource::TextureView(&view);
-                // All textures share the buffer of values: one submission gathers and scatters.
-                let values = (*dispatch != FillDispatch::InPlace).then(|| links.values.as_entire_binding());
-                let group = self.bind(&kernel.layout, [constants, view].into_iter().chain(values));
-                pass.set_pipeline(&kernel.pipeline);
-                pass.set_bind_group(1, &group, &[]);
-                pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
+                self.encode_dispatch(pass, links, (&view, format), (*round, *dispatch))?;
             }
         }
+        Ok(())
+    }
+
+    fn encode_dispatch(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        links: &Links,
+        (view, format): (&wgpu::TextureView, Format),
+        (round, dispatch): (FillRound, FillDispatch),
+    ) -> Result<(), GpuError> {
+        let groups = links.count.div_ceil(GROUP);
+        let with_ghosts = usize::from(matches!(round, FillRound::WithGhosts | FillRound::Settled));
+        let kernel = self.fill_kernel(round, dispatch, format)?;
+        let constants = links.constants[with_ghosts].as_entire_binding();
+        let view = wgpu::BindingResource::TextureView(view);
+        // All textures share the buffer of values: one submission gathers and scatters.
+        let values = (dispatch != FillDispatch::InPlace).then(|| links.values.as_entire_binding());
+        let group = self.bind(&kernel.layout, [constants, view].into_iter().chain(values));
+        pass.set_pipeline(&kernel.pipeline);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);
         Ok(())
     }
 }

@@ -19,6 +19,7 @@
 mod adapter;
 mod bindings;
 mod blocks;
+mod borders;
 mod cache;
 mod changes;
 mod coverage;
@@ -49,6 +50,7 @@ mod run_options;
 mod run_result;
 mod shaders;
 mod shares;
+mod shown_maps;
 mod shown_tiles;
 mod source_canvas;
 mod source_constants;
@@ -64,6 +66,7 @@ mod uploads;
 mod waiting;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters, choose_adapter, device_descriptor};
+pub use borders::{BorderGhost, BorderKind, Borders};
 pub use cache::ResultCache;
 pub use device::Gpu;
 pub use error::GpuError;
@@ -83,6 +86,7 @@ pub use sabi_nodes::link::{Given, LinkedModule, Mirror, MirrorValue, MirrorsWgsl
 pub use sabi_nodes::wgsl_struct;
 pub use shaders::fixed_modules;
 pub use shares::{Mean, Shares};
+pub use shown_maps::Exported;
 pub use shown_tiles::ShownTiles;
 pub use source_canvas::{DeviceTable, SourceCanvas, SourceDraw};
 pub use source_constants::{

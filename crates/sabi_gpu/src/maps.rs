@@ -1,15 +1,18 @@
 //! Maps of a material as textures, for drawing.
 
-use sabi_nodes::link::Format;
+use sabi_nodes::kind::Channel as Stored;
+use sabi_nodes::link::Plane;
 use sabi_plan::SlotRef;
 
+use crate::borders::BorderKind;
 use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::made_map::MadeMap;
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
-use crate::shares::{Mean, Shares};
+use crate::shares::Mean;
+use crate::shown_maps::{Exported, ShownMap};
 use crate::surface::GpuSurface;
 
 /// Slots of the planes of a material in a run; none for channels that the material does not set.
@@ -58,126 +61,123 @@ pub struct DeviceMaps {
     pub subsurface: Option<wgpu::Texture>,
 }
 
+impl MaterialSlots {
+    /// Planes that are shown as they are stored, in the order of their channels.
+    fn stored(&self) -> [(Stored, Option<SlotRef>); 7] {
+        [
+            (Stored::Color, self.color),
+            (Stored::Surface, self.surface),
+            (Stored::Emission, self.emission),
+            (Stored::Height, self.height),
+            (Stored::Coat, self.coat),
+            (Stored::Sheen, self.sheen),
+            (Stored::Subsurface, self.subsurface),
+        ]
+    }
+}
+
 impl Gpu {
-    /// Maps of a material of a run. Where charts share a place they hold the exported values, or without `shares` the result
-    /// of each chart. They outlive the run. With a cache, only what has changed is made again.
+    /// Maps of a material of a run, with what they take over from exported maps. They outlive the run. With a cache, only what has changed
+    /// is made again.
     pub fn device_maps(
         &self,
         surface: &GpuSurface,
         run: &mut Run,
         slots: MaterialSlots,
-        shares: Option<&Shares>,
+        exported: Exported<'_>,
         (options, mut cache): (&RunOptions<'_>, Option<&mut ResultCache>),
     ) -> Result<DeviceMaps, GpuError> {
-        let MaterialSlots { height, slope, .. } = slots;
-        let is_flat = height.is_none() && slope.is_none();
-        let normal = match (is_flat, cache.as_deref_mut()) {
-            (true, _) => None,
-            (false, Some(cache)) => {
-                Some(self.kept_result_normals(surface, run, [height, slope], shares, (options, cache))?)
+        let mut maps = Vec::new();
+        for (channel, slot) in slots.stored() {
+            if let Some(slot) = slot {
+                maps.push(stored_map(surface, run, slot, Plane::Material(channel))?);
             }
-            (false, None) => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
-        };
-        let anisotropy = slots.anisotropy.map(|slot| {
-            let made = self.anisotropy_texture(surface, run, slot, options)?;
-            self.shown(surface, run, made, shares, Mean::Plain)
-        });
-        let anisotropy = anisotropy.transpose()?;
-        let mut of = |slot: Option<SlotRef>| {
-            slot.map(|slot| self.kept_result_texture(surface, run, slot, shares, cache.as_deref_mut()))
-                .transpose()
-        };
+        }
+        let is_flat = slots.height.is_none() && slots.slope.is_none();
+        if !is_flat {
+            maps.push(self.shown_normals(
+                surface,
+                run,
+                [slots.height, slots.slope],
+                (options, cache.as_deref_mut()),
+            )?);
+        }
+        if let Some(slot) = slots.anisotropy {
+            maps.push(ShownMap {
+                texture: self.anisotropy_texture(surface, run, slot, options)?,
+                made: None,
+                kind: BorderKind::of(Plane::Material(Stored::Anisotropy)),
+                mean: Mean::Plain,
+                is_spare: true,
+            });
+        }
+        let mut shown = self.shown_maps(surface, run, exported, maps, cache)?.into_iter();
+        // In the order above.
+        let [color, surface, emission, height, coat, sheen, subsurface] =
+            slots.stored().map(|(_, slot)| slot.and_then(|_| shown.next()));
         Ok(DeviceMaps {
-            color: of(slots.color)?,
-            surface: of(slots.surface)?,
-            emission: of(slots.emission)?,
-            height: of(height)?,
-            normal,
-            coat: of(slots.coat)?,
-            anisotropy,
-            sheen: of(slots.sheen)?,
-            subsurface: of(slots.subsurface)?,
+            color,
+            surface,
+            emission,
+            height,
+            normal: if is_flat { None } else { shown.next() },
+            coat,
+            anisotropy: slots.anisotropy.and_then(|_| shown.next()),
+            sheen,
+            subsurface,
         })
     }
 
-    /// Texture of a result that the plan kept; with `shares` a copy with the exported values where charts share a place.
-    pub fn result_texture(
+    /// Texture of a plane of a result that the plan kept, with what it takes over from exported maps; a cache keeps a copy.
+    pub fn shown_result(
         &self,
         surface: &GpuSurface,
         run: &mut Run,
-        slot: SlotRef,
-        shares: Option<&Shares>,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let texture = run.texture(slot)?;
-        match shares {
-            Some(shares) => self.shared(surface, run, shares, &texture, Mean::Plain),
-            None => Ok(texture),
-        }
-    }
-
-    /// As [`Gpu::result_texture`]; a cache keeps the copy.
-    pub fn kept_result_texture(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        slot: SlotRef,
-        shares: Option<&Shares>,
+        (slot, plane): (SlotRef, Plane),
+        exported: Exported<'_>,
         cache: Option<&mut ResultCache>,
     ) -> Result<wgpu::Texture, GpuError> {
-        let (Some(shares), Some(cache)) = (shares, cache) else {
-            return self.result_texture(surface, run, slot, shares);
-        };
-        let made = MadeMap::of(run, "shown", &[Some(slot)]);
-        let texture = run.texture(slot)?;
-        self.kept_shared(surface, run, shares, (&texture, made), Mean::Plain, cache)
+        let map = stored_map(surface, run, slot, plane)?;
+        let shown = self.shown_maps(surface, run, exported, vec![map], cache)?.pop();
+        shown.ok_or_else(|| GpuError::Defect("a map was not shown".into()))
     }
 
-    /// Normals of height and slope that a cache keeps, with `shares` as in [`Gpu::result_texture`].
-    fn kept_result_normals(
+    /// Normals of height and slope.
+    fn shown_normals(
         &self,
         surface: &GpuSurface,
         run: &mut Run,
         slots: [Option<SlotRef>; 2],
-        shares: Option<&Shares>,
-        (options, cache): (&RunOptions<'_>, &mut ResultCache),
-    ) -> Result<wgpu::Texture, GpuError> {
-        let normals = self.kept_normals(surface, run, slots, options, cache)?;
-        let Some(shares) = shares else {
-            return Ok(normals);
+        (options, cache): (&RunOptions<'_>, Option<&mut ResultCache>),
+    ) -> Result<ShownMap, GpuError> {
+        let [height, slope] = slots;
+        let is_spare = cache.is_none();
+        let texture = match cache {
+            Some(cache) => self.kept_normals(surface, run, slots, options, cache)?,
+            None => self.normal_texture(surface, run, height, slope, options)?,
         };
-        let made = MadeMap::of(run, "shown normals", &slots).map(|made| made.grown(surface));
-        self.kept_shared(surface, run, shares, (&normals, made), Mean::Unit, cache)
+        // They depend on heights that lie around them, and their ghosts on the texels around those.
+        let made = MadeMap::of(run, "shown normals", &slots).map(|made| made.grown(surface).grown(surface));
+        Ok(ShownMap {
+            texture,
+            made,
+            kind: BorderKind::of(Plane::Vector),
+            mean: Mean::Unit,
+            is_spare,
+        })
     }
+}
 
-    /// Normals of height and slope, with `shares` as in [`Gpu::result_texture`].
-    fn result_normals(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        [height, slope]: [Option<SlotRef>; 2],
-        shares: Option<&Shares>,
-        options: &RunOptions<'_>,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let normals = self.normal_texture(surface, run, height, slope, options)?;
-        self.shown(surface, run, normals, shares, Mean::Unit)
-    }
-
-    /// A tangent-space map, with `shares` as in [`Gpu::result_texture`].
-    fn shown(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        made: wgpu::Texture,
-        shares: Option<&Shares>,
-        mean: Mean,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let Some(shares) = shares else {
-            return Ok(made);
-        };
-        let shown = self.shared(surface, run, shares, &made, mean)?;
-        run.pool.release(Format::Rgba32Float, made);
-        Ok(shown)
-    }
+/// A plane of a result that is shown.
+fn stored_map(surface: &GpuSurface, run: &Run, slot: SlotRef, plane: Plane) -> Result<ShownMap, GpuError> {
+    Ok(ShownMap {
+        texture: run.texture(slot)?,
+        // Ghosts depend on the texels of their chart around them.
+        made: MadeMap::of(run, "shown", &[Some(slot)]).map(|made| made.grown(surface)),
+        kind: BorderKind::of(plane),
+        mean: Mean::Plain,
+        is_spare: false,
+    })
 }
 
 impl Run {

@@ -1,8 +1,9 @@
 //! Everything in this crate that stands in WGSL files as well.
 
 use sabi_nodes::link::{Mirror, MirrorsWgsl};
-use sabi_surface::atlas::{EMPTY, GHOST_BIT, TILE};
+use sabi_surface::atlas::{EMPTY, GHOST_BIT, RINGS, TILE};
 
+use crate::borders::{self, BorderConstants};
 use crate::extents::ExtentConstants;
 use crate::leaps::LEAP_BITS;
 use crate::levels::Scale;
@@ -25,6 +26,7 @@ use crate::uploads::TABLE_BITS;
 /// Structs, constants and workgroup sizes that stand here and in WGSL. A test compares them with all linked modules.
 pub fn mirrors() -> Vec<Mirror> {
     let mut mirrors = vec![
+        BorderConstants::mirror(),
         ExtentConstants::mirror(),
         CastConstants::mirror(),
         FillConstants::mirror(),
@@ -49,6 +51,8 @@ pub fn mirrors() -> Vec<Mirror> {
         Mirror::constant("TABLE_BITS", "atlas", "TABLE_BITS", [TABLE_BITS]),
         Mirror::constant("LEAP_BITS", "atlas", "LEAP_BITS", [LEAP_BITS]),
         Mirror::constant("TILE", "surface/place", "TILE", [TILE]),
+        Mirror::constant("RINGS", "surface/borders", "REACH", [RINGS]),
+        Mirror::constant("STEP_BIT", "surface/borders", "STEP_BIT", [borders::STEP_BIT]),
         Mirror::constant("BINS", "survey", "SURVEY_STEPS", [BINS]),
         Mirror::constant("MAX_DEPTH", "surface/cast", "STACK", [MAX_DEPTH as u32]),
         Mirror::workgroup("the caster's GROUP", "surface/cast", "main", [device::GROUP, 1, 1]),
@@ -63,6 +67,9 @@ pub fn mirrors() -> Vec<Mirror> {
         "surface/scatter_filled",
         "surface/scatter_ghosts",
     ];
+    let over_borders = ["surface/find_jumps", "surface/gather_borders"];
+    mirrors
+        .extend(over_borders.map(|file| Mirror::workgroup("the borders' GROUP", file, "main", [borders::GROUP, 1, 1])));
     mirrors.extend(over_links.map(|file| Mirror::workgroup("the links' GROUP", file, "main", [links::GROUP, 1, 1])));
     let over_tiles = [
         "surface/normal",

@@ -6,16 +6,13 @@ use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
 
 use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry};
-use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
-use crate::made_map::MadeMap;
 use crate::pool::array_view;
-use crate::run_result::Run;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
-use crate::tile_set::{TILE_EXTENT, TileSet, copied_tile, tile_of};
+use crate::tile_set::{TileSet, tile_of};
 use crate::uploads::storage_buffer;
 
 /// Groups per workgroup.
@@ -119,74 +116,17 @@ impl Part {
 }
 
 impl Gpu {
-    /// Copy of a texture on the atlas with all targets set. The texture itself may be cached and is not changed.
-    pub fn shared(
+    /// Sets all targets in a copy of a texture on the atlas. The texture itself may be cached and is not changed.
+    pub(crate) fn share(
         &self,
         surface: &GpuSurface,
-        run: &mut Run,
         shares: &Shares,
-        texture: &wgpu::Texture,
+        textures: [&wgpu::Texture; 2],
         mean: Mean,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let format = format_of(texture)?;
-        let shown = run.pool.take(self, format, surface.extent)?;
-        run.report.pool = run.pool.report();
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_texture_to_texture(texture.as_image_copy(), shown.as_image_copy(), texture.size());
-        self.queue.submit([encoder.finish()]);
-        for part in &shares.parts {
-            self.share_part(surface, part, [texture, &shown], format, mean)?;
-        }
-        Ok(shown)
-    }
-
-    /// As [`Gpu::shared`], for a texture that is made of results of a run; a cache keeps the copy, of which only what has changed is
-    /// copied again.
-    pub(crate) fn kept_shared(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        shares: &Shares,
-        (texture, made): (&wgpu::Texture, Option<MadeMap>),
-        mean: Mean,
-        cache: &mut ResultCache,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let Some(made) = made else {
-            return self.shared(surface, run, shares, texture, mean);
-        };
-        if let Some(known) = cache.get(&made.key) {
-            return Ok(known);
-        }
-        let before = made.before.and_then(|(key, tiles)| Some((cache.take(&key)?, tiles)));
-        let shown = match before {
-            Some((shown, tiles)) => {
-                self.copy_tiles(texture, &shown, &tiles);
-                let format = format_of(texture)?;
-                for part in &shares.parts {
-                    self.share_part(surface, part, [texture, &shown], format, mean)?;
-                }
-                shown
-            }
-            None => self.shared(surface, run, shares, texture, mean)?,
-        };
-        cache.put(
-            made.key,
-            shown.clone(),
-            format_of(texture)?.texel_bytes() * surface.texels(),
-        );
-        Ok(shown)
-    }
-
-    fn copy_tiles(&self, from: &wgpu::Texture, to: &wgpu::Texture, tiles: &TileSet) {
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for place in tiles.places() {
-            encoder.copy_texture_to_texture(copied_tile(from, place), copied_tile(to, place), TILE_EXTENT);
-        }
-        self.queue.submit([encoder.finish()]);
+    ) -> Result<(), GpuError> {
+        let format = format_of(textures[0])?;
+        let mut parts = shares.parts.iter();
+        parts.try_for_each(|part| self.share_part(surface, part, textures, format, mean))
     }
 
     fn share_part(

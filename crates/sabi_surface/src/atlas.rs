@@ -266,10 +266,11 @@ pub struct TileRef {
 /// Measurements and warnings of a build, for reports.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AtlasReport {
-    /// Owned texels of all charts divided by the texels of the unit squares in use, one for each sheet.
+    /// Owned texels of all charts divided by the texels of the unit squares in use, one for each sheet, or for each tile of a sheet whose
+    /// tiles have maps of their own.
     pub coverage: f32,
     /// Owned texels whose place in their sheet's unit square another chart claims as well, UV tiles wrapped
-    /// onto one square as a repeating texture does.
+    /// onto one square as a repeating texture does, unless each tile has maps of its own.
     pub overlap_texels: u64,
     /// Pairs of overlapping charts in UV, lower number first, with the number of places they share; the first 10 000 pairs.
     pub overlapping_charts: Vec<(u32, u32, u64)>,

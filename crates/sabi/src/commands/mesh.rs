@@ -1,6 +1,6 @@
 //! `sabi mesh`: a model and its atlas.
 
-use sabi_engine::{LinkedModel, MeshReport, TrustedPaths, describe_mesh};
+use sabi_engine::{LinkedModel, MeshReport, SetReport, SharedPairs, TrustedPaths, describe_mesh};
 use serde::Serialize;
 
 use crate::arguments::MeshArguments;
@@ -48,6 +48,7 @@ fn table(report: &MeshReport) -> Result<Page, Failure> {
         ("page size", format!("{page_width}, {page_height}")),
         ("charts", report.charts.to_string()),
         ("coverage", report.coverage.to_string()),
+        ("texture sets", sets(report)),
         ("overlap", on_one_line(&report.overlap)?),
         ("overlapping charts", report.overlapping_charts.to_string()),
         ("stacked charts", report.stacked_charts.to_string()),
@@ -65,6 +66,26 @@ fn table(report: &MeshReport) -> Result<Page, Failure> {
         .into_iter()
         .map(|(name, value)| format!("{name:24} {value}"))
         .collect())
+}
+
+/// The texture sets, each with what covers it, and what of that lies on each other.
+fn sets(report: &MeshReport) -> String {
+    let set = |set: &SetReport| {
+        let tile = set.udim.map_or_else(String::new, |number| format!(".{number}"));
+        let SharedPairs {
+            stacked,
+            mirrored,
+            tiling,
+            partial,
+        } = set.overlap.pairs;
+        let covered = (100.0 * set.coverage).round();
+        let pairs = stacked + mirrored + tiling + partial;
+        format!(
+            "{}{tile} (charts {}, covered {covered} %, overlapping pairs {pairs})",
+            set.material, set.charts
+        )
+    };
+    report.sets.iter().map(set).collect::<Vec<_>>().join(", ")
 }
 
 fn on_one_line(facts: &impl Serialize) -> Result<String, Failure> {

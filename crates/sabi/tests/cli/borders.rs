@@ -158,6 +158,59 @@ fn two_equal_bolts_in_two_tiles_leave_a_model_its_tiles() {
 }
 
 #[test]
+fn a_model_in_tiles_is_described_tile_by_tile_as_a_bake_takes_it() {
+    let place = Place::new();
+    let bolts = [
+        ([0.1, 0.1], 0.5),
+        ([0.8, 0.8], 0.1),
+        ([1.2, 0.1], 0.5),
+        ([1.8, 0.8], 0.1),
+        ([1.8, 0.8], 0.1),
+        ([2.1, 0.3], 0.4),
+    ];
+    place.write("bolts.obj", squares(&bolts));
+    let described = |more: &[&str]| -> Json {
+        let run = place.sabi(&[&["mesh", "bolts.obj", "--json"], more].concat()).good();
+        serde_json::from_str(&run.stdout).unwrap()
+    };
+    let of_sets = |report: &Json| -> Vec<(Option<u64>, u64, u64)> {
+        let sets = report["sets"].as_array().unwrap().iter();
+        sets.map(|set| {
+            assert_eq!(set["material"], "wood");
+            let pairs = ["stacked", "mirrored", "tiling", "partial"];
+            let pairs = pairs.map(|kind| set["overlap"][kind].as_u64().unwrap());
+            (
+                set["udim"].as_u64(),
+                set["charts"].as_u64().unwrap(),
+                pairs.iter().sum(),
+            )
+        })
+        .collect()
+    };
+    // Two bolts lie on each other in the second tile.
+    let report = described(&[]);
+    assert_eq!(
+        of_sets(&report),
+        [(Some(1001), 2, 0), (Some(1002), 3, 1), (Some(1003), 1, 0)]
+    );
+    assert_eq!(report["overlapping_charts"], 1, "{report:#}");
+    assert_eq!(
+        (&report["overlap"]["stacked"], &report["overlap"]["tiling"]),
+        (&1.into(), &0.into())
+    );
+    let folded = described(&["--udim", "off"]);
+    assert_eq!(of_sets(&folded).len(), 1);
+    let texels = |report: &Json| report["overlap"]["texels"].as_u64().unwrap();
+    assert!(texels(&folded) > 10 * texels(&report), "tiles share no place");
+    let table = place.sabi(&["mesh", "bolts.obj"]).good().stdout;
+    let row = table.lines().find(|line| line.starts_with("texture sets")).unwrap();
+    assert!(
+        row.contains("wood.1002 (charts 3, covered 27 %, overlapping pairs 1)"),
+        "{row}"
+    );
+}
+
+#[test]
 fn tiles_that_are_taken_for_a_texture_that_repeats_are_told_with_the_way_out() {
     let place = Place::new();
     place.write(

@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
-use sabi_gpu::{DeviceHierarchy, Gpu, GpuSurface, Shares, ShownTiles, SurfaceTables, Surfaces};
+use sabi_export::{ChartBorders, STEEPER};
+use sabi_gpu::{BorderGhost, Borders, DeviceHierarchy, Gpu, GpuSurface, Shares, ShownTiles, SurfaceTables, Surfaces};
 use sabi_graph::Fit;
 use sabi_plan::{LevelWidths, Plan};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
@@ -28,6 +29,8 @@ pub(crate) struct EvaluatedSurface {
     picture_tables: PictureTables,
     /// Texels that show the values of others; none where charts do not overlap.
     shares: OnceLock<Option<Shares>>,
+    /// Ghosts that show their own chart where the data jumps.
+    borders: OnceLock<Borders>,
     /// Tiles whose results are shown; none where nearly all are.
     shown: OnceLock<Option<ShownTiles>>,
     /// Hash of the surface, part of the keys of results.
@@ -60,6 +63,7 @@ impl EvaluatedSurface {
             hierarchy_on_device: OnceLock::new(),
             picture_tables: PictureTables::default(),
             shares: OnceLock::new(),
+            borders: OnceLock::new(),
             shown: OnceLock::new(),
         })
     }
@@ -71,11 +75,13 @@ impl EvaluatedSurface {
         }
         let linked = self.linked.clone();
         let uploaded = EvaluatedSurface::upload(gpu, linked, (fit, seed), &mut PhaseTimes::default())?;
-        // Shared texels and shown tiles depend on the atlas alone.
+        // Shared texels, borders and shown tiles depend on the atlas alone.
         let shares = std::mem::take(&mut self.shares);
+        let borders = std::mem::take(&mut self.borders);
         let shown = std::mem::take(&mut self.shown);
         *self = EvaluatedSurface {
             shares,
+            borders,
             shown,
             ..uploaded
         };
@@ -170,6 +176,22 @@ impl EvaluatedSurface {
             let _ = self.shares.set(shares);
         }
         Ok(self.shares.get().and_then(Option::as_ref))
+    }
+
+    /// Returns the ghosts that show their own chart where the data jumps; found on first use.
+    pub(crate) fn borders(&self, gpu: &Gpu) -> Result<&Borders, EngineError> {
+        if let Some(known) = self.borders.get() {
+            return Ok(known);
+        }
+        let found = ChartBorders::of_atlas(&self.linked.atlas);
+        let ghosts = found.ghosts().iter().map(|ghost| BorderGhost {
+            index: ghost.index,
+            step: ghost.step,
+            own: ghost.own,
+        });
+        let uploaded = Borders::upload(gpu, &self.on_device, ghosts, STEEPER)?;
+        // Another thread that was faster has computed the same value.
+        Ok(self.borders.get_or_init(|| uploaded))
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_files::{PathBase, TrustedPaths, is_local};
-use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares, ShownTiles, TileSet};
+use sabi_gpu::{AdapterChoice, CasterChoice, Exported, Gpu, GpuSurface, Hits, Shares, ShownTiles, TileSet};
 use sabi_graph::{Document, Fit, FlatGraph, FlatNode, NodeRef, Overrides, ResultOrigin};
 use sabi_view::{ViewModel, ViewModelParts};
 
@@ -296,6 +296,15 @@ impl Evaluator {
     /// Texels that show the values of others, where charts overlap.
     pub(crate) fn shares(&self) -> Result<Option<&Shares>, EngineError> {
         self.surface.shares(&self.gpu)
+    }
+
+    /// What maps that are shown take over from exported ones.
+    pub(crate) fn exported(&self) -> Result<Exported<'_>, EngineError> {
+        Ok(Exported {
+            shares: self.shares()?,
+            borders: Some(self.surface.borders(&self.gpu)?),
+            changes_results: false,
+        })
     }
 
     /// Settings of the rays of the next plan and run.

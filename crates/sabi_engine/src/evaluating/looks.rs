@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use glam::DVec3;
 use sabi_export::Channel;
-use sabi_gpu::{DeviceMaps, MaterialSlots, ResultCache, ResultsIdentity, Run, RunOptions};
+use sabi_gpu::{DeviceMaps, Exported, MaterialSlots, ResultCache, ResultsIdentity, Run, RunOptions};
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
@@ -92,12 +92,17 @@ pub(crate) fn looks_of_run(
     mut cache: Option<&mut ResultCache>,
 ) -> Result<ModelLooks, EngineError> {
     let (are_opaque, height_range) = value_extents(evaluator, (plan, run), options, cache.as_deref_mut())?;
+    let exported = Exported {
+        // Results that are not kept are drawn, and nothing else; two of them may have a plane in common.
+        changes_results: cache.is_none() && plan.results.len() == 1,
+        ..evaluator.exported()?
+    };
     // Materials without triangles get the neutral look.
     let mut looks = vec![neutral_look()];
     for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
         looks.push(MaterialLook {
             is_opaque,
-            ..look(evaluator, run, result, options, cache.as_deref_mut())?
+            ..look(evaluator, run, (result, exported), options, cache.as_deref_mut())?
         });
     }
     let of_material = |material: u32| match assignment {
@@ -183,16 +188,15 @@ fn value_extents(
 }
 
 /// Makes the look of one result, taken as opaque: a material with its maps, any other type as numbers or colors. Where charts
-/// overlap it shows what a bake writes there; see [`Evaluator::shares`].
+/// overlap and at the borders of charts it shows what a bake writes there; see [`Evaluator::exported`].
 fn look(
     evaluator: &Evaluator,
     run: &mut Run,
-    result: &PlannedResult,
+    (result, exported): (&PlannedResult, Exported<'_>),
     options: &RunOptions<'_>,
     mut cache: Option<&mut ResultCache>,
 ) -> Result<MaterialLook, EngineError> {
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
-    let shares = evaluator.shares()?;
     let value_type = match result.stored.ty {
         PortType::Mask => NodeType::Mask,
         PortType::Color => NodeType::Color,
@@ -202,13 +206,14 @@ fn look(
                 surface,
                 run,
                 material_slots(result),
-                shares,
+                exported,
                 (options, cache.as_deref_mut()),
             )?;
             return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };
-    let texture = gpu.kept_result_texture(surface, run, result.slots[0], shares, cache)?;
+    let plane = (result.slots[0], result.stored.planes()[0]);
+    let texture = gpu.shown_result(surface, run, plane, exported, cache)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, value_type }),
         ..neutral_look()

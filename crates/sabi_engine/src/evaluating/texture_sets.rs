@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_export::{SetKey, set_keys, set_names};
+use sabi_export::{SetKey, set_keys, set_names, sheet_names};
 use sabi_graph::{FlatGraph, advice_on};
 use sabi_surface::atlas::Atlas;
-use sabi_surface::model::{Model, ModelMaterial};
+use sabi_surface::model::Model;
 
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::outputs::{map_outputs, materials, outputs, quoted, serving_outputs, unused_outputs};
@@ -77,19 +77,6 @@ pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -
             "the model has no surface that maps could be made for",
         )),
     }
-}
-
-/// Returns the stem of each material's file names; that of the model where all materials share one sheet.
-fn sheet_names(model: &Model) -> Vec<String> {
-    if !model.mesh.is_one_sheet {
-        return set_names(model);
-    }
-    // Named like a single unnamed material.
-    set_names(&Model {
-        stem: model.stem.clone(),
-        materials: vec![ModelMaterial::default()],
-        ..Model::default()
-    })
 }
 
 /// Lists the materials in use, in ascending order.

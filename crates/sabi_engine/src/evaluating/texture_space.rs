@@ -1,7 +1,7 @@
 //! Results in texture space: values laid out like the maps of a texture set.
 
 use sabi_export::{BorderRule, Channel, ChartBorders, Cover, NONE, Padding, PaddingMap, SetKey, SetLayout};
-use sabi_gpu::Run;
+use sabi_gpu::{BorderKind, Run};
 use sabi_graph::PortType;
 use sabi_image::{quantize_u8, srgb8_from_linear};
 use sabi_nodes::kind::Channel as Stored;
@@ -58,15 +58,14 @@ impl TextureSpace {
 
     /// Lets the texels around charts repeat their charts, as those of exported maps do.
     fn settle(&self, plane: Plane, values: &mut [f32]) {
-        let (_, holds, components) = shape_of(plane);
-        let rule = match plane {
-            Plane::Material(Stored::Height) => BorderRule::Meet,
-            _ => BorderRule::AtJumps,
-        };
-        // Values that are written to one map; a fourth one is written to another.
-        let together = match holds {
-            PlaneKind::Numbers => 1,
-            PlaneKind::Color | PlaneKind::Signed => 3,
+        let (_, _, components) = shape_of(plane);
+        let BorderKind {
+            together,
+            keeps_first_ring,
+        } = BorderKind::of(plane);
+        let rule = match keeps_first_ring {
+            true => BorderRule::Meet,
+            false => BorderRule::AtJumps,
         };
         let mut are_changed = false;
         for first in (0..components).step_by(together) {

@@ -16,7 +16,7 @@ use crate::opening::environment::{DEFAULT_ENVIRONMENT, load_environment};
 
 /// Version of the pictures: it changes whenever the same material on the same model is drawn differently, so that pictures that
 /// are kept on disk are drawn again.
-pub const THUMBNAIL_VERSION: u32 = 2;
+pub const THUMBNAIL_VERSION: u32 = 3;
 /// Samples per pixel; without several the outline on a transparent background has visible steps.
 const SAMPLES: u32 = 4;
 

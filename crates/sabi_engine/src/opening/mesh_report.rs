@@ -6,7 +6,7 @@ use sabi_surface::orientation::turned_faces;
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Unwrapping};
-use crate::opening::overlap::{OverlapReport, OverlapTotals};
+use crate::opening::overlap::{OverlapReport, OverlapTotals, SetReport};
 use crate::warning::Warning;
 
 /// A model and its atlas.
@@ -50,7 +50,9 @@ pub struct MeshReport {
     pub coverage: f32,
     /// Charts that share places on the maps.
     pub overlap: OverlapReport,
-    /// Pairs of charts that share places, before UDIM tiles are told apart.
+    /// Texture sets that a bake makes maps for.
+    pub sets: Vec<SetReport>,
+    /// Pairs of charts that share places.
     pub overlapping_charts: usize,
     /// Charts that lie exactly on an earlier one.
     pub stacked_charts: u32,
@@ -155,6 +157,7 @@ pub(crate) fn parts_left_out(model: &Model) -> Vec<String> {
 pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
     let (mesh, report) = (&linked.model.mesh, &linked.atlas.report);
     let unwrapped = linked.unwrapped.as_ref();
+    let overlap = OverlapTotals::of(linked);
     MeshReport {
         triangles: mesh.triangles.len(),
         vertices: mesh.positions.len(),
@@ -174,7 +177,8 @@ pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
         page_size: linked.atlas.page_size,
         charts: linked.atlas.uv_charts().len(),
         coverage: report.coverage,
-        overlap: OverlapTotals::of(linked).report(linked),
+        overlap: overlap.report(linked),
+        sets: overlap.sets(linked),
         overlapping_charts: report.overlapping_charts.len(),
         stacked_charts: report.stacked_charts,
         mirrored_charts: report.mirrored_charts,

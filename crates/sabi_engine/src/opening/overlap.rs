@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{set_keys, set_names};
-use sabi_surface::atlas::{PAIRS_LIMIT, UvChart};
+use sabi_export::{SetKey, set_keys, set_names, sheet_names};
+use sabi_surface::atlas::{Chart, PAIRS_LIMIT, UvChart};
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Overlap};
@@ -41,6 +41,32 @@ pub struct MaterialOverlap {
     pub texels: u64,
 }
 
+/// Texture set of a model in a report: the maps of a material, or of one of its UDIM tiles.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct SetReport {
+    /// Name of the material, as files are named after it; that of the model where all materials share one sheet.
+    pub material: String,
+    /// UDIM number, where the material uses several tiles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub udim: Option<u32>,
+    /// Charts in UV.
+    pub charts: usize,
+    /// Texels that they own, for each pixel of the maps.
+    pub coverage: f32,
+    /// Charts that share places.
+    pub overlap: SetOverlap,
+}
+
+/// Charts of a texture set that share places, in a report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct SetOverlap {
+    /// Pairs of charts that share places.
+    #[serde(flatten)]
+    pub pairs: SharedPairs,
+    /// Texels that pairs of charts share, added up.
+    pub texels: u64,
+}
+
 /// Pairs of charts that share places on the maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct SharedPairs {
@@ -54,57 +80,75 @@ pub struct SharedPairs {
     pub partial: u32,
 }
 
-/// Totals of the overlaps between charts of one material.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct MaterialTotals {
-    /// Texels that pairs of charts share, added up.
-    texels: u64,
-    pairs: SharedPairs,
-}
-
 /// Totals of the overlaps between charts of a model.
 pub(crate) struct OverlapTotals {
-    by_material: BTreeMap<u32, MaterialTotals>,
+    by_material: BTreeMap<u32, SetOverlap>,
+    /// Overlaps by texture set. A pair of charts counts for the tile of the first one.
+    by_set: BTreeMap<SetKey, SetOverlap>,
     /// Share of the owned texels whose place another chart claims as well.
     share: f64,
     /// True if there are more pairs than the atlas lists, so that their counts are lower bounds.
     is_cut: bool,
 }
 
+impl SetOverlap {
+    fn and(self, more: SetOverlap) -> SetOverlap {
+        let (sum, pairs) = (self.pairs, more.pairs);
+        SetOverlap {
+            texels: self.texels + more.texels,
+            pairs: SharedPairs {
+                stacked: sum.stacked + pairs.stacked,
+                mirrored: sum.mirrored + pairs.mirrored,
+                tiling: sum.tiling + pairs.tiling,
+                partial: sum.partial + pairs.partial,
+            },
+        }
+    }
+}
+
 impl OverlapTotals {
-    /// Sums up all pairs that the atlas lists. In UDIM layouts charts of different tiles share nothing.
+    /// Sums up all pairs that the atlas lists.
     pub(crate) fn of(linked: &LinkedModel) -> OverlapTotals {
         let atlas = &linked.atlas;
-        let udims: Vec<u32> = set_keys(atlas)
-            .iter()
-            .filter(|key| key.udim.is_some())
-            .map(|key| key.material)
-            .collect();
-        let mut by_material: BTreeMap<u32, MaterialTotals> = BTreeMap::new();
+        let keys = set_keys(atlas);
+        let is_udim = |chart: &Chart| keys.iter().any(|key| key.material == chart.sheet && key.udim.is_some());
+        let set_of = |chart: &Chart| keys.iter().find(|key| key.is_home_of(chart)).copied();
+        let mut by_material: BTreeMap<u32, SetOverlap> = BTreeMap::new();
+        let mut by_set: BTreeMap<SetKey, SetOverlap> = BTreeMap::new();
+        let mut add = |chart: &Chart, texels: u64, pairs: SharedPairs| {
+            let sums = [
+                Some(by_material.entry(chart.material).or_default()),
+                set_of(chart).map(|set| by_set.entry(set).or_default()),
+            ];
+            for sum in sums.into_iter().flatten() {
+                *sum = sum.and(SetOverlap { pairs, texels });
+            }
+        };
         let charts = atlas.uv_charts();
         for &(a, b, texels) in &atlas.report.overlapping_charts {
             let pair = [a, b].map(|chart| &charts[chart as usize]);
             let [first, second] = pair.map(|chart| chart.parts[0]);
-            let apart = first.uv_tile != second.uv_tile;
-            if apart && udims.contains(&first.sheet) {
-                continue;
-            }
-            let shared = by_material.entry(first.material).or_default();
-            shared.texels += texels;
+            // Tiles of UDIM layouts have maps of their own, on which charts of other tiles overlap as those of one tile do.
+            let repeats = first.uv_tile != second.uv_tile && !is_udim(first);
             let are_whole = pair.iter().all(|chart| chart.texels() == texels);
+            let mut pairs = SharedPairs::default();
             let kind = match () {
-                () if apart => &mut shared.pairs.tiling,
-                () if !are_whole => &mut shared.pairs.partial,
-                () if first.mirrored == second.mirrored => &mut shared.pairs.stacked,
-                () => &mut shared.pairs.mirrored,
+                () if repeats => &mut pairs.tiling,
+                () if !are_whole => &mut pairs.partial,
+                () if first.mirrored == second.mirrored => &mut pairs.stacked,
+                () => &mut pairs.mirrored,
             };
-            *kind += 1;
+            *kind = 1;
+            add(first, texels, pairs);
         }
-        let repeats = |chart: &&UvChart| chart.extent().iter().any(|side| *side > atlas.size);
+        let repeats =
+            |chart: &&UvChart<'_>| !is_udim(chart.parts[0]) && chart.extent().iter().any(|side| *side > atlas.size);
         for chart in charts.iter().filter(repeats) {
-            let shared = by_material.entry(chart.parts[0].material).or_default();
-            shared.pairs.tiling += 1;
-            shared.texels += chart.texels();
+            let pairs = SharedPairs {
+                tiling: 1,
+                ..SharedPairs::default()
+            };
+            add(chart.parts[0], chart.texels(), pairs);
         }
         let owned: u64 = atlas.charts.iter().map(|chart| u64::from(chart.texels)).sum();
         let texels = if by_material.is_empty() {
@@ -115,14 +159,15 @@ impl OverlapTotals {
         let share = texels as f64 / owned.max(1) as f64;
         OverlapTotals {
             by_material,
+            by_set,
             share,
             is_cut: atlas.report.overlapping_charts.len() >= PAIRS_LIMIT,
         }
     }
 
     /// Lists the materials by shared texels, most first.
-    fn worst(&self) -> Vec<(u32, MaterialTotals)> {
-        let mut sorted: Vec<(u32, MaterialTotals)> = self
+    fn worst(&self) -> Vec<(u32, SetOverlap)> {
+        let mut sorted: Vec<(u32, SetOverlap)> = self
             .by_material
             .iter()
             .map(|(&material, &shared)| (material, shared))
@@ -131,18 +176,32 @@ impl OverlapTotals {
         sorted
     }
 
-    fn total(&self) -> MaterialTotals {
+    fn total(&self) -> SetOverlap {
         self.by_material
             .values()
-            .fold(MaterialTotals::default(), |sum, shared| MaterialTotals {
-                texels: sum.texels + shared.texels,
-                pairs: SharedPairs {
-                    stacked: sum.pairs.stacked + shared.pairs.stacked,
-                    mirrored: sum.pairs.mirrored + shared.pairs.mirrored,
-                    tiling: sum.pairs.tiling + shared.pairs.tiling,
-                    partial: sum.pairs.partial + shared.pairs.partial,
-                },
+            .fold(SetOverlap::default(), |sum, shared| sum.and(*shared))
+    }
+
+    /// Describes the texture sets of a model for a report.
+    pub(crate) fn sets(&self, linked: &LinkedModel) -> Vec<SetReport> {
+        let atlas = &linked.atlas;
+        let charts = atlas.uv_charts();
+        let pixels = f64::from(atlas.size).powi(2);
+        let names = sheet_names(&linked.model);
+        let described = set_keys(atlas).into_iter().filter_map(|key| {
+            let own = charts.iter().filter(|chart| key.is_home_of(chart.parts[0]));
+            let texels: Vec<u64> = own.map(UvChart::texels).filter(|texels| *texels > 0).collect();
+            // Nothing is written for a material without a surface.
+            let material = names.get(key.material as usize).filter(|_| !texels.is_empty())?;
+            Some(SetReport {
+                material: material.clone(),
+                udim: key.udim,
+                charts: texels.len(),
+                coverage: (texels.iter().sum::<u64>() as f64 / pixels) as f32,
+                overlap: self.by_set.get(&key).copied().unwrap_or_default(), // No pairs, no overlap.
             })
+        });
+        described.collect()
     }
 
     /// Describes the totals for a report, with materials by name.

@@ -187,7 +187,7 @@ impl Plan<'_> {
             udims: &udims,
             size: self.size,
         };
-        let overlap = overlap(self.mesh, &self.uvs, in_uv, self.size);
+        let overlap = overlap(self.mesh, &self.uvs, in_uv, &udims, self.size);
         let Links {
             ghosts,
             unlinked,

@@ -11,7 +11,7 @@ use crate::model::Mesh;
 /// Stored atlases; the version changes whenever building or encoding does.
 const KIND: CacheKind = CacheKind {
     prefix: "atlas",
-    version: 6,
+    version: 7,
     limit_bytes: 3 << 30,
 };
 

@@ -1,5 +1,8 @@
 //! Bit masks of the texels whose centers a chart covers.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
 use super::fixed::{UNIT, Uvs};
 use super::raster::spans;
 
@@ -134,6 +137,35 @@ impl Mask {
             });
         }
         turned
+    }
+
+    /// Returns the bits by UV tile; `home` tells for each tile of `size × size` texels which one its bits count for.
+    pub(super) fn by_tile(&self, size: u32, home: impl Fn([i32; 2]) -> [i32; 2]) -> BTreeMap<[i32; 2], Cow<'_, Mask>> {
+        let size = i64::from(size);
+        let tile_of = |at: [i64; 2]| at.map(|at| at.div_euclid(size) as i32);
+        let last = [
+            self.origin[0] + i64::from(self.width) - 1,
+            self.origin[1] + i64::from(self.height) - 1,
+        ];
+        if tile_of(self.origin) == tile_of(last) {
+            return BTreeMap::from([(home(tile_of(self.origin)), Cow::Borrowed(self))]);
+        }
+        let mut parts: BTreeMap<[i32; 2], Mask> = BTreeMap::new();
+        for (y, row) in (0..).zip(self.rows()) {
+            for_each_run(row, |x0, x1| {
+                let mut from = x0 as i64;
+                while from < x1 as i64 {
+                    let tile = tile_of([self.origin[0] + from, self.origin[1] + y]);
+                    let to = ((i64::from(tile[0]) + 1) * size - self.origin[0]).min(x1 as i64);
+                    let part = parts.entry(home(tile));
+                    part.or_insert_with(|| Mask::empty(self.origin, self.width, self.height))
+                        .set(y, from, to);
+                    from = to;
+                }
+            });
+        }
+        let tight = parts.into_iter().map(|(tile, part)| (tile, Cow::Owned(part.tight())));
+        tight.collect()
     }
 
     /// Returns true if no bit is set.

@@ -1,6 +1,7 @@
 //! Charts that overlap in the user's layout, where a map has only one value for all of them.
 
-use std::collections::BTreeSet;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
@@ -25,45 +26,101 @@ pub(super) struct Overlap {
     pub(super) stacked: u32,
 }
 
-/// Finds all overlaps within each sheet, with UV tiles wrapped onto one unit square.
-pub(super) fn overlap(mesh: &Mesh, uvs: &Uvs, charts: &ChartSet, size: u32) -> Overlap {
+/// Texels that a chart claims of a square.
+struct Claim<'m> {
+    chart: usize,
+    mask: Cow<'m, Mask>,
+}
+
+/// Finds all overlaps within each sheet. UV tiles are wrapped onto one unit square, except those of the sheets in `udims`, each of which
+/// has maps of its own.
+pub(super) fn overlap(mesh: &Mesh, uvs: &Uvs, charts: &ChartSet, udims: &BTreeSet<u32>, size: u32) -> Overlap {
     let mut found = Overlap::default();
     let numbers: Vec<usize> = (0..charts.partition.len()).collect();
     let sheet = |chart: usize| sheet_of(mesh, charts.partition.triangles(chart));
     for of_sheet in numbers.chunk_by(|&a, &b| sheet(a) == sheet(b)) {
-        if of_sheet.len() > 1 {
-            overlap_of_sheet(uvs, charts, size, of_sheet, &mut found);
+        if of_sheet.len() < 2 {
+            continue;
         }
+        let is_udim = udims.contains(&sheet(of_sheet[0]));
+        let squares = match is_udim {
+            true => claims_of_tiles(charts, of_sheet, size),
+            false => vec![claims(charts, of_sheet)],
+        };
+        overlap_of_sheet(uvs, charts, size, &squares, is_udim, &mut found);
     }
     found
 }
 
-fn overlap_of_sheet(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: &[usize], found: &mut Overlap) {
-    let masks = &charts.masks;
-    let mut square = Square::new(size);
-    for &chart in numbers {
-        square.claim(&Wrapped::new(&masks[chart], size));
-    }
-    if square.twice.iter().all(|&word| word == 0) {
-        return;
-    }
-    let crowded: Vec<(usize, Wrapped)> = numbers
+/// Returns what charts claim of one square onto which all tiles are wrapped.
+fn claims<'m>(charts: &'m ChartSet, numbers: &[usize]) -> Vec<Claim<'m>> {
+    let claim = |&chart: &usize| Claim {
+        chart,
+        mask: Cow::Borrowed(&charts.masks[chart]),
+    };
+    numbers.iter().map(claim).collect()
+}
+
+/// Returns what charts claim of each tile. A texel outside of its chart's tile belongs to the tile that it lies in, or is wrapped where
+/// that has no maps, as those of texture sets are.
+fn claims_of_tiles<'m>(charts: &'m ChartSet, numbers: &[usize], size: u32) -> Vec<Vec<Claim<'m>>> {
+    let own = |chart: usize| charts.origins[chart].uv_tile;
+    let covering: Vec<usize> = numbers
         .iter()
-        .map(|&chart| (chart, Wrapped::new(&masks[chart], size)))
-        .filter(|(_, wrapped)| square.shared(wrapped) > 0)
+        .copied()
+        .filter(|&chart| !charts.masks[chart].is_empty())
         .collect();
-    found.texels += crowded.iter().map(|(_, wrapped)| square.shared(wrapped)).sum::<u64>();
-    let mut stacked = coinciding(uvs, charts, size, crowded.iter().map(|&(chart, _)| chart));
-    let room = PAIRS_LIMIT - found.pairs.len();
-    let pairs = pairs(&crowded, room);
-    for &(a, b, shared) in &pairs {
-        let texels = |chart: u32| masks[chart as usize].count();
-        // The charts cover the same texels with different triangles.
-        if shared == texels(a) && shared == texels(b) {
-            stacked.insert(b as usize);
+    let mut squares: BTreeMap<[i32; 2], Vec<Claim<'m>>> =
+        covering.iter().map(|&chart| (own(chart), Vec::new())).collect();
+    let tiles: BTreeSet<[i32; 2]> = squares.keys().copied().collect();
+    for chart in covering {
+        let home = |tile: [i32; 2]| if tiles.contains(&tile) { tile } else { own(chart) };
+        for (tile, mask) in charts.masks[chart].by_tile(size, home) {
+            squares.entry(tile).or_default().push(Claim { chart, mask });
         }
     }
-    found.pairs.extend(pairs);
+    squares.into_values().collect()
+}
+
+fn overlap_of_sheet(
+    uvs: &Uvs,
+    charts: &ChartSet,
+    size: u32,
+    squares: &[Vec<Claim<'_>>],
+    are_tiles: bool,
+    found: &mut Overlap,
+) {
+    let masks = &charts.masks;
+    let mut stacked = BTreeSet::new();
+    let mut shared: BTreeMap<[u32; 2], u64> = BTreeMap::new();
+    for claims in squares.iter().filter(|claims| claims.len() > 1) {
+        let mut square = Square::new(size);
+        for claim in claims {
+            square.claim(&Wrapped::new(&claim.mask, size));
+        }
+        if square.twice.iter().all(|&word| word == 0) {
+            continue;
+        }
+        let crowded: Vec<(usize, Wrapped)> = claims
+            .iter()
+            .map(|claim| (claim.chart, Wrapped::new(&claim.mask, size)))
+            .filter(|(_, wrapped)| square.shared(wrapped) > 0)
+            .collect();
+        found.texels += crowded.iter().map(|(_, wrapped)| square.shared(wrapped)).sum::<u64>();
+        let numbers = crowded.iter().map(|&(chart, _)| chart);
+        stacked.extend(coinciding(uvs, charts, size, are_tiles, numbers));
+        let room = PAIRS_LIMIT.saturating_sub(found.pairs.len() + shared.len());
+        for (a, b, texels) in pairs(&crowded, room) {
+            *shared.entry([a, b]).or_default() += texels;
+        }
+    }
+    for ([a, b], texels) in shared {
+        // The charts cover the same texels with different triangles.
+        if [a, b].iter().all(|&chart| masks[chart as usize].count() == texels) {
+            stacked.insert(b as usize);
+        }
+        found.pairs.push((a, b, texels));
+    }
     found.stacked += stacked.len() as u32;
 }
 
@@ -91,14 +148,24 @@ fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
         .collect()
 }
 
-/// Finds charts whose triangles coincide with those of an earlier one, regardless of winding.
-fn coinciding(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: impl Iterator<Item = usize>) -> BTreeSet<usize> {
+/// Finds charts whose triangles coincide with those of an earlier one, regardless of winding, and of the tile unless each has maps of
+/// its own.
+fn coinciding(
+    uvs: &Uvs,
+    charts: &ChartSet,
+    size: u32,
+    are_tiles: bool,
+    numbers: impl Iterator<Item = usize>,
+) -> BTreeSet<usize> {
     let mut seen = BTreeSet::new();
     let mut stacked = BTreeSet::new();
     for chart in numbers {
-        let tile = charts.origins[chart]
-            .uv_tile
-            .map(|tile| i64::from(tile) * i64::from(size) * UNIT);
+        let tile = if are_tiles {
+            [0; 2]
+        } else {
+            charts.origins[chart].uv_tile
+        };
+        let tile = tile.map(|tile| i64::from(tile) * i64::from(size) * UNIT);
         let mut triangles: Vec<[[i64; 2]; 3]> = charts
             .partition
             .triangles(chart)

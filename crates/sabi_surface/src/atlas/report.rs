@@ -33,9 +33,8 @@ pub(super) struct ReportInputs<'a> {
 
 impl ReportInputs<'_> {
     pub(super) fn report(&self, overlap: Overlap, unlinked_ghosts: u32, pulled_ghosts: u32) -> AtlasReport {
-        let sheets: BTreeSet<u32> = self.charts.iter().map(|chart| chart.sheet).collect();
         let owned: u64 = self.charts.iter().map(|chart| u64::from(chart.texels)).sum();
-        let squares = sheets.len() as f64 * f64::from(self.size).powi(2);
+        let squares = self.squares() as f64 * f64::from(self.size).powi(2);
         let count = |found: &mut dyn Iterator<Item = bool>| found.filter(|&found| found).count() as u32;
         let mut report = AtlasReport {
             coverage: (owned as f64 / squares) as f32,
@@ -55,6 +54,17 @@ impl ReportInputs<'_> {
         };
         report.warnings = self.warnings(&report);
         report
+    }
+
+    /// Counts the unit squares in use: one for each sheet, or for each of its tiles where these have maps of their own.
+    fn squares(&self) -> usize {
+        let square = |chart: &Chart| match self.udims.contains(&chart.sheet) {
+            true if chart.texels == 0 => None,
+            true => Some((chart.sheet, chart.uv_tile)),
+            false => Some((chart.sheet, [0, 0])),
+        };
+        let squares: BTreeSet<(u32, [i32; 2])> = self.charts.iter().filter_map(square).collect();
+        squares.len()
     }
 
     /// Counts charts in UV of which a placed part is as asked for.

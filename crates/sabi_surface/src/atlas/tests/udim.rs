@@ -217,3 +217,47 @@ fn a_chart_that_fills_the_largest_maps_fits_a_page() {
     assert_eq!((atlas.page_size, atlas.pages), ([8208; 2], 1));
     assert_eq!(atlas.charts[0].texels, 8192 * 8192);
 }
+
+#[test]
+fn charts_overlap_on_the_maps_of_their_own_tile_alone() {
+    // Charts 0 and 1 lie on each other in the first tile; 2 and 3 lie at the same place of others.
+    let mesh = squares(&[
+        ([0.1, 0.1], 0.5),
+        ([0.1, 0.1], 0.5),
+        ([1.1, 0.1], 0.5),
+        ([2.1, 0.1], 0.5),
+    ]);
+    let overlap = |udim: Udim| {
+        let options = AtlasOptions {
+            udim,
+            ..AtlasOptions::new(64)
+        };
+        let report = Atlas::build(&mesh, &options).unwrap().report;
+        let pairs: Vec<[u32; 2]> = report.overlapping_charts.iter().map(|(a, b, _)| [*a, *b]).collect();
+        (pairs, report.overlap_texels, report.stacked_charts, report.coverage)
+    };
+    // A square of 32 texels along a side.
+    let texels = 32 * 32;
+    let coverage = |squares: f32| 4.0 * texels as f32 / (squares * 4096.0);
+    assert_eq!(overlap(Udim::On), (vec![[0, 1]], 2 * texels, 1, coverage(3.0)));
+    let all = vec![[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    assert_eq!(overlap(Udim::Off), (all, 4 * texels, 3, coverage(1.0)));
+}
+
+#[test]
+fn a_chart_that_reaches_into_the_next_tile_overlaps_what_lies_there() {
+    let overlap = |charts: &[([f32; 2], f32)]| {
+        let options = AtlasOptions {
+            udim: Udim::On,
+            ..AtlasOptions::new(64)
+        };
+        Atlas::build(&squares(charts), &options).unwrap().report
+    };
+    // Half of the first one lies in the second tile, 16 columns of 32 rows.
+    let report = overlap(&[([0.5, 0.25], 0.75), ([1.0, 0.25], 0.5)]);
+    assert_eq!(report.overlapping_charts, [(0, 1, 16 * 32)]);
+    assert_eq!((report.overlap_texels, report.stacked_charts), (2 * 16 * 32, 0));
+    // Beyond the last tile it comes in again in its own one.
+    let report = overlap(&[([0.5, 0.25], 0.75), ([0.0, 0.25], 0.5), ([2.0, 0.25], 0.5)]);
+    assert_eq!(report.overlapping_charts, [(0, 1, 16 * 32)]);
+}
