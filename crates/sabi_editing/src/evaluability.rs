@@ -1,12 +1,12 @@
-//! Edits after which nothing could be evaluated, which are refused.
+//! Edits that would prevent any evaluation. They are refused.
 //!
-//! A fault of a node is reported at that node, and the rest of the graph is still evaluated. A fault of a group instance
+//! A faulty node is reported at that node, and the rest of the graph is still evaluated. A faulty group instance, however,
 //! prevents the evaluation of the whole graph.
 
 use sabi_graph::{Document, Edit, GROUP_KIND, Overrides, Preview, SlotRef, flatten};
 
-/// Returns the reason why nothing could be evaluated after these edits; none if nothing can be evaluated now either. `read`
-/// reads group files by their names.
+/// Returns the reason why the graph could not be evaluated after these edits. Returns `None` if it still could, or if it
+/// cannot be evaluated now either. `read` reads group files by name.
 pub(crate) fn reason_lost_by(
     document: &Document,
     edits: &[Edit],
@@ -16,7 +16,7 @@ pub(crate) fn reason_lost_by(
         return None;
     }
     let mut after = document.clone();
-    // Edits that are refused change nothing.
+    // An edit that is refused changes nothing.
     after.apply(Edit::Batch(edits.to_vec())).ok()?;
     let reason = evaluation_fault(&after, read)?;
     let is_evaluable_now = evaluation_fault(document, read).is_none();
@@ -35,7 +35,7 @@ fn keeps_instances(document: &Document, edit: &Edit) -> bool {
             let variant = |preview: &Option<Preview>| preview.as_ref().and_then(|preview| preview.variant.clone());
             variant(preview) == variant(&document.preview)
         }
-        // Values of a variant that only nodes read are checked by their own range.
+        // A variant that only sets parameters of ordinary nodes cannot break an instance. Such values are checked at their nodes.
         Edit::SetVariant {
             body,
             name,
@@ -64,7 +64,7 @@ fn keeps_instances(document: &Document, edit: &Edit) -> bool {
     }
 }
 
-/// Returns the reason why the graph cannot be evaluated with its own values, or with the variant that is shown.
+/// Returns the reason why the graph cannot be evaluated with its own values, or with the shown variant.
 fn evaluation_fault(document: &Document, read: &mut dyn FnMut(&str) -> Option<Document>) -> Option<String> {
     let mut read = |name: &str| read(name).ok_or_else(|| "it cannot be read; open it to see why".to_owned());
     let (own, shown) = (Overrides::default(), Overrides::of_preview(document));
