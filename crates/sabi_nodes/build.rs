@@ -1,5 +1,5 @@
-//! Includes the files of `shaders/` in release builds. Debug builds read them when they start, so that a changed shader is tried
-//! without compiling anything.
+//! Embeds the files of `shaders/` in release builds. Debug builds read them at program start, so that a changed shader can
+//! be tried without compiling.
 
 use std::path::Path;
 use std::{env, fs, io};

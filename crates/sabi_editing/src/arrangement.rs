@@ -34,7 +34,7 @@ pub enum Axis {
     Vertical,
 }
 
-/// Moves nodes to new positions. The caller begins and ends a step if many moves are one drag.
+/// Moves nodes to new positions. If many moves belong to one drag, the caller begins and ends the undo step.
 pub fn move_nodes(document: &mut OpenDocument, step: &str, places: BTreeMap<NodeId, [f32; 2]>) -> bool {
     let body = document.body();
     let moved = places
@@ -111,7 +111,7 @@ pub fn distribute(document: &mut OpenDocument, along: Axis) -> bool {
         if let Some(pos) = places.get_mut(id) {
             pos[axis] = at;
         }
-        // Nodes that have no room beside each other begin at equal distances.
+        // Nodes that do not fit beside each other get equal distances between their starts instead of equal spaces.
         at += if space < 0.0 {
             (end - begin) / steps
         } else {
@@ -121,7 +121,7 @@ pub fn distribute(document: &mut OpenDocument, along: Axis) -> bool {
     move_nodes(document, "Distribute", places)
 }
 
-/// Moves the selected nodes up or down so that the wires between them are level: each to its first source.
+/// Moves the selected nodes up or down so that wires between them are horizontal: each node is aligned with its first source.
 pub fn straighten(document: &mut OpenDocument) -> bool {
     let mut places = selected_positions(document);
     for id in document.graph().topological_order() {

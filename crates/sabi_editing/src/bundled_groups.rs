@@ -11,10 +11,10 @@ use crate::names::free_name;
 use crate::open_document::OpenDocument;
 use crate::{instances, relative_paths};
 
-/// Most files within one another.
+/// Maximum depth of files that use other files.
 const DEEPEST: usize = 32;
 
-/// A graph file of the library with the groups of all files that it uses, for a document. Its paths are those of that document.
+/// Returns a graph file of the library with the groups of all files that it uses, as one document. Its paths are relative to `document`.
 ///
 /// # Errors
 /// A sentence about the first file that cannot be used.
@@ -32,13 +32,13 @@ pub(crate) fn bundled(document: &OpenDocument, open: &OpenGraph, file: &Path) ->
 struct Bundle<'d> {
     document: &'d OpenDocument,
     groups: BTreeMap<String, GroupDef>,
-    /// Group of each file that was read.
+    /// Name of the group made from each file that was read.
     files: BTreeMap<PathBuf, String>,
 }
 
 impl Bundle<'_> {
-    /// A graph whose instances name groups of the bundle, to which its own groups and files are added. `within` are the files
-    /// that it is read for, outermost first.
+    /// Returns a graph whose instances refer to groups of the bundle, and adds its own groups and files to the bundle.
+    /// `within` lists the files through which it was reached, outermost first.
     fn with_inner_groups(&mut self, open: &OpenGraph, within: &[PathBuf]) -> Result<Document, String> {
         let other = relative_paths::relocated(self.document, &open.document, open.folder());
         let mut names = BTreeMap::new();
@@ -64,7 +64,7 @@ impl Bundle<'_> {
         Ok(renamed)
     }
 
-    /// Adds the graph of a file, named as the document would name it, and returns its group.
+    /// Adds the graph of a file under a name that is free in the document, and returns the name of its group.
     fn add_file(&mut self, named: &str, within: &[PathBuf]) -> Result<String, String> {
         let path = self.document.session.graph().folder().join(named);
         let path = canonical(&path).unwrap_or(path);
@@ -89,7 +89,7 @@ impl Bundle<'_> {
     }
 }
 
-/// Name of a group in a document that uses the group of a library file.
+/// Returns the name that a library file's group gets in a document.
 pub(crate) fn group_name(library: &Document, file: &Path) -> String {
     if library.name.is_empty() {
         let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -98,7 +98,7 @@ pub(crate) fn group_name(library: &Document, file: &Path) -> String {
     library.name.clone()
 }
 
-/// The graph of a document as a group of another one.
+/// Converts the graph of a document to a group of another document.
 pub(crate) fn as_group(document: &Document) -> GroupDef {
     GroupDef {
         name: None,

@@ -11,15 +11,15 @@ use crate::open_document::OpenDocument;
 use crate::painting::{PAINT, STROKES as STROKES_OF_NODE};
 use crate::{duplication, group_import, nodes, relative_paths};
 
-/// Key of the folder that the relative paths of a copy begin at.
+/// Key for the folder to which the relative paths of a copy refer.
 const FROM: &str = "folder";
 
-/// Key of the file that the strokes of copied paint nodes lie beside.
+/// Key for the file beside which the strokes of copied paint nodes are stored.
 const STROKES: &str = "strokes_beside";
 
-/// Text of a graph file with the selected nodes, the groups that they are instances of, and the frames around them; none if
-/// nothing is selected. The text names the folder that its relative paths begin at, so that they can be converted on paste, and
-/// the file that its strokes lie beside.
+/// Returns the text of a graph file with the selected nodes, the groups that they use, and the frames around them; `None`
+/// if nothing is selected. The text also names the folder to which its relative paths refer, so that paste can convert
+/// them, and the file beside which its strokes are stored.
 pub fn copy(document: &OpenDocument) -> Option<String> {
     if document.selection().is_empty() {
         return None;
@@ -30,7 +30,7 @@ pub fn copy(document: &OpenDocument) -> Option<String> {
         .iter()
         .filter_map(|id| document.node(id)?.group.clone());
     let needed = group_import::needed(document.contents(), named);
-    // A group can be added once the groups inside it exist, which therefore come first.
+    // A group can be added only after the groups inside it, so those come first.
     for name in group_import::in_order(document.contents(), &needed) {
         copy.apply(Edit::AddGroup {
             group: Box::new(document.contents().groups[&name].clone()),
@@ -63,7 +63,7 @@ pub fn copy(document: &OpenDocument) -> Option<String> {
     Some(copy.to_json())
 }
 
-/// Returns true if a paint node of a graph or of its groups has strokes.
+/// Returns true if a paint node in the graph or in one of its groups has strokes.
 fn has_strokes(copy: &Document) -> bool {
     let groups = copy.groups.values().map(|group| &group.graph);
     let mut nodes = std::iter::once(&copy.graph)
@@ -72,8 +72,8 @@ fn has_strokes(copy: &Document) -> bool {
     nodes.any(|(_, node)| node.kind == PAINT && node.params.contains_key(STROKES_OF_NODE))
 }
 
-/// Copied document with its paths converted to the folder of this document. Paths stay as they are if the folder that they
-/// begin at does not exist, as on another machine.
+/// Returns the copied document with its paths converted to the folder of this document. Paths stay unchanged if their
+/// folder does not exist, for example after copying from another computer.
 fn with_paths_from_here(document: &OpenDocument, copied: Document) -> Document {
     let from = copied
         .extra
@@ -125,14 +125,14 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
         .and_then(Value::as_text)
         .and_then(path_from_stored);
     if let Some(place) = place.filter(|_| is_added) {
-        // A refusal of the disk is told with the next stroke, or when the graph is saved.
+        // If the disk refuses this, it is reported with the next stroke, or when the graph is saved.
         let _ = document.session.take_strokes_beside(&place);
     }
     is_added
 }
 
-/// First group that these nodes use and that contains the shown group, with the name of the shown group. Among imported
-/// groups, only those that existed in this document already can contain it.
+/// Returns the first group that these nodes use and that contains the shown group, with the name of the shown group. Of
+/// imported groups, only those that existed in this document before can contain it.
 fn first_containing_shown(
     document: &OpenDocument,
     nodes: &BTreeMap<NodeId, Node>,

@@ -1,4 +1,4 @@
-//! Edits as data: everything that an artist can do to the open document, and the one place where it is done.
+//! Edits as data: everything that an artist can do to the open document.
 
 mod node_commands;
 mod perform;
@@ -57,7 +57,7 @@ pub enum EditCommand {
     Paint(PaintCommand),
 }
 
-/// Makes a command of each group an [`EditCommand`].
+/// Implements the conversion of each group of commands to an [`EditCommand`].
 macro_rules! groups {
     ($($group:ident: $command:ident,)*) => {
         $(impl From<$command> for EditCommand {
@@ -88,16 +88,16 @@ groups! {
     Paint: PaintCommand,
 }
 
-/// Result of a command. The reason of a refusal is among the document's notices.
+/// Result of a command. If it was refused, the reason is among the document's notices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// The command was refused, or there was nothing to change.
     Unchanged,
     /// The command was carried out.
     Done,
-    /// A node was added, or took the place of another one.
+    /// A node was added, or replaced another one.
     Added(NodeId),
-    /// Nodes were copied as this text, which belongs on the clipboard.
+    /// Nodes were copied as this text, which the caller puts on the clipboard.
     Copied(String),
     /// A file was written.
     Saved(PathBuf),
@@ -109,34 +109,34 @@ impl From<bool> for Outcome {
     }
 }
 
-/// Change of what is painted.
+/// Change of painted strokes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PaintCommand {
-    /// Replace what a paint node has on a model by what it had before, and a stroke on top of that.
+    /// Replace the strokes of a paint node on a model by its earlier strokes plus this stroke on top.
     Stroke {
         /// Paint node.
         node: NodeId,
         /// Name of the model's file without its ending.
         model: String,
-        /// Versions of its strokes before the stroke.
+        /// Version of its strokes before the stroke.
         before: String,
         /// The stroke.
         stroke: Arc<Stroke>,
     },
-    /// Take steps in the strokes of a paint node on a model, as one step of the history.
+    /// Apply several changes to the strokes of a paint node on a model, as one undo step.
     Steps {
         /// Paint node.
         node: NodeId,
         /// Name of the model's file without its ending.
         model: String,
-        /// Versions of its strokes before the steps.
+        /// Version of its strokes before the changes.
         before: String,
-        /// Name of the step in the history.
+        /// Name of the undo step.
         title: String,
-        /// The steps.
+        /// The changes.
         steps: Vec<Step>,
     },
-    /// Put a paint node behind a mask and select it, or select a paint node.
+    /// Add a paint node on top of a mask and select it. A paint node is only selected.
     Over(NodeId),
 }
 
@@ -147,7 +147,7 @@ pub enum HistoryCommand {
     Undo,
     /// Redo the last step that was undone.
     Redo,
-    /// Begin a step of this name: everything until its end is undone at once.
+    /// Begin an undo step with this name: all edits until its end are undone together.
     Begin(String),
     /// End the step that was begun.
     End,
@@ -181,7 +181,7 @@ pub enum NavigationCommand {
     Leave,
     /// Leave groups until this many instances are entered.
     LeaveTo(usize),
-    /// Select a node in the graph that it is in, by its id in the evaluation.
+    /// Select a node by its id in the evaluation, and show the graph that contains it.
     GoTo(String),
 }
 
@@ -190,11 +190,11 @@ pub enum NavigationCommand {
 pub enum WireCommand {
     /// Connect an output to an input.
     Connect {
-        /// Output that is read.
+        /// Output that the wire starts at.
         from: OutputRef,
-        /// Input that reads it.
+        /// Input that the wire leads to.
         to: SlotRef,
-        /// Input that the wire is taken from.
+        /// Input from which the wire was taken.
         off: Option<SlotRef>,
     },
     /// Connect a second output to an input that is connected already.
@@ -224,7 +224,7 @@ pub enum WireCommand {
         /// Center of the reroute, canvas points.
         place: [f32; 2],
     },
-    /// Disconnect the selected nodes, and connect what they were between.
+    /// Disconnect the selected nodes, and connect the nodes before them to the nodes behind them.
     DetachSelected,
     /// Swap the first two inputs of the same type of each selected node.
     SwapInputs,
@@ -289,18 +289,18 @@ pub enum ClipboardCommand {
     },
 }
 
-/// Change of what holds for the whole document.
+/// Change of a setting of the whole document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DocumentCommand {
-    /// Set the texels along a side of a texture while working.
+    /// Set the size in texels of the textures that are used while editing.
     SetSize(u32),
     /// Set the length that counts as 1.
     SetFit(Fit),
-    /// Set the seed that all nodes' seeds are combined with.
+    /// Set the seed that is combined with the seeds of all nodes.
     SetSeed(u32),
-    /// Keep a view of the model by a name, or replace the one of that name.
+    /// Save a view of the model under a name. An existing view with that name is replaced.
     KeepView(String, SavedView),
-    /// Forget the view of that name.
+    /// Delete a saved view.
     ForgetView(String),
 }
 

@@ -43,7 +43,7 @@ pub fn neighbors(document: &OpenDocument, id: &NodeId, is_upstream: bool) -> Vec
     inputs.into_iter().flatten().map(|from| from.node.clone()).collect()
 }
 
-/// Checks that both ends of a wire exist and that the input accepts the type of the result. The error gives the reason.
+/// Checks that both ends of a wire exist and that the input accepts the type of the result. The error is the reason why not.
 pub(crate) fn check_type(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<(), String> {
     let Some(input) = input(document, to) else {
         return Err(format!("'{}' has no input '{}'", document.title(&to.node), to.name));
@@ -71,7 +71,7 @@ pub(crate) fn check_type(document: &OpenDocument, from: &OutputRef, to: &SlotRef
             _ => Ok(()),
         };
     }
-    // A reroute accepts what all its readers accept.
+    // A reroute accepts only what all its readers accept.
     match inputs_behind_reroutes(document, &to.node)
         .into_iter()
         .find(|(_, takes)| !takes.accepts(carried))
@@ -85,7 +85,7 @@ fn is_reroute(document: &OpenDocument, id: &NodeId) -> bool {
     document.node(id).is_some_and(|node| node.kind == REROUTE_KIND)
 }
 
-/// Inputs that a reroute leads to through further reroutes, as labels with the accepted types.
+/// Lists the inputs that a reroute leads to, also through further reroutes, as labels with the accepted types.
 fn inputs_behind_reroutes(document: &OpenDocument, id: &NodeId) -> Vec<(String, PortType)> {
     let mut found = Vec::new();
     let mut seen = BTreeSet::from([id.clone()]);
@@ -147,8 +147,8 @@ pub(crate) fn disconnecting(document: &OpenDocument, slot: &SlotRef) -> Edit {
     }
 }
 
-/// Edit that gives a parameter its first value, since a wire into this input would show nothing without it; none where the
-/// parameter has a value already, or the input has no such parameter.
+/// Returns an edit that gives the parameter of this input its first value, since the wire would otherwise have no visible
+/// effect. Returns `None` if the parameter has a value already, or the input has no such parameter.
 pub(crate) fn starting(document: &OpenDocument, connected: &Edit, face: &Entry) -> Option<Edit> {
     let Edit::Connect { body, node, input, .. } = connected else {
         return None;
@@ -163,7 +163,8 @@ pub(crate) fn starting(document: &OpenDocument, connected: &Edit, face: &Entry) 
     })
 }
 
-/// Edit that connects a pending wire to the first port of a node that fits; none if none does. The node need not exist yet.
+/// Returns an edit that connects a pending wire to the first port of a node that fits; `None` if no port fits. The node
+/// need not exist yet.
 pub(crate) fn connecting_pending(
     document: &OpenDocument,
     pending: &PendingWire,

@@ -1,5 +1,5 @@
-//! Ports and knobs of the nodes of a document, listed again only after edits that may change them, which a move of a slider
-//! does not.
+//! Ports and knobs of the nodes of a document. They are listed again only after edits that may change them, which moving a
+//! slider does not.
 
 use sabi_engine::Session;
 use sabi_engine::catalog::{Catalog, Faces, ReadGroup};
@@ -9,19 +9,19 @@ use sabi_graph::{Body, Document, Edit, SlotRef};
 #[derive(Default)]
 pub(crate) struct CurrentFaces {
     pub(crate) faces: Faces,
-    /// Revisions of document and kinds that they belong to; none where files have changed since.
+    /// Revisions of the document and of the kinds when they were listed; `None` if files have changed since.
     of: Option<(u64, u64)>,
-    /// Rises each time they are listed; no other open document has the same.
+    /// Increases each time they are listed. The numbers of different open documents are always different.
     pub(crate) number: u64,
 }
 
 impl CurrentFaces {
-    /// Has them listed again, since files that the graph names have changed.
+    /// Lets the next refresh list everything again, since files that the graph refers to have changed.
     pub(crate) fn look_again(&mut self) {
         self.of = None;
     }
 
-    /// Follows the document and the kinds. Returns whether ports and knobs of any node may have changed.
+    /// Lists ports and knobs again if the document or the kinds have changed. Returns whether those of any node may have changed.
     pub(crate) fn refresh(
         &mut self,
         session: &Session,
@@ -41,7 +41,7 @@ impl CurrentFaces {
             FaceChange::Whole => self.faces.refresh_whole(document),
             FaceChange::Any => {
                 self.faces = Faces::new(catalog, document, read);
-                // Revisions of a session are unique in the process, so this is, too.
+                // Revisions of a session are unique in the process, so this number is unique, too.
                 self.number = session.revision().max(self.number + 1);
             }
         }
@@ -50,10 +50,10 @@ impl CurrentFaces {
     }
 }
 
-/// Effect of an edit on the ports and knobs of nodes; of two edits the larger one counts.
+/// Effect of an edit on the ports and knobs of nodes. For two edits, the larger effect counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum FaceChange {
-    /// Nothing.
+    /// No effect.
     None,
     /// Defaults of the published knobs of the main graph, for files that use it as a group.
     Whole,
@@ -62,7 +62,7 @@ enum FaceChange {
 }
 
 impl FaceChange {
-    /// Effect of edits that `document` has already.
+    /// Returns the effect of edits that were already applied to `document`.
     fn of(document: &Document, edits: &[Edit]) -> FaceChange {
         let changes = edits.iter().map(|edit| FaceChange::of_one(document, edit));
         changes.max().unwrap_or(FaceChange::None)

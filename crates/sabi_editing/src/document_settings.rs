@@ -4,13 +4,13 @@ use sabi_graph::{Edit, Fit, Preview, SavedView};
 
 use crate::open_document::OpenDocument;
 
-/// Sets the texels along a side of a texture while the graph is edited.
+/// Sets the size in texels of the textures that are used while the graph is edited.
 pub fn set_size(document: &mut OpenDocument, size: u32) -> bool {
     let edit = changed_preview(document, |preview| preview.size = Some(size));
     document.edit(&format!("Work at {size} texels"), vec![edit])
 }
 
-/// Keeps a view of the model by a name.
+/// Saves a view of the model under a name.
 pub fn keep_view(document: &mut OpenDocument, name: String, view: SavedView) -> bool {
     let step = format!("Save view '{name}'");
     let edit = changed_preview(document, |preview| {
@@ -19,7 +19,7 @@ pub fn keep_view(document: &mut OpenDocument, name: String, view: SavedView) -> 
     document.edit(&step, vec![edit])
 }
 
-/// Forgets a view of the model.
+/// Deletes a saved view of the model.
 pub fn forget_view(document: &mut OpenDocument, name: &str) -> bool {
     let edit = changed_preview(document, |preview| {
         preview.views.remove(name);
@@ -27,9 +27,9 @@ pub fn forget_view(document: &mut OpenDocument, name: &str) -> bool {
     document.edit(&format!("Delete view '{name}'"), vec![edit])
 }
 
-/// Edit that changes settings of the preview, and leaves the others.
+/// Returns an edit that changes some settings of the preview and keeps the others.
 pub fn changed_preview(document: &OpenDocument, change: impl FnOnce(&mut Preview)) -> Edit {
-    // A document without preview settings sets none of the others.
+    // A document without preview settings has defaults for all of them.
     let mut preview = document.contents().preview.clone().unwrap_or_default();
     change(&mut preview);
     Edit::SetPreview { preview: Some(preview) }

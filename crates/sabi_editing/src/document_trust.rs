@@ -4,17 +4,17 @@ use std::path::{Path, PathBuf};
 
 use sabi_engine::{Kinds, TrustedPaths};
 
-/// Trust that belongs to the open document and not to its session.
+/// Trust that belongs to the open document, not to its session.
 #[derive(Default)]
 pub(crate) struct Trust {
-    /// Files that the user chose since they were last taken.
+    /// Files that the user has chosen since this list was last taken.
     pub(crate) chosen: Vec<PathBuf>,
-    /// Paths below which node files may lie beside the document; `None` for all places.
+    /// Paths below which node files beside the document are trusted; `None` means all places.
     pub(crate) nodes: Option<TrustedPaths>,
 }
 
 impl Trust {
-    /// Folders of node files for a graph file, as far as they are trusted.
+    /// Returns the trusted folders of node files for a graph file.
     pub(crate) fn node_folders(&self, graph: Option<&Path>) -> Vec<PathBuf> {
         let mut folders = Kinds::folders(graph);
         if graph.is_some() && folders.last().is_some_and(|beside| !self.allows_nodes(beside)) {

@@ -10,7 +10,7 @@ use crate::open_document::OpenDocument;
 use crate::stack::{StackEnd, main_input};
 use crate::{connections, layers, nodes, stack, wires};
 
-/// Kind of an output, of the model's own material, and of the layer that carries its normal map.
+/// Kinds of an output, of the model's own material, and of the layer that adds its normal map.
 const OUTPUT: &str = "output/material";
 const OWN_MATERIAL: &str = "source/model";
 pub(crate) const LAYER: &str = "effect/layer";
@@ -20,17 +20,17 @@ const BESIDE: f32 = 60.0;
 /// Material of the model at the place where a layer is dropped.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum DroppedOn {
-    /// The material that an output of the shown graph gives.
+    /// The material of an output of the shown graph.
     Output(StackEnd),
-    /// A material of this name, which no output gives.
+    /// A material with this name, for which no output exists.
     Material(String),
     /// No place of the model was hit, or its output is not in the shown graph.
     #[default]
     Unknown,
 }
 
-/// Adds a node of a kind, or an instance of a group, over all layers of the material at a place of the model. Where nothing
-/// below has the model's normal map although the model has one there, a layer with it is added, too.
+/// Adds a node of a kind, or an instance of a group, above all layers of the material at a place of the model. If the model
+/// has a normal map there that no layer below uses, a layer with the normal map is added, too.
 pub(crate) fn on_model(
     document: &mut OpenDocument,
     (kind, group): (&str, Option<&str>),
@@ -42,7 +42,7 @@ pub(crate) fn on_model(
     let Some(below) = stack.layers.first().map(|layer| layer.node.clone()) else {
         let id = add(document, &end, 0, kind, group)?;
         let needs = document.face(&id).and_then(|face| main_input(face));
-        // Groups without a material below take the model's own, unless they say otherwise.
+        // A group without a material below uses the model's own material, unless its input says otherwise.
         if needs.is_some_and(|input| group.is_none() || input.is_required) {
             layers::add(document, &end, 1, OWN_MATERIAL)?;
         }
@@ -57,7 +57,7 @@ pub(crate) fn on_model(
     add(document, &end, 0, kind, group)
 }
 
-/// Adds a node of a kind, or an instance of a group, over the material that a node gives, or that an output gets.
+/// Adds a node of a kind, or an instance of a group, on top of the material that a node outputs or that an output receives.
 pub(crate) fn on_node(
     document: &mut OpenDocument,
     (kind, group): (&str, Option<&str>),
@@ -70,7 +70,7 @@ pub(crate) fn on_node(
     }
 }
 
-/// Returns whether a node or group with these ports can lie as a layer on the material of a node.
+/// Returns whether a node or group with these ports can be a layer on top of a node's material.
 pub fn can_lie_on(document: &OpenDocument, face: &Entry, node: &NodeId) -> bool {
     let gives = |face: &Entry| face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
     let Some(under) = document.face(node) else {
@@ -87,14 +87,14 @@ fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str, group
     }
 }
 
-/// Output of the stack that a dropped layer is for. One is added for a material without one.
+/// Returns the output of the stack to which a dropped layer is added. An output is added for a material that has none.
 fn end_at(document: &mut OpenDocument, place: &DroppedOn) -> Option<StackEnd> {
     let ends: Vec<StackEnd> = stack::all(document).into_iter().map(|stack| stack.end).collect();
     match (place, ends.as_slice()) {
         (DroppedOn::Output(end), _) if ends.contains(end) => Some(end.clone()),
         (DroppedOn::Material(name), _) if *document.shown() == Body::Main => {
             let id = nodes::add(document, OUTPUT, place_of_output(document), None)?;
-            // The only output is for all materials.
+            // A single output applies to all materials.
             if !ends.is_empty() {
                 nodes::set_knob(document, &id, "materials", Some(Value::Text(name.clone())));
             }
@@ -124,7 +124,7 @@ fn place_of_output(document: &OpenDocument) -> [f32; 2] {
     right.map_or([0.0; 2], |[x, y]| [x + 2.0 * (NODE_WIDTH + BESIDE), y])
 }
 
-/// Returns whether the result of a node depends on the model's own material, which has its normal map.
+/// Returns whether the result of a node depends on the model's own material, which includes its normal map.
 fn has_own_material(document: &OpenDocument, id: &NodeId) -> bool {
     let mut seen = BTreeSet::from([id.clone()]);
     let mut next = vec![id.clone()];
@@ -140,7 +140,7 @@ fn has_own_material(document: &OpenDocument, id: &NodeId) -> bool {
     false
 }
 
-/// Returns whether a group, or one in it, has a node with the model's own material.
+/// Returns whether a group, or a group inside it, contains a node with the model's own material.
 fn is_in_group(document: &Document, group: &str) -> bool {
     let mut seen = BTreeSet::from([group]);
     let mut next = vec![group];
@@ -160,7 +160,7 @@ fn is_in_group(document: &Document, group: &str) -> bool {
     false
 }
 
-/// Adds a layer over all others that has the model's normal map and changes nothing else.
+/// Adds a layer on top that adds the model's normal map and changes nothing else.
 fn add_normal_map(document: &mut OpenDocument, end: &StackEnd) -> Option<NodeId> {
     let layer = layers::add(document, end, 0, LAYER)?;
     let face = document.face(&layer).cloned()?;

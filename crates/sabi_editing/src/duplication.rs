@@ -28,7 +28,7 @@ impl Copies {
 pub(crate) fn frames_around(graph: &Graph, is_chosen: impl Fn(&NodeId) -> bool) -> BTreeMap<String, Frame> {
     let frames = graph.frames().iter();
     let whole = frames.filter(|(_, frame)| {
-        // A frame may name nodes that do not exist any more.
+        // A frame may list nodes that no longer exist.
         let mut there = frame
             .nodes
             .iter()
@@ -39,7 +39,7 @@ pub(crate) fn frames_around(graph: &Graph, is_chosen: impl Fn(&NodeId) -> bool) 
     whole.map(|(id, frame)| (id.clone(), frame.clone())).collect()
 }
 
-/// Copies the selected nodes with the wires between them; with `keeps_inputs` also the wires from other nodes.
+/// Copies the selected nodes with the wires between them. If `keeps_inputs` is true, wires from other nodes are copied, too.
 pub fn duplicate(document: &mut OpenDocument, keeps_inputs: bool) -> bool {
     let chosen = document
         .selection()
@@ -109,7 +109,7 @@ fn copied_frames(
     copied
 }
 
-/// Applies these edits, adds the copies and selects them, as one undo step.
+/// Applies these edits, adds the copies and selects them, all as one undo step.
 pub(crate) fn add_all(document: &mut OpenDocument, step: &str, mut edits: Vec<Edit>, copies: Copies) -> bool {
     let ids = copies.ids();
     edits.extend(additions(document, copies));

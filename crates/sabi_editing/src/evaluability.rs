@@ -1,6 +1,6 @@
-//! Edits after which nothing could be evaluated, which are refused.
+//! Edits that would prevent any evaluation. They are refused.
 //!
-//! A fault of a node is reported at that node, and the rest of the graph is still evaluated. A fault of a group instance
+//! A faulty node is reported at that node, and the rest of the graph is still evaluated. A faulty group instance, however,
 //! prevents the evaluation of the whole graph.
 
 use std::sync::Arc;
@@ -10,14 +10,14 @@ use sabi_graph::{Document, Edit, GROUP_KIND, Node, Overrides, Preview, SlotRef, 
 /// Reads a group file by its name; none if it cannot be read.
 type ReadShared<'a> = &'a mut dyn FnMut(&str) -> Option<Arc<Document>>;
 
-/// Returns the reason why nothing could be evaluated after these edits; none if nothing can be evaluated now either. `read`
-/// reads group files by their names.
+/// Returns the reason why the graph could not be evaluated after these edits. Returns `None` if it still could, or if it
+/// cannot be evaluated now either. `read` reads group files by name.
 pub(crate) fn reason_lost_by(document: &Document, edits: &[Edit], read: ReadShared<'_>) -> Option<String> {
     if edits.iter().all(|edit| keeps_instances(document, edit, read)) {
         return None;
     }
     let mut after = document.clone();
-    // Edits that are refused change nothing.
+    // An edit that is refused changes nothing.
     after.apply(Edit::Batch(edits.to_vec())).ok()?;
     let reason = evaluation_fault(&after, read)?;
     let is_evaluable_now = evaluation_fault(document, read).is_none();
@@ -41,7 +41,7 @@ fn keeps_instances(document: &Document, edit: &Edit, read: ReadShared<'_>) -> bo
             let variant = |preview: &Option<Preview>| preview.as_ref().and_then(|preview| preview.variant.clone());
             variant(preview) == variant(&document.preview)
         }
-        // Values of a variant that only nodes read are checked by their own range.
+        // A variant that only sets parameters of ordinary nodes cannot break an instance. Such values are checked at their nodes.
         Edit::SetVariant {
             body,
             name,

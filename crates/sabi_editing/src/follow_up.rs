@@ -1,8 +1,7 @@
-//! Edits that follow from other edits: group instances keep up with what their group publishes, and frames that lose their
-//! last node are removed.
+//! Edits that follow from other edits: group instances are adapted to changes of what their group publishes, and frames
+//! that lose their last node are removed.
 //!
-//! An instance that named an input, an output or a knob which its group does not publish would make the whole graph
-//! impossible to evaluate.
+//! An instance that refers to an input, output or knob that its group does not publish would prevent the evaluation of the whole graph.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,21 +9,21 @@ use sabi_graph::{Body, Document, Edit, Frame, Graph, GroupDef, GroupInput, Node,
 
 use crate::instances::{bodies, instances, ports};
 
-/// Adds to edits of the shown graph those that follow from them.
+/// Adds the edits that follow from these edits of the shown graph.
 pub(crate) fn completed(document: &Document, shown: &Body, mut edits: Vec<Edit>) -> Vec<Edit> {
     let removals = emptied_frames(document, shown, &edits);
     edits.extend(removals);
     with_instances(document, edits)
 }
 
-/// Removals of frames of the shown graph that edits leave without a node: they would be invisible.
+/// Returns removals of the frames that these edits leave without a node. Such frames would be invisible.
 fn emptied_frames(document: &Document, shown: &Body, edits: &[Edit]) -> Vec<Edit> {
     let Ok(graph) = document.body(shown) else {
         return Vec::new();
     };
     let exists = |id: &NodeId| graph.node(id.as_str()).is_some();
     let (mut removed, mut added) = (BTreeSet::new(), BTreeSet::new());
-    // Frames that the edits change (`Some`) or remove themselves (`None`).
+    // Frames that the edits themselves change (`Some`) or remove (`None`).
     let mut changed: BTreeMap<&String, Option<&Frame>> = BTreeMap::new();
     for edit in edits {
         match edit {
@@ -60,7 +59,7 @@ fn emptied_frames(document: &Document, shown: &Body, edits: &[Edit]) -> Vec<Edit
     emptied.map(|(id, _)| remove(id)).collect()
 }
 
-/// Adds the edits by which instances keep up with the groups that these edits change.
+/// Adds the edits that adapt instances to changes of their groups.
 fn with_instances(document: &Document, mut edits: Vec<Edit>) -> Vec<Edit> {
     let mut changed = changed_groups(&edits);
     if changed.is_empty() {
@@ -68,10 +67,11 @@ fn with_instances(document: &Document, mut edits: Vec<Edit>) -> Vec<Edit> {
     }
     let mut after = document.clone();
     if after.apply(Edit::Batch(edits.clone())).is_err() {
-        // The session refuses it as well, with the reason.
+        // The edits are invalid. The session will refuse them and give the reason.
         return edits;
     }
-    // What changes in a group may in turn be published by it; nesting is no deeper than the number of groups.
+    // A group may publish parts of a changed group inside it, so the changes can propagate. They do so at most as often as
+    // there are groups.
     for _ in 0..=document.groups.len() {
         let follows = following(document, &after, &changed);
         changed = changed_groups(&follows);
@@ -107,7 +107,7 @@ fn changed_groups(edits: &[Edit]) -> BTreeSet<String> {
     changed
 }
 
-/// Edits that adapt all instances of the changed groups, and what refers to those.
+/// Returns edits that adapt all instances of the changed groups, and all references to those instances.
 fn following(before: &Document, after: &Document, changed: &BTreeSet<String>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for name in changed {
@@ -142,7 +142,7 @@ fn following(before: &Document, after: &Document, changed: &BTreeSet<String>) ->
     edits
 }
 
-/// A group before and after the edits. A name that it did not publish before was broken already and stays as it is.
+/// A group before and after the edits. A reference to a name that it did not publish before was broken already and is not changed.
 struct Change<'a> {
     was: &'a GroupDef,
     is: &'a GroupDef,
@@ -163,7 +163,7 @@ impl Change<'_> {
         was && !is
     }
 
-    /// Change of a wire from an instance: none, a wire from another output, or (`Some(None)`) its removal.
+    /// Returns the change of a wire from an instance: `None` for no change, another output, or `Some(None)` if the wire is removed.
     fn output(&self, from: &OutputRef) -> Option<Option<OutputRef>> {
         let is_there = |name: &str| self.is.outputs.contains_key(name);
         match from.port.as_deref() {
@@ -229,7 +229,7 @@ impl Instance<'_> {
     }
 }
 
-/// A graph that contains instances of a changed group, with what it publishes of them.
+/// A graph that contains instances of a changed group, and the parts of those instances that it publishes.
 struct Published<'a> {
     document: &'a Document,
     body: &'a Body,

@@ -10,9 +10,9 @@ use crate::open_document::OpenDocument;
 pub const FRAME_AROUND: f32 = 20.0;
 /// Height of a frame's title bar, canvas points.
 pub const FRAME_STRIP: f32 = 30.0;
-/// Sentence about a frame that does not exist.
+/// Error about a frame that does not exist.
 const GONE: &str = "this frame does not exist any more";
-/// Colors that frames take in turn.
+/// Colors that new frames get in turn.
 const COLORS: [&str; 6] = ["#4a5a6a", "#6a5a3c", "#4c6650", "#6a4a4a", "#5a4a6a", "#3c6266"];
 
 /// Adds a frame around the selected nodes.
@@ -33,7 +33,7 @@ pub fn add(document: &mut OpenDocument) -> bool {
     set(document, "Frame", id.as_str(), frame)
 }
 
-/// Ids of the frames of the shown graph, as far as they are valid ids of nodes.
+/// Returns the ids of the frames of the shown graph that are valid ids of nodes.
 pub(crate) fn ids(document: &OpenDocument) -> BTreeSet<NodeId> {
     let frames = document.graph().frames().keys();
     frames.filter_map(|id| id.parse().ok()).collect()
@@ -55,7 +55,7 @@ pub fn assign(document: &mut OpenDocument, nodes: &BTreeSet<NodeId>, id: Option<
         changed.nodes.retain(|node| !nodes.contains(node));
         if Some(known.as_str()) == id {
             changed.nodes.extend(nodes.iter().cloned());
-            // Nodes that are all in the frame already keep their order.
+            // If all nodes are in the frame already, their order is kept.
             if nodes.iter().all(|node| frame.nodes.contains(node)) {
                 continue;
             }
@@ -110,7 +110,7 @@ pub fn remove(document: &mut OpenDocument, id: &str) -> bool {
     document.edit("Delete frame", vec![edit])
 }
 
-/// The color after the one that a frame has.
+/// Returns the color that follows a frame's color in the palette.
 pub(crate) fn next_color(color: Option<&str>) -> String {
     let at = COLORS.iter().position(|known| Some(*known) == color);
     COLORS[at.map_or(0, |at| (at + 1) % COLORS.len())].to_owned()

@@ -9,7 +9,7 @@ use std::time::SystemTime;
 use sabi_engine::{OpenGraph, PathBase, TrustedPaths, Unread};
 use sabi_graph::Document;
 
-/// Length and modification time of a file; none if it does not exist.
+/// Length and modification time of a file; `None` if it does not exist.
 type Stamp = Option<(u64, SystemTime)>;
 
 #[derive(Default)]
@@ -18,12 +18,12 @@ pub(crate) struct GroupFiles {
 }
 
 impl GroupFiles {
-    /// Drops these files from the cache, even if their length and time are the same.
+    /// Removes these files from the cache, even if their length and time have not changed.
     pub(crate) fn look_again(&mut self, files: &BTreeSet<PathBuf>) {
         self.known.retain(|file, _| !files.contains(file));
     }
 
-    /// Returns a reader of the files that a graph names.
+    /// Returns a function that reads the files that a graph refers to.
     pub(crate) fn reader<'a>(&'a mut self, graph: &'a OpenGraph) -> impl FnMut(&str) -> Option<Document> + 'a {
         let base = graph.base();
         move |written| self.read(&base, &graph.trusted, written).map(Arc::unwrap_or_clone)
@@ -38,14 +38,14 @@ impl GroupFiles {
         move |written| self.read(&base, &graph.trusted, written)
     }
 
-    /// Returns a graph file that a file of the base names; none if it cannot be read or may not be opened, which the evaluation
-    /// reports.
+    /// Reads a graph file to which a file of the base refers. Returns `None` if it cannot be read or may not be opened,
+    /// which the evaluation reports.
     pub(crate) fn read(&mut self, base: &PathBase, trusted: &TrustedPaths, written: &str) -> Option<Arc<Document>> {
         if matches!(trusted.check(base, written), Err(Unread::Refused(_))) {
             return None;
         }
         let path = &base.resolve(written);
-        // Before the file is read, so that a file that is saved meanwhile counts as changed next time.
+        // Taken before the file is read, so that a file that is saved in the meantime counts as changed the next time.
         let stamp = stamp(path);
         if let Some((known, document)) = self.known.get(path)
             && *known == stamp

@@ -1,5 +1,5 @@
-//! Import of groups from another document. A group that exists here with the same content is used as it is; one that only
-//! has the same name is imported under another name.
+//! Import of groups from another document. A group that exists here with the same content is reused. If only the name is
+//! the same, the group is imported under another name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,7 +38,7 @@ fn group_of(node: &Node) -> Option<&String> {
     node.group.as_ref().filter(|_| node.kind == GROUP_KIND)
 }
 
-/// Groups with these names and all groups that those contain, as far as the document has them.
+/// Returns the groups with these names and all groups inside them, if the document has them.
 pub(crate) fn needed(document: &Document, names: impl IntoIterator<Item = String>) -> BTreeSet<String> {
     let mut needed = BTreeSet::new();
     let mut next: Vec<String> = names.into_iter().collect();
@@ -53,8 +53,8 @@ pub(crate) fn needed(document: &Document, names: impl IntoIterator<Item = String
     needed
 }
 
-/// Some of a document's groups, each after those that it contains. Groups that contain themselves, which cannot be
-/// evaluated, are left out together with the groups that contain them.
+/// Sorts some of a document's groups so that each comes after the groups that it contains. Groups that contain themselves
+/// cannot be evaluated and are left out, together with the groups that contain them.
 pub(crate) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<String> {
     let mut ordered: Vec<String> = Vec::new();
     let mut rest: Vec<&String> = some.iter().collect();
@@ -75,7 +75,7 @@ pub(crate) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<Stri
     }
 }
 
-/// Returns the edits that add the groups which nodes of another document need, and the names of these groups here.
+/// Returns the edits that add the groups that nodes of another document need, and the names of these groups in this document.
 pub(crate) fn import_groups(document: &Document, other: &Document, nodes: &BTreeMap<NodeId, Node>) -> ImportedGroups {
     let mut imported = ImportedGroups {
         edits: Vec::new(),
@@ -83,7 +83,7 @@ pub(crate) fn import_groups(document: &Document, other: &Document, nodes: &BTree
         used: BTreeSet::new(),
     };
     let needed = needed(other, nodes.values().filter_map(|node| group_of(node).cloned()));
-    // This document with the groups that were imported so far.
+    // A copy of this document to which the groups imported so far are added.
     let mut here = document.clone();
     for name in in_order(other, &needed) {
         let edits = |free: &str| group_edits(free, &other.groups[&name], &imported);

@@ -35,7 +35,7 @@ pub fn rename_graph(document: &mut OpenDocument, to: &str) -> bool {
     }
 }
 
-/// Renames a group, in all its instances too.
+/// Renames a group, and the references in all its instances.
 pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = to.trim();
     if is_file(to) {
@@ -51,7 +51,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     document.edit("Rename group", vec![edit])
 }
 
-/// A name that no group has.
+/// Returns a name that no group has yet.
 pub(crate) fn free_name_for(document: &OpenDocument, stem: &str) -> String {
     free_name(stem, ' ', |name| document.contents().groups.contains_key(name))
 }

@@ -9,7 +9,7 @@ use crate::painting::{EMPTY, PAINT};
 use crate::stack::StackEnd;
 use crate::{layers, nodes, wires};
 
-/// Layer that an artist makes by hand.
+/// Layer that an artist fills or paints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HandLayer {
     /// A color over all of the surface.
@@ -19,11 +19,11 @@ pub enum HandLayer {
 }
 
 impl HandLayer {
-    /// Both, with their titles.
+    /// All variants with their titles.
     pub const ALL: [(HandLayer, &'static str); 2] =
         [(HandLayer::Paint, "Paint layer"), (HandLayer::Fill, "Fill layer")];
 
-    /// Title of a new one.
+    /// Returns the title of a new layer of this type.
     pub fn title(self) -> &'static str {
         match self {
             HandLayer::Fill => "Fill layer",
@@ -32,8 +32,8 @@ impl HandLayer {
     }
 }
 
-/// Adds a layer over all others of a stack, or of the only one; where there is no output, one is added. Returns the node that is
-/// changed next: the layer, or the paint node of its mask.
+/// Adds a layer above all other layers of a stack, or of the only stack; if there is no output, one is added. Returns the
+/// node that the artist is likely to change next: the layer, or the paint node of its mask.
 pub(crate) fn add(document: &mut OpenDocument, end: Option<&StackEnd>, what: HandLayer) -> Option<NodeId> {
     let place = end.map_or(DroppedOn::Unknown, |end| DroppedOn::Output(end.clone()));
     let layer = dropped_layers::on_model(document, (LAYER, None), &place, false)?;
@@ -62,7 +62,7 @@ pub(crate) fn add(document: &mut OpenDocument, end: Option<&StackEnd>, what: Han
     }
 }
 
-/// Adds a paint node as the mask of a layer, in place of another one. `empty` is the mask where nothing is painted.
+/// Adds a paint node as the mask of a layer, replacing an existing mask. `empty` is the mask where nothing is painted.
 pub(crate) fn paint_mask(document: &mut OpenDocument, layer: &NodeId, empty: f64) -> Option<NodeId> {
     let slot = layers::expect_mask_input(document, layer)?;
     let place = layers::place_of_mask(document, layer);

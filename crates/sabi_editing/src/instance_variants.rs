@@ -6,8 +6,8 @@ use sabi_graph::{Edit, GROUP_KIND, NodeId, Value};
 
 use crate::open_document::OpenDocument;
 
-/// Gives an instance a variant of its group, or the group's own values. Values of its own stay only where no variant has any, so
-/// that the instance looks as the variant does.
+/// Sets the variant of an instance, or the group's own values. Values of the instance are removed if any variant sets the
+/// same knob, so that the instance looks like the variant.
 pub fn choose(document: &mut OpenDocument, id: &NodeId, name: Option<&str>) -> bool {
     match choosing(document, id, name) {
         Some(edits) => document.edit("Choose variant", edits),
@@ -15,14 +15,14 @@ pub fn choose(document: &mut OpenDocument, id: &NodeId, name: Option<&str>) -> b
     }
 }
 
-/// Edits that give an instance a variant; none for other nodes.
+/// Returns the edits that set the variant of an instance; none for other nodes.
 pub(crate) fn choosing(document: &OpenDocument, id: &NodeId, name: Option<&str>) -> Option<Vec<Edit>> {
     let node = document.node(id).filter(|node| node.kind == GROUP_KIND)?;
     let group = node
         .group
         .as_ref()
         .and_then(|group| document.contents().groups.get(group));
-    // The variants of a group in a file of its own are checked when the graph is evaluated.
+    // Variants of a group file are checked when the graph is evaluated.
     let variants = group.into_iter().flat_map(|group| group.graph.variants().values());
     let knobs: BTreeSet<&String> = variants.flat_map(BTreeMap::keys).collect();
     let own = node.params.keys().filter(|param| knobs.contains(param));

@@ -1,4 +1,4 @@
-//! Group instances: the ports that a graph has as a group, its instances in the document, and renames of their ports.
+//! Group instances: the ports that a graph has when used as a group, its instances in the document, and renames of their ports.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -13,13 +13,13 @@ pub(crate) fn bodies(document: &Document) -> Vec<(Body, &Graph)> {
     std::iter::once((Body::Main, &document.graph)).chain(groups).collect()
 }
 
-/// Instances of a group in a graph.
+/// Returns the instances of a group in a graph.
 pub(crate) fn instances<'g>(graph: &'g Graph, group: &'g str) -> impl Iterator<Item = (&'g NodeId, &'g Node)> {
     let of_group = move |node: &Node| node.kind == GROUP_KIND && node.group.as_deref() == Some(group);
     graph.nodes().filter(move |(_, node)| of_group(node))
 }
 
-/// Inputs and outputs that a graph has as a group.
+/// Returns the inputs and outputs that a graph has when used as a group.
 pub(crate) fn ports<'d>(
     document: &'d Document,
     body: &Body,
@@ -34,7 +34,7 @@ pub(crate) fn ports<'d>(
     }
 }
 
-/// Edits that change the name of knobs in all published knobs that control them.
+/// Returns edits that rename knobs in all published knobs that control them.
 pub(crate) fn renamed_knobs(document: &Document, matches: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (body, graph) in bodies(document) {
@@ -56,7 +56,7 @@ pub(crate) fn renamed_knobs(document: &Document, matches: impl Fn(&Body, &SlotRe
     edits
 }
 
-/// Instances of the shown group in all graphs; empty for the main graph.
+/// Returns the instances of the shown group in all graphs; none for the main graph.
 pub(crate) fn of_body(document: &Document, shown: &Body) -> Vec<(Body, NodeId, Node)> {
     let Body::Group(open) = shown else {
         return Vec::new();
@@ -75,7 +75,7 @@ pub(crate) fn is_instance_of(document: &Document, shown: &Body) -> impl Fn(&Body
     move |body: &Body, slot: &SlotRef| found.contains(&(body.clone(), slot.node.clone()))
 }
 
-/// Edits that change the name of inputs in all group inputs that feed them.
+/// Returns edits that rename inputs in all group inputs that feed them.
 pub(crate) fn renamed_inputs(document: &Document, matches: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (body, _) in bodies(document) {
@@ -90,7 +90,7 @@ pub(crate) fn renamed_inputs(document: &Document, matches: impl Fn(&Body, &SlotR
     edits
 }
 
-/// Renames the slots that match. Returns whether there were any.
+/// Renames the slots that match. Returns whether any matched.
 fn renamed(slots: &mut [SlotRef], matches: impl Fn(&SlotRef) -> bool, to: &str) -> bool {
     let mut is_changed = false;
     for slot in slots.iter_mut().filter(|slot| matches(slot)) {
@@ -100,7 +100,7 @@ fn renamed(slots: &mut [SlotRef], matches: impl Fn(&SlotRef) -> bool, to: &str) 
     is_changed
 }
 
-/// Ports and knobs that instances of a graph have.
+/// Returns the ports and knobs of instances of a graph.
 pub(crate) fn face_of<'f>(faces: &'f Faces, body: &Body) -> Option<&'f Arc<Entry>> {
     match body {
         Body::Main => faces.of_whole(),

@@ -1,11 +1,11 @@
-//! Knobs that receive a value from elsewhere.
+//! Knobs that receive a value from outside of their node or panel.
 
 use sabi_graph::{NodeId, Value};
 
 use crate::open_document::OpenDocument;
 use crate::{nodes, panel_values};
 
-/// Knob that receives a value from elsewhere, such as a file dialog or an eyedropper.
+/// Knob that receives a value from a file dialog or an eyedropper.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum KnobTarget {
     /// A knob of a node in the shown graph.

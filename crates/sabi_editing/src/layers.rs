@@ -1,4 +1,4 @@
-//! Moving, adding and removing layers of a stack: the chain is reconnected, and all other wires stay.
+//! Moving, adding and removing layers of a stack: the chain of layers is reconnected, and all other wires stay.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::{connections, new_nodes, node_size, nodes, ports, reconnection, stack
 
 /// Space between a new layer or mask and the node that reads it, canvas points.
 const BESIDE: f32 = 60.0;
-/// Height of most nodes that give masks, canvas points.
+/// Height of most nodes that output masks, canvas points.
 const MASK_HEIGHT: f32 = 280.0;
 
 fn stack_behind(document: &mut OpenDocument, end: &StackEnd) -> Option<Stack> {
@@ -25,7 +25,7 @@ fn stack_behind(document: &mut OpenDocument, end: &StackEnd) -> Option<Stack> {
     found
 }
 
-/// Moves a layer of a stack to another place, counted from the top.
+/// Moves a layer of a stack to another position, counted from the top.
 pub fn move_to(document: &mut OpenDocument, end: &StackEnd, from: usize, to: usize) -> bool {
     let Some(stack) = stack_behind(document, end) else {
         return false;
@@ -72,7 +72,7 @@ fn reordered(document: &OpenDocument, stack: &Stack, from: usize, to: usize) -> 
     let (top, bottom) = (from.min(to), from.max(to));
     let mut order: Vec<usize> = (top..=bottom).filter(|at| *at != from).collect();
     order.insert(to - top, from);
-    // Each layer reads the next one; the last one reads what was below all of them.
+    // Each layer reads the next one. The last layer reads the material that was below all of them.
     let readers = std::iter::once(top).chain(order.iter().map(|at| at + 1));
     let sources = order.iter().copied().chain([bottom + 1]);
     let (mut off, mut on) = (Vec::new(), Vec::new());
@@ -81,7 +81,7 @@ fn reordered(document: &OpenDocument, stack: &Stack, from: usize, to: usize) -> 
         if reader.from == source.from {
             continue;
         }
-        // All wires are removed first, since half of a new order could form a cycle.
+        // First remove all wires, since a partly connected new order could form a cycle.
         off.extend(
             reader
                 .slot
@@ -98,7 +98,7 @@ fn reordered(document: &OpenDocument, stack: &Stack, from: usize, to: usize) -> 
     off.into_iter().chain(on).collect()
 }
 
-/// Edit that connects an input, or the output of the graph that a stack ends in, to a result.
+/// Returns an edit that connects an input, or the graph output at the end of a stack, to a result.
 fn link_edit(
     document: &OpenDocument,
     end: &StackEnd,
@@ -116,7 +116,7 @@ fn link_edit(
     }
 }
 
-/// Removes a layer; its readers are connected to what it would pass on if muted.
+/// Removes a layer. Its readers are connected to the result that it would pass on if it were muted.
 pub fn remove(document: &mut OpenDocument, end: &StackEnd, at: usize) -> bool {
     let Some(stack) = stack_behind(document, end) else {
         return false;
@@ -135,7 +135,7 @@ pub fn remove(document: &mut OpenDocument, end: &StackEnd, at: usize) -> bool {
     document.edit("Remove layer", edits)
 }
 
-/// Kinds that a layer can have: those that change the material below or, at the bottom, all that give a material.
+/// Lists the kinds that a layer can have: kinds that change the material below; for the lowest layer, all kinds that output a material.
 pub fn kinds(document: &OpenDocument, is_lowest: bool) -> Vec<Arc<Entry>> {
     let gives = |entry: &Entry| entry.outputs.iter().any(|port| port.ty == Some(PortType::Material));
     let entries = document.catalog().entries();
@@ -143,7 +143,8 @@ pub fn kinds(document: &OpenDocument, is_lowest: bool) -> Vec<Arc<Entry>> {
     fit.cloned().collect()
 }
 
-/// Adds a node of a kind above a layer or, at the position after the last layer, below all layers of an open stack.
+/// Adds a node of a kind above a layer. At the position after the last layer, it is added below all layers, if the stack
+/// has no lowest layer.
 pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -> Option<NodeId> {
     let Some(entry) = document.catalog().entry(kind).cloned() else {
         document.notify(format!("there is no node kind '{kind}'"));
@@ -207,7 +208,8 @@ fn add_entry(
     })
 }
 
-/// Adds a node of a kind, or an instance of a group, over the material that a node gives: all that read it read the layer.
+/// Adds a node of a kind, or an instance of a group, on top of the material that a node outputs. All readers of the node
+/// then read the layer.
 pub(crate) fn add_over(document: &mut OpenDocument, id: &NodeId, kind: &str, group: Option<&str>) -> Option<NodeId> {
     let entry = match group {
         Some(group) => document.faces().of_group(group),
@@ -280,7 +282,8 @@ fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, l
     hides.then(|| format!("'{label}' takes no material, and would hide all layers below it"))
 }
 
-/// Place for a layer of a size in a link where it covers no other node, and edits that move what reads it out of the way.
+/// Returns a place for a layer of this size in a link where it covers no other node, and edits that move the nodes behind
+/// it out of the way.
 fn place_of_layer(document: &OpenDocument, link: &Link, size: [f32; 2]) -> ([f32; 2], Vec<Edit>) {
     let place = |id: &NodeId| document.node(id).map(|node| node.pos);
     let reader = link.slot.as_ref().map(|slot| &slot.node);
@@ -315,7 +318,7 @@ pub fn mask_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
     })
 }
 
-/// Place for a new mask of a layer: below and before it, where it covers no other node.
+/// Returns a place for a new mask of a layer: below and before the layer, where it covers no other node.
 pub(crate) fn place_of_mask(document: &OpenDocument, id: &NodeId) -> [f32; 2] {
     let [x, y] = document.node(id).map_or([0.0; 2], |node| node.pos);
     let below = [x - NODE_WIDTH - BESIDE, y + node_size::of(document, id)[1] / 2.0];
@@ -323,7 +326,7 @@ pub(crate) fn place_of_mask(document: &OpenDocument, id: &NodeId) -> [f32; 2] {
     wires::uncovering(document, below, [NODE_WIDTH, MASK_HEIGHT], &nodes)
 }
 
-/// Input for the mask of a layer. A node that takes none is told in a notice.
+/// Returns the input for the mask of a layer. If its node has none, a notice is added.
 pub(crate) fn expect_mask_input(document: &mut OpenDocument, id: &NodeId) -> Option<SlotRef> {
     let slot = mask_input(document, id);
     if slot.is_none() {

@@ -1,5 +1,5 @@
 //! The open document as an artist edits it: selection, entered groups, the clipboard, history, and every edit as a named
-//! undo step. Needs no window and is tested without one.
+//! undo step. It needs no window, also for tests.
 //!
 //! [`OpenDocument`] holds what all edits need. The edits are functions over it, in a module for each thing that is edited:
 //! [`nodes`], [`wires`], [`frames`], [`groups`], [`ports`], [`panel`], [`variants`], [`layers`]. A front end performs them
@@ -10,7 +10,7 @@
 //! * A refused edit changes nothing and leaves its reason in the notices.
 //! * The shown graph exists, and all selected nodes are in it.
 //! * A graph that can be evaluated can still be evaluated after every edit: instances follow what their group publishes, and
-//!   no wires form a cycle.
+//! no wires form a cycle.
 //! * Nothing here knows a window, a device or a thread.
 //!
 //! ```
@@ -20,10 +20,10 @@
 //!
 //! let mut document = OpenDocument::new(Session::new(None));
 //! let add = NodeCommand::Add {
-//!     source: NodeSource::Kind("noise/simplex".to_owned()),
-//!     place: [120.0, 80.0],
-//!     pending: None,
-//!     into: None,
+//! source: NodeSource::Kind("noise/simplex".to_owned()),
+//! place: [120.0, 80.0],
+//! pending: None,
+//! into: None,
 //! };
 //! let outcome = perform(&mut document, add.into());
 //! assert!(matches!(outcome, Outcome::Added(node) if document.is_selected(&node)));

@@ -47,7 +47,7 @@ pub fn save_group(document: &mut OpenDocument, folder: &Path) -> Option<PathBuf>
     }
 }
 
-/// Writes a group into a file of its own, which takes the place of no other, also of none that appears at this moment.
+/// Writes a group to a new file. It replaces no existing file, not even one that is created at the same moment.
 fn write_group(document: &OpenDocument, folder: &Path, name: &str, text: &str) -> Result<PathBuf, String> {
     let disk = document.session.disk();
     loop {
@@ -59,13 +59,13 @@ fn write_group(document: &OpenDocument, folder: &Path, name: &str, text: &str) -
         };
         let is_there = file.exists();
         let written = match is_there {
-            // It holds the same bytes, of which only the disk may not know yet.
+            // The file has these bytes already. Write it anyway to make sure that they are on the disk.
             true => disk.write_whole(&file, text.as_bytes()),
             false => disk.write_new(&file, text.as_bytes()),
         };
         match written {
             Ok(()) => return Ok(file),
-            // Another program was faster: the next free name is looked for.
+            // Another program has just created the file: try the next free name.
             Err(error) if !is_there && error.kind() == ErrorKind::AlreadyExists && file.exists() => {}
             Err(error) => return Err(format!("{} cannot be written: {}", file.display(), error.reason())),
         }
@@ -145,7 +145,7 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
     instance.group
 }
 
-/// The group of the document that a library file holds with the same content and under the same name, if there is one.
+/// Returns the group of the document that has the same name and content as a library file, if there is one.
 pub fn group_in(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Option<String> {
     let groups = &document.contents().groups;
     let name = group_name(&open.document, file);
@@ -155,14 +155,14 @@ pub fn group_in(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Optio
     let mut saved = as_group(&other);
     saved.library.clone_from(&known.library);
     saved.name.clone_from(&known.name);
-    // A group without a fit of its own has that of its document.
+    // A group without a fit uses the fit of its document.
     let has_same_fit = known.fit.unwrap_or(document.contents().fit) == other.fit;
     saved.fit = known.fit;
     let has_same_inner = other.groups.iter().all(|(name, inner)| groups.get(name) == Some(inner));
     (saved == *known && has_same_fit && has_same_inner).then(|| key.clone())
 }
 
-/// File stem for a name that is valid on every system.
+/// Returns a file stem for a name that is valid on every system.
 fn file_stem(name: &str) -> String {
     let kept = name.chars().map(|letter| {
         if letter.is_alphanumeric() || letter == '-' {

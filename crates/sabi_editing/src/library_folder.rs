@@ -1,12 +1,12 @@
-//! Folders of libraries, which links to their files begin with.
+//! Folders of libraries. Links to files of a library start with its name.
 
 use std::path::PathBuf;
 
-/// Folder of a library, with the name that links begin with.
+/// Folder of a library, and the name with which links to it start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LibraryFolder {
     /// Name of the library in links, such as `sabi`.
     pub name: String,
-    /// Its folder.
+    /// The folder.
     pub folder: PathBuf,
 }

@@ -1,4 +1,4 @@
-//! Groups that are linked to a file of a library: their file, updates to its newer version, and the end of the link.
+//! Groups that are linked to a file of a library: finding the file, updating to its newer version, and removing the link.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use crate::bundled_groups::{as_group, bundled};
 use crate::open_document::OpenDocument;
 use crate::{group_import, instances, panel_values, relative_paths};
 
-/// Link to a file of a library: by the name of the library, or relative to the document for a file in none of the folders.
+/// Returns a link to a library file: with the name of the library, or relative to the document if the file is in no library folder.
 pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySource> {
     let open = OpenGraph::open_trusting(file, &document.session.graph().trusted);
     let digest = group_digest(&open.ok()?).ok()?;
@@ -29,10 +29,10 @@ pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySou
     })
 }
 
-/// File that a link leads to, if the document may open it; it need not exist.
+/// Returns the file that a link refers to, if the document may open it. The file need not exist.
 pub fn file_of(document: &OpenDocument, source: &LibrarySource) -> Option<PathBuf> {
     match source.file.split_once(':') {
-        // A path with a drive has a letter before the colon.
+        // A path with a drive has a single letter before the colon.
         Some((name, path)) if name.len() > 1 => {
             let library = document.library_folders.iter().find(|library| library.name == name)?;
             allowed(&TrustedPaths::default(), &PathBase::of_folder(&library.folder), path)
@@ -51,8 +51,8 @@ fn allowed(trusted: &TrustedPaths, base: &PathBase, written: &str) -> Option<Pat
     }
 }
 
-/// Replaces a group by the newer version in its library. Instances keep their knobs; those that the newer version does not have
-/// or refuses are reset, and wires to ports that are gone are cut.
+/// Replaces a group by the newer version in its library. Instances keep their knobs. Knobs that the newer version does not
+/// have or whose values it refuses are reset, and wires to removed ports are removed.
 pub fn update(document: &mut OpenDocument, group: &str) -> bool {
     match updating(document, document.contents(), group) {
         Ok((edits, lost)) => {
@@ -83,7 +83,7 @@ pub fn update_all(document: &mut OpenDocument, groups: &[String]) -> bool {
     updated > 0
 }
 
-/// The whole graph as if groups were updated as [`update_all`] does; `None` where one of them cannot be.
+/// Returns the whole graph as if groups were updated by [`update_all`]; `None` if one of them cannot be updated.
 pub fn updated(document: &OpenDocument, groups: &[String]) -> Option<OpenGraph> {
     let mut graph = document.session.graph().clone();
     for group in groups {
@@ -131,7 +131,7 @@ fn updating(document: &OpenDocument, contents: &Document, group: &str) -> Result
     Ok((edits, lost))
 }
 
-/// Edits that reset the knobs and cut the wires of an instance that a new definition does not have.
+/// Returns edits that reset the knobs of an instance, and remove its wires, that a new definition does not have.
 fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
     let fits = |(name, value): &(&String, &sabi_graph::Value)| {
         if name.as_str() == "variant" {
@@ -165,7 +165,7 @@ fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut V
     edits
 }
 
-/// Edits that cut the wires from outputs of instances that a new definition does not have.
+/// Returns edits that remove the wires from outputs of instances that a new definition does not have.
 fn cut_readers(contents: &Document, group: &str, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (body, graph) in instances::bodies(contents) {
@@ -189,7 +189,7 @@ fn cut_readers(contents: &Document, group: &str, made: &GroupDef, lost: &mut Vec
     edits
 }
 
-/// Ends the link of a group: it stays as it is, and is this document's own.
+/// Removes the link of a group. The group stays unchanged, as a group of this document.
 pub fn unlink(document: &mut OpenDocument, group: &str) -> bool {
     let Some(known) = document
         .contents()

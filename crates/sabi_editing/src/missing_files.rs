@@ -1,5 +1,4 @@
-//! Files that the document names and that are not there: they are found again in another place, together with those beside
-//! them.
+//! Missing files that the document refers to. When one is found in another place, missing files beside it are looked for there, too.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,16 +10,16 @@ use sabi_graph::Edit;
 use crate::open_document::OpenDocument;
 use crate::relative_paths;
 
-/// Lists the paths of the model, the pictures and the group files that the document names and that lead to no file, as they are
-/// written.
+/// Lists the paths of the model, the images and the group files that the document refers to and that do not exist, as
+/// written in the document.
 pub fn missing(document: &OpenDocument) -> Vec<String> {
     let graph = document.session.graph();
-    // What may not be opened is not looked for, such as paths of other computers.
+    // Paths that may not be opened, such as those of other computers, are not checked.
     let is_missing = |path: &String| matches!(graph.trusted.check(&graph.base(), path), Err(Unread::Missing));
     written_paths(document).into_iter().filter(is_missing).collect()
 }
 
-/// Lists the files that the document names and may open: its model, pictures and group files.
+/// Lists the files that the document refers to and may open: its model, images and group files.
 pub fn named(document: &OpenDocument) -> Vec<PathBuf> {
     let graph = document.session.graph();
     let file = |path: String| graph.trusted.check(&graph.base(), &path).ok();
@@ -39,8 +38,8 @@ fn written_paths(document: &OpenDocument) -> BTreeSet<String> {
     written
 }
 
-/// Lets the document name `found` in place of a missing file, and in one step with it those files beside `found` that are missing,
-/// too: by their places in the folder that the missing file was in, or by their names. Returns the number of files that were found.
+/// Replaces the path of a missing file by `found`. In the same undo step, other missing files are replaced if they are found beside
+/// `found`: by their places relative to the missing file's folder, or by their names. Returns the number of files that were found.
 pub fn relocate(document: &mut OpenDocument, lost: &str, found: &Path) -> usize {
     let mut places: BTreeMap<String, PathBuf> = BTreeMap::new();
     for other in missing(document) {
@@ -73,16 +72,16 @@ pub fn relocate(document: &mut OpenDocument, lost: &str, found: &Path) -> usize 
     }
 }
 
-/// Name of a file in a path as it is written, whichever system it was written on.
+/// Returns the file name in a path, whichever system the path was written on.
 pub fn name_of(written: &str) -> &str {
     split(written).1
 }
 
-/// File for another path that is missing, where `lost` was found in the folder of `found`.
+/// Returns where another missing file should be, given that `lost` was found as `found`.
 fn beside(lost: &str, other: &str, found: &Path) -> Option<PathBuf> {
     let folder = found.parent()?;
     let (lost_in, _) = split(lost);
-    // Only what lies below the folder: the user has chosen no other.
+    // Only files below the folder of the missing file: the user has chosen no other folder.
     let below = other.strip_prefix(lost_in).filter(|below| !leads_up(below));
     let places = below.into_iter().chain([name_of(other)]);
     let mut places = places.map(|place| folder.join(place.replace('\\', "/")));
@@ -93,7 +92,7 @@ fn leads_up(path: &str) -> bool {
     path.split(['/', '\\']).any(|part| part == "..") || path.starts_with(['/', '\\'])
 }
 
-/// Folder of a path with its last separator, and the name of the file.
+/// Splits a path into its folder with the last separator, and the file name.
 fn split(written: &str) -> (&str, &str) {
     let at = written.rfind(['/', '\\']).map_or(0, |at| at + 1);
     written.split_at(at)

@@ -7,17 +7,17 @@ use sabi_engine::catalog::Entry;
 /// Suffix of the names of groups that are files.
 pub(crate) const FILE_ENDING: &str = ".sabi";
 
-/// Returns whether a group name denotes a file. A group of the document that has the same name takes precedence.
+/// Returns whether a group name refers to a file. A group of the document with the same name takes precedence.
 pub(crate) fn is_file(group: &str) -> bool {
     group.ends_with(FILE_ENDING)
 }
 
-/// Sentence that a group is a file and not part of the document.
+/// Returns a sentence that a group is a file and not part of the document.
 pub(crate) fn separate_file_notice(group: &str) -> String {
     format!("'{group}' is a file of its own; open it to change what is inside")
 }
 
-/// Label of a knob; its name where the ports and knobs of its node are not known.
+/// Returns the label of a knob, or its name if the ports and knobs of its node are unknown.
 pub(crate) fn knob_label(face: Option<&Arc<Entry>>, knob: &str) -> String {
     let known = face.and_then(|face| face.knob(knob));
     known.map_or_else(|| knob.to_owned(), |knob| knob.label.clone())

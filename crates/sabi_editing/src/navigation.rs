@@ -27,7 +27,7 @@ pub fn enter(document: &mut OpenDocument, id: &NodeId) -> bool {
     if !document.contents().groups.contains_key(&group) {
         return document.refuse(separate_file_notice(&group));
     }
-    // A file may have a group that contains itself: entering it would have no end.
+    // A file may have a group that contains itself. Such a group can be entered only once, since it has no end.
     if document.entered_graphs().contains(&Body::Group(group.clone())) {
         return document.refuse(format!("'{group}' contains itself; delete this node"));
     }
@@ -36,7 +36,7 @@ pub fn enter(document: &mut OpenDocument, id: &NodeId) -> bool {
     true
 }
 
-/// Leaves groups until `depth` instances are entered, and selects the instance that was left; returns whether one was.
+/// Leaves groups until `depth` instances are entered, and selects the instance that was left. Returns whether any was left.
 pub fn leave_to(document: &mut OpenDocument, depth: usize) -> bool {
     let Some((stays, [left, ..])) = document.instance_path().split_at_checked(depth) else {
         return false;
@@ -55,8 +55,8 @@ pub fn leave(document: &mut OpenDocument) -> bool {
     }
 }
 
-/// Selects a node in the graph that it is in, by its id in the evaluation. A node in a group file cannot be shown: its
-/// innermost instance that can be shown is selected instead. Returns what was selected.
+/// Selects a node by its id in the evaluation, and shows the graph that contains it. A node in a group file cannot be
+/// shown; its innermost instance that can be shown is selected instead. Returns the selected node.
 pub fn go_to(document: &mut OpenDocument, full_id: &str) -> Option<NodeId> {
     leave_to(document, 0);
     let steps: Vec<NodeId> = full_id.split('/').filter_map(|step| step.parse().ok()).collect();
@@ -76,5 +76,5 @@ pub(crate) fn entered_instance(document: &OpenDocument) -> Option<(Body, NodeId)
     let mut entered = document.entered_graphs();
     entered.pop()?;
     let id = document.instance_path().get(entered.len())?.clone();
-    Some((entered.pop().unwrap_or(Body::Main), id)) // None is entered around it.
+    Some((entered.pop().unwrap_or(Body::Main), id)) // Without an enclosing instance, this is the main graph.
 }

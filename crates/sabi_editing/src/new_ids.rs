@@ -5,20 +5,20 @@ use std::hash::{BuildHasher, RandomState};
 
 use sabi_graph::{Graph, NodeId};
 
-/// Letters of the tail of an id.
+/// Letters for the random end of an id.
 const LETTERS: &[u8] = b"abcdefghijklmnopqrstuvwxyz0123456789";
 const TAIL: usize = 4;
-/// Seeds below this are short enough to read aloud.
+/// Upper limit of random seeds, small enough to be read and typed easily.
 const SEEDS: u64 = 10_000;
 
-/// Generator of random tails of ids and of random seeds.
+/// Generator of the random ends of ids, and of random seeds.
 #[derive(Clone, Debug)]
 pub(crate) struct IdGenerator {
     state: u64,
 }
 
 impl IdGenerator {
-    /// Generator with a random state, so that two people who add nodes to one file get different ids.
+    /// Creates a generator with a random state, so that two people who add nodes to the same file get different ids.
     pub(crate) fn random() -> IdGenerator {
         IdGenerator {
             state: RandomState::new().hash_one(0),
@@ -30,7 +30,7 @@ impl IdGenerator {
         IdGenerator { state }
     }
 
-    /// SplitMix64, Steele, Lea and Flood 2014.
+    /// Returns the next random number (SplitMix64, Steele, Lea and Flood 2014).
     fn next(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = self.state;
@@ -44,7 +44,7 @@ impl IdGenerator {
         (self.next() % SEEDS) as u32
     }
 
-    /// An id that is free in the graph and not among those `taken`: a readable stem, and a random tail.
+    /// Returns an id that is neither in the graph nor among `taken`: a readable stem with a random end.
     pub(crate) fn id(&mut self, stem: &str, graph: &Graph, taken: &BTreeSet<NodeId>) -> NodeId {
         let readable: String = stem
             .chars()
@@ -64,7 +64,7 @@ impl IdGenerator {
                 char::from(letter)
             });
             let id = format!("{stem}_{}", tail.collect::<String>()).parse::<NodeId>();
-            // Lower-case letters, digits and underscores always form an id.
+            // Lower-case letters, digits and underscores always form a valid id.
             if let Ok(id) = id
                 && graph.node(id.as_str()).is_none()
                 && !taken.contains(&id)

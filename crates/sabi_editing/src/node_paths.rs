@@ -1,11 +1,10 @@
-//! Nodes by their full ids, as the evaluation uses them: the ids of the instances that contain a node, then its own id.
+//! Nodes by their full ids, as used in the evaluation: the ids of the enclosing instances, followed by the id of the node.
 
 use sabi_graph::{Body, NodeId};
 
 use crate::open_document::OpenDocument;
 
-/// Returns whether a node with this full id exists. Nodes inside groups of other files exist as long as their instance
-/// does.
+/// Returns whether a node with this full id exists. A node inside a group file counts as existing if its instance exists.
 pub fn exists(document: &OpenDocument, full_id: &str) -> bool {
     let mut body = Body::Main;
     let mut steps = full_id.split('/').peekable();
@@ -24,7 +23,7 @@ pub fn exists(document: &OpenDocument, full_id: &str) -> bool {
     true
 }
 
-/// Returns the title of a node by its full id, after the titles of the instances that contain it.
+/// Returns the title of a node, given its full id, after the titles of the enclosing instances.
 pub fn title(document: &OpenDocument, full_id: &str) -> String {
     let mut body = Some(Body::Main);
     let mut titles = Vec::new();
@@ -45,14 +44,14 @@ pub fn in_shown_graph(document: &OpenDocument, full_id: &str) -> Option<NodeId> 
     (document.full_id(&own) == full_id).then_some(own)
 }
 
-/// Words behind which an error names a node by its full id in quotation marks.
+/// Words after which an error contains the full id of a node in quotation marks.
 const BEFORE_IDS: [&str; 5] = ["node ", "nodes ", "instance ", "asks ", "but "];
-/// Words before the ids of nodes that feed each other, and what is between these.
+/// Words before a list of ids of nodes that form a circle, and the text between these ids.
 const BEFORE_CIRCLE: &str = "in a circle: ";
 const IN_CIRCLE: &str = " → ";
 
-/// Sentence of an error or a warning in which nodes are named by their titles. Errors name them by their full ids, as graph files
-/// have them, with their kinds in parentheses.
+/// Replaces the ids of nodes in an error or a warning by their titles. Errors contain full ids, as in graph files, with the
+/// kinds in parentheses.
 pub fn with_titles(document: &OpenDocument, sentence: &str) -> String {
     let mut told = String::with_capacity(sentence.len());
     let mut rest = sentence;
@@ -76,7 +75,7 @@ pub fn with_titles(document: &OpenDocument, sentence: &str) -> String {
     told
 }
 
-/// Text in which nodes of the shown graph that feed each other are named by their titles.
+/// Replaces the ids of nodes of the shown graph that form a circle by their titles.
 fn with_titles_in_circle(document: &OpenDocument, text: &str) -> String {
     let Some((before, circle)) = text.split_once(BEFORE_CIRCLE) else {
         return text.to_owned();
@@ -90,7 +89,7 @@ fn with_titles_in_circle(document: &OpenDocument, text: &str) -> String {
     format!("{before}{BEFORE_CIRCLE}{}{after}", titles.join(IN_CIRCLE))
 }
 
-/// The text without the kind of a node in parentheses at its beginning.
+/// Removes the kind of a node, in parentheses, from the start of a text.
 fn without_kind(text: &str) -> &str {
     let inner = text.strip_prefix(" (").and_then(|text| text.split_once(')'));
     let is_kind = |kind: &str| {

@@ -1,4 +1,4 @@
-//! Replacement of a node by one of another kind.
+//! Replacement of a node by a node of another kind.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,19 +10,19 @@ use crate::open_document::OpenDocument;
 use crate::references::Successors;
 use crate::{connections, new_nodes, nodes, references};
 
-/// Node that replaces another one.
+/// Node that replaces another node.
 struct ReplacementNode<'a> {
     id: &'a NodeId,
     /// Ports and knobs of the old node and of the new node.
     faces: [&'a Entry; 2],
-    /// Name of the new input for each old one.
+    /// Name of the new input for each old input.
     inputs: BTreeMap<String, String>,
 }
 
 impl Successors for ReplacementNode<'_> {
     fn knobs(&self, _: &str, knob: &SlotRef) -> Vec<SlotRef> {
         let [old, new] = self.faces;
-        // A parameter is replaced as a parameter, whether a mask multiplies it or not.
+        // A parameter is replaced by a parameter, whether a mask multiplies it or not.
         let is_of_input = old.param_mask(&knob.name).is_none();
         let name = match self.inputs.get(&knob.name).filter(|_| is_of_input) {
             Some(input) => new.knob(input).map(|knob| &knob.name),
@@ -67,7 +67,7 @@ impl ReplacementNode<'_> {
     }
 }
 
-/// Returns whether two knobs have the same meaning: role, shape in memory, and whether they belong to an input.
+/// Returns whether two knobs have the same meaning: the same role and shape in memory, and both or neither belong to an input.
 fn are_alike(old: Option<&Knob>, new: &Knob) -> bool {
     let like = |knob: &Knob| (knob.ty.role.clone(), knob.ty.memory, knob.is_of_input);
     old.is_some_and(|old| like(old) == like(new))
@@ -83,8 +83,8 @@ fn accepts(knob: &Knob, value: &Value) -> bool {
     }
 }
 
-/// Replaces a node by one of another kind. Wires that fit are kept, and so are parameters of the same name, their published
-/// knobs and the frames around the node.
+/// Replaces a node by a node of another kind. Wires that fit are kept, and so are parameters with the same name, their
+/// published knobs and the frames around the node.
 pub fn by_kind(document: &mut OpenDocument, id: &NodeId, kind: &str) -> bool {
     let Some(entry) = document.catalog().entry(kind).cloned() else {
         return document.refuse(format!("there is no node kind '{kind}'"));
@@ -93,7 +93,7 @@ pub fn by_kind(document: &mut OpenDocument, id: &NodeId, kind: &str) -> bool {
     put_in_place(document, id, new_id, node, &entry)
 }
 
-/// Replaces a node by an instance of a group, and keeps the same things.
+/// Replaces a node by an instance of a group. The same things are kept as in [`by_kind`].
 pub fn by_group(document: &mut OpenDocument, id: &NodeId, group: &str) -> bool {
     let made = nodes::new_instance(document, group, [0.0; 2]);
     made.is_some_and(|(new_id, node, entry)| put_in_place(document, id, new_id, node, &entry))
@@ -147,8 +147,8 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
     document.edit_and_select(&format!("Replace by {}", entry.label), edits, [new_id])
 }
 
-/// New input for each used old one: inputs of the same name first, then others that fit. A mask that multiplies a parameter stays
-/// only where a parameter of the same name takes one.
+/// Returns the new input for each connected old input: first inputs with the same name, then others that fit. A mask that
+/// multiplies a parameter is kept only if a parameter with the same name takes a mask.
 fn paired_inputs(
     document: &OpenDocument,
     id: &NodeId,
@@ -158,7 +158,7 @@ fn paired_inputs(
 ) -> BTreeMap<String, String> {
     let mut free: Vec<&Port> = entry.inputs.iter().collect();
     let mut paired = BTreeMap::new();
-    // In the order of the rows of the node; inputs that the kind does not have come last.
+    // Inputs are paired in the order of the rows of the node. Inputs that the kind does not have come last.
     let known = face.inputs.iter().map(|port| &port.name);
     let unknown = old.inputs.keys().filter(|name| face.input(name).is_none());
     let is_param_mask = |name: &String| face.param_mask(name).is_some();
@@ -194,7 +194,7 @@ fn paired_inputs(
     paired
 }
 
-/// Edit that connects a reader to the new node, to the output of the same name or one that fits.
+/// Returns an edit that connects a reader to the new node, to the output with the same name or to one that fits.
 fn reconnected(document: &OpenDocument, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
     let input = connections::input(document, slot)?;
     let named = connections::wire_into(document, slot)?.port.clone();

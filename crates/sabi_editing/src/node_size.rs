@@ -1,4 +1,4 @@
-//! Sizes of nodes on the canvas, which layout and drawing share.
+//! Sizes of nodes on the canvas, used by layout and drawing.
 
 use std::collections::BTreeSet;
 
@@ -19,12 +19,13 @@ pub const ROW_HEIGHT: f32 = 19.0;
 pub const PICTURE_SIDE: f32 = 128.0;
 /// Space above the thumbnail, and below the last row.
 pub const MARGIN: f32 = 5.0;
-/// Highest number of knobs on a node itself; the parameter panel shows all of them.
+/// Maximum number of knobs on a node. The parameter panel shows all of them.
 const MOST_KNOBS: usize = 3;
-/// Distance that positions are snapped to, canvas points.
+/// Grid to which positions are snapped, canvas points.
 pub const GRID: f32 = 10.0;
 
-/// Knobs that a node shows itself: the first ones that fit in a row and belong to no input, since inputs have rows already.
+/// Returns the knobs that are shown on a node: the first ones that fit into a row and do not belong to an input, since
+/// inputs have rows anyway.
 pub fn own_knobs(entry: &Entry) -> impl Iterator<Item = &Knob> {
     let fits_row = |role: &KnobRole| {
         matches!(
@@ -43,7 +44,7 @@ pub fn is_reroute(entry: &Entry) -> bool {
     entry.id == REROUTE_KIND
 }
 
-/// Rows that a node shows, and where they are.
+/// Rows that a node shows, and their positions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShownRows {
     inputs: Shown,
@@ -53,7 +54,7 @@ pub struct ShownRows {
     is_reroute: bool,
 }
 
-/// Those rows of a list that are shown.
+/// Which rows of a list are shown.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Shown {
     All(usize),
@@ -68,7 +69,7 @@ impl Shown {
         }
     }
 
-    /// Place of a row among those that are shown.
+    /// Returns the position of a row among the shown rows.
     fn place(&self, row: usize) -> Option<usize> {
         match self {
             Shown::All(count) => (row < *count).then_some(row),
@@ -78,7 +79,7 @@ impl Shown {
 }
 
 impl ShownRows {
-    /// All rows of a node.
+    /// Returns all rows of a node.
     pub fn all(entry: &Entry) -> ShownRows {
         ShownRows {
             inputs: Shown::All(entry.inputs.len()),
@@ -89,7 +90,7 @@ impl ShownRows {
         }
     }
 
-    /// Rows of a node of a graph, as its display says.
+    /// Returns the rows of a node of a graph, according to its display settings.
     pub fn of(graph: &Graph, id: &NodeId, entry: &Entry) -> ShownRows {
         let all = ShownRows::all(entry);
         let Some(node) = graph.node(id.as_str()).filter(|_| !all.is_reroute) else {
@@ -126,13 +127,13 @@ impl ShownRows {
         [NODE_WIDTH, TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + MARGIN]
     }
 
-    /// Vertical position at which the wire of an input ends, from the node's upper edge: the middle of its row, or of the title
-    /// where it is hidden. Rows of inputs come first.
+    /// Returns the vertical position of the end of an input's wire, from the node's upper edge: the middle of its row, or
+    /// of the title if the row is hidden. Rows of inputs come first.
     pub fn input(&self, row: usize) -> f32 {
         self.middle_of(self.inputs.place(row))
     }
 
-    /// Index, among the knobs that it shows, of the one at a vertical position from the node's upper edge.
+    /// Returns the index, among the shown knobs, of the knob at a vertical position from the node's upper edge.
     pub fn knob_at(&self, down: f32) -> Option<usize> {
         let row = ((down - TITLE_HEIGHT) / ROW_HEIGHT).floor();
         let rows = self.inputs.count()..self.inputs.count() + self.knobs;
@@ -140,7 +141,7 @@ impl ShownRows {
         rows.contains(&row).then(|| row - rows.start)
     }
 
-    /// Vertical position at which the wire of an output begins, from the node's upper edge.
+    /// Returns the vertical position of the start of an output's wire, from the node's upper edge.
     pub fn output(&self, row: usize) -> f32 {
         let before = self.inputs.count() + self.knobs;
         self.middle_of(self.outputs.place(row).map(|place| before + place))
@@ -154,12 +155,12 @@ impl ShownRows {
         }
     }
 
-    /// Place of an input among those that are shown.
+    /// Returns the position of an input among the shown inputs.
     pub fn place_of_input(&self, input: usize) -> Option<usize> {
         self.inputs.place(input)
     }
 
-    /// Place of an output among those that are shown.
+    /// Returns the position of an output among the shown outputs.
     pub fn place_of_output(&self, output: usize) -> Option<usize> {
         self.outputs.place(output)
     }
@@ -174,18 +175,18 @@ impl ShownRows {
         self.place_of_output(output).is_some()
     }
 
-    /// Returns whether it shows knobs.
+    /// Returns whether the node shows knobs.
     pub fn shows_knobs(&self) -> bool {
         self.knobs > 0
     }
 
-    /// Returns whether it shows a picture.
+    /// Returns whether the node shows its thumbnail.
     pub fn shows_picture(&self) -> bool {
         self.has_picture
     }
 }
 
-/// Outputs of a node that are read; the first one where none is, so that a wire can begin there.
+/// Returns the outputs of a node that have readers. If there are none, returns the first output, so that a wire can be started there.
 fn read_outputs(graph: &Graph, id: &NodeId, entry: &Entry) -> Vec<usize> {
     let first = entry.outputs.first().map(|port| port.name.as_str());
     let read: BTreeSet<&str> = graph
@@ -207,7 +208,7 @@ pub fn size_of(entry: &Entry) -> [f32; 2] {
     ShownRows::all(entry).size()
 }
 
-/// Rows of a node of the shown graph; none where there is no such node.
+/// Returns the rows of a node of the shown graph; `None` if there is no such node.
 pub fn rows_of(document: &OpenDocument, id: &NodeId) -> Option<ShownRows> {
     let face = document.face(id)?;
     Some(ShownRows::of(document.graph(), id, face))

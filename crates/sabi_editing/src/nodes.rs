@@ -38,7 +38,7 @@ pub fn add_instance(
     place_new(document, id, node, &entry, pending)
 }
 
-/// Creates an instance of a group with a new id, without adding it to the graph. A refusal is a notice.
+/// Creates an instance of a group with a new id, without adding it to the graph. If this is refused, a notice is added.
 pub(crate) fn new_instance(
     document: &mut OpenDocument,
     group: &str,
@@ -85,7 +85,7 @@ fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Entry>> {
     Faces::new(&catalog, &contents, &mut read).of_whole().cloned()
 }
 
-/// Name of the shown group, if the group `group` contains it: instances of `group` cannot be inside it then.
+/// Returns the name of the shown group if `group` contains it. An instance of `group` inside it would contain itself.
 pub(crate) fn containing_shown(document: &OpenDocument, group: &str) -> Option<String> {
     let Body::Group(open) = document.shown() else {
         return None;
@@ -132,8 +132,8 @@ fn place_new(
     })
 }
 
-/// Place for a new node with these ports, where it covers no other one: this place, or else the nearest one beside, above or below
-/// what is there; to the right or below where the other sides are about as near, since graphs are read in that direction.
+/// Returns a place for a new node with these ports where it covers no other node: the given place, or the nearest free one beside, above
+/// or below the nodes there. If the distances are similar, right or below is preferred, since graphs are read in that direction.
 pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32; 2] {
     let size = node_size::size_of(face);
     let boxes: Vec<[[f32; 2]; 2]> = document
@@ -163,20 +163,22 @@ pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32
     let nearest = beside
         .filter(|place| is_free(*place))
         .min_by(|one, other| distance(one).total_cmp(&distance(other)));
-    // One of the places around the outermost node on each side is free.
+    // There is always a free place beside the outermost node on each side.
     nearest.unwrap_or(place)
 }
 
-/// First position without a node, from the given one down to the right: nodes at the same position would hide each other.
+/// Returns the first position without a node, starting at the given one and going right and down: nodes at the same
+/// position would hide each other.
 fn free_position(document: &OpenDocument, pos: [f32; 2]) -> [f32; 2] {
     let is_taken = |place: [f32; 2]| document.graph().nodes().any(|(_, node)| node.pos == place);
-    // As many positions as nodes and another are enough, except so far out that a step is lost in rounding.
+    // One position more than there are nodes is enough, except so far from the origin that a step is lost in rounding.
     let steps = 0..=document.graph().len();
     let mut places = steps.map(|step| pos.map(|at| at + step as f32 * 2.0 * GRID));
     places.find(|place| !is_taken(*place)).unwrap_or(pos)
 }
 
-/// Removes the selected nodes. With `reconnects`, their readers are connected to what the nodes would pass on if muted.
+/// Removes the selected nodes. If `reconnects` is true, their readers are connected to the results that the nodes would
+/// pass on if they were muted.
 pub fn delete(document: &mut OpenDocument, reconnects: bool) -> bool {
     let ids = document.selection().clone();
     let mut edits = if reconnects {
@@ -199,7 +201,7 @@ pub fn toggle_muted(document: &mut OpenDocument) -> bool {
     set_muted(document, document.selection().clone(), muted)
 }
 
-/// Mutes a node of the main graph; `false` where there is none, or it is muted already.
+/// Mutes a node of the main graph. Returns false if the node does not exist or is muted already.
 pub fn mute_in_main_graph(document: &mut OpenDocument, id: &NodeId) -> bool {
     let node = document.graph_of(&Body::Main).and_then(|graph| graph.node(id.as_str()));
     if node.is_none_or(|node| node.muted) {
@@ -225,7 +227,7 @@ pub(crate) fn set_muted(document: &mut OpenDocument, ids: impl IntoIterator<Item
     document.edit(if muted { "Mute" } else { "Unmute" }, edits)
 }
 
-/// Has the selected nodes show only these rows, or all if all of them do so already.
+/// Lets the selected nodes show only these rows, or all rows if all selected nodes are in that state already.
 pub fn toggle_rows(document: &mut OpenDocument, rows: NodeRows) -> bool {
     let is_so = |id: &NodeId| document.node(id).is_some_and(|node| node.display.rows == rows);
     let (name, rows) = match (document.selection().iter().all(is_so), rows) {
@@ -236,7 +238,7 @@ pub fn toggle_rows(document: &mut OpenDocument, rows: NodeRows) -> bool {
     set_display(document, name, |display| display.rows = rows)
 }
 
-/// Draws wires from the selected nodes as their names, or as wires if all of them are drawn as names already.
+/// Draws wires that start at the selected nodes as names, or as wires again if all of them are drawn as names.
 pub fn toggle_named_wires(document: &mut OpenDocument) -> bool {
     let is_named = |id: &NodeId| document.node(id).is_some_and(|node| node.display.has_named_wires);
     let has_named_wires = !document.selection().iter().all(is_named);
@@ -289,7 +291,7 @@ fn set_knob_of(
     value: Option<Value>,
 ) -> bool {
     let ids: Vec<NodeId> = ids.into_iter().collect();
-    // All nodes are of one kind.
+    // All of these nodes have the same kind, so a value that means no variant is a reset for all of them.
     let value = value.filter(|value| !ids.iter().any(|node| means_no_variant(document, node, knob, value)));
     let mut edits = panel_values::published_values(document, &ids, knob, value.as_ref());
     let step = match ids.as_slice() {
@@ -311,14 +313,14 @@ fn set_knob_of(
     document.edit(&step, edits)
 }
 
-/// Returns whether a value selects no variant for a group instance, which files express by a missing parameter.
+/// Returns whether a value selects no variant for a group instance. Files express this by omitting the parameter.
 fn means_no_variant(document: &OpenDocument, id: &NodeId, knob: &str, value: &Value) -> bool {
     let is_instance = document.node(id).is_some_and(|node| node.kind == GROUP_KIND);
     is_instance && knob == "variant" && value.as_text() == Some(NO_VARIANT)
 }
 
-/// Sets the label of a node; an empty one restores that of its kind. The only instance of a group stands for the group, which
-/// gets the name itself, so that it has it in lists and in the library, too.
+/// Sets the label of a node; an empty one restores the label of its kind. If the node is the only instance of a group, the
+/// group itself is renamed, so that lists and the library show the name, too.
 pub fn rename(document: &mut OpenDocument, id: &NodeId, name: &str) -> bool {
     let name = name.trim();
     let body = document.body();
@@ -341,7 +343,7 @@ pub fn rename(document: &mut OpenDocument, id: &NodeId, name: &str) -> bool {
     document.edit("Rename", vec![edit])
 }
 
-/// The group that a node is the only instance of, where it can get a name.
+/// Returns the group of which the node is the only instance, if the group can be renamed.
 fn group_to_rename(document: &OpenDocument, id: &NodeId, name: &str) -> Option<String> {
     let group = document.node(id)?.group.clone()?;
     let groups = &document.contents().groups;

@@ -7,11 +7,11 @@ use crate::open_document::OpenDocument;
 
 /// Width of a new note, canvas points.
 pub const NOTE_WIDTH: f32 = 240.0;
-/// Least width of a note, canvas points.
+/// Minimum width of a note, canvas points.
 pub const LEAST_NOTE_WIDTH: f32 = 80.0;
-/// Width of a letter and height of a line of a note, about, canvas points.
+/// Approximate width of a letter and height of a line of a note, canvas points.
 const LETTER: [f32; 2] = [7.0, 19.0];
-/// Sentence about a note that does not exist.
+/// Error about a note that does not exist.
 const GONE: &str = "this note does not exist any more";
 
 /// Adds a note at a place of the canvas.
@@ -84,7 +84,7 @@ fn set(document: &mut OpenDocument, step: &str, id: &str, note: Option<Note>) ->
     document.edit(step, vec![edit])
 }
 
-/// Size that a note has on the canvas, about: its lines are only measured where they are drawn.
+/// Returns the approximate size of a note on the canvas. Its lines are measured exactly only when they are drawn.
 pub fn approximate_size(note: &Note) -> [f32; 2] {
     let letters = (note.width / LETTER[0]).max(1.0);
     let lines = note.text.split('\n');

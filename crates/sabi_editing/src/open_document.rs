@@ -1,4 +1,4 @@
-//! The open document: what every edit needs, and the one place where edits are applied.
+//! The open document: the state that every edit needs. All edits are applied here.
 
 mod node_kinds;
 
@@ -18,9 +18,9 @@ use crate::library_folder::LibraryFolder;
 use crate::new_ids::IdGenerator;
 use crate::{evaluability, follow_up};
 
-/// Document that is open in the editor, with everything that belongs to editing it but is not saved with it.
+/// Document that is open in the editor, with the state of editing that is not saved with it.
 ///
-/// It holds what all edits need. The edits themselves are functions of the other modules, over `&mut OpenDocument`.
+/// The edits themselves are functions of the other modules that take `&mut OpenDocument`.
 pub struct OpenDocument {
     /// The document with its file, undo history and recovery file.
     pub session: Session,
@@ -34,12 +34,12 @@ pub struct OpenDocument {
     group_files: GroupFiles,
     /// Entered group instances, outermost first.
     instance_path: Vec<NodeId>,
-    /// Graph that the entered instances lead to.
+    /// Graph that is shown: the graph of the innermost entered instance, or the main graph.
     shown: Body,
     selection: BTreeSet<NodeId>,
     pub(crate) ids: IdGenerator,
     notices: Vec<String>,
-    /// Folders of libraries that groups are linked to by name.
+    /// Folders of libraries. Links of groups refer to libraries by name.
     pub library_folders: Vec<LibraryFolder>,
     pub(crate) trust: Trust,
 }
@@ -51,7 +51,7 @@ impl OpenDocument {
         kinds: Arc<Kinds>,
         catalog: Arc<Catalog>,
     ) -> OpenDocument {
-        // Revisions of a session are unique in the process, so those that count on from its first are, too.
+        // Revisions of a session are unique in the process, so numbers that continue from its first revision are, too.
         let first = session.revision();
         let mut document = OpenDocument {
             session,
@@ -75,12 +75,13 @@ impl OpenDocument {
         document
     }
 
-    /// Number that rises each time a file that the graph names was written; no other open document has the same.
+    /// Returns a number that increases each time a file that the graph refers to was written. The numbers of different open
+    /// documents are always different.
     pub fn files_revision(&self) -> u64 {
         self.files_revision
     }
 
-    /// Contents of the document, as a save would write them.
+    /// Returns the contents of the document, as they would be saved.
     pub fn contents(&self) -> &Document {
         self.session.document()
     }
@@ -105,7 +106,7 @@ impl OpenDocument {
         self.contents().body(body).ok()
     }
 
-    /// Graphs that the entered instances lead to, outermost first, as far as they exist. The main graph is not among them.
+    /// Returns the graphs of the entered instances that exist, outermost first, without the main graph.
     pub(crate) fn entered_graphs(&self) -> Vec<Body> {
         let mut entered: Vec<Body> = Vec::new();
         for id in &self.instance_path {
@@ -124,7 +125,7 @@ impl OpenDocument {
         &self.instance_path
     }
 
-    /// Shows the graph that group instances lead to, with nothing selected.
+    /// Shows the graph of these nested group instances, and clears the selection.
     pub(crate) fn show_graph_at(&mut self, instance_path: Vec<NodeId>) {
         self.instance_path = instance_path;
         self.shown = self.entered_graphs().pop().unwrap_or(Body::Main);
@@ -146,12 +147,13 @@ impl OpenDocument {
         &self.faces.faces
     }
 
-    /// Number that rises each time ports and knobs of nodes may have changed; no other open document has the same.
+    /// Returns a number that increases each time ports and knobs of nodes may have changed. The numbers of different open
+    /// documents are always different.
     pub fn faces_number(&self) -> u64 {
         self.faces.number
     }
 
-    /// Ports and knobs that instances of the shown graph have.
+    /// Returns the ports and knobs of instances of the shown graph.
     pub fn own_face(&self) -> Option<&Arc<Entry>> {
         face_of(self.faces(), &self.shown)
     }
@@ -161,14 +163,15 @@ impl OpenDocument {
         face_of(&self.opened, &self.shown)
     }
 
-    /// Title of a node of the shown graph: its own label, or that of its kind.
+    /// Returns the title of a node of the shown graph: its own label, or the label of its kind.
     pub fn title(&self, id: &NodeId) -> String {
         let own = self.node(id).and_then(|node| node.label.clone());
         own.or_else(|| self.face(id).map(|face| face.label.clone()))
             .unwrap_or_else(|| id.to_string())
     }
 
-    /// Id of a node of the shown graph in the evaluation: the entered instances and its own id, separated by slashes.
+    /// Returns the id of a node of the shown graph in the evaluation: the ids of the entered instances and its own id,
+    /// separated by slashes.
     pub fn full_id(&self, id: &NodeId) -> String {
         let path = self.instance_path.iter().chain([id]).map(NodeId::as_str);
         path.collect::<Vec<_>>().join("/")
@@ -184,34 +187,34 @@ impl OpenDocument {
         self.selection.contains(id)
     }
 
-    /// The selected node, if exactly one is selected.
+    /// Returns the selected node, if exactly one node is selected.
     pub fn selected_one(&self) -> Option<&NodeId> {
         let mut ids = self.selection.iter();
         ids.next().filter(|_| ids.next().is_none())
     }
 
-    /// Selects these nodes, as far as they exist, and no others.
+    /// Selects the nodes of this list that exist, and no others.
     pub fn select(&mut self, ids: impl IntoIterator<Item = NodeId>) {
         let ids = ids.into_iter().filter(|id| self.node(id).is_some());
         self.selection = ids.collect();
     }
 
-    /// Generates an id that is neither in the shown graph nor among `taken`: a readable stem and a random tail.
+    /// Generates an id that is neither in the shown graph nor among `taken`: a readable stem with a random end.
     pub(crate) fn new_id(&mut self, stem: &str, taken: &BTreeSet<NodeId>) -> NodeId {
         let OpenDocument {
             session, shown, ids, ..
         } = self;
         let contents = session.document();
-        ids.id(stem, contents.body(shown).unwrap_or(&contents.graph), taken) // as in `graph`
+        ids.id(stem, contents.body(shown).unwrap_or(&contents.graph), taken) // `shown` names an existing graph, see `graph`
     }
 
-    /// Generates an id with the stem of another one.
+    /// Generates an id with the same stem as another id.
     pub(crate) fn new_id_like(&mut self, id: &NodeId, taken: &BTreeSet<NodeId>) -> NodeId {
         let stem = id.as_str().rsplit_once('_').map_or(id.as_str(), |(stem, _)| stem);
         self.new_id(stem, taken)
     }
 
-    /// Reads a graph file that a file of the base uses as a group, if it can be read.
+    /// Reads a graph file that a file of the base uses as a group; `None` if it cannot be read.
     pub(crate) fn read_group_file(&mut self, base: &PathBase, written: &str) -> Option<Document> {
         let file = self.group_files.read(base, &self.session.graph().trusted, written);
         file.map(Arc::unwrap_or_clone)
@@ -231,8 +234,8 @@ impl OpenDocument {
         is_made
     }
 
-    /// Applies edits as one undo step of that name, with the edits that follow from them; returns whether they were applied.
-    /// A refusal is a notice.
+    /// Applies edits and the edits that follow from them as one undo step with this name. Returns whether they were
+    /// applied. If they are refused, a notice is added.
     pub fn edit(&mut self, step: &str, edits: Vec<Edit>) -> bool {
         if edits.is_empty() {
             return false;
@@ -253,7 +256,7 @@ impl OpenDocument {
         made.is_ok()
     }
 
-    /// Applies an edit that is no step: it is not undone, and steps that can be redone stay.
+    /// Applies an edit that is not part of the history: undo does not revert it, and redo stays possible.
     pub fn edit_aside(&mut self, edit: Edit) {
         match self.session.edit_aside(edit) {
             Ok(()) => self.refresh(),
@@ -261,7 +264,7 @@ impl OpenDocument {
         }
     }
 
-    /// Applies an edit that may be refused, in which case it changes nothing and adds no notice.
+    /// Applies an edit that may be refused. If it is, nothing changes and no notice is added.
     pub(crate) fn edit_quietly(&mut self, step: &str, edit: Edit) {
         if self.session.edit(step, edit).is_ok() {
             self.refresh();
@@ -287,7 +290,7 @@ impl OpenDocument {
         self.after_history(redone, "Redone", &before);
     }
 
-    /// Cancels the step that was begun with `session.begin`: the document is as it was before.
+    /// Cancels the step that was started with `session.begin`: the document is restored to its state before the step.
     pub fn cancel_step(&mut self) {
         if let Err(error) = self.session.cancel() {
             self.notify(error.to_string());
@@ -295,7 +298,7 @@ impl OpenDocument {
         self.refresh();
     }
 
-    /// Number of entered instances and ids of the shown nodes, to find those that undo or redo brings back.
+    /// Returns the number of entered instances and the ids of the shown nodes, to find the nodes that undo or redo restores.
     fn shown_nodes(&self) -> (usize, BTreeSet<NodeId>) {
         (self.instance_path.len(), self.graph().ids().cloned().collect())
     }
@@ -323,14 +326,14 @@ impl OpenDocument {
         self.session.save()
     }
 
-    /// Saves the document to another file, which becomes its own. The node kinds beside that file are not read.
+    /// Saves the document to another file, which becomes the document's file. The node kinds beside that file are not read.
     pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
         self.session.save_as(path)?;
         self.refresh();
         Ok(())
     }
 
-    /// Reads the document's file again and takes its contents as one undo step.
+    /// Reads the document's file again and replaces the contents by it, as one undo step.
     pub fn read_again(&mut self) -> Result<(), EngineError> {
         let read = self.session.reload();
         self.refresh();
@@ -371,7 +374,7 @@ impl OpenDocument {
         }
         let mut entered = self.entered_graphs();
         if entered.len() < self.instance_path.len() {
-            // An entered instance does not exist any more: show the innermost graph that is left.
+            // An entered instance does not exist any more: show the innermost graph that still exists.
             self.show_graph_at(self.instance_path[..entered.len()].to_vec());
         } else {
             self.shown = entered.pop().unwrap_or(Body::Main);

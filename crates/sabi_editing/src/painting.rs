@@ -1,4 +1,4 @@
-//! Painting: strokes of the paint nodes, and paint nodes over masks.
+//! Painting: strokes of paint nodes, and paint nodes on top of masks.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -14,12 +14,12 @@ use crate::open_document::OpenDocument;
 pub const PAINT: &str = "source/paint";
 /// Parameter of a paint node that names its strokes.
 pub const STROKES: &str = "strokes";
-/// Parameter of a paint node that is the mask where nothing was painted.
+/// Parameter of a paint node with the value of the mask where nothing is painted.
 pub(crate) const EMPTY: &str = "empty";
 /// Space between a node and the paint node behind it, canvas points.
 const GAP: f32 = 60.0;
 
-/// Versions of strokes that a node names, one for each model; none where it is no paint node.
+/// Returns the versions of strokes that a paint node refers to, one for each model; `None` for other nodes.
 pub fn strokes_of(document: &OpenDocument, node: &NodeId) -> Option<String> {
     let node = document.node(node).filter(|node| node.kind == PAINT)?;
     Some(match node.params.get(STROKES) {
@@ -28,7 +28,7 @@ pub fn strokes_of(document: &OpenDocument, node: &NodeId) -> Option<String> {
     })
 }
 
-/// Strokes of a paint node on a model; none where nothing is painted there.
+/// Returns the strokes of a paint node on a model; `None` if nothing is painted there.
 pub fn strokes_on(document: &OpenDocument, node: &NodeId, model: &str) -> Option<Arc<StrokeList>> {
     let open = document.session.graph();
     open.strokes.on_model(&open.path, model, &strokes_of(document, node)?)
@@ -40,13 +40,13 @@ pub fn is_read(document: &OpenDocument, node: &NodeId) -> bool {
     nodes.any(|(_, reader)| reader.inputs.values().any(|from| from.node == *node))
 }
 
-/// Replaces what a paint node had on a model `before`, by that and a stroke on top. While the brush moves, `before` stays that of
-/// its first touch.
+/// Replaces the strokes of a paint node on a model by the strokes `before` plus one stroke on top. While the brush moves,
+/// `before` stays the version before the stroke began.
 pub fn stroke(document: &mut OpenDocument, node: &NodeId, model: &str, before: &str, stroke: Arc<Stroke>) -> bool {
     take_steps(document, node, (model, before), "Stroke", &[Step::Add(stroke)])
 }
 
-/// Takes steps in the strokes of a paint node on a model, from what it had before, as one step of the history.
+/// Applies several changes to the strokes of a paint node on a model, starting from an earlier version, as one undo step.
 pub fn take_steps(
     document: &mut OpenDocument,
     node: &NodeId,
@@ -68,8 +68,8 @@ pub fn take_steps(
     document.edit(name, vec![edit])
 }
 
-/// Puts a paint node behind a mask, so that its strokes lie over the mask wherever it is read; it is selected. A paint node is
-/// selected as it is.
+/// Adds a paint node on top of a mask, so that its strokes cover the mask for all readers, and selects it. If `node` is a
+/// paint node, it is only selected.
 pub fn paint_over(document: &mut OpenDocument, node: &NodeId) -> Option<NodeId> {
     if strokes_of(document, node).is_some() {
         return Some(node.clone());
@@ -93,7 +93,7 @@ pub fn paint_over(document: &mut OpenDocument, node: &NodeId) -> Option<NodeId> 
     };
     paint.inputs = BTreeMap::from([("base".to_owned(), from)]);
     let mut edits = vec![new_nodes::addition(document, &id, paint)];
-    // An input that names no port reads the first one.
+    // A wire that names no port reads the first one.
     let is_first = face.outputs.first().is_some_and(|first| first.name == port);
     let readers: BTreeSet<(NodeId, String)> = document
         .graph()

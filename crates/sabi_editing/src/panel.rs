@@ -16,16 +16,16 @@ pub struct PanelKnob {
     pub name: String,
     /// Definition of the published knob in the graph.
     pub exposed: Exposed,
-    /// Appearance: the first knob that it controls, with that knob's own name and range.
+    /// How the knob is shown: like the first knob that it controls, with its own name and range.
     pub knob: Knob,
     /// Current value, in the shown variant if there is one.
     pub value: Value,
-    /// Value that a reset restores: that without the shown variant, or without one that when the graph was opened; for a knob
-    /// that was published since, the default of its node's kind.
+    /// Value that a reset restores: the value without the shown variant; if no variant is shown, the value when the graph
+    /// was opened; for a knob that was published later, the default of its node's kind.
     pub at_first: Value,
 }
 
-/// Published knobs in the order of the panel. A knob that controls no known knob is left out.
+/// Returns the published knobs in the order of the panel. A knob that controls only unknown knobs is left out.
 pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
     let face = document.own_face();
     let opened = document.own_face_when_opened();
@@ -35,7 +35,7 @@ pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
         let knob = face?.knob(name)?.clone();
         let first = exposed.to.first()?;
         let inner = document.face(&first.node)?.knob(&first.name)?;
-        // The default of a published knob is its own value.
+        // If a published knob has a default, that is its value.
         let own = &knob.ty.default;
         let before = opened.and_then(|face| face.knob(name));
         let opened_with = before.map_or(&inner.ty.default, |knob| &knob.ty.default);
@@ -64,7 +64,7 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
         let title = document.title(id);
         return document.refuse(format!("'{title}' has no parameter '{knob}'"));
     };
-    // Every instance has further knobs, whose names are reserved.
+    // Every instance has some built-in knobs, whose names are reserved.
     let stem = match INSTANCE_KNOBS.contains(&knob) {
         true => format!(
             "{}_{knob}",
@@ -86,7 +86,7 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     document.edit("Expose", vec![edit])
 }
 
-/// Adds a knob of a node to those that a published knob controls.
+/// Adds a knob of a node to the knobs that a published knob controls.
 pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &str) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
@@ -132,7 +132,7 @@ pub fn expose_of_selected(document: &mut OpenDocument, id: &NodeId, knob: &str) 
     is_new
 }
 
-/// Name under which a knob of a node is published, if it is.
+/// Returns the name under which a knob of a node is published; `None` if it is not.
 pub fn exposed_as<'d>(document: &'d OpenDocument, id: &NodeId, knob: &str) -> Option<&'d str> {
     let is_meant = |slot: &SlotRef| slot.node == *id && slot.name == knob;
     let mut exposed = document.graph().exposed().iter();

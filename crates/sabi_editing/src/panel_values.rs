@@ -8,8 +8,8 @@ use crate::names::knob_label;
 use crate::open_document::OpenDocument;
 use crate::{instances, panel, shown_variant};
 
-/// Sets a published knob: in the shown variant, or without one its default if it has one, otherwise the knobs of nodes that
-/// it controls.
+/// Sets a published knob. If a variant is shown, the value is stored in the variant; otherwise in the knob's default if it
+/// has one, or else in the nodes that it controls.
 pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     if let Some(why) = why_not_set(document, name, value) {
         return document.refuse(why);
@@ -18,8 +18,7 @@ pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     document.edit(&step_name(document, name), edits)
 }
 
-/// Resets a published knob: to the graph's own value where a variant is shown, otherwise to its value when the graph was
-/// opened.
+/// Resets a published knob: if a variant is shown, to the graph's own value; otherwise to its value when the graph was opened.
 pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
     if let Some((variant, values)) = shown_variant::values(document) {
         let mut values = values.clone();
@@ -45,7 +44,7 @@ fn step_name(document: &OpenDocument, name: &str) -> String {
     }
 }
 
-/// Returns the reason why a published knob cannot be set to a value; none if it can.
+/// Returns the reason why a published knob cannot be set to a value; `None` if it can.
 pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) -> Option<String> {
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Some(format!("there is no exposed parameter '{name}'"));
@@ -83,8 +82,8 @@ fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
     exposed.settings(value).map(set).collect()
 }
 
-/// Returns whether a new value of a node's knob is for the shown variant only, which has a value for it: one in the published
-/// range, or a reset.
+/// Returns whether a new value of a node's knob belongs only in the shown variant: the variant sets this knob, and the
+/// value is within the published range, or a reset.
 pub(crate) fn is_of_variant_only(document: &OpenDocument, id: &NodeId, knob: &str, value: Option<&Value>) -> bool {
     let Some(name) = panel::exposed_as(document, id, knob) else {
         return false;
@@ -95,8 +94,8 @@ pub(crate) fn is_of_variant_only(document: &OpenDocument, id: &NodeId, knob: &st
     is_set && value.is_none_or(|value| range_fault(range, value).is_none())
 }
 
-/// Edits of the published knobs that control nodes' knobs, where the shown variant or a default would override the new
-/// value.
+/// Returns the edits of published knobs that must accompany new values of the nodes' knobs, since the shown variant or a
+/// default would override these.
 pub(crate) fn published_values(
     document: &OpenDocument,
     ids: &[NodeId],
@@ -108,7 +107,7 @@ pub(crate) fn published_values(
         .filter_map(|id| panel::exposed_as(document, id, knob))
         .collect();
     let variant = shown_variant::values(document);
-    let mut of_variant = variant.map(|(_, values)| values.clone()).unwrap_or_default(); // None is shown.
+    let mut of_variant = variant.map(|(_, values)| values.clone()).unwrap_or_default(); // Without a shown variant, it has no values.
     let mut edits = Vec::new();
     for name in published {
         let Some(exposed) = document.graph().exposed().get(name) else {
@@ -120,7 +119,7 @@ pub(crate) fn published_values(
             .find(|slot| slot.name == knob && ids.contains(&slot.node));
         let curve = slot.and_then(|slot| exposed.curves.get(slot));
         let of_knob = value.map(|value| curve.map_or_else(|| value.clone(), |curve| curve.invert(value)));
-        // A reset removes the overriding value, and so does a value outside of the published range.
+        // A reset removes the overriding value. A value outside of the published range removes it, too.
         let inside = of_knob
             .as_ref()
             .filter(|value| range_fault(exposed.range, value).is_none());
@@ -131,8 +130,8 @@ pub(crate) fn published_values(
                 None => of_variant.remove(name),
             };
         }
-        // A value that is not for the variant is for the graph itself.
-        // A knob with curves keeps its default: it has no other value.
+        // A value that does not belong in the variant is a value of the graph itself. A knob with curves keeps its default,
+        // since it has no other value.
         let can_lose_default = exposed.curves.is_empty() || inside.is_some();
         if exposed.default.is_some() && can_lose_default && (!is_of_variant || value.is_some() && inside.is_none()) {
             let default = inside.cloned();
@@ -151,7 +150,7 @@ pub(crate) fn published_values(
     edits
 }
 
-/// Sets the default of a published knob; `None` leaves the values of its nodes.
+/// Sets the default of a published knob. `None` removes it, so that the nodes keep their own values.
 pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Value>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
@@ -163,13 +162,13 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
     document.edit("Set default", vec![edit])
 }
 
-/// Sets the range of a published knob; `None` restores that of the knob that it controls. All values that are set have to
-/// lie in it.
+/// Sets the range of a published knob; `None` restores the range of the knob that it controls. All values set so far must
+/// lie in the range.
 pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
-    // Rounded as in the file, so that a value on the border is inside.
+    // Round as in the file, so that a value at the end of the range is inside.
     let range = range.map(|ends| ends.map(|end| canonical_number(end).unwrap_or(end)));
     let outside = set_values(document, name, &exposed).find_map(|(place, value)| {
         let why = range_fault(range, &value)?;
@@ -182,7 +181,7 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     document.edit("Set range", vec![edit])
 }
 
-/// Values of a published knob in its default, the variants and the instances, each with its place in words.
+/// Lists the values of a published knob in its default, the variants and the instances, each with a description of its place.
 fn set_values<'d>(
     document: &'d OpenDocument,
     name: &'d str,
@@ -203,7 +202,7 @@ fn set_values<'d>(
     default.chain(variants).chain(instances)
 }
 
-/// Returns the reason why a value is outside of a range; none if it is inside.
+/// Returns the reason why a value is outside of a range; `None` if it is inside.
 pub(crate) fn range_fault(range: Option<[f64; 2]>, value: &Value) -> Option<String> {
     let [low, high] = range?;
     let one = std::slice::from_ref(value);

@@ -1,4 +1,4 @@
-//! Inputs and outputs that the shown graph has as a group. Its instances follow.
+//! Inputs and outputs that the shown graph has when used as a group. Its instances are adapted to changes.
 
 use std::collections::BTreeMap;
 
@@ -35,7 +35,7 @@ pub fn publish_input(document: &mut OpenDocument, slot: &SlotRef) -> Option<Stri
     document.edit("Add input", vec![edit]).then_some(name)
 }
 
-/// Connects an input of the group to a further input of a node.
+/// Connects an input of the group to one more input of a node.
 pub fn feed(document: &mut OpenDocument, name: &str, slot: &SlotRef) -> bool {
     let Some(mut input) = inputs(document).get(name).cloned() else {
         return document.refuse(format!("the group has no input '{name}'"));
@@ -47,7 +47,7 @@ pub fn feed(document: &mut OpenDocument, name: &str, slot: &SlotRef) -> bool {
         return document.refuse(why);
     }
     let mut edits = Vec::new();
-    // An input of a node is fed by one input of the group at most: the last one that was connected.
+    // An input of a node can be fed by only one input of the group: the one connected last.
     if let Some((other, mut known)) = feeding(document, slot) {
         known.to.retain(|fed| fed != slot);
         edits.push(setting_input(document, &other, Some(known)));
@@ -67,15 +67,15 @@ pub fn unfeed(document: &mut OpenDocument, slot: &SlotRef) -> bool {
     document.edit("Disconnect input", vec![edit])
 }
 
-/// Inputs of these nodes that are fed by the group, each with the name of the group's input.
+/// Returns the inputs of these nodes that are fed by the group, each with the name of the group's input.
 pub(crate) fn fed_by_group(document: &OpenDocument, is_meant: impl Fn(&NodeId) -> bool) -> Vec<(SlotRef, String)> {
     let inputs = inputs(document).iter();
     let slots = inputs.flat_map(|(name, input)| input.to.iter().map(move |slot| (slot.clone(), name.clone())));
     slots.filter(|(slot, _)| is_meant(&slot.node)).collect()
 }
 
-/// Adds the edits after which each of these inputs is fed by that input of the group, or by none. Takes into account what
-/// the edits set already.
+/// Adds the edits after which each of these inputs is fed by the given input of the group, or by no input. Edits that are
+/// in the list already are taken into account.
 pub(crate) fn refeed(document: &OpenDocument, edits: &mut Vec<Edit>, fed: Vec<(SlotRef, Option<String>)>) {
     let feeds = |name: &str, slot: &SlotRef| fed.iter().any(|(to, by)| to == slot && by.as_deref() == Some(name));
     for (name, input) in inputs(document) {
@@ -108,8 +108,7 @@ fn feeding(document: &OpenDocument, slot: &SlotRef) -> Option<(String, GroupInpu
     Some((name, input))
 }
 
-/// Checks that an input of the group, or a new input if none is given, can feed an input of a node; the error says why
-/// not.
+/// Checks that an input of the group (or, for `None`, a new input) can feed an input of a node. The error is the reason why not.
 fn check_feed(document: &OpenDocument, input: Option<&GroupInput>, slot: &SlotRef) -> Result<(), String> {
     let Some(port) = connections::input(document, slot) else {
         return Err(format!("'{}' has no input '{}'", document.title(&slot.node), slot.name));
@@ -131,7 +130,7 @@ fn check_feed(document: &OpenDocument, input: Option<&GroupInput>, slot: &SlotRe
     }
 }
 
-/// Unconnected inputs of nodes that an input of the group could feed; those for masks that multiply parameters come last.
+/// Lists the unconnected inputs of nodes that an input of the group could feed. Inputs for masks that multiply parameters come last.
 pub fn feedable(document: &OpenDocument, name: &str) -> Vec<SlotRef> {
     let Some(input) = inputs(document).get(name) else {
         return Vec::new();
@@ -165,7 +164,7 @@ pub fn results(document: &OpenDocument) -> Vec<OutputRef> {
     all.collect()
 }
 
-/// Name under which a port is published, if it is.
+/// Returns the name under which a port is published; `None` if it is not.
 pub fn published_as<'d>(document: &'d OpenDocument, port: &PendingWire) -> Option<&'d str> {
     match port {
         PendingWire::Into(slot) => connections::feeder(document, document.shown(), slot),

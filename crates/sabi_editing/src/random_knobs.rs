@@ -1,4 +1,4 @@
-//! Random values of published knobs, near those that they have: of a group instance, and of the document's own panel.
+//! Random values of published knobs, near their current values: of a group instance, and of the document's own panel.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,28 +8,28 @@ use sabi_graph::{Body, Edit, GROUP_KIND, INSTANCE_KNOBS, NodeId, Value};
 use crate::open_document::OpenDocument;
 use crate::{document_settings, panel, panel_values};
 
-/// Name of the seed among the knobs that stay.
+/// Name of the seed in lists of knobs that keep their values.
 pub const SEED: &str = "seed";
-/// Largest step as a share of a knob's range: the look changes, and stays what it is.
+/// Largest step, as a share of a knob's range: small enough that the result keeps its character.
 const STEP: f64 = 0.3;
-/// Largest distance from the group's or variant's own value, as a share of the range.
+/// Largest distance from the value in the group or variant, as a share of the range.
 const REACH: f64 = 0.35;
-/// Smallest value, as a share of the own value: nothing disappears.
+/// Smallest value, as a share of the value in the group or variant, so that no feature disappears.
 const LEAST: f64 = 0.25;
-/// Largest factor of a step, and of the distance from the own value, of lengths and other scales.
+/// Largest factor of a step, and of the distance from the value in the group or variant, for lengths and other scales.
 const FACTOR: f64 = 1.6;
 const FACTOR_REACH: f64 = 2.5;
-/// Share of its range below which a value counts as small, and ratio of the ends of a range from which it counts as a scale:
-/// steps are then factors, since the same step would be nothing at one end and everything at the other.
+/// Share of its range below which a value counts as small, and ratio of the ends of a range above which it counts as a scale. Such values
+/// are changed by factors, since a fixed step would be too small at one end of the range and too large at the other.
 const SMALL: f64 = 0.2;
 const SCALE: f64 = 8.0;
-/// Largest step of the channels of a color, and distance from the own color, of 255.
+/// Largest step of the channels of a color, and largest distance from the color in the group or variant, of 255.
 const COLOR_STEP: f64 = 22.0;
 const COLOR_REACH: f64 = 40.0;
 
-/// Gives an instance of a group another seed, and each published number and color another value near the one that it has.
-/// Values stay near those of the chosen variant, or of the group without one. Knobs of `kept` stay, and so do choices, texts,
-/// lists and numbers without a range.
+/// Gives an instance of a group another seed, and changes each published number and color to a value near its current one.
+/// Values also stay near those of the chosen variant, or of the group if there is none. Knobs of `kept`, choices, texts,
+/// lists and numbers without a range stay unchanged.
 pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<String>) -> bool {
     let node = document.node(id).filter(|node| node.kind == GROUP_KIND).cloned();
     let Some((node, face)) = node.zip(document.face(id).cloned()) else {
@@ -63,8 +63,8 @@ pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<Strin
     document.edit("Random values", edits)
 }
 
-/// Gives the document another seed and the published knobs of the shown graph other values, as [`randomize`] does: in the shown
-/// variant, if there is one. Values stay near those that a reset restores.
+/// Gives the document another seed and the published knobs of the shown graph other values, like [`randomize`]. If a
+/// variant is shown, its values are changed. Values stay near those that a reset restores.
 pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> bool {
     let panel = panel::knobs(document);
     if panel.is_empty() {
@@ -79,7 +79,7 @@ pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> 
     for known in panel.into_iter().filter(|known| !kept.contains(&known.name)) {
         let value = match known.knob.ty.role {
             KnobRole::Seed => Some(Value::from(document.ids.seed())),
-            // A knob that has been exposed since has no value of its own but the present one.
+            // A knob that was published since the graph was opened has no other value than its current one.
             _ => near(&known.knob, home_of(&known), &known.value, || signed(document)),
         };
         if let Some(value) = value {
@@ -90,7 +90,7 @@ pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> 
     is_changed
 }
 
-/// Value that a panel knob stays near: the one that a reset restores, where that is one that the knob takes.
+/// Returns the value that a panel knob stays near: the one that a reset restores, if the knob accepts it.
 fn home_of(known: &panel::PanelKnob) -> &Value {
     match panel_values::range_fault(known.knob.ty.range, &known.at_first) {
         None => &known.at_first,
@@ -98,15 +98,15 @@ fn home_of(known: &panel::PanelKnob) -> &Value {
     }
 }
 
-/// Values of a variant of a group of the document, or of a graph file.
+/// Returns the values of a variant of a group, which is in the document or in a graph file.
 fn values_of_variant(document: &mut OpenDocument, group: &str, name: &str) -> BTreeMap<String, Value> {
     if let Some(known) = document.contents().groups.get(group) {
-        return known.graph.variants().get(name).cloned().unwrap_or_default(); // A variant that is gone sets nothing.
+        return known.graph.variants().get(name).cloned().unwrap_or_default(); // A variant that does not exist sets nothing.
     }
     let base = document.session.graph().base();
     let file = document.read_group_file(&base, group);
     file.and_then(|file| file.graph.variants().get(name).cloned())
-        .unwrap_or_default() // So does one of a file that cannot be read.
+        .unwrap_or_default() // A file that cannot be read has no values.
 }
 
 /// A random number from −1 to 1.
@@ -114,12 +114,12 @@ fn signed(document: &mut OpenDocument) -> f64 {
     f64::from(document.ids.seed() % 1000) / 999.0 * 2.0 - 1.0
 }
 
-/// A value near the present one, which stays near the value `home`; none for knobs without such values.
+/// Returns a random value near the current one and near `home`; `None` for knobs whose values cannot be varied.
 fn near(knob: &Knob, home: &Value, now: &Value, mut signed: impl FnMut() -> f64) -> Option<Value> {
     match knob.ty.role {
         KnobRole::Color => {
             let (home, now) = (channels(home)?, channels(now)?);
-            // All channels go the same way, and each a little its own.
+            // All channels change in the same direction, with small differences.
             let shared = signed();
             let moved = [0, 1, 2].map(|at| {
                 let step = COLOR_STEP * (0.7 * shared + 0.3 * signed());
@@ -131,7 +131,7 @@ fn near(knob: &Knob, home: &Value, now: &Value, mut signed: impl FnMut() -> f64)
             Some(Value::from(format!("#{code}").as_str()))
         }
         KnobRole::Choice(_) | KnobRole::Toggle | KnobRole::Seed | KnobRole::Text => None,
-        // Whole numbers choose among kinds, or count; neither has values in between.
+        // Whole numbers are choices or counts, which have no values in between.
         _ if knob.ty.memory != Memory::F32 => None,
         _ => {
             let range = knob.ty.range?;
@@ -142,7 +142,7 @@ fn near(knob: &Knob, home: &Value, now: &Value, mut signed: impl FnMut() -> f64)
     }
 }
 
-/// A number near the present one. Lengths and scales move by factors.
+/// Returns a number near the current one. Lengths and scales are changed by factors.
 fn near_number(is_length: bool, [low, high]: [f64; 2], home: f64, now: f64, signed: f64) -> f64 {
     let span = high - low;
     let is_scale = is_length || low > 0.0 && high >= SCALE * low || low >= 0.0 && home < SMALL * span;
@@ -152,7 +152,7 @@ fn near_number(is_length: bool, [low, high]: [f64; 2], home: f64, now: f64, sign
             (home * FACTOR_REACH).min(high).max(now),
         ];
         let moved = reflected(now.ln() + signed * FACTOR.ln(), bounds.map(f64::ln)).exp();
-        // As many digits as a person would type.
+        // Round to as many digits as a person would type.
         let unit = 10_f64.powf(moved.log10().floor() - 2.0);
         return ((moved / unit).round() * unit).clamp(low, high);
     }
@@ -170,7 +170,7 @@ fn near_number(is_length: bool, [low, high]: [f64; 2], home: f64, now: f64, sign
     ((moved / unit).round() * unit).clamp(low, high)
 }
 
-/// A value inside of bounds: one beyond them turns back there, so that no draw piles up at an end.
+/// Returns a value inside of bounds: a value beyond them is reflected, so that values do not accumulate at the ends.
 fn reflected(value: f64, [low, high]: [f64; 2]) -> f64 {
     let turned = if value < low {
         2.0 * low - value

@@ -1,4 +1,4 @@
-//! Reconnection of wires around removed nodes: readers are connected to what the nodes would pass on if they were muted.
+//! Reconnection of wires around removed nodes: readers are connected to the results that the nodes would pass on if they were muted.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,22 +7,22 @@ use sabi_graph::{Body, Edit, GROUP_KIND, NodeId, OutputRef, REROUTE_KIND, SlotRe
 use crate::open_document::OpenDocument;
 use crate::{connections, instances};
 
-/// Greatest nesting of groups that is searched; groups that are nested deeper cannot be evaluated.
+/// Maximum nesting of groups that is searched. Groups that are nested deeper cannot be evaluated.
 const MOST_NESTED: usize = 256;
 
-/// Source of a reader after the nodes before it are removed.
+/// New source of an input after nodes before it are removed.
 #[derive(Clone, Debug)]
 struct NewSource {
-    /// Output that the reader is connected to.
+    /// Output that the input is connected to.
     wire: Option<OutputRef>,
-    /// The group's input that feeds it; the wire is then read while nothing is connected to that input.
+    /// The group's input that feeds it. In that case the wire is read only while nothing is connected to the group's input.
     fed: Option<String>,
 }
 
 /// Sources of an input: a group's input, a wire, or both.
 type Sources = (Option<String>, Option<OutputRef>);
 
-/// Edits that connect all readers of these nodes, and the group's outputs, to what the nodes pass on.
+/// Returns edits that connect all readers of these nodes, and the outputs of the group, to the results that the nodes pass on.
 pub(crate) fn reconnecting(document: &OpenDocument, removed: &BTreeSet<NodeId>) -> Vec<Edit> {
     let mut search = SourceSearch::new(document, removed);
     let mut edits = Vec::new();
@@ -68,12 +68,12 @@ pub(crate) fn reconnecting(document: &OpenDocument, removed: &BTreeSet<NodeId>) 
     edits
 }
 
-/// Search for the sources behind nodes that act as wires.
+/// Search for the sources of wires behind nodes that pass an input on.
 struct SourceSearch<'d> {
     document: &'d OpenDocument,
     removed: &'d BTreeSet<NodeId>,
-    /// Inputs that a group passes on if all its nodes act as wires, by group and output. Empty for a group that is being
-    /// searched: a group that contains itself cannot be evaluated.
+    /// Inputs that a group passes on if all its nodes do, by group and output. Empty for a group whose search has not
+    /// ended: a group that contains itself cannot be evaluated.
     passed_by_group: BTreeMap<(String, Option<String>), Vec<String>>,
     /// Number of nested groups that are being searched.
     depth: usize,
@@ -89,15 +89,16 @@ impl<'d> SourceSearch<'d> {
         }
     }
 
-    /// Returns the source behind a wire when the removed nodes act as wires, like muted nodes: each passes on the first
-    /// of its inputs of the same type that leads to a node which does not act as a wire.
+    /// Returns the source of a wire if the removed nodes behave like muted nodes: each passes on the first of its inputs of
+    /// the same type that leads to a node that stays.
     fn source_behind(&mut self, from: &OutputRef) -> NewSource {
         // Sources still to be followed, the next one last.
         let mut stack: Vec<Sources> = vec![(None, Some(from.clone()))];
         let mut visited = BTreeSet::new();
-        // The first input of the group on the way. A wire found after it is read while nothing is connected to that input.
+        // The first input of the group that was met on the way. A wire found after it is read only while nothing is
+        // connected to that input.
         let mut fed = None;
-        // A wire that carries nothing now is better than none: the artist may unmute its node.
+        // A wire that carries nothing now is better than no wire: the artist may unmute its node.
         let mut dead_end = None;
         while let Some((feeder, wire)) = stack.pop() {
             fed = fed.or(feeder);
@@ -127,7 +128,7 @@ impl<'d> SourceSearch<'d> {
         (connections::feeder(self.document, body, &slot).map(str::to_owned), wire)
     }
 
-    /// Returns whether a wire carries a result: it does not begin at a reroute or a muted node with nothing behind it.
+    /// Returns whether a wire carries a result: it does not start at a reroute or a muted node without a source.
     fn leads_somewhere(&mut self, from: &OutputRef) -> bool {
         let mut stack = vec![from.clone()];
         let mut visited = BTreeSet::new();
@@ -153,7 +154,7 @@ impl<'d> SourceSearch<'d> {
         false
     }
 
-    /// Inputs of a node that an output of it passes on while the node acts as a wire, in order.
+    /// Returns the inputs of a node that one of its outputs passes on while the node behaves like a muted one, in order.
     fn passed_inputs(&mut self, body: &Body, from: &OutputRef) -> Vec<String> {
         let document = self.document;
         let node = document.graph_of(body).and_then(|graph| graph.node(from.node.as_str()));
@@ -171,7 +172,7 @@ impl<'d> SourceSearch<'d> {
         fitting.map(|input| input.name.clone()).collect()
     }
 
-    /// Inputs of a group that an output of it passes on while all nodes inside act as wires.
+    /// Returns the inputs of a group that one of its outputs passes on while all nodes inside behave like muted ones.
     fn passed_inputs_of_group(&mut self, group: &str, port: Option<&str>) -> Vec<String> {
         let key = (group.to_owned(), port.map(str::to_owned));
         if let Some(known) = self.passed_by_group.get(&key) {

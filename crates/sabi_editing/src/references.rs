@@ -1,5 +1,5 @@
-//! Transfer of references to removed nodes: knobs on the panel, inputs and outputs of the group, and frames that named
-//! a removed node name its successors instead.
+//! Transfer of references to removed nodes: knobs on the panel, inputs and outputs of the group, and frames that referred
+//! to a removed node refer to its successors instead.
 
 use std::collections::BTreeSet;
 
@@ -10,17 +10,17 @@ use crate::open_document::OpenDocument;
 
 /// Successors of removed nodes. References without a successor are removed together with the nodes.
 pub(crate) trait Successors {
-    /// Knobs that a published knob of that name controls in place of a removed one; empty if there are none.
+    /// Returns the knobs that a published knob controls in place of a removed knob; empty if there are none.
     fn knobs(&self, _published: &str, _knob: &SlotRef) -> Vec<SlotRef> {
         Vec::new()
     }
 
-    /// Curve of a published knob for a successor of a removed knob that had the curve `before`.
+    /// Returns the curve of a published knob for the successor of a removed knob that had the curve `before`.
     fn curve(&self, before: Option<&KnobCurve>, _removed: &SlotRef, _successor: &SlotRef) -> Option<KnobCurve> {
         before.cloned()
     }
 
-    /// Inputs that are fed in place of a removed one; empty if there are none.
+    /// Returns the inputs that are fed in place of a removed input; empty if there are none.
     fn inputs(&self, _input: &SlotRef) -> Vec<SlotRef> {
         Vec::new()
     }
@@ -30,13 +30,13 @@ pub(crate) trait Successors {
         None
     }
 
-    /// Nodes that are in a frame in place of a removed one.
+    /// Returns the nodes that are in a frame in place of a removed node.
     fn nodes(&self, _node: &NodeId) -> Vec<NodeId> {
         Vec::new()
     }
 }
 
-/// Edits that redirect all references to nodes of the shown graph, except wires, to their successors. They have to be
+/// Returns edits that redirect all references to nodes of the shown graph, except wires, to their successors. They must be
 /// applied after the successors are added and before the nodes are removed.
 pub(crate) fn redirecting(
     document: &OpenDocument,

@@ -1,4 +1,4 @@
-//! Paths as they are written in the document: relative to its folder.
+//! Paths as written in the document: relative to its folder.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use sabi_graph::Document;
 
 use crate::open_document::OpenDocument;
 
-/// Writes a path relative to the document's folder where that is possible, and absolute while the document has no file.
+/// Writes a path relative to the document's folder if possible. While the document has no file, the path is absolute.
 ///
 /// # Errors
 /// The path cannot be named in a file.
@@ -18,7 +18,7 @@ pub fn relative(document: &OpenDocument, path: &Path) -> Result<String, NotText>
     }
 }
 
-/// Writes the path of a file that the user chose, as [`relative`] does; the document may open it from now on.
+/// Writes the path of a file that the user chose, as [`relative`] does; From now on the document may open it.
 ///
 /// # Errors
 /// The path cannot be named in a file.
@@ -36,13 +36,13 @@ pub fn from_own_folder(document: &OpenDocument, path: &Path) -> Result<String, N
     PathBase::of_folder(folder).write(&absolute(path))
 }
 
-/// Returns the canonical path of a file that exists, and the path itself of one that does not.
+/// Returns the canonical path of an existing file, or the path itself if the file does not exist.
 fn absolute(path: &Path) -> PathBuf {
     canonical(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// Document of another folder with its paths converted to the folder of the open document, or to absolute paths if the open
-/// document has no file.
+/// Returns a document from another folder with its paths converted to the folder of the open document, or to absolute paths
+/// if the open document has no file.
 pub(crate) fn relocated(document: &OpenDocument, other: &Document, from: &Path) -> Document {
     let here = document.session.graph().folder();
     let is_same = canonical(from).ok() == canonical(here).ok();

@@ -20,7 +20,7 @@ pub fn select_all(document: &mut OpenDocument) {
     document.select(all);
 }
 
-/// Selects all muted nodes of the shown graph and no others. Leaves the selection with a notice if there are none.
+/// Selects all muted nodes of the shown graph and no others. If there are none, the selection stays and a notice is added.
 pub fn select_muted(document: &mut OpenDocument) {
     let nodes = document.graph().nodes();
     let muted: Vec<NodeId> = nodes.filter(|(_, node)| node.muted).map(|(id, _)| id.clone()).collect();

@@ -7,13 +7,13 @@ use sabi_graph::{Edit, Value};
 use crate::navigation;
 use crate::open_document::OpenDocument;
 
-/// Variant of the shown graph that its results are shown with, and that edits of the panel change: that of the preview, or
-/// in a group that of the entered instance. `None` stands for the graph's own values.
+/// Returns the variant with whose values the shown graph is evaluated, and that edits of the panel change: the variant of
+/// the preview, or inside a group the variant of the entered instance. `None` means the graph's own values.
 pub fn name(document: &OpenDocument) -> Option<&str> {
     chosen(document).filter(|name| document.graph().variants().contains_key(*name))
 }
 
-/// Name that stands for the shown variant in the document, whether there is such a variant or not.
+/// Returns the name of the shown variant in the document, even if no variant with that name exists.
 pub(crate) fn chosen(document: &OpenDocument) -> Option<&str> {
     match navigation::entered_instance(document) {
         None => document.contents().preview.as_ref()?.variant.as_deref(),

@@ -18,7 +18,7 @@ pub enum StackEnd {
 /// Layer: a node that changes the material below it, or the material at the bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Its node.
+    /// Node of the layer.
     pub node: NodeId,
     /// Title of the node.
     pub title: String,
@@ -26,13 +26,13 @@ pub struct Layer {
     pub is_muted: bool,
     /// Opacity of the layer; none if the node's kind has no such knob.
     pub opacity: Option<f64>,
-    /// Source of the mask; none if nothing is connected or the node's kind takes no mask.
+    /// Source of the mask; `None` if nothing is connected or the node's kind has no mask.
     pub mask: Option<OutputRef>,
-    /// Nodes outside of the chain that read it. They would change too if it or a layer below it was moved.
+    /// Nodes outside of the chain that read the layer. They would change too if this layer or a layer below it were moved.
     pub also_read_by: Vec<NodeId>,
-    /// Reason why the layer cannot be moved or removed without changing more than this stack; none if it can.
+    /// Reason why the layer cannot be moved or removed without changing more than this stack; `None` if it can.
     pub shared: Option<String>,
-    /// Reason why no layer can be put below this layer; none if that is possible.
+    /// Reason why no layer can be added below this layer; `None` if that is possible.
     pub is_lowest: Option<String>,
 }
 
@@ -51,8 +51,8 @@ pub struct Stack {
 /// Connection from a layer, or from the end of the stack, to the layer below.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Link {
-    /// Input that reads the layer below: that of the layer above, or of the last reroute on the way. None if a group's
-    /// output reads it, and below the material at the bottom.
+    /// Input that reads the layer below: an input of the layer above, or of the last reroute on the way. `None` if an
+    /// output of the group reads it, and below the material at the bottom.
     pub(crate) slot: Option<SlotRef>,
     /// Output that is read, if anything is connected.
     pub(crate) from: Option<OutputRef>,
@@ -61,7 +61,7 @@ pub(crate) struct Link {
 }
 
 impl Stack {
-    /// Returns whether the stack is a plain list: no layer or reroute has other readers, so that all layers can be moved.
+    /// Returns whether no layer or reroute of the stack has other readers, so that all layers can be moved.
     pub fn is_plain(&self) -> bool {
         self.layers.iter().all(|layer| layer.shared.is_none()) && !self.links.iter().any(|link| link.is_shared)
     }
@@ -115,7 +115,7 @@ fn of(document: &OpenDocument, end: StackEnd) -> Stack {
     stack
 }
 
-/// Follows reroutes to their source.
+/// Follows a wire through reroutes to its source.
 fn link(document: &OpenDocument, slot: Option<SlotRef>, from: Option<OutputRef>) -> Link {
     let mut link = Link {
         slot,
@@ -168,7 +168,7 @@ fn layer(document: &OpenDocument, at: &OutputRef, above: &Link, below: &Link) ->
         .map(|slot| slot.node)
         .collect();
     also_read_by.dedup();
-    // The outputs may include the end of this stack itself.
+    // The end of this stack may itself be one of the outputs that read the node.
     let given = output_count(document, id) - usize::from(above.slot.is_none());
     Layer {
         node: id.clone(),

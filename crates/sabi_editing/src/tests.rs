@@ -1,4 +1,4 @@
-//! Claims about the document: what an artist does with a graph, and that all of it can be taken back.
+//! Tests of the document: what an artist does with a graph, and that all of it can be undone.
 
 mod arranging;
 mod commands;
@@ -64,12 +64,12 @@ fn document_with(session: Session, seed: u64) -> OpenDocument {
     OpenDocument::with_kinds(session, IdGenerator::seeded(seed), kinds, catalog)
 }
 
-/// An empty graph, with names that are the same in every run.
+/// Creates an empty graph whose new ids are the same in every run.
 fn document() -> OpenDocument {
     document_with(Session::new(None), 7)
 }
 
-/// A graph with these nodes, and more top-level keys before them.
+/// Opens a graph with these nodes, and with more top-level keys before them.
 fn opened(more: &str, nodes: &str) -> OpenDocument {
     let text = format!(r#"{{ "format": "sabi", "version": 1, {more} "nodes": {{ {nodes} }} }}"#);
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -94,12 +94,12 @@ fn out(id: &NodeId) -> OutputRef {
     }
 }
 
-/// `node` or `node.port`.
+/// Parses `node` or `node.port`.
 fn from(text: &str) -> OutputRef {
     text.parse().expect("a result")
 }
 
-/// `node.input`.
+/// Parses `node.input`.
 fn to(text: &str) -> SlotRef {
     text.parse().expect("an input")
 }
@@ -130,8 +130,8 @@ fn param(document: &OpenDocument, id: &str, name: &str) -> Option<Value> {
     document.graph().node(id)?.params.get(name).cloned()
 }
 
-/// Does something that has to be one step: undo leads back to the same bytes, redo forth to the same bytes, and the text is
-/// that of the document.
+/// Performs an action that must be one undo step: undo and redo must restore the same bytes, and the saved text must be the
+/// text of the document.
 fn step<T>(document: &mut OpenDocument, does: impl FnOnce(&mut OpenDocument) -> T) -> T {
     let (before, steps) = (
         document.session.text().to_owned(),
@@ -159,7 +159,7 @@ fn step<T>(document: &mut OpenDocument, does: impl FnOnce(&mut OpenDocument) -> 
     done
 }
 
-/// Does something that has to be refused with a sentence and change nothing.
+/// Performs an action that must be refused with a sentence and change nothing.
 fn refused<T>(document: &mut OpenDocument, does: impl FnOnce(&mut OpenDocument) -> T) -> String {
     let (before, steps) = (
         document.session.text().to_owned(),
@@ -177,7 +177,7 @@ fn flat(document: &OpenDocument) -> FlatGraph {
     flat.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Returns hashes of everything that the outputs of a graph are made of, independent of the ids of nodes.
+/// Returns hashes of everything that the outputs of a graph depend on. The ids of nodes do not matter.
 fn evaluated(document: &OpenDocument) -> Vec<u64> {
     let flat = flat(document);
     let mut known: BTreeMap<usize, u64> = BTreeMap::new();
@@ -193,7 +193,7 @@ fn evaluated(document: &OpenDocument) -> Vec<u64> {
         );
         format!("{told:?} {}", node.length_scale).hash(&mut hash);
         for (input, from) in &node.inputs {
-            // Sources stand before their readers.
+            // Sources come before their readers.
             (input, known[&from.node], &from.port).hash(&mut hash);
         }
         known.insert(at, hash.finish());

@@ -1,4 +1,4 @@
-//! Sets and channels that the names of texture files denote: those that the export presets write, and the conventions of
+//! Sets and channels that the names of texture files stand for: names that the export presets write, and conventions of
 //! ambientCG, Poly Haven, cgbookcase and other tools.
 
 use std::collections::BTreeMap;
@@ -7,27 +7,27 @@ use std::sync::OnceLock;
 
 use sabi_engine::{PicturePart, PresetPicture, preset_pictures};
 
-/// Channel of a material that a picture gives.
+/// Material channel that is read from an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Reading {
     /// Input of *Combine material*.
     pub(crate) channel: String,
-    /// Output of the image node, unless that is the first.
+    /// Output of the image node; `None` means the first one.
     pub(crate) output: Option<&'static str>,
-    /// True if the picture holds 1 minus the value.
+    /// True if the image holds 1 minus the value.
     pub(crate) is_inverted: bool,
-    /// True for normals whose green points down, as in DirectX.
+    /// True for normal maps whose green channel points down, as in DirectX.
     pub(crate) is_green_down: bool,
-    /// True if it counts only where the picture has an alpha, since other presets give the name to a picture without one.
+    /// True if the channel is read only if the image has alpha, since other presets use the same name for an image without alpha.
     pub(crate) needs_alpha: bool,
 }
 
-/// Set and map that the name of a file denotes.
+/// Set and map that a file name stands for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct MapName {
     /// Name of the set in lower case.
     pub(crate) set: String,
-    /// Channels in the picture; none for a map that is no part of a material, such as a position.
+    /// Channels in the image; empty for a map that is not part of a material, such as a position map.
     pub(crate) readings: Vec<Reading>,
     /// Number of the UDIM tile, if the name has one.
     pub(crate) tile: Option<u32>,
@@ -42,8 +42,8 @@ const ALPHA: Option<&str> = Some("alpha");
 /// Input of *Combine material* for the opacity.
 const OPACITY: &str = "alpha";
 
-/// Words of other tools that name a picture, in lower case and without spaces, and the channels in it with the outputs of the
-/// image node.
+/// Words with which other tools name an image, in lower case and without spaces, and the channels in the image with the
+/// outputs of the image node.
 type Convention = (&'static [&'static str], &'static [(&'static str, Option<&'static str>)]);
 const CONVENTIONS: [Convention; 12] = [
     (
@@ -84,7 +84,7 @@ const UP: [&str; 3] = ["gl", "opengl", "ogl"];
 const DOWN: [&str; 3] = ["dx", "directx", "d3d"];
 /// Words for the format of a file.
 const STORED: [&str; 6] = ["jpg", "jpeg", "png", "exr", "tif", "tiff"];
-/// Most words of a file name that name its map together.
+/// Maximum number of words of a file name that form the name of its map.
 const MOST_WORDS: usize = 3;
 /// Numbers of UDIM tiles.
 const TILES: std::ops::RangeInclusive<u32> = 1001..=1999;
@@ -99,7 +99,7 @@ impl MapName {
             .filter(|word| !word.is_empty() && !is_stored(word))
             .collect();
         let known = KnownNames::get();
-        // A prefix stands before the name of a material.
+        // A prefix comes before the name of a material.
         let has_prefix = words.len() > 2 && known.prefixes.iter().any(|prefix| prefix == words[0]);
         let prefix = if has_prefix { words.remove(0) } else { "" };
         let direction = take_direction(&mut words, known);
@@ -110,7 +110,7 @@ impl MapName {
         });
         let (set, mut readings) = found?;
         if let Some(is_down) = direction {
-            // Only normal maps have a direction.
+            // Only normal maps have a direction of green.
             let [reading] = &mut readings[..] else { return None };
             if reading.channel != "slope" {
                 return None;
@@ -122,9 +122,9 @@ impl MapName {
     }
 }
 
-/// Pictures by the words that name them.
+/// Images by the words that name them.
 struct KnownNames {
-    /// Pictures of presets by their names, in lower case and without spaces, with the words before the name of the material.
+    /// Images of presets by name, in lower case and without spaces, with the words before the name of the material.
     of_presets: BTreeMap<String, Vec<(String, Vec<Reading>)>>,
     /// Words before the name of the material.
     prefixes: Vec<String>,
@@ -152,11 +152,11 @@ impl KnownNames {
         })
     }
 
-    /// Channels of the picture that a word names in a file with a prefix. What presets of one name add to each other counts
-    /// together, such as the opacity that some of them have beside the base color.
+    /// Returns the channels of the image that a word stands for in a file name with a prefix. Channels of several presets
+    /// with the same name are combined, such as the opacity that some of them store beside the base color.
     fn readings(&self, word: &str, prefix: &str) -> Option<Vec<Reading>> {
         let of_presets = self.of_presets.get(word).map_or(&[][..], Vec::as_slice);
-        // A single letter says little without the prefix that its preset writes.
+        // A single letter is ambiguous without the prefix that its preset writes.
         let is_clear = |(own, _): &&(String, Vec<Reading>)| own == prefix || word.chars().count() > 1;
         let (own, others): (Vec<_>, Vec<_>) = of_presets
             .iter()
@@ -178,7 +178,8 @@ impl KnownNames {
             let mut readings = readings.iter();
             readings.any(|reading| reading.channel == channel && reading.output == ALPHA)
         };
-        // Without alpha a picture is opaque, as a material is without opacity. Any other channel would be wrong.
+        // An image without alpha is opaque, and so is a material without opacity. For other channels a missing alpha would
+        // give a wrong value.
         let needs_alpha = |reading: &Reading| {
             let is_certain = of_presets.iter().all(|preset| in_alpha(preset, &reading.channel));
             reading.output == ALPHA && reading.channel != OPACITY && !is_certain
@@ -197,12 +198,12 @@ impl KnownNames {
     }
 }
 
-/// Reading of a part of a preset's picture; none where it is no channel of *Combine material*.
+/// Returns how a part of a preset's image is read; `None` if *Combine material* has no such channel.
 fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
     let channel = match part.channel.as_deref()? {
         "opacity" => OPACITY,
         "normal" => "slope",
-        // A direction in the tangent frame, which an image node gives for normals alone.
+        // Anisotropy is a direction in the tangent frame, which an image node can only read for normals.
         "anisotropy" => return None,
         channel => channel,
     };
@@ -231,8 +232,8 @@ fn plain(text: &str) -> String {
     letters.flat_map(char::to_lowercase).collect()
 }
 
-/// Takes the direction of green off the words, where the last one names it, alone or as in `normalgl`. Returns whether it
-/// points down.
+/// Removes the direction of green from the words if the last one contains it, alone or as in `normalgl`. Returns whether
+/// green points down.
 fn take_direction(words: &mut Vec<&str>, known: &KnownNames) -> Option<bool> {
     let last = *words.last()?;
     let is_named = |ends: &[&str]| ends.contains(&last);
@@ -258,7 +259,7 @@ fn take_direction(words: &mut Vec<&str>, known: &KnownNames) -> Option<bool> {
     Some(is_down)
 }
 
-/// Splits the number of a UDIM tile off a name, as in `brick_color.1002`.
+/// Splits the number of a UDIM tile from a name, as in `brick_color.1002`.
 fn split_tile(stem: &str) -> (&str, Option<u32>) {
     let split = stem.rsplit_once('.').and_then(|(before, number)| {
         let number = Some(number).filter(|number| number.len() == 4)?;
@@ -286,8 +287,8 @@ fn is_stored(word: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Set and channels of a name: `occlusion=r`, with `!` for what is inverted, `↓` for green that points down, and `?` for what
-    /// counts only where the picture has an alpha.
+    /// Describes set and channels of a name: `occlusion=r`, with `!` for inverted values, `↓` for green that points down,
+    /// and `?` for channels that are read only if the image has alpha.
     fn told(name: &str) -> Option<(String, String)> {
         let name = MapName::of(Path::new(name))?;
         let readings = name.readings.iter().map(|reading| {
@@ -301,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_common_libraries_say_set_and_map() {
+    fn names_of_common_libraries_give_set_and_map() {
         let known = [
             ("Bricks001_2K-JPG_Color.jpg", "bricks001", "base_color=color"),
             ("Bricks001_2K-JPG_NormalGL.jpg", "bricks001", "slope=slope"),
@@ -336,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn names_and_packings_of_the_presets_are_known() {
+    fn names_and_packings_of_the_presets_are_recognized() {
         let known = [
             ("T_old_crate_BC.png", "base_color=color alpha=alpha"),
             ("T_old_crate_ORM.png", "occlusion=r roughness=g metallic=b"),
@@ -352,7 +353,7 @@ mod tests {
             ("old_crate_base_color.png", "base_color=color alpha=alpha"),
             ("old_crate_coat_roughness.png", "coat_roughness=mask"),
             ("old_crate_ClearcoatRoughness.png", "coat_roughness=mask"),
-            // glTF has the roughness in alpha; the raw maps, Blender's and MaterialX's have a picture of its own for it.
+            // glTF stores the roughness in alpha. The raw maps and the presets for Blender and MaterialX have a separate image for it.
             ("old_crate_sheen.png", "sheen=color sheen_roughness=alpha?"),
             ("old_crate_sheen_roughness.png", "sheen_roughness=mask"),
             ("old_crate_transmission.png", "transmission=mask"),
@@ -365,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn every_picture_of_every_preset_is_known_by_its_name() {
+    fn every_image_of_every_preset_is_recognized_by_its_name() {
         for PresetPicture {
             before, name, parts, ..
         } in preset_pictures()
@@ -389,14 +390,14 @@ mod tests {
     }
 
     #[test]
-    fn tiles_are_told_by_their_number() {
+    fn udim_tiles_are_recognized_by_their_number() {
         let tile = |name: &str| MapName::of(Path::new(name)).and_then(|name| name.tile);
         assert_eq!(tile("T_old_crate_BC.1012.png"), Some(1012));
         assert_eq!(tile("old_crate_color_1024.png"), None, "a size");
     }
 
     #[test]
-    fn other_names_are_those_of_no_map() {
+    fn other_names_are_not_recognized_as_maps() {
         for name in [
             "preview.png",
             "color_chart_photo.jpg",

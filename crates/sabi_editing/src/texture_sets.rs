@@ -22,14 +22,14 @@ const GAP: f32 = 60.0;
 /// Height of white above black in a height map, in working units. Texture files do not specify it.
 const RELIEF: f64 = 0.02;
 
-/// Picture of a set, with the channels that are read from it.
+/// Image of a set, with the channels that are read from it.
 struct SetPicture {
     file: PathBuf,
     readings: Vec<Reading>,
 }
 
-/// Adds the texture sets that these image files form by their names, as one step: for each set a material of all its maps,
-/// which is selected.
+/// Adds the texture sets that these image files form according to their names, as one undo step. Each set becomes a
+/// material of all its maps, which is selected.
 pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> bool {
     let Sets { sets, left_out } = Sets::of(files);
     for sentence in left_out {
@@ -56,7 +56,7 @@ pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> boo
     document.edit_and_select("Add texture set", edits, materials)
 }
 
-/// Texture sets that are being added: the edits so far, and the ids that they use.
+/// State while texture sets are added: the edits so far, and the ids that they use.
 struct SetBuilder<'d> {
     document: &'d mut OpenDocument,
     edits: Vec<Edit>,
@@ -64,7 +64,7 @@ struct SetBuilder<'d> {
 }
 
 impl SetBuilder<'_> {
-    /// Adds one set. Returns its material and the vertical position of its lower end, canvas points.
+    /// Adds one set. Returns its material and the vertical position of its lower edge, canvas points.
     fn add_set(&mut self, name: &str, set: &[SetPicture], [x, y]: [f32; 2]) -> (NodeId, f32) {
         let step = NODE_WIDTH + GAP;
         let mut below = y;
@@ -101,7 +101,7 @@ impl SetBuilder<'_> {
 
     fn add_image(&mut self, picture: &SetPicture, pos: [f32; 2]) -> NodeId {
         let mut image = Node::new(IMAGE);
-        // The first channel names a picture of a color with alpha; one that packs several is named by its file.
+        // An image of a color with alpha is named after its first channel. An image that packs several channels is named after its file.
         let packs_several = picture
             .readings
             .iter()
@@ -130,7 +130,7 @@ impl SetBuilder<'_> {
         self.add_node(&stem, image, pos)
     }
 
-    /// Adds a node that gives 1 minus a mask, such as the roughness from a smoothness.
+    /// Adds a node that computes 1 minus a mask, for example the roughness from a smoothness.
     fn add_inverted(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
         let mut invert = Node::new(INVERT);
         invert.inputs.insert("source".to_owned(), from);
@@ -138,7 +138,8 @@ impl SetBuilder<'_> {
         OutputRef { node, port: None }
     }
 
-    /// Adds a node that converts a height map, 0 to 1 with its middle on the model's surface, to heights in working units.
+    /// Adds a node that converts a height map to heights in working units. Height maps range from 0 to 1, and 0.5 lies on
+    /// the model's surface.
     fn add_relief(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
         let mut remap = Node::new(REMAP);
         remap.inputs.insert("source".to_owned(), from);
@@ -167,15 +168,15 @@ impl SetBuilder<'_> {
 
 /// Texture sets of some files.
 struct Sets {
-    /// Pictures by the names of their sets.
+    /// Images by the names of their sets.
     sets: BTreeMap<String, Vec<SetPicture>>,
-    /// Sentences about files that are left out.
+    /// Sentences about files that are not used.
     left_out: Vec<String>,
 }
 
 impl Sets {
-    /// Sorts image files into sets. Of several pictures for one channel, one that holds it alone goes before one that packs several,
-    /// and normals whose green points up before others.
+    /// Sorts image files into sets. If several images contain a channel, an image with only that channel is preferred to
+    /// one that packs several, and normal maps whose green points up are preferred to others.
     fn of(files: &[PathBuf]) -> Sets {
         let mut named: Vec<(&PathBuf, MapName)> = files
             .iter()
@@ -188,7 +189,7 @@ impl Sets {
         let first_tiles = named
             .iter()
             .filter_map(|(_, name)| Some((name.set.clone(), name.tile?)));
-        // The list is sorted, and the last one that is collected counts.
+        // For duplicate keys, `collect` keeps the last value. The order is reversed so that this is the first one of the sorted list.
         let first_tiles: BTreeMap<String, u32> = first_tiles.rev().collect();
         let (mut tiles, mut unread) = (Vec::new(), Vec::new());
         let mut sets: BTreeMap<String, Vec<SetPicture>> = BTreeMap::new();
@@ -231,7 +232,7 @@ impl Sets {
     }
 }
 
-/// Place of a channel among the pictures of a set; those that few sets have come last.
+/// Returns the position of a channel among the images of a set. Rare channels come last.
 fn place_of(channel: &str) -> usize {
     let usual = [
         "base_color",
@@ -246,10 +247,10 @@ fn place_of(channel: &str) -> usize {
     usual.iter().position(|known| *known == channel).unwrap_or(usual.len())
 }
 
-/// Returns whether a file is a PNG with an alpha, by its header alone. The presets that pack a channel into the alpha of a picture that
-/// others write without one write PNG.
+/// Returns whether a file is a PNG with alpha, by its header alone. Only PNG is checked, since the presets that pack a
+/// channel into the alpha of an image that others write without alpha write PNG.
 fn is_png_with_alpha(file: &Path) -> bool {
-    // Signature, length and kind of the first chunk, width, height, bits, and the kind of colors.
+    // Signature, length and type of the first chunk, width, height, bit depth, and color type.
     const HEADER_BYTES: usize = 26;
     const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
     const WITH_ALPHA: [u8; 2] = [4, 6];

@@ -11,7 +11,7 @@ impl OpenDocument {
     /// Lets the document open a file that the user chose.
     pub fn trust_chosen(&mut self, file: &Path) {
         let graph = self.session.graph();
-        // A graph without a file has no place yet: it may be saved far from the folder that the program was started in.
+        // A graph without a file has no folder yet: it may be saved far from the folder in which the program was started.
         let is_below = self.session.file().is_some() && graph.base().is_above(file);
         if is_below || graph.trusted.contains(file) {
             return;
@@ -20,12 +20,12 @@ impl OpenDocument {
         self.trust.chosen.push(file.to_owned());
     }
 
-    /// Takes the files that the user chose and that the document could not open before.
+    /// Takes the files that the user has chosen and that the document was not allowed to open before.
     pub fn take_chosen(&mut self) -> Vec<PathBuf> {
         std::mem::take(&mut self.trust.chosen)
     }
 
-    /// Lets the document open what it names below these paths.
+    /// Lets the document open files below these paths.
     pub fn trust(&mut self, trusted: &TrustedPaths) {
         self.session.trust(trusted);
         self.files_changed(&BTreeSet::new());
@@ -36,14 +36,14 @@ impl OpenDocument {
         self.trust.node_folders(self.session.file())
     }
 
-    /// Folder of node files beside the document that are left out since it is not trusted.
+    /// Returns the folder of node files beside the document that is not read because it is not trusted.
     pub fn untrusted_nodes(&self) -> Option<PathBuf> {
         let beside = Kinds::folders(Some(self.session.file()?)).pop()?;
         let is_left_out = beside.is_dir() && !self.trust.allows_nodes(&beside);
         is_left_out.then_some(beside)
     }
 
-    /// Trusts node files below these paths, from the next time on that they are read.
+    /// Trusts node files below these paths, starting with the next time that they are read.
     pub fn trust_nodes(&mut self, trusted: TrustedPaths) {
         self.trust.nodes = Some(trusted);
     }

@@ -12,8 +12,8 @@ use crate::{instance_variants, instances, navigation, panel, panel_values, shown
 /// Value of an instance's variant parameter that selects no variant.
 pub(crate) const NO_VARIANT: &str = "none";
 
-/// Saves the present values of the panel as a variant of this name, in place of an existing one. Where a variant is shown, the
-/// new one is shown instead.
+/// Saves the current values of the panel as a variant with this name, and replaces an existing one. If a variant is shown,
+/// the new one is shown instead.
 pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     let name = match checked_name(name) {
         Ok(name) => name,
@@ -23,21 +23,22 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     if panel.is_empty() {
         return document.refuse("a variant stores the exposed parameters, and there are none; expose some first");
     }
-    // An instance that shows none of its variants has no value for that.
+    // An instance without a variant does not store the value of its variant knob.
     let is_none = |knob: &panel::PanelKnob| {
         knob.exposed.to.iter().any(|slot| slot.name == "variant") && knob.value.as_text() == Some(NO_VARIANT)
     };
     let values = panel.into_iter().filter(|knob| !is_none(knob));
     let values: BTreeMap<String, Value> = values.map(|knob| (knob.name, knob.value)).collect();
     let mut edits = vec![shown_variant::setting(document, &name, Some(values))];
-    // Further edits are meant for the copy of a variant that is shown.
+    // If a variant is shown, further edits are meant for the copy.
     if shown_variant::name(document).is_some_and(|shown| shown != name) {
         edits.push(showing(document, Some(&name)));
     }
     document.edit("Save variant", edits)
 }
 
-/// Text that identifies what the panel shows, as [`as_text`] does: the shown variant, or the graph's own values.
+/// Returns a text that identifies the values that the panel shows, in the form of [`as_text`]: the shown variant, or the
+/// graph's own values.
 pub fn shown_as_text(document: &OpenDocument) -> String {
     match shown_variant::values(document) {
         Some((_, values)) => as_text(document, values),
@@ -45,7 +46,7 @@ pub fn shown_as_text(document: &OpenDocument) -> String {
     }
 }
 
-/// Text that identifies the graph's own values of the panel.
+/// Returns a text that identifies the graph's own values of the panel.
 pub fn own_as_text(document: &OpenDocument) -> String {
     let own = document.own_face().into_iter().flat_map(|face| &face.knobs);
     let own = own.filter(|knob| document.graph().exposed().contains_key(&knob.name));
@@ -55,13 +56,14 @@ pub fn own_as_text(document: &OpenDocument) -> String {
     )
 }
 
-/// Text that identifies a variant of the shown graph by that graph and the variant's values. Its name does not matter.
+/// Returns a text that identifies a variant of the shown graph by the graph and the variant's values. The name of the
+/// variant does not matter.
 pub fn as_text(document: &OpenDocument, values: &BTreeMap<String, Value>) -> String {
     let values = Value::Object(values.clone()).to_json();
     format!("variant of {:?}: {values}", document.shown())
 }
 
-/// Shows a variant, or the graph's own values. Knobs without a value in the variant have their own.
+/// Shows a variant, or the graph's own values. Knobs that the variant does not set have the graph's values.
 pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
     if let Some(name) = name {
         let Some(values) = document.graph().variants().get(name) else {
@@ -73,7 +75,7 @@ pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
             return document.refuse(why);
         }
     }
-    // A variant that is gone counts as none, but is still named.
+    // A variant that no longer exists counts as no variant, but its name is still stored.
     if shown_variant::chosen(document) == name {
         return true;
     }
@@ -93,8 +95,8 @@ fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
     }
 }
 
-/// The whole graph as if the shown graph showed a variant, or an instance in it was given one; `None` stands for its own values. `None` where
-/// there is no such instance.
+/// Returns the whole graph as if the shown graph, or an instance in it, had another variant; a `name` of `None` stands for
+/// the graph's own values. Returns `None` if there is no such instance.
 pub fn tried(document: &OpenDocument, instance: Option<&NodeId>, name: Option<&str>) -> Option<OpenGraph> {
     let edit = match instance {
         None => showing(document, name),
@@ -145,7 +147,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     document.edit("Rename variant", edits)
 }
 
-/// Removes a variant; what showed it shows the graph's own values.
+/// Removes a variant. Everything that showed it shows the graph's own values.
 pub fn remove(document: &mut OpenDocument, name: &str) -> bool {
     if !document.graph().variants().contains_key(name) {
         return document.refuse(format!("there is no variant '{name}'"));

@@ -35,7 +35,7 @@ impl MaskMerge {
 /// Space between a new blend node and its reader, canvas points.
 const BESIDE: f32 = 60.0;
 
-/// Connects an output to an input, in place of its present connection. The types have to fit.
+/// Connects an output to an input, replacing its current connection. The types must be compatible.
 pub fn connect(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef) -> bool {
     if let Err(why) = check(document, from, to) {
         return document.refuse(why);
@@ -47,7 +47,8 @@ pub fn connect(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef) -> b
     document.edit("Connect", edits)
 }
 
-/// Checks that a wire can connect an output to an input: the types fit, and no cycle is closed. The error is the reason.
+/// Checks that a wire can connect an output to an input: the types are compatible, and no cycle is closed. The error is the
+/// reason why not.
 pub fn check(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<(), String> {
     connections::check_type(document, from, to)?;
     if !connections::depends_on(document, &from.node, &to.node) {
@@ -60,7 +61,7 @@ pub fn check(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<
     })
 }
 
-/// Inputs of a node that accept a wire from an output: the plain ones, and those for masks that multiply parameters.
+/// Lists the inputs of a node that accept a wire from an output: normal inputs, and inputs for masks that multiply parameters.
 pub fn accepting(document: &OpenDocument, from: &OutputRef, id: &NodeId) -> [Vec<SlotRef>; 2] {
     let Some(face) = document.face(id) else {
         return [Vec::new(), Vec::new()];
@@ -88,7 +89,7 @@ pub fn disconnect(document: &mut OpenDocument, slots: &[SlotRef]) -> bool {
     document.edit(step, edits)
 }
 
-/// Removes the mask that multiplies a parameter, wherever it comes from.
+/// Removes the mask that multiplies a parameter, whatever its source is.
 pub fn remove_mask(document: &mut OpenDocument, slot: &SlotRef) -> bool {
     let wired = connections::wire_into(document, slot).map(|_| connections::disconnecting(document, slot));
     let mut edits: Vec<Edit> = wired.into_iter().collect();
@@ -185,7 +186,7 @@ pub fn detach_selected(document: &mut OpenDocument) -> bool {
     document.edit("Detach and reconnect its neighbors", edits)
 }
 
-/// Swaps the first two inputs of the same type of each selected node: what they read, and the knobs that stand in for it.
+/// Swaps the first two inputs of the same type of each selected node: their sources, and the knobs that apply while they are unconnected.
 pub fn swap_inputs(document: &mut OpenDocument) -> bool {
     let mut edits = Vec::new();
     let mut fed = Vec::new();

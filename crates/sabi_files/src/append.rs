@@ -1,4 +1,4 @@
-//! Appending to a file that grows by whole records.
+//! Appending to a file that consists of records.
 
 use std::fs::OpenOptions;
 use std::path::Path;
@@ -6,8 +6,8 @@ use std::path::Path;
 use crate::disk::{Disk, Step};
 use crate::error::{FileError, Operation};
 
-/// Appends bytes to a file and waits until they are on the disk. Where that fails, the file gets its earlier length back, as far
-/// as the disk allows; a reader of such files must bear a last record that is cut off.
+/// Appends bytes to a file and waits until they are on the disk. If that fails, the file is truncated to its earlier length
+/// if possible. Readers of such files must accept that the last record may be incomplete.
 ///
 /// # Errors
 /// The file does not exist, or the disk refuses.
@@ -27,7 +27,7 @@ impl Disk {
         let written = self.write(Step::Append, file, &mut open, bytes);
         let written = written.and_then(|()| self.step(Step::Sync, file, || open.sync_data()));
         written.map_err(|error| {
-            // The first error is the one to tell.
+            // Report the first error, not an error of this cleanup.
             let _ = self.step(Step::Shorten, file, || open.set_len(length));
             failed(error)
         })
@@ -39,7 +39,7 @@ mod tests {
     use super::append_durably;
 
     #[test]
-    fn bytes_are_added_behind_those_that_a_file_has() {
+    fn bytes_are_appended_to_the_existing_ones() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("strokes");
         assert!(

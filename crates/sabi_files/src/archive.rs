@@ -1,4 +1,4 @@
-//! Archives (zip): written whole and alike for like files, and unpacked without trust in what they claim.
+//! Archives (zip): the same files always give the same bytes, and nothing that an archive claims is trusted when it is unpacked.
 
 mod error;
 mod names;
@@ -12,10 +12,10 @@ pub use names::{EntryNames, NameFault};
 pub use unpack::{Accepts, UnpackedArchive};
 pub use write::{EntryContent, write_archive};
 
-/// Most entries of an archive. A graph names some hundred files at most; an archive with more is no packed graph, and each entry costs
-/// memory before its content is looked at.
+/// Maximum number of entries in an archive. A graph refers to some hundred files at most, so an archive with more entries
+/// is not a packed graph, and each entry costs memory before its content is read.
 pub const MOST_ENTRIES: usize = 10_000;
 
-/// Most bytes that the entries of an archive have together when unpacked. A small archive can unpack to a thousand times its size and
-/// fill a disk; a model and the pictures of a graph, each of which may have 1 GiB, stay far below.
+/// Maximum total size of the unpacked entries of an archive, in bytes. A small archive can unpack to a thousand times its
+/// size and fill a disk. A model and the images of a graph, each of which may have 1 GiB, stay far below this limit.
 pub const MOST_BYTES: u64 = 32 << 30;

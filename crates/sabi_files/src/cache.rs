@@ -1,4 +1,4 @@
-//! Content cache: results that can be computed again, stored under a hash of everything they depend on.
+//! Cache of results that can be computed again, stored under a hash of everything they depend on.
 
 use std::ffi::OsString;
 use std::fs;
@@ -17,19 +17,19 @@ const HEADER_BYTES: usize = MAGIC.len() + 4 + 32 + 8 + 32;
 /// Hash of everything that a stored result depends on.
 pub type CacheKey = [u8; 32];
 
-/// Kind of stored result, defined by the crate that stores it.
+/// Kind of cached results, defined by the crate that stores them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CacheKind {
-    /// Start of the file names, before a dash and the key. No two kinds of one folder share it.
+    /// Start of the file names, followed by a dash and the key. Kinds in the same folder have different prefixes.
     pub prefix: &'static str,
     /// Version of the stored bytes: results of other versions are not returned.
     pub version: u32,
-    /// Size of all results of this kind in a folder, above which the least recently used are removed.
+    /// Maximum total size of the results of this kind in a folder. Above it, the least recently used ones are removed.
     pub limit_bytes: u64,
 }
 
-/// Stored results of one kind in one folder. Every file carries its kind's version, its key, its length and a hash, so that
-/// a damaged or incomplete one is never returned.
+/// Cached results of one kind in one folder. Every file contains the version of its kind, its key, its length and a hash,
+/// so that damaged or incomplete results are never returned.
 #[derive(Clone, Debug)]
 pub struct Cache {
     disk: Disk,
@@ -47,7 +47,7 @@ impl Cache {
         }
     }
 
-    /// Writes results to this disk from now on.
+    /// Returns this cache with writes going to this disk.
     pub fn on_disk(self, disk: &Disk) -> Cache {
         Cache {
             disk: disk.clone(),
@@ -60,11 +60,11 @@ impl Cache {
         &self.folder
     }
 
-    /// Returns the result stored under a key, and marks it as used now; `None` where it is missing, incomplete, damaged or of another
-    /// version.
+    /// Returns the result stored under a key and marks it as used now. Returns `None` if it is missing, incomplete, damaged
+    /// or of another version.
     pub fn read(&self, key: &CacheKey) -> Option<Vec<u8>> {
         let file = self.file(key);
-        // Not every folder of a cache is the user's alone: a pipe, or a file without end, is no result.
+        // Other users may be able to write to the folder: a pipe, or a file without end, is not a result.
         let found = fs::metadata(&file).ok().filter(fs::Metadata::is_file)?;
         let mut opened = fs::File::open(&file).ok()?;
         let mut header = [0; HEADER_BYTES];
@@ -77,31 +77,31 @@ impl Cache {
             return None;
         }
         let mut payload = Vec::new();
-        // One byte more shows that the file grows meanwhile.
+        // Reading one more byte reveals a file that grows while it is read.
         opened.take(length.saturating_add(1)).read_to_end(&mut payload).ok()?;
         let is_whole = payload.len() as u64 == length && blake3::hash(&payload).as_bytes() == hash;
         is_whole.then(|| {
             let used = fs::File::options().append(true).open(&file);
-            // In a folder that cannot be written to nothing is removed either.
+            // In a folder that cannot be written to, no results are removed, so the time does not matter.
             let _ = used.and_then(|file| file.set_modified(SystemTime::now()));
             payload
         })
     }
 
-    /// Returns whether there is a file of a key; it may turn out to be damaged.
+    /// Returns whether a file for a key exists. It may turn out to be damaged.
     pub fn contains(&self, key: &CacheKey) -> bool {
         self.file(key).is_file()
     }
 
-    /// Stores a result under a key, then removes the least recently used results of its kind while they exceed the limit. A power
-    /// failure may lose the result, which costs only its computation.
+    /// Stores a result under a key, then removes the least recently used results of its kind while they exceed the limit. A
+    /// power failure may lose the result, which then has to be computed again.
     ///
     /// # Errors
     /// The folder cannot be created, written to or listed.
     pub fn write(&self, key: &CacheKey, payload: &[u8]) -> Result<(), FileError> {
         create_folder(&self.disk, &self.folder, Durability::Unsynced)?;
         let file = self.file(key);
-        // Left by a process that was killed, it counts as a result and is removed like one.
+        // If the process is killed, the temporary file has the name of a result and will be removed like one.
         let mut temporary_prefix = OsString::from(self.kind.prefix);
         temporary_prefix.push("-");
         let mut whole = WholeFile::create_named(&self.disk, &file, &temporary_prefix)?;
@@ -120,7 +120,7 @@ impl Cache {
         self.folder.join(format!("{}-{key}.bin", self.kind.prefix))
     }
 
-    /// Removes the least recently used results of this kind, never `newest`, until all together are within the limit.
+    /// Removes the least recently used results of this kind until their total size is within the limit. `newest` is never removed.
     fn remove_oldest(&self, newest: &Path) -> Result<(), FileError> {
         let unlisted = |error| FileError::new(Operation::List, &self.folder, error);
         let mut stored = Vec::new();
@@ -129,7 +129,7 @@ impl Cache {
             let name = path.file_name().and_then(|name| name.to_str());
             let after_prefix = name.and_then(|name| name.strip_prefix(self.kind.prefix));
             let is_of_kind = after_prefix.is_some_and(|rest| rest.starts_with('-'));
-            // Another process may have removed it since the listing.
+            // Another process may have removed the file after the folder was listed.
             if let (true, Ok(metadata)) = (is_of_kind, fs::metadata(&path)) {
                 let modified = metadata.modified().map_err(unlisted)?;
                 stored.push((modified, path, metadata.len()));
@@ -160,7 +160,7 @@ mod tests {
     const KEY: CacheKey = [7; 32];
 
     #[test]
-    fn a_result_comes_back_under_its_key_kind_and_version_only() {
+    fn a_result_is_returned_only_for_its_key_kind_and_version() {
         let folder = tempfile::tempdir().unwrap();
         let cache = Cache::new(folder.path().join("below"), KIND);
         assert_eq!(cache.read(&KEY), None);
@@ -197,7 +197,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_pipe_a_device_or_a_file_without_end_is_no_result() {
+    fn a_pipe_a_device_or_an_endless_file_is_not_a_result() {
         let folder = tempfile::tempdir().unwrap();
         let cache = Cache::new(folder.path(), KIND);
         let file = cache.file(&KEY);
@@ -213,13 +213,13 @@ mod tests {
         let sparse = fs::File::create(&file).unwrap();
         sparse.set_len(1 << 40).unwrap();
         assert_eq!(cache.read(&KEY), None, "it is not even begun");
-        // A result takes the place of whatever is there.
+        // Writing a result replaces whatever is there.
         cache.write(&KEY, b"payload").unwrap();
         assert_eq!(cache.read(&KEY).unwrap(), b"payload");
     }
 
     #[test]
-    fn the_oldest_results_of_a_kind_make_room_and_other_files_stay() {
+    fn the_oldest_results_of_a_kind_are_removed_and_other_files_stay() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| folder.path().join(name);
         let names = ["kind-a.bin", "kind-b.tmp", "kind-c.bin", "kinds-d.bin", "other.bin"];
@@ -237,14 +237,14 @@ mod tests {
         assert_eq!(left(), [true, false, true, true, true]);
         limited(0).remove_oldest(&file("kind-a.bin")).unwrap();
         assert_eq!(left(), [true, false, false, true, true]);
-        // The result that was just stored stays, however large.
+        // The newest result stays, however large it is.
         limited(0).write(&KEY, b"payload").unwrap();
         assert!(limited(0).read(&KEY).is_some());
         assert_eq!(left(), [false, false, false, true, true]);
     }
 
     #[test]
-    fn what_was_read_lately_stays() {
+    fn recently_read_results_stay() {
         let folder = tempfile::tempdir().unwrap();
         let limited = Cache::new(
             folder.path(),

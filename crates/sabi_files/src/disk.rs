@@ -1,5 +1,5 @@
-//! Access to the disk as a value: the real one, or one of a test that fails at a chosen step and knows what a power failure
-//! would take.
+//! Access to the disk as a value: the real disk, or a test disk that fails at a chosen step and records which changes a
+//! power failure could undo.
 
 mod record;
 
@@ -10,21 +10,21 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use record::Record;
 
-/// Disk that files are written to. By default the real one; clones of a disk of a test share its count.
+/// Disk to which files are written. The default is the real disk. Clones of a test disk share its step counter.
 #[derive(Clone, Debug, Default)]
 pub struct Disk {
-    /// Absent for the real disk.
+    /// Record of a test disk; `None` for the real disk.
     record: Option<Arc<Mutex<Record>>>,
 }
 
-/// Fault of the disk of a test.
+/// Fault of a test disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The system refuses one step; all others succeed.
+    /// The system refuses one step. All other steps succeed.
     Refuse,
-    /// There is no room from one step on: bytes and new names are refused, while removing and renaming succeed.
+    /// The disk is full from one step on: bytes and new names are refused, but removing and renaming succeed.
     Full,
-    /// The process ends at one step: a write stops in its middle, and nothing happens after it, destructors included.
+    /// The process ends at one step: a write stops in the middle, and nothing happens after it, not even destructors.
     End,
 }
 
@@ -33,13 +33,13 @@ impl Fault {
     pub const ALL: [Fault; 3] = [Fault::Refuse, Fault::Full, Fault::End];
 }
 
-/// Change on the disk that can fail.
+/// Step that changes the disk and can fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
     CreateFolder,
-    /// A file or folder with a temporary name, in the folder that the step names.
+    /// Creating a file or folder with a temporary name, in the folder that the step names.
     CreateTemporary,
-    /// A file with its final name.
+    /// Creating a file with its final name.
     CreateFile,
     Write,
     Sync,
@@ -52,7 +52,7 @@ pub(crate) enum Step {
 }
 
 impl Step {
-    /// Returns true if the step needs room.
+    /// Returns true if the step needs free space.
     fn takes_room(self) -> bool {
         match self {
             Step::CreateFolder | Step::CreateTemporary | Step::CreateFile | Step::Write | Step::Link | Step::Append => {
@@ -64,17 +64,17 @@ impl Step {
 }
 
 impl Disk {
-    /// Disk of a test that counts its steps, without a fault.
+    /// Creates a test disk that counts its steps and has no fault.
     pub fn counting() -> Disk {
         Disk::with_record(Record::default())
     }
 
-    /// Disk of a test with a fault at a step; steps are counted from 0.
+    /// Creates a test disk with a fault at a step. Steps are counted from 0.
     pub fn failing(fault: Fault, at: usize) -> Disk {
         Disk::with_record(Record::failing(fault, at))
     }
 
-    /// Disks of a test, one for each fault at each of this many steps, with words for it.
+    /// Creates test disks, one for each fault at each of this many steps, each with a description.
     pub fn each_fault(steps: usize) -> impl Iterator<Item = (Disk, String)> {
         let faults = Fault::ALL.into_iter();
         let all = faults.flat_map(move |fault| (0..steps).map(move |at| (fault, at)));
@@ -87,34 +87,34 @@ impl Disk {
         }
     }
 
-    /// Number of steps so far; 0 on the real disk, which does not count.
+    /// Returns the number of steps so far; 0 on the real disk, which does not count them.
     pub fn steps(&self) -> usize {
         self.record().map_or(0, |record| record.steps)
     }
 
-    /// Returns whether temporary files stay when they are dropped, because the process is going to end.
+    /// Returns whether temporary files are kept when they are dropped, because the simulated process is going to end.
     pub(crate) fn keeps_temporaries(&self) -> bool {
         self.record().is_some_and(|record| record.will_end())
     }
 
-    /// Returns whether the process counts as ended: nothing changes on the disk any more.
+    /// Returns whether the simulated process has ended, so that nothing changes on the disk any more.
     pub fn has_ended(&self) -> bool {
         self.record().is_some_and(|record| record.has_ended)
     }
 
-    /// Files and folders that a power failure at this moment could take or leave incomplete; none on the real disk, which does
-    /// not count.
+    /// Returns the files and folders that a power failure at this moment could remove or leave incomplete; none on the real
+    /// disk, which does not record this.
     pub fn at_risk(&self) -> Vec<PathBuf> {
         self.record().map_or_else(Vec::new, |record| record.at_risk())
     }
 
     fn record(&self) -> Option<MutexGuard<'_, Record>> {
         let record = self.record.as_ref()?;
-        // Every change of the record leaves it consistent.
+        // A panic cannot leave the record inconsistent, so poisoning is ignored.
         Some(record.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Takes a step, which changes a path: `work` makes the change.
+    /// Performs a step that changes a path: `work` makes the change.
     pub(crate) fn step<T>(&self, step: Step, path: &Path, work: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
         if let Some(mut record) = self.record() {
             record.begin(step)?;
@@ -126,12 +126,12 @@ impl Disk {
         Ok(done)
     }
 
-    /// Writes bytes at the end of an open file.
+    /// Appends bytes to an open file.
     pub(crate) fn write(&self, step: Step, path: &Path, file: &mut File, bytes: &[u8]) -> io::Result<()> {
         if let Some(mut record) = self.record()
             && let Err(error) = record.begin(step)
         {
-            // A disk that fills up, and a process that ends, leave a part.
+            // A disk that becomes full, and a process that ends, write a part of the bytes.
             if record.leaves_parts() {
                 file.write_all(&bytes[..bytes.len() / 2])?;
                 record.changed(step, path);
@@ -145,7 +145,7 @@ impl Disk {
         Ok(())
     }
 
-    /// Renames a file or a folder by `work`.
+    /// Renames a file or a folder. `work` makes the change.
     pub(crate) fn rename<T>(&self, from: &Path, to: &Path, work: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
         if let Some(mut record) = self.record() {
             record.begin(Step::Rename)?;

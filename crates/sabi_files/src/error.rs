@@ -5,8 +5,7 @@ use std::{fmt, io};
 
 use thiserror::Error;
 
-/// Failed disk operation with its path and the system's reason. Its text names no remedy: the callers know what can be
-/// chosen instead.
+/// Failed disk operation with its path and the system's error. The text names no remedy: callers know which alternatives they offer.
 #[derive(Debug, Error)]
 #[error("{operation} {}: {}", path.display(), io_reason(source))]
 pub struct FileError {
@@ -25,13 +24,13 @@ pub enum Operation {
     CreateFolder,
     /// Listing of a folder.
     List,
-    /// Writing of a complete file; the earlier file is unchanged.
+    /// Writing a complete file. The earlier file is unchanged.
     Write,
-    /// Writing behind the end of a file.
+    /// Writing at the end of a file.
     Append,
-    /// Renaming of a complete temporary file to its final name; the earlier file is unchanged.
+    /// Renaming a complete temporary file to its final name. The earlier file is unchanged.
     Replace,
-    /// Writing of a folder's entries to the disk; the new file is in place, but a power failure may undo that.
+    /// Syncing the entries of a folder. The new file is in place, but a power failure may undo that.
     SyncFolder,
     /// Locking of a file.
     Lock,
@@ -61,7 +60,7 @@ impl FileError {
         }
     }
 
-    /// Returns why the operation failed, as a clause without the path.
+    /// Returns the reason for the failure, as a clause without the path.
     pub fn reason(&self) -> String {
         io_reason(&self.source)
     }
@@ -72,7 +71,7 @@ impl FileError {
     }
 }
 
-/// Words why a file cannot be written, as a clause without error numbers of the system.
+/// Returns why a file cannot be written, as a clause without error numbers of the system.
 pub fn io_reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::PermissionDenied => "you have no permission".into(),
@@ -93,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_error_says_what_failed_where_and_why() {
+    fn an_error_names_the_operation_the_path_and_the_reason() {
         let error = |operation, kind: io::ErrorKind| FileError::new(operation, Path::new("out/a.png"), kind.into());
         for (operation, kind, sentence) in [
             (

@@ -1,5 +1,5 @@
-//! Every fault at every step: a file holds its earlier bytes or all new ones, and what was told as written survives a power
-//! failure.
+//! Tests every fault at every step: a file has either its old bytes or all new ones, and a file that was reported as
+//! written survives a power failure.
 
 use std::path::Path;
 use std::{fs, io};
@@ -12,8 +12,8 @@ use crate::{Cache, CacheKind, Disk, FileError, Operation, StagedError, StagedSet
 const OLD: &[u8] = b"as it was";
 const NEW: &[u8] = b"as it is now, and longer";
 
-/// Runs a piece of work in a fresh folder once for each fault at each of its steps. `look` gets the folder after it, and whether
-/// the work was told as done.
+/// Runs a piece of work in a new folder once for each fault at each of its steps. `look` then receives the folder, and
+/// whether the work reported success.
 fn at_every_step(
     prepare: impl Fn(&Path),
     work: impl Fn(&Disk, &Path) -> bool,
@@ -36,25 +36,25 @@ fn at_every_step(
     }
 }
 
-/// Names in a folder without temporary ones.
+/// Returns the names in a folder, except temporary ones.
 fn names(folder: &Path) -> Vec<String> {
     let mut names = listing(folder);
     names.retain(|name| !is_temporary_name(name));
     names
 }
 
-/// Names in a folder that may not exist.
+/// Returns the names in a folder; none if it does not exist.
 fn listing_of_any(folder: &Path) -> Vec<String> {
     if folder.is_dir() { listing(folder) } else { Vec::new() }
 }
 
-/// Returns whether an error says that a file is in place already.
+/// Returns whether an error means that the file is in place already.
 fn is_in_place(error: &FileError) -> bool {
     error.operation == Operation::SyncFolder
 }
 
 #[test]
-fn a_whole_file_is_the_old_one_or_the_new_one_after_a_fault_at_any_step() {
+fn after_any_fault_a_replaced_file_is_either_old_or_new() {
     at_every_step(
         |folder| fs::write(folder.join("file"), OLD).unwrap(),
         |disk, folder| disk.write_whole(&folder.join("file"), NEW).is_ok(),
@@ -71,7 +71,7 @@ fn a_whole_file_is_the_old_one_or_the_new_one_after_a_fault_at_any_step() {
 }
 
 #[test]
-fn a_file_in_new_folders_survives_a_power_failure_once_it_is_told_as_written() {
+fn a_file_in_new_folders_survives_a_power_failure_once_reported_as_written() {
     at_every_step(
         |_| {},
         |disk, folder| disk.write_whole(&folder.join("deep/er/file"), NEW).is_ok(),
@@ -84,7 +84,7 @@ fn a_file_in_new_folders_survives_a_power_failure_once_it_is_told_as_written() {
 }
 
 #[test]
-fn a_new_file_takes_the_place_of_no_other() {
+fn a_new_file_never_replaces_another_file() {
     at_every_step(
         |folder| fs::write(folder.join("taken"), OLD).unwrap(),
         |disk, folder| {
@@ -103,7 +103,7 @@ fn a_new_file_takes_the_place_of_no_other() {
 }
 
 #[test]
-fn bytes_that_are_appended_leave_those_before_as_they_are() {
+fn appending_never_changes_the_earlier_bytes() {
     at_every_step(
         |folder| fs::write(folder.join("file"), OLD).unwrap(),
         |disk, folder| disk.append_durably(&folder.join("file"), NEW).is_ok(),
@@ -120,7 +120,7 @@ fn bytes_that_are_appended_leave_those_before_as_they_are() {
 }
 
 #[test]
-fn a_set_is_whole_files_and_all_old_ones_where_it_was_refused() {
+fn files_of_a_set_are_complete_and_unchanged_if_the_set_was_refused() {
     let old = [("a.png", Some(OLD)), ("b.png", None), ("c.png", Some(OLD))];
     let write = |disk: &Disk, folder: &Path| -> Result<(), StagedError> {
         let mut set = StagedSet::create_on(disk, folder)?;
@@ -156,7 +156,7 @@ fn a_set_is_whole_files_and_all_old_ones_where_it_was_refused() {
                 );
             }
             assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
-            // The next set of the folder goes through, and removes what a killed one has left.
+            // Writing another set succeeds, and removes the left-overs of the killed process.
             write(&Disk::default(), folder).unwrap();
             assert_eq!(listing(folder), ["a.png", "b.png", "c.png"], "{told}");
         },
@@ -164,7 +164,7 @@ fn a_set_is_whole_files_and_all_old_ones_where_it_was_refused() {
 }
 
 #[test]
-fn a_package_of_a_set_is_whole_or_not_there() {
+fn a_package_of_a_set_is_either_complete_or_missing() {
     let names = ["a.png", "b.usdz"];
     let write = |disk: &Disk, folder: &Path| -> Result<bool, StagedError> {
         let mut set = StagedSet::create_on(disk, folder)?;
@@ -190,7 +190,7 @@ fn a_package_of_a_set_is_whole_or_not_there() {
     );
 }
 
-/// Entries of an archive: a folder in a folder, and a file beside it.
+/// Entries of an archive: a file in nested folders, a file beside these, and a file at the top.
 const ENTRIES: [(&str, &[u8]); 3] = [("a/b/one", NEW), ("a/two", OLD), ("three", NEW)];
 
 /// Writes the archive of [`ENTRIES`].
@@ -201,7 +201,7 @@ fn write_entries(disk: &Disk, target: &Path, replaces: bool) -> Result<(), Archi
 }
 
 #[test]
-fn an_archive_is_the_old_one_or_a_whole_new_one() {
+fn an_archive_is_either_the_old_one_or_completely_new() {
     at_every_step(
         |folder| fs::write(folder.join("file.zip"), OLD).unwrap(),
         |disk, folder| write_entries(disk, &folder.join("file.zip"), true).is_ok(),
@@ -222,7 +222,7 @@ fn an_archive_is_the_old_one_or_a_whole_new_one() {
 }
 
 #[test]
-fn an_archive_is_unpacked_whole_or_not_at_all() {
+fn an_archive_is_unpacked_completely_or_not_at_all() {
     let has_all = |out: &Path| {
         ENTRIES
             .iter()
@@ -261,7 +261,7 @@ fn an_archive_is_unpacked_whole_or_not_at_all() {
                 let out = folder.join("out");
                 assert!(!is_done || has_all(&out), "{told}");
                 assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
-                // Each file is whole, also if the process ended between those of a folder that was there before.
+                // Each file is complete, even if the process ended while files were moved into an existing folder.
                 for (name, bytes) in ENTRIES {
                     let found = fs::read(out.join(name));
                     assert!(
@@ -278,7 +278,7 @@ fn an_archive_is_unpacked_whole_or_not_at_all() {
 }
 
 #[test]
-fn a_stored_result_comes_back_whole_or_not_at_all() {
+fn a_cached_result_is_returned_completely_or_not_at_all() {
     let kind = CacheKind {
         prefix: "kind",
         version: 1,
@@ -305,7 +305,7 @@ fn a_stored_result_comes_back_whole_or_not_at_all() {
 }
 
 #[test]
-fn the_real_disk_counts_nothing() {
+fn the_real_disk_does_not_count_steps() {
     let folder = tempfile::tempdir().unwrap();
     let disk = Disk::default();
     disk.write_whole(&folder.path().join("file"), NEW).unwrap();

@@ -1,13 +1,12 @@
 //! Disk access on a user's behalf.
 //!
-//! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] replaces several files together,
-//! [`Cache`] stores results that can be computed again, [`FileLock`] marks a file as in use, [`PathBase`] resolves paths that
-//! files name, [`TrustedPaths`] decides which of those may be opened, [`archive`] packs files into one and unpacks them. All of
-//! them write to a [`Disk`]; that of a test fails where the test says. Paths are [`std::path::Path`] from end to end, so that a name that
-//! is not UTF-8 reaches exactly its file.
+//! [`write_whole`] replaces one file durably, [`append_durably`] appends to a file, [`StagedSet`] replaces several files together,
+//! [`Cache`] stores results that can be computed again, [`FileLock`] marks a file as in use, [`PathBase`] resolves paths written in files,
+//! [`TrustedPaths`] decides which of these may be opened, [`archive`] packs files into an archive and unpacks them. All of them write to a
+//! [`Disk`]; a test disk fails at a chosen step. Paths are always [`std::path::Path`], so that names that are not UTF-8 work, too.
 //!
-//! Invariants: a target file holds its earlier bytes or all new ones at every moment; a temporary file is opened with
-//! `create_new` and never shared; no function looks at what the bytes mean.
+//! Invariants: at every moment a target file has either its earlier bytes or all new bytes; a temporary file is opened with
+//! `create_new` and never shared; no function interprets the bytes.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

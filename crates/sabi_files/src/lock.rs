@@ -10,18 +10,18 @@ use crate::disk::Disk;
 use crate::error::{FileError, Operation};
 use crate::whole::{Durability, create_folder, folder_of};
 
-/// Times that a lock in use is tried again.
+/// Number of times that a lock in use is tried again.
 const TRIES: usize = 2;
 /// Pause before a lock in use is tried again.
 const BETWEEN_TRIES: Duration = Duration::from_millis(5);
 
-/// Pause between two looks at a lock that is waited for.
+/// Pause between two attempts while waiting for a lock.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
 
-/// Lock on a file, held until it is dropped or the process ends in any way.
+/// Lock on a file. It is held until it is dropped or the process ends for any reason.
 #[derive(Debug)]
 pub struct FileLock {
-    /// Closing it unlocks it.
+    /// Open file; closing it releases the lock.
     _file: File,
     path: PathBuf,
 }
@@ -41,7 +41,7 @@ pub enum LockError {
 }
 
 impl FileLock {
-    /// Locks a file, waiting for a moment at most; the file and its folder are created where they are missing.
+    /// Locks a file, waiting a few milliseconds at most. The file and its folder are created if they are missing.
     ///
     /// # Errors
     /// The lock is held already, or the file system does not offer it.
@@ -50,13 +50,13 @@ impl FileLock {
         loop {
             let file = open(path)?;
             match file.try_lock() {
-                // Its holder may have removed it between the opening and the lock.
+                // Its holder may have removed the file after it was opened here and before it was locked.
                 Ok(()) if !is_at(&file, path) => {}
                 Ok(()) => {
                     let path = path.to_owned();
                     return Ok(FileLock { _file: file, path });
                 }
-                // A look of `is_locked` lasts for a moment, and a holder for longer.
+                // The check in `is_locked` holds the lock only for a moment, while a real holder keeps it for longer.
                 Err(TryLockError::WouldBlock) if tries < TRIES => {
                     tries += 1;
                     std::thread::sleep(BETWEEN_TRIES);
@@ -67,12 +67,12 @@ impl FileLock {
         }
     }
 
-    /// Locks a file once no other holder has the lock; the file and its folder are created where they are missing. Holders do not
-    /// remove the file, or two could have the lock. While another one has it, `goes_on` is asked many times a second; `None` once it
-    /// returns false.
+    /// Waits until no other holder has the lock, and locks the file. The file and its folder are created if they are
+    /// missing. Holders must not remove the file, otherwise two of them could have the lock. While waiting, `goes_on` is
+    /// called many times a second; when it returns false, the result is `None`.
     ///
     /// # Errors
-    /// The file system does not offer locks, or the path is that of no ordinary file.
+    /// The file system does not offer locks, or the path is not an ordinary file.
     pub fn wait(path: &Path, goes_on: &mut dyn FnMut() -> bool) -> Result<Option<FileLock>, FileError> {
         let file = open(path)?;
         loop {
@@ -92,40 +92,40 @@ impl FileLock {
 
     /// Unlocks the file and removes it.
     pub fn remove(self) {
-        // A file that cannot be removed is not locked any more, which is all that others look at.
+        // If the file cannot be removed, it is still unlocked, and other processes only check the lock.
         let _ = fs::remove_file(&self.path);
     }
 }
 
-/// Returns whether a path leads to an open file, and not to another one or to none.
+/// Returns whether the file at a path is this open file, and not another file or none.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |found: fs::Metadata| (found.dev(), found.ino());
     let here = file.metadata().map(identity);
-    // A state that cannot be asked for is taken for the same, so that nobody waits for ever.
+    // If the file cannot be examined, it is treated as the same one, so that nobody waits forever.
     fs::metadata(path).map(identity).map_or_else(
         |error| error.kind() != std::io::ErrorKind::NotFound,
         |there| here.map_or(true, |here| here == there),
     )
 }
 
-/// An open file keeps its name on this system.
+/// Returns true: on this system an open file keeps its name.
 #[cfg(not(unix))]
 fn is_at(_: &File, _: &Path) -> bool {
     true
 }
 
-/// Opens the file of a lock; it and its folder are created where they are missing.
+/// Opens the file of a lock. The file and its folder are created if they are missing.
 fn open(path: &Path) -> Result<File, FileError> {
-    // A lock is not kept beyond the process.
+    // A lock does not outlive the process, so its folder need not be durable.
     create_folder(&Disk::default(), folder_of(path), Durability::Unsynced)?;
     refuse_special(path)?;
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
     file.map_err(|error| FileError::new(Operation::Lock, path, error))
 }
 
-/// Refuses a path where something else than a file is: a pipe would be waited for, and a link would lead elsewhere.
+/// Refuses a path that is not an ordinary file: opening a pipe would wait, and a link would lead elsewhere.
 fn refuse_special(path: &Path) -> Result<(), FileError> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => {
@@ -138,7 +138,7 @@ fn refuse_special(path: &Path) -> Result<(), FileError> {
 
 /// Returns whether a [`FileLock`] on a file is held, in this process or another.
 pub fn is_locked(path: &Path) -> bool {
-    // Shared, so that two who look at the same moment do not take each other for a holder.
+    // A shared lock, so that two simultaneous checks do not take each other for a holder.
     refuse_special(path).is_ok()
         && File::open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_that_is_waited_for_comes_once_it_is_free() {
+    fn waiting_for_a_lock_ends_when_it_is_released() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file.lock");
         let first = FileLock::wait(&path, &mut || unreachable!("nobody holds it"))
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_waits_for_a_lock_can_give_up() {
+    fn waiting_for_a_lock_can_be_canceled() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file.lock");
         let _held = FileLock::acquire(&path).unwrap();
@@ -206,7 +206,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_link_or_a_pipe_is_no_lock() {
+    fn a_link_or_a_pipe_cannot_be_a_lock() {
         let folder = tempfile::tempdir().unwrap();
         let [link, pipe, elsewhere] = ["link.lock", "pipe.lock", "elsewhere"].map(|name| folder.path().join(name));
         std::os::unix::fs::symlink(&elsewhere, &link).unwrap();
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_that_is_removed_while_others_try_it_has_one_holder() {
+    fn a_lock_that_is_removed_while_others_try_it_has_only_one_holder() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file.lock");
         let holders = std::sync::atomic::AtomicUsize::new(0);

@@ -1,7 +1,7 @@
-//! Paths that files name: their targets and their spelling.
+//! Paths that are written in files: resolving and writing them.
 //!
-//! In a file both `/` and `\` separate folders, whatever system wrote it. Relative paths start from the folder of the file
-//! that names them.
+//! In a file both `/` and `\` separate folders, whatever system wrote it. Relative paths refer to the folder of the file
+//! that contains them.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -9,13 +9,13 @@ use thiserror::Error;
 
 use crate::address::is_local;
 
-/// Folder from which the relative paths in a file start.
+/// Folder to which the relative paths in a file refer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathBase {
     folder: PathBuf,
 }
 
-/// Path that a text file cannot name.
+/// Path that cannot be written in a text file.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{} cannot be named in a file, because its name is not Unicode text; rename it", path.display())]
 pub struct NotText {
@@ -23,24 +23,24 @@ pub struct NotText {
     pub path: PathBuf,
 }
 
-/// Treatment of absolute paths when the file that names them gets another folder.
+/// Treatment of absolute paths when the file that contains them moves to another folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AbsolutePaths {
     /// They stay absolute.
     Keep,
-    /// Those that share more than the root with the new folder become relative.
+    /// Absolute paths that share more than the root with the new folder become relative.
     Shorten,
 }
 
 impl PathBase {
-    /// Creates the base of files in a folder.
+    /// Creates the base for files in a folder.
     pub fn of_folder(folder: impl Into<PathBuf>) -> PathBase {
         PathBase { folder: folder.into() }
     }
 
-    /// Creates the base of one file: the folder it is in.
+    /// Creates the base for a file: its folder.
     pub fn of_file(file: &Path) -> PathBase {
-        // A path without a folder is relative to the current one, as its base is.
+        // A path without a folder is relative to the current folder, and so is its base.
         PathBase::of_folder(file.parent().unwrap_or(Path::new("")))
     }
 
@@ -49,7 +49,7 @@ impl PathBase {
         &self.folder
     }
 
-    /// Returns the file that a path leads to. A backslash is part of a name only where such a file exists.
+    /// Returns the file that a path refers to. A backslash is part of a name only if a file with that name exists.
     pub fn resolve(&self, written: &str) -> PathBuf {
         let literal = self.folder.join(written);
         if !written.contains('\\') || is_local(written) && literal.exists() {
@@ -58,13 +58,13 @@ impl PathBase {
         self.folder.join(with_forward_slashes(written))
     }
 
-    /// Returns the base of a file that this base's file names.
+    /// Returns the base for a file to which this base's file refers.
     pub fn base_of(&self, written: &str) -> PathBase {
         PathBase::of_file(&self.resolve(written))
     }
 
-    /// Returns the places of a file that a model names with their texts, the likeliest first: as written, with `/` between
-    /// folders, and by its bare name in the model's folder, because models carry the paths of the computer they were made on.
+    /// Returns possible places of a file to which a model refers, with their texts, most likely first: as written; with `/` between
+    /// folders; and by its bare file name in the model's folder, since models often contain paths of the computer on which they were made.
     pub fn places(&self, written: &str) -> [(String, PathBuf); 3] {
         let slashed = with_forward_slashes(written);
         let bare = slashed.rsplit('/').next().unwrap_or(&slashed).to_owned();
@@ -74,8 +74,8 @@ impl PathBase {
         })
     }
 
-    /// Writes an existing or future file's path for a file of this base: relative where both share more than the root.
-    /// Both paths are absolute.
+    /// Returns the text by which a file of this base refers to `target`, which need not exist. The text is a relative path
+    /// if both share more than the root. Both paths are absolute.
     ///
     /// # Errors
     /// A part of the path is not Unicode.
@@ -89,8 +89,8 @@ impl PathBase {
         path_text(&relative_path(&there, &here, shared))
     }
 
-    /// Rewrites a path that stands in a file of the base `from` for the same file in this base. It stays as it is when it
-    /// is empty, or absolute and kept absolute.
+    /// Rewrites a path from a file of the base `from` so that it refers to the same file from this base. An empty path
+    /// stays unchanged, and so does an absolute path that is to be kept.
     ///
     /// # Errors
     /// A part of the path is not Unicode.
@@ -109,14 +109,14 @@ impl PathBase {
             return Ok(written.to_owned());
         }
         if shared == 0 {
-            // On another drive, or in another relative folder.
+            // The target is on another drive, or below another relative folder.
             return path_text(&target);
         }
         path_text(&relative_path(&there, &here, shared))
     }
 
-    /// Rewrites a path that stands in a file of this base as an absolute one, which is valid everywhere; an empty one stays.
-    /// The base's folder is absolute.
+    /// Rewrites a path from a file of this base as an absolute path, which is valid everywhere. An empty path stays empty.
+    /// The base's folder must be absolute.
     ///
     /// # Errors
     /// A part of the path is not Unicode.
@@ -128,7 +128,7 @@ impl PathBase {
     }
 }
 
-/// Removes `.` and resolves `..` as far as the text of a path allows, without looking at links.
+/// Removes `.` and resolves `..` in the text of a path, as far as possible without examining links.
 pub fn without_detours(path: &Path) -> PathBuf {
     let mut direct = PathBuf::new();
     for part in path.components() {
@@ -137,7 +137,7 @@ pub fn without_detours(path: &Path) -> PathBuf {
             Component::ParentDir if matches!(direct.components().next_back(), Some(Component::Normal(_))) => {
                 direct.pop();
             }
-            // Nothing is above the root.
+            // The root has no parent.
             Component::ParentDir if direct.has_root() => {}
             part => direct.push(part),
         }
@@ -159,7 +159,7 @@ fn has_shared_folder(shared: &[Component<'_>]) -> bool {
     shared.iter().any(|part| matches!(part, Component::Normal(_)))
 }
 
-/// Returns the path from one folder to a target: up to the folder that they share, and down again.
+/// Returns the path from one folder to a target: up to the shared folder, then down to the target.
 fn relative_path(there: &[Component<'_>], here: &[Component<'_>], shared: usize) -> PathBuf {
     let up = std::iter::repeat_n(Component::ParentDir, here.len() - shared);
     up.chain(there[shared..].iter().copied()).collect()

@@ -1,4 +1,4 @@
-//! Forms of a path: canonical, absolute, behind links, not yet in use.
+//! Forms of a path: canonical, absolute, with links resolved, not yet in use.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -6,11 +6,11 @@ use std::{fs, io};
 
 use crate::read::{Unread, read_plain};
 
-/// Numbers that [`free_file`] appends before it gives up.
+/// Highest number that [`free_file`] appends.
 const MAX_FREE_FILE_NUMBER: usize = 1000;
 
-/// Returns the canonical path of an existing file or folder, without the `\\?\` prefix that Windows puts before it. An empty
-/// path is the current folder.
+/// Returns the canonical path of an existing file or folder, without the `\\?\` prefix that Windows adds. An empty path is
+/// the current folder.
 ///
 /// # Errors
 /// Nothing exists at the path, or it cannot be reached.
@@ -30,7 +30,7 @@ fn without_prefix(path: PathBuf) -> PathBuf {
         .and_then(|text| text.strip_prefix(r"\\?\"))
         .filter(|rest| rest.as_bytes().get(1) == Some(&b':'))
         .map(PathBuf::from);
-    // Network paths and names that are not Unicode work with the prefix only.
+    // Network paths and names that are not Unicode work only with the prefix.
     on_drive.unwrap_or(path)
 }
 
@@ -39,23 +39,22 @@ fn without_prefix(path: PathBuf) -> PathBuf {
     path
 }
 
-/// Returns the path of the file that a symbolic link leads to, through any number of links; other paths are returned as they
-/// are.
+/// Returns the path of the file that a symbolic link finally leads to. Other paths are returned unchanged.
 pub fn behind_links(file: &Path) -> PathBuf {
     let is_link = fs::symlink_metadata(file).is_ok_and(|found| found.is_symlink());
     let target = is_link.then(|| canonical(file).ok()).flatten();
-    // A link to a missing file has no canonical path and is replaced itself.
+    // A link to a missing file has no canonical path. The link itself will be replaced.
     target.unwrap_or_else(|| file.to_owned())
 }
 
 /// Returns a path that stays valid when the current folder changes.
 pub fn absolute(path: &Path) -> PathBuf {
-    // Fails for an empty path and without a current folder only; neither has an absolute form.
+    // This fails only for an empty path and without a current folder. Neither has an absolute form.
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// Returns the first of `stem.ending`, `stem-2.ending`, … that does not exist or already holds these bytes; `None` when 1000
-/// of them are in use.
+/// Returns the first of `stem.ending`, `stem-2.ending`, … that does not exist or already contains these bytes; `None` if
+/// 1000 of them are in use.
 pub fn free_file(folder: &Path, stem: &OsStr, ending: &str, bytes: &[u8]) -> Option<PathBuf> {
     let numbers = (2..=MAX_FREE_FILE_NUMBER).map(|number| format!("-{number}"));
     let mut files = std::iter::once(String::new()).chain(numbers).map(|number| {
@@ -63,7 +62,7 @@ pub fn free_file(folder: &Path, stem: &OsStr, ending: &str, bytes: &[u8]) -> Opt
         name.push(format!("{number}.{ending}"));
         folder.join(name)
     });
-    // What is longer, or no ordinary file, holds something else.
+    // A file that is longer, or not an ordinary file, has another content.
     files.find(|file| match read_plain(file, bytes.len() as u64) {
         Ok(known) => known == bytes,
         Err(unread) => unread == Unread::Missing && fs::symlink_metadata(file).is_err(),
@@ -82,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn a_free_file_is_missing_or_holds_the_same_bytes() {
+    fn a_free_file_is_missing_or_has_the_same_bytes() {
         let folder = tempfile::tempdir().unwrap();
         let free = |bytes: &[u8]| free_file(folder.path(), OsStr::new("rust"), "sabi", bytes).unwrap();
         let file = |name: &str| folder.path().join(name);
@@ -96,7 +95,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_link_leads_to_its_file_and_a_dangling_one_to_itself() {
+    fn a_link_leads_to_its_file_and_a_broken_link_to_itself() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| canonical(folder.path()).unwrap().join(name);
         fs::write(file("file"), b"1").unwrap();

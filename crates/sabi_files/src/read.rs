@@ -1,4 +1,4 @@
-//! Reading of ordinary files of limited size; a pipe or device may have no end.
+//! Reading ordinary files of limited size. Pipes and devices are refused, since they may have no end.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -9,17 +9,17 @@ use crate::refusal::Refusal;
 /// Reason why a file was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unread {
-    /// It does not exist.
+    /// The file does not exist.
     Missing,
-    /// It is a folder.
+    /// The path is a folder.
     Folder,
-    /// It is a pipe, a device or a socket, which may have no end.
+    /// The path is a pipe, a device or a socket, which may have no end.
     NotPlain,
-    /// It exceeds the limit; its size in bytes, as far as it was read.
+    /// The file exceeds the limit. The value is its size in bytes, as far as it was read.
     TooLarge(u64),
-    /// Another file names it, which may not open it.
+    /// Another file refers to it, and that file is not trusted to open it.
     Refused(Refusal),
-    /// Reason of the system.
+    /// Error of the operating system.
     Other(String),
 }
 
@@ -38,7 +38,7 @@ pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
     if metadata.len() > limit {
         return Err(Unread::TooLarge(metadata.len()));
     }
-    // Some files report no length, and others grow meanwhile.
+    // Some files report no length, and others grow while they are read.
     let mut bytes = Vec::new();
     let mut start = File::open(path).map_err(unread)?.take(limit.saturating_add(1));
     start.read_to_end(&mut bytes).map_err(unread)?;
@@ -61,7 +61,7 @@ impl From<Unread> for io::Error {
     }
 }
 
-/// Returns why the system gives no access to a file.
+/// Converts the system's error for a file that cannot be accessed.
 pub(crate) fn unread(error: io::Error) -> Unread {
     match error.kind() {
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Unread::Missing,
@@ -87,7 +87,7 @@ mod tests {
             assert_eq!(read_plain(Path::new("/dev/null"), length), Err(Unread::NotPlain));
         }
         if cfg!(target_os = "linux") {
-            // Such files have a length of 0.
+            // Files in `/proc` report a length of 0.
             assert_eq!(read_plain(Path::new("/proc/self/maps"), 9), Err(Unread::TooLarge(10)));
         }
     }

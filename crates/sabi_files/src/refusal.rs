@@ -1,27 +1,27 @@
-//! Reasons why a file that another one names is not opened.
+//! Reasons why a file to which another file refers is not opened.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Reason why a file that another one names is not opened. Its text is a clause that begins with the path.
+/// Reason why a file to which another file refers is not opened. The text is a clause that starts with the path.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Refusal {
-    /// It is outside of all folders that may be read from.
+    /// The file is outside of all folders that may be read.
     Outside {
         /// The file, with links resolved.
         file: PathBuf,
     },
-    /// It is on another computer.
+    /// The file is on another computer.
     Network {
-        /// The path as it is written.
+        /// The path as written.
         written: String,
     },
-    /// It is an address and no path.
+    /// The text is a URL and not a path.
     Url {
-        /// The address as it is written.
+        /// The address as written.
         written: String,
     },
-    /// It is a device, a pipe, or a file that the system makes up.
+    /// The file is a device, a pipe, or a file whose content the system generates.
     Device {
         /// The path.
         file: PathBuf,
@@ -29,7 +29,7 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// Folder that makes the file readable when it is trusted; `None` where nothing does.
+    /// Returns the folder that has to be trusted so that the file can be read; `None` if trust does not help.
     pub fn folder(&self) -> Option<&Path> {
         match self {
             Refusal::Outside { file } => file.parent(),

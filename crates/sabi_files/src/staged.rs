@@ -1,4 +1,4 @@
-//! Sets of files that take their places together.
+//! Sets of files that are put in place together.
 
 mod package;
 
@@ -18,34 +18,33 @@ use crate::error::{FileError, Operation};
 use crate::temporary::{claim, sweep, temporary_names};
 use crate::whole::{Durability, WholeFile, create_folder, folder_of, missing_folders, replace_error, sync_folder};
 
-/// Start of the temporary names under which replaced files wait until a commit has succeeded.
+/// Start of the temporary names that replaced files get until a commit has succeeded.
 const EARLIER_PREFIX: &str = ".sabi-earlier-";
 
-/// Files of one folder that are written under temporary names and take their places together in [`StagedSet::commit`].
-/// A file that holds these bytes already stays as it is, with its time stamp. Dropping the set removes what it has written. A
-/// process that ends without destructors leaves hidden `.tmp` files, never a part of a file; the next set of the folder removes
-/// them.
+/// Files of one folder that are written under temporary names and put in place together by [`StagedSet::commit`]. A file that has the same
+/// bytes already is not touched and keeps its time stamp. Dropping the set removes what it has written. A process that is killed leaves
+/// hidden `.tmp` files but never an incomplete target; the next set in the folder removes these files.
 #[derive(Debug)]
 pub struct StagedSet {
     disk: Disk,
     folder: PathBuf,
     /// Final files, in the order of staging.
     files: Vec<(PathBuf, StagedFile)>,
-    /// Names in use, as file systems compare them that ignore case.
+    /// Names in use, in a form that is equal for names that differ only in case.
     names: BTreeSet<OsString>,
     /// Canonical paths of files that must not be replaced.
     protected: BTreeSet<PathBuf>,
-    /// Folders that the set has created, outermost first; removed on drop where they stay empty.
+    /// Folders that the set has created, outermost first. Empty ones are removed on drop.
     created: Vec<PathBuf>,
 }
 
 /// Failure to write a set of files.
 #[derive(Debug, Error)]
 pub enum StagedError {
-    /// A folder or temporary file could not be written; no target has changed.
+    /// A folder or temporary file could not be written. No target has changed.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The target is an input of the same work.
+    /// The target is a file that the same work reads.
     #[error("{} is read by the work that would replace it", path.display())]
     Protected {
         /// Target that was refused.
@@ -68,8 +67,8 @@ pub enum StagedError {
     Commit {
         /// Rename that failed.
         error: FileError,
-        /// Number of files that are new nevertheless, because the file system could not restore the earlier ones; 0 if every
-        /// file is unchanged.
+        /// Number of files that are new in spite of the failure, because the file system could not restore the earlier
+        /// ones; 0 if every file is unchanged.
         replaced: usize,
         /// Files of the set.
         total: usize,
@@ -79,13 +78,13 @@ pub enum StagedError {
 /// A file of a set.
 #[derive(Debug)]
 enum StagedFile {
-    /// Written under a temporary name.
+    /// Written, under a temporary name.
     New(NamedTempFile),
     /// In place already, with the same bytes.
     Unchanged(Stamp),
 }
 
-/// Marks by which a file is known not to have been written to since.
+/// Properties of a file that reveal later changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Stamp {
     bytes: u64,
@@ -93,7 +92,7 @@ struct Stamp {
 }
 
 impl Stamp {
-    /// The marks of an ordinary file; `None` for anything else, a link as well.
+    /// Returns the properties of an ordinary file; `None` for anything else, including a link.
     fn of(path: &Path) -> Option<Stamp> {
         let found = fs::symlink_metadata(path).ok().filter(fs::Metadata::is_file)?;
         Some(Stamp {
@@ -102,7 +101,7 @@ impl Stamp {
         })
     }
 
-    /// The marks of a file that holds exactly these bytes.
+    /// Returns the properties of a file if it has exactly these bytes.
     fn of_same(path: &Path, bytes: &[u8]) -> Option<Stamp> {
         let stamp = Stamp::of(path).filter(|stamp| stamp.bytes == bytes.len() as u64)?;
         let is_same = fs::read(path).is_ok_and(|found| found == bytes);
@@ -110,25 +109,25 @@ impl Stamp {
     }
 }
 
-/// Earlier state of a target, to be brought back when a later file of the set fails.
+/// Earlier state of a target, which is restored if a later file of the set fails.
 enum Earlier {
     /// No file existed.
     Missing,
     /// The set did not change it.
     Kept,
-    /// Second name of the earlier file.
+    /// The earlier file was kept under a second name.
     Linked {
         name: TempPath,
-        /// The handle that claims the name while it is open.
+        /// Open handle that protects the second name from being removed as a left-over.
         _claim: Option<File>,
     },
-    /// The file system has no second names for a file.
+    /// The earlier state cannot be restored: the file system does not support hard links.
     Unknown,
 }
 
 impl StagedSet {
-    /// Creates the folder where it is missing and checks that files can be written there, so that long work is
-    /// refused at its start.
+    /// Creates the folder if it is missing and checks that files can be written there, so that an error occurs before long
+    /// work and not after it.
     ///
     /// # Errors
     /// The folder cannot be created or written to.
@@ -141,7 +140,7 @@ impl StagedSet {
     /// # Errors
     /// The folder cannot be created or written to.
     pub fn create_on(disk: &Disk, folder: &Path) -> Result<StagedSet, StagedError> {
-        // An empty path is the current folder.
+        // An empty path means the current folder.
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
         } else {
@@ -171,14 +170,14 @@ impl StagedSet {
         &self.folder
     }
 
-    /// Returns whether a file of that name is staged, on a file system that ignores case.
+    /// Returns whether a file with this name, ignoring case, is staged.
     pub fn contains(&self, file_name: impl AsRef<OsStr>) -> bool {
         self.names.contains(&case_folded(file_name.as_ref()))
     }
 
-    /// Refuses to replace these files from now on, because the work that writes the set reads them.
+    /// Refuses to replace these files from now on, because they are inputs of the work whose results are in the set.
     pub fn protect(&mut self, inputs: impl IntoIterator<Item = PathBuf>) {
-        // A missing file cannot be replaced.
+        // A missing file cannot be replaced, so it needs no protection.
         let real = inputs.into_iter().filter_map(|path| path.canonicalize().ok());
         self.protected.extend(real);
     }
@@ -186,7 +185,7 @@ impl StagedSet {
     /// Checks that a file may be written under a plain name.
     ///
     /// # Errors
-    /// The name contains a folder, or the target is protected or no ordinary file.
+    /// The name contains a folder, or the target is protected or not an ordinary file.
     pub fn check(&self, file_name: impl AsRef<OsStr>) -> Result<(), StagedError> {
         let file_name = file_name.as_ref();
         let target = self.folder.join(file_name);
@@ -211,7 +210,7 @@ impl StagedSet {
         self.stage_like(file_name, bytes, None)
     }
 
-    /// Stages a file as [`StagedSet::stage`] does, with the permissions and the time of the file whose bytes it has.
+    /// Stages a copy of a file like [`StagedSet::stage`], with the permissions and the time of the original.
     ///
     /// # Errors
     /// Those of [`StagedSet::stage`].
@@ -229,7 +228,7 @@ impl StagedSet {
         let mut file = WholeFile::create_on(&self.disk, &target)?;
         file.write(bytes)?;
         if let Some(like) = like {
-            // Some file systems keep neither, and the bytes are what counts.
+            // Some file systems store neither; only the bytes matter.
             let _ = file.as_file_mut().set_permissions(like.permissions());
             let _ = like.modified().and_then(|time| file.as_file_mut().set_modified(time));
         }
@@ -239,7 +238,7 @@ impl StagedSet {
         Ok(())
     }
 
-    /// Returns the target of a plain name that may be written and that no other file of the set has.
+    /// Returns the target for a name, after checking that it may be written and that no other file of the set has it.
     fn free_target(&self, file_name: &OsStr) -> Result<PathBuf, StagedError> {
         self.check(file_name)?;
         if self.contains(file_name) {
@@ -250,17 +249,17 @@ impl StagedSet {
     }
 
     fn add(&mut self, target: PathBuf, file: StagedFile) {
-        // Targets are names in the folder.
+        // Targets always have a file name.
         let file_name = target.file_name().unwrap_or_default();
         self.names.insert(case_folded(file_name));
         self.files.push((target, file));
     }
 
-    /// Puts all files in place and returns their paths in the order of staging. When one cannot be put in place, those
-    /// before it get their earlier content back, as far as the file system can do that.
+    /// Puts all files in place and returns their paths in the order of staging. If a file cannot be put in place, the
+    /// earlier content of the files before it is restored, as far as the file system can do that.
     ///
     /// # Errors
-    /// A file could not be put in place; [`StagedError::Commit`] has the number of files that are new nevertheless.
+    /// A file could not be put in place; [`StagedError::Commit`] contains the number of files that are new in spite of the failure.
     pub fn commit(self) -> Result<Vec<PathBuf>, StagedError> {
         self.commit_with(|file, target| file.persist(target).map(drop).map_err(|refused| refused.error))
     }
@@ -275,7 +274,7 @@ impl StagedSet {
             replaced,
             total,
         };
-        // A known failure is found before the first file is touched.
+        // Find predictable failures before the first file is changed.
         let is_folder = |target: &Path| fs::symlink_metadata(target).is_ok_and(|found| found.is_dir());
         if let Some((target, _)) = self.files.iter().find(|(target, _)| is_folder(target)) {
             return Err(refused(target, ErrorKind::IsADirectory.into(), 0));
@@ -321,19 +320,19 @@ impl StagedSet {
 
 impl Drop for StagedSet {
     fn drop(&mut self) {
-        // Temporary files first: a folder must be empty to be removed.
+        // Remove temporary files first: only empty folders can be removed.
         self.files.clear();
         if self.disk.has_ended() {
             return;
         }
         for folder in self.created.iter().rev() {
-            // Refused where another program has put something into it, as intended.
+            // This fails, as intended, if another program has put something into the folder.
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// Gives an earlier file a second name, under which it outlives its replacement.
+/// Gives an earlier file a second name, under which it is kept when it is replaced.
 fn earlier(disk: &Disk, folder: &Path, target: &Path) -> Earlier {
     if fs::symlink_metadata(target).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
         return Earlier::Missing;
@@ -345,13 +344,13 @@ fn earlier(disk: &Disk, folder: &Path, target: &Path) -> Earlier {
     });
     linked.map_or(Earlier::Unknown, |linked| {
         let name = linked.into_temp_path();
-        // Without the claim it is brought back as well, unless another set of the folder takes it for a left-over.
+        // Without this handle the file can still be restored, unless another set in the folder removes it as a left-over.
         let claim = File::open(&name).ok().filter(|file| claim(file, &name));
         Earlier::Linked { name, _claim: claim }
     })
 }
 
-/// Brings earlier files back, the last one first; returns how many stay new.
+/// Restores earlier files, starting with the last one. Returns the number of files that could not be restored.
 fn restore(disk: &Disk, placed: Vec<(PathBuf, Earlier)>) -> usize {
     let restored = placed.into_iter().rev().map(|(target, earlier)| match earlier {
         Earlier::Kept => true,
@@ -368,7 +367,7 @@ fn restore(disk: &Disk, placed: Vec<(PathBuf, Earlier)>) -> usize {
     restored.filter(|is_restored| !is_restored).count()
 }
 
-/// Lower-case form of a name; a name that is not Unicode has none and stays.
+/// Returns the lower-case form of a name. A name that is not Unicode is returned unchanged.
 fn case_folded(file_name: &OsStr) -> OsString {
     file_name
         .to_str()

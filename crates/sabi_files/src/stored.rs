@@ -1,7 +1,7 @@
-//! Paths stored as text that can be read back exactly, Unicode or not.
+//! Paths stored as text that can be converted back exactly, Unicode or not.
 //!
-//! A path that is Unicode is stored as it is. Any other is stored as a NUL character, which no path contains, and the
-//! hexadecimal digits of its bytes (on Windows of its 16-bit units).
+//! A Unicode path is stored unchanged. Any other path is stored as a NUL character, which no path contains, followed by the
+//! hexadecimal digits of its bytes (on Windows, of its 16-bit units).
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ pub fn stored_path(path: &Path) -> String {
     }
 }
 
-/// Returns the path of a text that [`stored_path`] gave; `None` where the text is damaged.
+/// Returns the path of a text that [`stored_path`] returned; `None` if the text is damaged.
 pub fn path_from_stored(text: &str) -> Option<PathBuf> {
     let Some(digits) = text.strip_prefix(NOT_UNICODE) else {
         return Some(PathBuf::from(text));
@@ -85,7 +85,7 @@ pub mod list {
     /// Deserializes a list of paths.
     ///
     /// # Errors
-    /// It is no list of texts, or one of them is damaged.
+    /// The data is not a list of texts, or one of the texts is damaged.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, D::Error> {
         let texts = Vec::<String>::deserialize(from)?;
         texts.iter().map(|text| super::read(path_from_stored(text))).collect()
@@ -112,7 +112,7 @@ pub mod map {
     /// Deserializes a map whose keys are paths.
     ///
     /// # Errors
-    /// It is no map of such values, or one of its keys is damaged.
+    /// The data is not such a map, or one of its keys is damaged.
     pub fn deserialize<'de, D: Deserializer<'de>, V: Deserialize<'de>>(
         from: D,
     ) -> Result<BTreeMap<PathBuf, V>, D::Error> {
@@ -143,7 +143,7 @@ pub mod optional {
     /// Deserializes a path that may be absent.
     ///
     /// # Errors
-    /// It is no text, or a damaged one.
+    /// The data is not a text, or the text is damaged.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<PathBuf>, D::Error> {
         let text = Option::<String>::deserialize(from)?;
         text.map(|text| super::read(path_from_stored(&text))).transpose()
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_comes_back_as_it_was() {
+    fn a_stored_path_is_restored_exactly() {
         for text in ["", "a.sabi", "/w/ä/a b.sabi", "C:\\x", "0000"] {
             assert_eq!(stored_path(Path::new(text)), text);
             assert_eq!(path_from_stored(text).unwrap(), Path::new(text));
@@ -171,7 +171,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_path_that_is_not_utf_8_comes_back_as_it_was() {
+    fn a_path_that_is_not_utf_8_is_restored_exactly() {
         use std::os::unix::ffi::OsStrExt;
         let path = Path::new(std::ffi::OsStr::from_bytes(b"/w/\xff\xc3.sabi"));
         let stored = stored_path(path);

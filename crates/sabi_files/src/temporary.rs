@@ -1,6 +1,7 @@
-//! Temporary files and folders: their names, and those that a process left because it was killed.
+//! Temporary files and folders: their names, and removal of those that killed processes have left.
 //!
-//! The process that writes a temporary file, or fills a folder, holds a lock on it, which the system ends with the process however it ends.
+//! The process that writes a temporary file, or fills a temporary folder, holds a lock on it. The system releases the lock
+//! when the process ends for any reason.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
@@ -11,19 +12,19 @@ use tempfile::{NamedTempFile, TempDir};
 
 use crate::disk::{Disk, Step};
 
-/// Start of temporary names: hidden, and short enough that no target's name makes them too long.
+/// Start of temporary names: hidden, and short enough that the names do not become too long.
 pub(crate) const PREFIX: &str = ".sabi-";
 /// End of temporary names.
 const SUFFIX: &str = ".tmp";
-/// Tries to open a temporary file that nobody removes before it is claimed.
+/// Number of attempts to create a temporary file that no other process removes before it is locked.
 const MOST_CLAIMS: usize = 8;
 
-/// Returns whether a file name is that of a temporary file.
+/// Returns whether a file name is the name of a temporary file.
 pub fn is_temporary_name(name: &str) -> bool {
     name.starts_with(PREFIX) && name.ends_with(SUFFIX)
 }
 
-/// Names of temporary files: unused, hidden, removed on drop.
+/// Builds temporary files with unused, hidden names that are removed on drop.
 pub(crate) fn temporary_names<'a>(prefix: &'a OsStr) -> tempfile::Builder<'a, 'static> {
     let mut names = tempfile::Builder::new();
     names.prefix(prefix).suffix(SUFFIX);
@@ -35,7 +36,7 @@ pub(crate) fn temporary_in(disk: &Disk, folder: &Path, prefix: &OsStr) -> io::Re
     let mut names = temporary_names(prefix);
     #[cfg(unix)]
     {
-        // As for any new file; the system takes away what the user's mask says.
+        // The usual permissions of new files, from which the system removes those in the user's mask.
         let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
         names.permissions(permissions);
     }
@@ -54,7 +55,7 @@ pub(crate) fn temporary_in(disk: &Disk, folder: &Path, prefix: &OsStr) -> io::Re
 #[derive(Debug)]
 pub(crate) struct TemporaryFolder {
     folder: TempDir,
-    /// Handle with the lock; none where the system opens no folders.
+    /// Handle with the lock; `None` on systems that cannot open folders.
     _lock: Option<File>,
 }
 
@@ -63,18 +64,18 @@ impl TemporaryFolder {
         self.folder.path()
     }
 
-    /// Leaves the folder where it is.
+    /// Keeps the folder instead of removing it on drop.
     pub(crate) fn keep(self) {
         let _ = self.folder.keep();
     }
 }
 
-/// Makes a folder under an unused temporary name.
+/// Creates a folder under an unused temporary name.
 pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<TemporaryFolder> {
     let mut names = temporary_names(OsStr::new(PREFIX));
     #[cfg(unix)]
     {
-        // As for any new folder; the system takes away what the user's mask says.
+        // The usual permissions of new folders, from which the system removes those in the user's mask.
         let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o777);
         names.permissions(permissions);
     }
@@ -84,7 +85,7 @@ pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<Temp
         let lock = match File::open(made.path()) {
             Ok(handle) => Some(handle),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            // The system opens no folders.
+            // This system cannot open folders.
             Err(_) => {
                 return Ok(TemporaryFolder {
                     folder: made,
@@ -100,7 +101,7 @@ pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<Temp
                 _lock: Some(handle),
             });
         }
-        // Another process took it for a left-over before it was locked.
+        // Another process removed the folder as a left-over before it was locked. Create another one.
         made = names.tempdir_in(folder)?;
     }
     Err(io::Error::other(
@@ -108,14 +109,14 @@ pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<Temp
     ))
 }
 
-/// Claims a temporary file while its handle is open. Returns false where another process takes it for a left-over, between its
-/// making and the claim.
+/// Locks a temporary file for as long as its handle is open. Returns false if another process has taken it for a left-over
+/// between its creation and this call.
 pub(crate) fn claim(file: &File, path: &Path) -> bool {
-    // On a file system without locks nobody removes it either: what cannot be locked is not swept.
+    // On a file system without locks no process removes the file either: files that cannot be locked are not swept.
     !matches!(file.try_lock(), Err(TryLockError::WouldBlock)) && path.exists()
 }
 
-/// Removes the temporary files in a folder that nobody writes. What cannot be removed stays, as it harms nobody.
+/// Removes the temporary files in a folder that no process is writing. Files that cannot be removed are left; they do no harm.
 pub fn sweep(folder: &Path) {
     for path in left_overs(folder, fs::FileType::is_file) {
         let is_free = File::open(&path).is_ok_and(|file| file.try_lock().is_ok());
@@ -125,8 +126,8 @@ pub fn sweep(folder: &Path) {
     }
 }
 
-/// Removes the temporary folders of a folder that no process fills, with all that is in them. Where the system opens no folders,
-/// they stay.
+/// Removes the temporary folders in a folder that no process is filling, with their contents. On systems that cannot open
+/// folders, they are left.
 pub(crate) fn sweep_folders(folder: &Path) {
     for path in left_overs(folder, fs::FileType::is_dir) {
         let handle = File::open(&path);
@@ -136,7 +137,7 @@ pub(crate) fn sweep_folders(folder: &Path) {
     }
 }
 
-/// Lists what has a temporary name in a folder and is of a kind, sorted.
+/// Lists the files or folders (selected by `is_meant`) in a folder that have temporary names, sorted.
 fn left_overs(folder: &Path, is_meant: fn(&fs::FileType) -> bool) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let is_temporary = |entry: &fs::DirEntry| {

@@ -1,4 +1,4 @@
-//! Folders of tests.
+//! Folders for tests.
 
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,8 @@
-//! Decision whether a file that another file names may be opened.
+//! Decision whether a file to which another file refers may be opened.
 //!
-//! A graph or a model may come from anywhere, and what it names is shown, baked and copied. So it reaches the files below its own
-//! folder, and below the files and folders that the user named; everything else is refused with a sentence. Links and `..` are
-//! resolved before the decision. Addresses of the network and devices are refused wherever they are.
+//! A graph or a model may come from an unknown source, and the files that it refers to are displayed, baked and copied. Therefore it can
+//! only reach files below its own folder, and below files and folders that the user has named. All others are refused with a sentence.
+//! Links and `..` are resolved before the decision. Network addresses and devices are always refused.
 
 mod project;
 
@@ -17,24 +17,24 @@ use crate::paths::{absolute, canonical};
 use crate::read::{Unread, read_plain, unread};
 use crate::refusal::Refusal;
 
-/// Files and folders whose content may be opened by any file that names it.
+/// Files and folders whose content may be opened by any file that refers to them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TrustedPaths {
-    /// Canonical paths. A folder stands for all below it.
+    /// Canonical paths. A folder stands for everything below it.
     paths: BTreeSet<PathBuf>,
 }
 
 impl TrustedPaths {
-    /// Creates the paths that a file brings which the user names, such as a graph on the command line.
+    /// Returns the paths that become trusted when the user names a file, for example a graph on the command line.
     pub fn of_file(file: &Path) -> TrustedPaths {
         TrustedPaths::default().with_file(file)
     }
 
-    /// Adds the folder of a file that the user names, and the project that it belongs to: the nearest folder above with a repository
-    /// (`.git`) of the user or with `sabi.toml`. The home folder, and what is above it, is no project.
+    /// Adds the folder of a file that the user has named, and the project that contains it: the nearest folder above with a repository
+    /// (`.git`) of the user or with `sabi.toml`. The home folder and the folders above it never count as a project.
     #[must_use]
     pub fn with_file(mut self, file: &Path) -> TrustedPaths {
-        // A path without a folder is relative to the current one.
+        // A path without a folder is relative to the current folder.
         if let Ok(folder) = canonical(file.parent().unwrap_or(Path::new(""))) {
             self.paths
                 .extend(project_of(&folder, Homes::of_user()).map(Path::to_owned));
@@ -43,7 +43,7 @@ impl TrustedPaths {
         self
     }
 
-    /// Adds a file or folder that the user trusts; one that does not exist adds nothing.
+    /// Adds a file or folder that the user trusts. A path that does not exist is not added.
     #[must_use]
     pub fn with_path(mut self, path: &Path) -> TrustedPaths {
         self.paths.extend(canonical(path));
@@ -57,7 +57,7 @@ impl TrustedPaths {
         self
     }
 
-    /// The paths, sorted.
+    /// Returns the paths, sorted.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.paths.iter().map(PathBuf::as_path)
     }
@@ -71,7 +71,7 @@ impl TrustedPaths {
         self.paths.iter().any(|path| file.starts_with(path))
     }
 
-    /// Checks that a file which a file of this base names as `written` may be opened, and returns its canonical path.
+    /// Checks that the file to which a file of this base refers as `written` may be opened, and returns its canonical path.
     ///
     /// # Errors
     /// [`Unread::Refused`], or the file cannot be reached.
@@ -79,7 +79,7 @@ impl TrustedPaths {
         self.check_at(base, written, &base.resolve(written))
     }
 
-    /// Reads a file that a model of this base names, and returns it with its place.
+    /// Reads a file to which a model of this base refers, and returns its bytes and its place.
     ///
     /// # Errors
     /// As those of [`TrustedPaths::find_of_model`], or the file cannot be read or has more than `limit` bytes.
@@ -88,12 +88,12 @@ impl TrustedPaths {
         Ok((read_plain(&file, limit)?, place))
     }
 
-    /// Finds a file that a model of this base names in the first of its places where there is one. Returns its canonical path, and
-    /// that place.
+    /// Finds a file to which a model of this base refers, in the first of the possible places where a file exists. Returns
+    /// its canonical path, and that place.
     ///
     /// # Errors
-    /// See [`Unread`]. A file that may not be opened is told only if there is none in the other places: models carry the paths of
-    /// the computer they were made on.
+    /// See [`Unread`]. A file that may not be opened is an error only if no file exists in the other places, since models
+    /// often contain paths of the computer on which they were made.
     pub fn find_of_model(&self, base: &PathBase, written: &str) -> Result<(PathBuf, PathBuf), Unread> {
         let mut refused = Unread::Missing;
         for (text, place) in base.places(written) {
@@ -108,8 +108,8 @@ impl TrustedPaths {
         Err(refused)
     }
 
-    /// Reads a file that a file of this base names as `written`, if it may be opened, has at most `limit` bytes and is no pipe or
-    /// device.
+    /// Reads the file to which a file of this base refers as `written`, if it may be opened, has at most `limit` bytes and
+    /// is neither a pipe nor a device.
     ///
     /// # Errors
     /// See [`Unread`].
@@ -117,7 +117,7 @@ impl TrustedPaths {
         read_plain(&self.check(base, written)?, limit)
     }
 
-    /// Reads a file that a file of this base finds at a place without naming it, as [`TrustedPaths::read`] does.
+    /// Reads a file at a place that a file of this base implies but does not name, like [`TrustedPaths::read`].
     ///
     /// # Errors
     /// See [`Unread`].
@@ -125,7 +125,7 @@ impl TrustedPaths {
         read_plain(&self.check_place(base, place)?, limit)
     }
 
-    /// Checks that a file or folder which a file of this base finds at a place may be opened, and returns its canonical path.
+    /// Checks that a file or folder at a place that a file of this base implies may be opened, and returns its canonical path.
     ///
     /// # Errors
     /// [`Unread::Refused`], or it cannot be reached.
@@ -136,8 +136,8 @@ impl TrustedPaths {
         }
     }
 
-    /// Checks that a file or folder which is found and not named may be opened, and returns its canonical path. These paths alone
-    /// decide: the folder that it is found in may be a link itself.
+    /// Checks that a file or folder that no file refers to may be opened, for example one found by listing a folder, and returns its
+    /// canonical path. Only the trusted paths decide, not the folder in which it was found, since that may be a link itself.
     ///
     /// # Errors
     /// [`Unread::Refused`], or it cannot be reached.
@@ -151,7 +151,7 @@ impl TrustedPaths {
         if is_device(&file) {
             return Err(Unread::Refused(Refusal::Device { file }));
         }
-        // That it is outside would be advice to trust what is not opened afterwards either.
+        // Check this before trust: advice to trust a path would not help with a path that is not opened anyway.
         let kind = fs::metadata(&file).map_err(unread)?;
         if !kind.is_file() && !kind.is_dir() {
             return Err(Unread::Refused(Refusal::Device { file }));
@@ -162,7 +162,7 @@ impl TrustedPaths {
         }
     }
 
-    /// Reads a file that is found and not named, if it may be opened, has at most `limit` bytes and is no pipe or device.
+    /// Reads a file that no file refers to, if it may be opened, has at most `limit` bytes and is neither a pipe nor a device.
     ///
     /// # Errors
     /// See [`Unread`].
@@ -184,7 +184,7 @@ impl TrustedPaths {
 }
 
 impl PathBase {
-    /// Returns true if a file is in the folder of the base or below, with links and `..` resolved.
+    /// Returns true if a file is in the folder of the base or below it, with links and `..` resolved.
     pub fn is_above(&self, file: &Path) -> bool {
         match (canonical(self.folder()), canonical(file)) {
             (Ok(folder), Ok(file)) => file.starts_with(folder),

@@ -1,17 +1,17 @@
-//! URI references in files (RFC 3986): data of their own, or the path of another file.
+//! URI references in files (RFC 3986): embedded data, or the path of another file.
 
 use std::borrow::Cow;
 
-/// URI reference of a file, by what it refers to.
+/// URI reference in a file, by what it refers to.
 #[derive(Debug, PartialEq)]
 pub enum Uri<'a> {
     /// Bytes that the URI contains.
     Data(Vec<u8>),
     /// Path relative to the file, percent-decoded.
     Beside(Cow<'a, str>),
-    /// Data that is damaged, as a reason.
+    /// Embedded data that is damaged, with the reason.
     Damaged(String),
-    /// Address that is not read, as a reason.
+    /// Address that is not read, with the reason.
     Unusable(String),
 }
 
@@ -26,7 +26,7 @@ impl<'a> Uri<'a> {
             return data(rest);
         }
         let scheme = uri.split_once([':', '/', '\\', '?']).map_or(uri, |(scheme, _)| scheme);
-        // One letter is a drive, not a scheme.
+        // A single letter is a drive, not a scheme.
         if scheme.len() > 1 && uri[scheme.len()..].starts_with(':') && scheme.bytes().all(is_scheme_byte) {
             return Uri::Unusable(format!("`{scheme}:` addresses are not fetched"));
         }
@@ -75,7 +75,7 @@ fn data(rest: &str) -> Uri<'_> {
     }
 }
 
-/// `None` where a `%` is not followed by two hexadecimal digits.
+/// Decodes percent encoding; `None` if a `%` is not followed by two hexadecimal digits.
 fn percent_decoded(text: &str) -> Option<Vec<u8>> {
     let mut out = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -93,7 +93,7 @@ fn percent_decoded(text: &str) -> Option<Vec<u8>> {
     Some(out)
 }
 
-/// Decodes base64 of either alphabet, padded or not (RFC 4648); `None` where it is neither.
+/// Decodes base64 of either alphabet, padded or not (RFC 4648); `None` if the text is not base64.
 fn base64(text: &[u8]) -> Option<Vec<u8>> {
     let end = text.iter().rposition(|byte| *byte != b'=').map_or(0, |last| last + 1);
     if text.len() - end > 2 {
@@ -118,7 +118,7 @@ fn base64(text: &[u8]) -> Option<Vec<u8>> {
             bits &= (1 << held) - 1;
         }
     }
-    // A single left-over digit cannot be a byte.
+    // A single remaining digit cannot form a byte.
     (held < 6).then_some(out)
 }
 
@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_of_every_length_come_back_from_their_uri() {
+    fn bytes_of_every_length_are_restored_from_their_uri() {
         // RFC 4648, 10.
         for (text, base64) in [
             ("", ""),
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_uri_is_taken_apart() {
+    fn a_uri_is_parsed() {
         let beside = |path: &str| Uri::Beside(Cow::Owned(path.to_string()));
         let damaged = |reason: &str| Uri::Damaged(reason.to_string());
         let unusable = |reason: &str| Uri::Unusable(reason.to_string());

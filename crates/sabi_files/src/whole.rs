@@ -14,17 +14,17 @@ use crate::error::{FileError, Operation};
 use crate::paths::behind_links;
 use crate::temporary::{PREFIX, temporary_in};
 
-/// Durability of a commit: it waits until the disk has the data, or not.
+/// Durability of a commit: whether it waits until the data is on the disk.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Durability {
     /// Survives a power failure.
     Synced,
-    /// Survives the end of the program only.
+    /// Survives only the end of the program.
     Unsynced,
 }
 
-/// Replaces a file durably: after a crash or power failure it holds its earlier bytes or all of the new ones. Creates
-/// missing folders; writes the file behind a symbolic link; keeps the permissions of the earlier file.
+/// Replaces a file durably: after a crash or power failure it has either its earlier bytes or all new bytes. Creates
+/// missing folders, writes to the target of a symbolic link, and keeps the permissions of the earlier file.
 ///
 /// # Errors
 /// The file is unchanged, unless the operation is [`Operation::SyncFolder`].
@@ -44,10 +44,10 @@ impl Disk {
         whole.place(Durability::Synced)
     }
 
-    /// Writes a new file durably and leaves one that is there already as it is. Creates missing folders.
+    /// Writes a new file durably. An existing file is never changed. Creates missing folders.
     ///
     /// # Errors
-    /// There is such a file ([`ErrorKind::AlreadyExists`]), or the disk refuses; there is no new file, unless the operation is
+    /// The file exists ([`ErrorKind::AlreadyExists`]), or the disk refuses; there is no new file, unless the operation is
     /// [`Operation::SyncFolder`].
     pub fn write_new(&self, file: &Path, bytes: &[u8]) -> Result<(), FileError> {
         let mut whole = self.begin_whole(file)?;
@@ -95,7 +95,7 @@ impl WholeFile {
         }
         let temporary = temporary_in(disk, folder_of(target), prefix).map_err(refused)?;
         if let Ok(earlier) = fs::metadata(target) {
-            // Some file systems have no permissions to keep.
+            // Some file systems have no permissions.
             let _ = temporary.as_file().set_permissions(earlier.permissions());
         }
         Ok(WholeFile {
@@ -105,7 +105,7 @@ impl WholeFile {
         })
     }
 
-    /// Path of the finished file.
+    /// Returns the path of the finished file.
     pub fn target(&self) -> &Path {
         &self.target
     }
@@ -113,19 +113,19 @@ impl WholeFile {
     /// Appends bytes to the temporary file.
     ///
     /// # Errors
-    /// The disk is full or gone.
+    /// The disk is full or not available.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), FileError> {
         let path = self.temporary.path().to_owned();
         let written = self.disk.write(Step::Write, &path, self.temporary.as_file_mut(), bytes);
         written.map_err(|error| FileError::new(Operation::Write, &self.target, error))
     }
 
-    /// The temporary file, for its permissions and times.
+    /// Returns the temporary file, for setting its permissions and times.
     pub(crate) fn as_file_mut(&mut self) -> &mut fs::File {
         self.temporary.as_file_mut()
     }
 
-    /// Waits until the disk has the bytes; some file systems report only here that there is no room.
+    /// Waits until the bytes are on the disk. Some file systems report only here that the disk is full.
     pub(crate) fn sync(&mut self) -> Result<(), FileError> {
         let file = self.temporary.as_file();
         let synced = self.disk.step(Step::Sync, self.temporary.path(), || file.sync_all());
@@ -160,7 +160,7 @@ impl WholeFile {
         }
     }
 
-    /// Puts the file in place durably, unless there is one.
+    /// Puts the file in place durably, unless a file exists there.
     fn place_new(mut self) -> Result<(), FileError> {
         self.sync()?;
         let WholeFile {
@@ -177,13 +177,13 @@ impl WholeFile {
         sync_folder(&disk, folder_of(&target))
     }
 
-    /// Takes the value apart into target and temporary file.
+    /// Returns target and temporary file.
     pub(crate) fn into_parts(self) -> (PathBuf, NamedTempFile) {
         (self.target, self.temporary)
     }
 }
 
-/// Systems answer differently when a folder has the target's name.
+/// Returns the same error on all systems if a folder has the target's name.
 pub(crate) fn replace_error(target: &Path, error: io::Error) -> io::Error {
     if fs::symlink_metadata(target).is_ok_and(|found| found.is_dir()) {
         return ErrorKind::IsADirectory.into();
@@ -199,18 +199,17 @@ pub(crate) fn folder_of(file: &Path) -> &Path {
     }
 }
 
-/// Creates a folder and those above it. Where that is to be durable, each of them is written to the disk as an entry of the
-/// folder above.
+/// Creates a folder and its missing parents. If this has to be durable, each parent is synced.
 pub(crate) fn create_folder(disk: &Disk, folder: &Path, durability: Durability) -> Result<(), FileError> {
     for missing in missing_folders(folder) {
-        // Another process may create it at the same moment.
+        // Another process may create the folder at the same moment.
         let created = disk.step(Step::CreateFolder, missing, || fs::create_dir_all(missing));
         created.map_err(|error| FileError::new(Operation::CreateFolder, folder, error))?;
         if durability == Durability::Synced {
             sync_folder(disk, folder_of(missing))?;
         }
     }
-    // A file in the way is no missing folder.
+    // If a file is in the way, no folder is missing, and this returns the error.
     fs::create_dir_all(folder).map_err(|error| FileError::new(Operation::CreateFolder, folder, error))
 }
 
@@ -222,14 +221,14 @@ pub(crate) fn missing_folders(folder: &Path) -> Vec<&Path> {
     missing
 }
 
-/// Writes a folder's entries to the disk, so that a renamed file keeps its new name after a power failure.
+/// Syncs the entries of a folder, so that a renamed file keeps its new name after a power failure.
 #[cfg(unix)]
 pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
     let synced = disk.step(Step::SyncFolder, folder, || {
         fs::File::open(folder).and_then(|folder| folder.sync_all())
     });
     match synced {
-        // Some network file systems cannot sync a folder, and a folder may be writable without being readable: there the
+        // Some network file systems cannot sync a folder, and a folder may be writable but not readable. In these cases the
         // system decides when the entries reach the disk.
         Err(error)
             if !matches!(
@@ -243,7 +242,7 @@ pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
     }
 }
 
-/// Folders cannot be synced on this system; renaming is journaled by its file systems.
+/// Does nothing: folders cannot be synced on this system, whose file systems record renames in a journal.
 #[cfg(not(unix))]
 pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
     let synced = disk.step(Step::SyncFolder, folder, || Ok(()));

@@ -20,7 +20,7 @@ type PartsMut<'a> = (
 );
 
 impl Document {
-    /// Applies a change and gives its exact inverse, which applied next restores the same bytes.
+    /// Applies a change and returns its exact inverse. Applying the inverse next restores the document byte for byte.
     ///
     /// # Errors
     /// The change was refused; the document is as it was.
@@ -79,7 +79,7 @@ impl Document {
         }
     }
 
-    /// Applies all edits, or none where one is refused; gives their inverses in the order to apply them.
+    /// Applies all edits, or no edit if one of them is refused. Returns their inverses in the order in which to apply them.
     fn apply_all(&mut self, edits: Vec<Edit>) -> Result<Vec<Edit>, EditError> {
         let mut inverses = Vec::with_capacity(edits.len());
         for edit in edits {

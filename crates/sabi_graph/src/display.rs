@@ -1,4 +1,4 @@
-//! How a graph is drawn on the canvas, which no result depends on: rows and wires of nodes, and notes beside them.
+//! Display of a graph on the canvas: rows and wires of nodes, and notes. No result depends on it.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::Value;
 pub struct NodeDisplay {
     /// Rows that it shows.
     pub rows: NodeRows,
-    /// True if wires from it are drawn as its name at both ends.
+    /// True if the wires from this node are drawn as its name at both ends.
     pub has_named_wires: bool,
 }
 
@@ -21,12 +21,12 @@ pub enum NodeRows {
     All,
     /// Wired ports and its picture.
     Wired,
-    /// None: its title alone.
+    /// Only the title.
     None,
 }
 
 impl NodeRows {
-    /// All of them with their names in files.
+    /// All variants with their names in files.
     pub(crate) const NAMES: [(NodeRows, &str); 3] = [
         (NodeRows::All, "all"),
         (NodeRows::Wired, "wired"),
@@ -43,7 +43,7 @@ pub struct Note {
     pub pos: [f32; 2],
     /// Width, canvas points; the height follows from the text.
     pub width: f32,
-    /// Its color, `#rrggbb`.
+    /// Color, `#rrggbb`.
     pub color: Option<String>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,

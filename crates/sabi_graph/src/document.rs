@@ -30,7 +30,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Copy of this document with these nodes of its main graph changed to another kind.
+    /// Returns a copy of this document in which these nodes of its main graph have another kind.
     pub fn with_kind<'a>(&self, nodes: impl IntoIterator<Item = &'a NodeId>, kind: &str) -> Document {
         let mut document = self.clone();
         for id in nodes {
@@ -41,7 +41,8 @@ impl Document {
         document
     }
 
-    /// Copy of this document whose group instances name other groups, where `name` gives one for the group or file they name.
+    /// Returns a copy of this document whose group instances use other groups. `name` maps a group or group file to its new
+    /// name; `None` keeps it.
     pub fn with_group_names(&self, name: impl Fn(&str) -> Option<String>) -> Document {
         let mut document = self.clone();
         let inner = document.groups.values_mut().map(|group| &mut group.graph);
@@ -60,7 +61,7 @@ impl Document {
         document
     }
 
-    /// An empty document of that name.
+    /// Creates an empty document with this name.
     pub fn new(name: impl Into<String>) -> Self {
         Document {
             name: name.into(),
@@ -72,9 +73,9 @@ impl Document {
 /// Description of a graph that other graphs use, for artists.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Description {
-    /// What one sees, as a sentence or two.
+    /// Description of the visible result, in one or two sentences.
     pub about: Option<String>,
-    /// Words that it is found by, besides those of its name and its text.
+    /// Additional search words, besides the words of the name and of the description.
     pub words: Vec<String>,
 }
 
@@ -94,7 +95,7 @@ pub struct LibrarySource {
 pub struct Preview {
     /// The model, as a path relative to the graph file.
     pub mesh: Option<String>,
-    /// Names of the parts of the model that are taken; none for all except hulls and coarser levels of detail.
+    /// Names of the parts of the model to use. If empty, all parts but collision hulls and coarser levels of detail are used.
     pub parts: Vec<String>,
     /// Names of the parts of the model that are left out.
     pub without: Vec<String>,
@@ -104,7 +105,7 @@ pub struct Preview {
     pub size: Option<u32>,
     /// Variant of the main graph that is shown; `None` shows the graph's own values.
     pub variant: Option<String>,
-    /// Views of the model that were kept, by name.
+    /// Saved views of the model, by name.
     pub views: BTreeMap<String, SavedView>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
@@ -113,22 +114,22 @@ pub struct Preview {
 /// A view of the model. Lengths are shares of the model's largest side.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SavedView {
-    /// Point that is looked at, from the middle of the model.
+    /// Point that the view is centered on, relative to the middle of the model.
     pub target: [f64; 3],
-    /// Side of the model that is seen, degrees: 0 is the front, 90 the right.
+    /// Side of the model that faces the viewer, in degrees: 0 is the front, 90 the right.
     pub yaw: f64,
     /// Elevation, degrees: 90 is from above.
     pub pitch: f64,
     /// Distance from the target.
     pub distance: f64,
-    /// True through a parallel lens.
+    /// True for a parallel projection.
     pub is_parallel: bool,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
 }
 
 impl SavedView {
-    /// Distance from which all of any model is seen.
+    /// Distance at which the whole model is visible, whatever its shape.
     pub const FAR: f64 = 3.5;
 }
 
@@ -142,7 +143,7 @@ pub enum Fit {
     Metres,
     /// This many meters; above zero.
     Length(f64),
-    /// The size of the piece that a place belongs to, so that small and large pieces age alike.
+    /// The size of the piece that a surface point belongs to, so that small and large pieces age alike.
     Piece,
 }
 
@@ -153,9 +154,9 @@ pub struct GroupDef {
     pub name: Option<String>,
     /// Description and search words, for artists.
     pub description: Description,
-    /// Library file that it is a copy of, while it is linked to one.
+    /// Library file that the group is a copy of, while it is linked to that file.
     pub library: Option<LibrarySource>,
-    /// The fit its lengths were made for; `None` means that of the document.
+    /// Fit that the lengths of the group were made for; `None` means the document's fit.
     pub fit: Option<Fit>,
     /// Its nodes, knobs, variants and frames.
     pub graph: Graph,
@@ -170,7 +171,7 @@ pub struct GroupDef {
 /// An input of a group.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GroupInput {
-    /// The inputs of nodes inside that it feeds, written `node.input`.
+    /// Inputs of inner nodes that this input feeds, written `node.input`.
     pub to: Vec<SlotRef>,
     /// Port type, where the file has one.
     pub ty: Option<PortType>,

@@ -32,7 +32,7 @@ pub enum Edit {
         param: String,
         value: Option<Value>,
     },
-    /// Links an input; replaces an existing link.
+    /// Links an input. An existing link is replaced.
     Connect {
         body: Body,
         node: NodeId,
@@ -112,7 +112,7 @@ pub enum Edit {
 }
 
 impl Edit {
-    /// Returns true if it may hold whole graphs, so that a copy of it is as large as a document.
+    /// Returns true if the edit may contain whole graphs, so that a copy of it can be as large as a document.
     pub fn replaces_graphs(&self) -> bool {
         match self {
             Edit::AddGroup { .. } | Edit::SetGroup { .. } | Edit::Replace { .. } => true,
@@ -121,7 +121,7 @@ impl Edit {
         }
     }
 
-    /// Returns false if no result depends on what it changes: how the graph is drawn on the canvas.
+    /// Returns false if the edit only changes how the graph is drawn on the canvas, so that no result depends on it.
     pub fn affects_results(&self) -> bool {
         match self {
             Edit::Move { .. }
@@ -161,7 +161,7 @@ pub enum EditError {
         what: &'static str,
         /// The name, quoted.
         name: String,
-        /// The nearest one, as a question.
+        /// The nearest existing name, as a question.
         hint: String,
     },
     /// A group with that name exists already.
@@ -181,7 +181,7 @@ pub enum EditError {
     /// A fit that is not a number above zero.
     #[error("a fit must be a length above zero, or \"unit\" or \"metres\"")]
     BadFit,
-    /// A position on the canvas that is not a number.
+    /// A position on the canvas that is not a finite number.
     #[error("a node can only stand at a finite place on the canvas")]
     BadPosition,
 }

@@ -15,11 +15,11 @@ pub struct FileError {
     pub line: usize,
     /// Column in the line, in characters from 1.
     pub column: usize,
-    /// The group it is in; `None` for the main graph.
+    /// The group with the error; `None` for the main graph.
     pub group: Option<String>,
-    /// The node it is about.
+    /// The node with the error.
     pub node: Option<String>,
-    /// The input of that node it is about.
+    /// The input of that node with the error.
     pub port: Option<String>,
     /// Error at this position.
     pub problem: Box<FileProblem>,
@@ -72,7 +72,7 @@ pub enum FileProblem {
 }
 
 impl FileError {
-    /// This error with the name of the file for messages.
+    /// Returns this error with the name of the file for messages.
     pub fn with_name(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
         self
@@ -104,7 +104,7 @@ impl std::error::Error for FileError {
     }
 }
 
-/// A [`FileError`] with a byte offset in place of line and column, which only the text gives.
+/// A [`FileError`] with a byte offset. Line and column are added later, since computing them needs the text.
 #[derive(Debug)]
 pub(crate) struct ReadError {
     at: usize,
@@ -125,7 +125,7 @@ impl ReadError {
         }
     }
 
-    /// Error for a `key` with another value than `expected`.
+    /// Returns the error for a `key` whose value is not the expected one.
     pub(crate) fn expected(found: &Json, key: &str, expected: impl Into<String>) -> Self {
         ReadError::new(
             found.at,

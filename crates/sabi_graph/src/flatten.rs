@@ -18,7 +18,7 @@ use crate::{Document, Fit, Value};
 /// A graph for the planner, without groups and reroutes: every link leads from node to node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlatGraph {
-    /// All nodes, each after those it reads; ties are broken by the smallest id.
+    /// All nodes, each after the nodes that it reads. Ties are broken by the smallest id.
     pub nodes: Vec<FlatNode>,
 }
 
@@ -35,16 +35,16 @@ pub struct FlatNode {
     pub params: BTreeMap<String, Value>,
     /// Links by input port; other inputs are not connected.
     pub inputs: BTreeMap<String, FlatRef>,
-    /// True if it, or an instance it is in, is muted.
+    /// True if the node is muted, or an instance around it.
     pub muted: bool,
-    /// The document's seed, then those of the instances around it that have one other than 0, outermost first.
+    /// Seed of the document, then the seeds other than 0 of the instances around the node, outermost first.
     pub seeds: Vec<u32>,
-    /// Product of the Scale knobs of the instances around it; its lengths are multiplied by this.
+    /// Product of the Scale knobs of the instances around the node; lengths of the node are multiplied by this.
     pub length_scale: f64,
-    /// Fit of the document, group or group file that defines it.
+    /// Fit of the document, group or group file that defines the node.
     pub fit: Fit,
-    /// Group file that defines it, relative to the document; `None` for the document itself. Paths in its parameters are
-    /// relative to that file.
+    /// Group file that defines the node, relative to the document; `None` for the document itself. Paths in parameters of
+    /// the node are relative to that file.
     pub file: Option<String>,
 }
 
@@ -62,19 +62,19 @@ pub struct FlatRef {
 pub struct Overrides {
     /// Variant to start from.
     pub variant: Option<String>,
-    /// Values by exposed knob or `node.param`; later ones win.
+    /// Values by exposed knob or `node.param`. Later values win.
     pub set: Vec<(String, Value)>,
-    /// Kinds of nodes with a parameter of theirs that keeps its default, whatever the file says.
+    /// Pairs of a kind and a parameter: nodes of this kind keep the default of the parameter, whatever the file says.
     pub left_out: Vec<(String, String)>,
     /// Seed in place of the document's.
     pub seed: Option<u32>,
-    /// Fit in place of the document's, for its own nodes and the groups in it that have none of their own; groups made
-    /// for another fit keep theirs, and so do group files.
+    /// Fit that replaces the document's fit, for its own nodes and for groups without a fit. Groups with a fit keep it, and
+    /// so do group files.
     pub fit: Option<Fit>,
 }
 
 impl Overrides {
-    /// Overrides that the editor shows a document with: the variant of its preview, as far as it exists.
+    /// Returns the overrides with which the editor shows a document: the variant of its preview, if that exists.
     pub fn of_preview(document: &Document) -> Overrides {
         let variant = document.preview.as_ref().and_then(|preview| preview.variant.clone());
         Overrides {
@@ -85,12 +85,12 @@ impl Overrides {
 }
 
 impl FlatGraph {
-    /// Index of the node of that id.
+    /// Returns the index of the node with this id.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.nodes.iter().position(|node| node.id == id)
     }
 
-    /// The given nodes and everything they are made from, as ascending indices.
+    /// Returns the indices, in ascending order, of the given nodes and of all nodes that they depend on.
     pub fn upstream(&self, of: &[usize]) -> Vec<usize> {
         let mut wanted = vec![false; self.nodes.len()];
         for &index in of {
@@ -98,7 +98,7 @@ impl FlatGraph {
                 *slot = true;
             }
         }
-        // Sources stand before their readers.
+        // Sources come before their readers.
         for index in (0..self.nodes.len()).rev() {
             if wanted[index] {
                 for source in self.nodes[index].inputs.values() {
@@ -171,14 +171,14 @@ pub fn flatten_and_find(
     Ok((FlatGraph { nodes }, found))
 }
 
-/// Sorts nodes behind those they read and adjusts their links; gives the new index of each node, too.
+/// Sorts nodes so that each comes after the nodes that it reads, and adjusts their links. Also returns the new index of each node.
 fn in_order(nodes: Vec<FlatNode>) -> Result<(Vec<FlatNode>, Vec<usize>), FlattenError> {
     let ids: Vec<&str> = nodes.iter().map(|node| node.id.as_str()).collect();
     let reads: Vec<Vec<usize>> = nodes
         .iter()
         .map(|node| node.inputs.values().map(|source| source.node).collect())
         .collect();
-    // Each graph is free of circles and no group is inside itself, so that the flat graph has no circle either.
+    // Neither a graph nor the nesting of groups contains a circle, so the flat graph cannot contain one either.
     let order = crate::order::topological(&ids, &reads).map_err(|circle| FlattenError::Circle {
         nodes: crate::problem::listed(circle.into_iter().map(|index| ids[index])),
     })?;

@@ -1,4 +1,4 @@
-//! The keys of a graph file: what reading knows, the order of writing, unknown keys, and the JSON schema come from this table.
+//! The keys of a graph file. Reading, the order of writing, the treatment of unknown keys and the JSON schema all follow this table.
 
 mod schema;
 #[cfg(test)]
@@ -11,11 +11,11 @@ pub use unknown_keys::{UnknownKey, unknown_keys};
 /// Object of a graph file whose keys are fixed.
 #[derive(Debug)]
 pub(crate) struct ObjectKeys {
-    /// Word for it in the schema and the documentation.
+    /// Name of the object in the schema and the documentation.
     pub(crate) name: &'static str,
     /// Description, a sentence.
     pub(crate) about: &'static str,
-    /// Its keys, in the order of writing.
+    /// Keys, in the order of writing.
     pub(crate) keys: &'static [Key],
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Key {
 /// Shape of a value.
 #[derive(Debug)]
 pub(crate) enum Shape {
-    /// This text.
+    /// Exactly this text.
     Word(&'static str),
     /// One of these texts.
     Words(&'static [&'static str]),
@@ -48,7 +48,7 @@ pub(crate) enum Shape {
     /// Version of the format.
     Version,
     Number,
-    /// So many numbers.
+    /// This many numbers.
     Numbers(usize),
     /// Word or length that counts as 1.
     Fit,
@@ -60,7 +60,7 @@ pub(crate) enum Shape {
     Object(&'static ObjectKeys),
     /// Objects with fixed keys, by name.
     Objects(&'static ObjectKeys),
-    /// Other values by name.
+    /// Values of another shape, by name.
     Map(&'static Shape),
 }
 

@@ -15,27 +15,27 @@ use crate::{KnobCurve, NodeDisplay, NodeId, Note, OutputRef, SlotRef, Value};
 pub struct Exposed {
     /// The parameters it sets, written `node.param`.
     pub to: Vec<SlotRef>,
-    /// Value of the parameter over the value of the knob, for those that do not take the knob's own value. A knob with
-    /// curves has a default.
+    /// Curves for the parameters that do not take the value of the knob directly: value of the parameter over the value of
+    /// the knob. A knob with curves has a default.
     pub curves: BTreeMap<SlotRef, KnobCurve>,
     /// Name shown to artists.
     pub label: Option<String>,
     /// One sentence about its effect, for artists.
     pub about: Option<String>,
-    /// Title of the part of the panel that it stands in.
+    /// Title of the panel section that contains the knob.
     pub section: Option<String>,
-    /// Place on the panel; knobs without one come last, by name.
+    /// Position on the panel. Knobs without one come last, sorted by name.
     pub order: Option<u32>,
-    /// Numbers outside are refused.
+    /// Accepted numbers, lowest and highest. Numbers outside are refused.
     pub range: Option<[f64; 2]>,
-    /// Its value while neither a variant nor the user sets it; without it the nodes keep their own.
+    /// Value of the knob while neither a variant nor the user sets it. Without a default, the nodes keep their own values.
     pub default: Option<Value>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
 }
 
 impl Exposed {
-    /// This knob for other parameters; curves of those that it does not set any more are gone.
+    /// Returns this knob with other parameters. Curves of parameters that it no longer sets are removed.
     pub fn with_targets(&self, to: Vec<SlotRef>) -> Exposed {
         let mut curves = self.curves.clone();
         curves.retain(|slot, _| to.contains(slot));
@@ -46,7 +46,7 @@ impl Exposed {
         }
     }
 
-    /// The parameters that it sets, each with its value for a value of the knob.
+    /// Returns the parameters that the knob sets, each with its value for this value of the knob.
     pub fn settings(&self, value: &Value) -> impl Iterator<Item = (&SlotRef, Value)> {
         self.to.iter().map(move |slot| match self.curves.get(slot) {
             Some(curve) => (slot, curve.apply(value)),
@@ -68,7 +68,7 @@ pub struct Frame {
     pub extra: BTreeMap<String, Value>,
 }
 
-/// A node as the file has it.
+/// A node as stored in the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Node {
     /// Its kind, such as `noise/simplex` or `noise/simplex@2`.
@@ -79,20 +79,20 @@ pub struct Node {
     pub inputs: BTreeMap<String, OutputRef>,
     /// Position on the canvas, in canvas points.
     pub pos: [f32; 2],
-    /// True if it passes its main input through.
+    /// True if the node is muted: it passes its main input through.
     pub muted: bool,
     /// How it is drawn.
     pub display: NodeDisplay,
     /// Display name, where the artist gave one.
     pub label: Option<String>,
-    /// The group this is an instance of, by name or file; for kind `graph/group`.
+    /// Group of which the node is an instance, by name or file; only for kind `graph/group`.
     pub group: Option<String>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
 }
 
 impl Node {
-    /// A node without parameters and links.
+    /// Creates a node without parameters and links.
     pub fn new(kind: impl Into<String>) -> Self {
         Node {
             kind: kind.into(),
@@ -101,11 +101,11 @@ impl Node {
     }
 }
 
-/// Nodes and links of a document or a group, with its frames, knobs and variants. Links start at existing nodes and form
-/// no circle; only [`Document::apply`](crate::Document::apply) changes a graph.
+/// Nodes and links of a document or a group, with its frames, knobs and variants. Every link starts at an existing node,
+/// and links form no circle. Only [`Document::apply`](crate::Document::apply) changes a graph.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    /// The nodes; an edge from A to B carries the input of B that reads A.
+    /// Nodes and links. An edge from A to B has as its weight the name of the input of B that reads A.
     pub(crate) net: StableDiGraph<(NodeId, Node), String>,
     index: BTreeMap<NodeId, NodeIndex>,
     pub(crate) frames: BTreeMap<String, Frame>,
@@ -167,7 +167,7 @@ impl Graph {
         readers
     }
 
-    /// All ids, each after those it reads; ties are broken by the smallest id.
+    /// Returns all ids, each after the ids of the nodes that it reads. Ties are broken by the smallest id.
     pub fn topological_order(&self) -> Vec<NodeId> {
         self.ordered()
             .unwrap_or_else(|problem| unreachable!("links that close a circle are refused: {problem}"))
@@ -188,7 +188,7 @@ impl Graph {
         &self.exposed
     }
 
-    /// Published knobs in the order of the panel: by position and name, with a section at the place of its first knob.
+    /// Returns the published knobs in the order of the panel, by position and name. A section is placed where its first knob is.
     pub fn panel(&self) -> Vec<(&str, &Exposed)> {
         let mut knobs: Vec<(&str, &Exposed)> = self.exposed.iter().map(|(name, knob)| (name.as_str(), knob)).collect();
         knobs.sort_by_key(|(_, knob)| knob.order.unwrap_or(u32::MAX));
@@ -202,13 +202,13 @@ impl Graph {
         knobs
     }
 
-    /// Variants: values by knob, by the name of the variant.
+    /// Returns the variants by name; each has values by knob.
     pub fn variants(&self) -> &BTreeMap<String, BTreeMap<String, Value>> {
         &self.variants
     }
 
-    /// Values that published knobs have in a variant, or without one: the defaults of the knobs, then the values of the
-    /// variant. Later ones win. Parameters of nodes that none of these set keep their own values.
+    /// Returns the values of published knobs in a variant, or without one: defaults of the knobs, overridden by values of
+    /// the variant. Parameters that no knob sets keep the values of their nodes.
     pub fn knob_values<'g>(
         &'g self,
         variant: Option<&'g BTreeMap<String, Value>>,
@@ -219,7 +219,7 @@ impl Graph {
         defaults.chain(of_variant.map(|(name, value)| (name.as_str(), value)))
     }
 
-    /// Topological order, or a circle.
+    /// Returns the topological order, or an error with the circle.
     fn ordered(&self) -> Result<Vec<NodeId>, Problem> {
         let ids: Vec<&NodeId> = self.index.keys().collect();
         let place: BTreeMap<NodeIndex, usize> = self.index.values().copied().zip(0..).collect();
@@ -253,13 +253,13 @@ impl Graph {
         }
     }
 
-    /// The node of that id; its links must not be changed.
+    /// Returns the node with this id. The caller must not change its links.
     pub(crate) fn node_mut(&mut self, id: &NodeId) -> Result<&mut Node, Problem> {
         let index = self.find(id.as_str())?;
         Ok(&mut self.net[index].1)
     }
 
-    /// Adds a node without its links; the caller connects them.
+    /// Adds a node without links. The caller connects them.
     pub(crate) fn insert(&mut self, id: NodeId, mut node: Node) -> Result<(), Problem> {
         if self.index.contains_key(&id) {
             return Err(Problem::NodeExists { id });
@@ -270,7 +270,7 @@ impl Graph {
         Ok(())
     }
 
-    /// Removes a node that no other reads, with its links.
+    /// Removes a node and its links. No other node may read it.
     pub(crate) fn remove(&mut self, id: &NodeId) -> Result<Node, Problem> {
         let index = self.find(id.as_str())?;
         let removed = self.net.remove_node(index);
@@ -279,7 +279,7 @@ impl Graph {
         Ok(node)
     }
 
-    /// Links an input without looking for circles; gives the replaced link.
+    /// Links an input without checking for circles. Returns the replaced link.
     pub(crate) fn link(&mut self, reader: &NodeId, input: &str, from: OutputRef) -> Result<Option<OutputRef>, Problem> {
         let target = self.find(reader.as_str())?;
         let source = self.find(from.node.as_str())?;

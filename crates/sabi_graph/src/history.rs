@@ -3,7 +3,7 @@
 use crate::relocate::{PathRewriter, Relocation, may_bring_paths};
 use crate::{Document, Edit, EditError};
 
-/// Number of steps that can be undone at least. Older ones are dropped to limit memory.
+/// Minimum number of steps that can be undone. Older steps are dropped to limit memory.
 pub const UNDO_STEPS: usize = 2000;
 
 /// Undo and redo as two stacks of inverse edits.
@@ -13,7 +13,7 @@ pub struct History {
     redo: Vec<Step>,
     /// The open group of edits.
     open: Option<Step>,
-    /// Redo stack before the first edit of the open group, restored when the group is canceled.
+    /// Redo stack before the first edit of the open group. It is restored when the group is canceled.
     redo_before_group: Vec<Step>,
 }
 
@@ -30,7 +30,7 @@ impl History {
         History::default()
     }
 
-    /// Applies an edit and records it as a step, or as part of the open group. Clears the redo stack.
+    /// Applies an edit and records it as a step, or as a part of the open group. Clears the redo stack.
     ///
     /// # Errors
     /// The edit was refused; nothing changed.
@@ -46,7 +46,7 @@ impl History {
             name.clone_into(&mut step.name);
         }
         match &mut self.open {
-            // A drag sets the same knob repeatedly: the inverse of the first edit undoes all of them.
+            // A drag sets the same knob repeatedly. The inverse of the first edit undoes all of them, so later inverses are not recorded.
             Some(step) if step.edits.last().is_some_and(|last| sets_the_same(last, &inverse)) => {}
             Some(step) => step.edits.push(inverse),
             None => self.push_undo(Step {
@@ -60,14 +60,14 @@ impl History {
     /// Pushes a step onto the undo stack.
     fn push_undo(&mut self, step: Step) {
         self.undo.push(step);
-        // Many at once, since removing from the front moves all others.
+        // Remove many steps at once, since removing from the front moves all others.
         if self.undo.len() >= UNDO_STEPS + UNDO_STEPS / 4 {
             self.undo.drain(..UNDO_STEPS / 4);
         }
     }
 
-    /// Opens a group: all edits until [`History::end`] are one step of that name; an empty one is replaced by that of the
-    /// first edit. Ends a group that is open.
+    /// Opens a group: all edits until [`History::end`] form one step with this name. If the name is empty, the group takes
+    /// the name of the first edit. A group that is still open is ended first.
     pub fn begin(&mut self, name: &str) {
         self.end();
         self.open = Some(Step {
@@ -81,13 +81,13 @@ impl History {
         self.open.is_some()
     }
 
-    /// Ends the open group; a group without edits leaves no step.
+    /// Ends the open group. A group without edits adds no step.
     pub fn end(&mut self) {
         self.redo_before_group.clear();
         if let Some(mut step) = self.open.take()
             && !step.edits.is_empty()
         {
-            // Undone in the reverse order.
+            // Edits are undone in reverse order.
             step.edits.reverse();
             self.push_undo(step);
         }
@@ -109,7 +109,7 @@ impl History {
         Ok(())
     }
 
-    /// Undoes the last step; gives its name, or `None` when there is nothing to undo.
+    /// Undoes the last step. Returns its name, or `None` if there is nothing to undo.
     ///
     /// # Errors
     /// The document was changed without this history; it stays as it is.
@@ -118,7 +118,7 @@ impl History {
         replay(document, &mut self.undo, &mut self.redo)
     }
 
-    /// Redoes the last undone step; gives its name, or `None` when there is nothing to redo.
+    /// Redoes the last undone step. Returns its name, or `None` if there is nothing to redo.
     ///
     /// # Errors
     /// The document was changed without this history; it stays as it is.
@@ -127,18 +127,18 @@ impl History {
         replay(document, &mut self.redo, &mut self.undo)
     }
 
-    /// Rewrites the paths in all steps for a document that was saved in another folder. `document` is the document before
-    /// it was relocated.
+    /// Rewrites the paths in all steps after the document was saved in another folder. `document` is the document before
+    /// its own paths were rewritten.
     pub fn relocate(&mut self, document: &Document, relocation: Relocation<'_>) {
         self.end();
         for steps in [&mut self.undo, &mut self.redo] {
             let mut state = document.clone();
             for step in steps.iter_mut().rev() {
                 let edit = Edit::Batch(step.edits.clone());
-                // The meaning of a parameter is known while its node exists: before the step, or after it.
+                // Whether a parameter is a path follows from the kind of its node. The node exists before the step, or after it.
                 let before = may_bring_paths(&edit).then(|| state.clone());
                 if state.apply(edit).is_err() {
-                    // The document was changed without this history, which undo says.
+                    // The document was changed without this history. The next undo reports that.
                     break;
                 }
                 if let Some(before) = &before {
@@ -188,7 +188,7 @@ fn sets_the_same(one: &Edit, other: &Edit) -> bool {
     }
 }
 
-/// Applies the top step of one stack and puts its inverse on the other.
+/// Applies the top step of one stack and pushes its inverse onto the other.
 fn replay(document: &mut Document, from: &mut Vec<Step>, to: &mut Vec<Step>) -> Result<Option<String>, EditError> {
     let Some(step) = from.pop() else {
         return Ok(None);

@@ -3,7 +3,7 @@
 use std::borrow::Borrow;
 use std::fmt;
 
-/// A node's stable id: 1 to 64 of `a-z 0-9 _`.
+/// Permanent id of a node: 1 to 64 characters of `a-z 0-9 _`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(pub(crate) String);
 

@@ -8,7 +8,7 @@ use crate::problem::{Problem, quoted};
 /// Longest node id and port name, in characters.
 const NAME_LIMIT: usize = 64;
 
-/// Checks the name of an input or output port: 1 to 64 characters, none of them a dot, a slash or a control character.
+/// Checks the name of an input or output port: 1 to 64 characters, without dots, slashes and control characters.
 pub(crate) fn check_port_name(name: &str) -> Result<(), Problem> {
     let bad = |c: char| c == '.' || c == '/' || c.is_control();
     if name.is_empty() || name.chars().count() > NAME_LIMIT || name.contains(bad) {

@@ -1,7 +1,7 @@
 //! Parser from JSON text to a tree with byte offsets.
 //!
-//! Strict: no trailing commas, no comments, no duplicate keys. JSON libraries discard offsets, which errors about the
-//! content of a file need to name its lines.
+//! It is strict: no trailing commas, no comments, no duplicate keys. It exists because JSON libraries discard offsets,
+//! which errors about the content of a file need to name its lines.
 
 use std::collections::BTreeSet;
 
@@ -90,11 +90,11 @@ pub(crate) fn parse(text: &str) -> Result<Json, JsonError> {
     parse_value(text).map_err(|error| conflict(text).unwrap_or(error))
 }
 
-/// Beginnings of the lines that git writes around both sides of a conflict. No text in JSON has line breaks, so no line of a graph
-/// begins with one.
+/// Starts of the lines that git writes around both sides of a conflict. JSON texts contain no line breaks, so no line of a
+/// valid graph file starts with one of these.
 const CONFLICT_MARKERS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
 
-/// The error of a text that is no JSON because of a conflict.
+/// Returns the error for a text that is not JSON because it contains a merge conflict.
 fn conflict(text: &str) -> Option<JsonError> {
     let is_marker = |line: &str| CONFLICT_MARKERS.iter().any(|marker| line.starts_with(marker));
     let mut at = 0;
@@ -122,7 +122,7 @@ fn parse_value(text: &str) -> Result<Json, JsonError> {
         });
     }
     let mut parser = Parser { text, at: 0, values: 0 };
-    // Byte order mark, which some Windows editors write.
+    // Skip a byte order mark, which some Windows editors write.
     if text.starts_with('\u{feff}') {
         parser.at = '\u{feff}'.len_utf8();
     }
@@ -148,7 +148,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Error for the character at this place, where something else is expected.
+    /// Returns the error for an unexpected character at the current place.
     fn unexpected(&self, expected: &str) -> JsonError {
         match self.text[self.at..].chars().next() {
             None => self.error(format!(
@@ -368,7 +368,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Reads the character of `\u` and four digits, after the `u`; `None` for a lone surrogate.
+    /// Reads the four digits of a `\u` escape, after the `u`, and returns the character; `None` for a lone surrogate.
     fn unicode(&mut self) -> Option<char> {
         let first = self.hex()?;
         if !(0xd800..0xdc00).contains(&first) {

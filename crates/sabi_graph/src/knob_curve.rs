@@ -2,19 +2,19 @@
 
 use crate::Value;
 
-/// Most points of a curve.
+/// Maximum number of points of a curve.
 const POINT_LIMIT: usize = 64;
 
-/// Value of a parameter over the value of the published knob that sets it: points with straight lines between them, and
-/// constant before the first and after the last.
+/// Curve from the value of a published knob to the value of a parameter: straight lines between points, constant before the
+/// first point and after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnobCurve {
     points: Vec<[f64; 2]>,
 }
 
 impl KnobCurve {
-    /// Curve through points of a knob's value and the parameter's value; `None` unless there are 2 to 64 points whose knob
-    /// values grow and whose numbers a file can hold.
+    /// Creates a curve through points (knob value, parameter value). Returns `None` unless there are 2 to 64 points with
+    /// ascending knob values, all of them numbers that a file can hold.
     pub fn new(points: Vec<[f64; 2]>) -> Option<KnobCurve> {
         let points: Option<Vec<[f64; 2]>> = points
             .iter()
@@ -25,12 +25,12 @@ impl KnobCurve {
         grows.then_some(KnobCurve { points })
     }
 
-    /// Its points: value of the knob, value of the parameter.
+    /// Returns the points, each as knob value and parameter value.
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
 
-    /// Value of the parameter for a value of the knob. Values other than numbers stay as they are.
+    /// Returns the value of the parameter for a value of the knob. Values other than numbers are returned unchanged.
     pub fn apply(&self, knob: &Value) -> Value {
         match knob.as_number() {
             Some(number) => Value::Number(interpolated(self.points.iter().copied(), number)),
@@ -38,7 +38,7 @@ impl KnobCurve {
         }
     }
 
-    /// Value of the knob that gives a value of the parameter: the first one on the curve, or that of the nearest end.
+    /// Returns the knob value that gives a value of the parameter: the first one on the curve, or the nearest end of the curve.
     pub fn invert(&self, value: &Value) -> Value {
         let Some(number) = value.as_number() else {
             return value.clone();
@@ -60,7 +60,7 @@ impl KnobCurve {
         Value::Number(knob)
     }
 
-    /// Curve that does the work of this one and then of `next`: exact at the points of this one.
+    /// Returns the curve that applies this curve and then `next`. It is exact at the points of this curve.
     pub fn then(&self, next: &KnobCurve) -> KnobCurve {
         let through = |[knob, value]: &[f64; 2]| [*knob, interpolated(next.points.iter().copied(), *value)];
         KnobCurve {
@@ -69,7 +69,7 @@ impl KnobCurve {
     }
 }
 
-/// Value at `x` of the lines through points in the order of their first number.
+/// Interpolates linearly at `x` between points sorted by their first number.
 fn interpolated(points: impl Iterator<Item = [f64; 2]>, x: f64) -> f64 {
     let mut before: Option<[f64; 2]> = None;
     for [at, value] in points {

@@ -1,6 +1,6 @@
 //! The canonical layout of JSON text.
 //!
-//! Two-space indent and one key a line; lists of scalars on one line, other lists one item a line.
+//! Indentation is two spaces, with one key a line. Lists of scalars are written on one line, other lists with one item a line.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub(crate) enum Item {
 }
 
 impl OrderedObject {
-    /// Adds a key.
+    /// Adds a key with a value.
     pub(crate) fn put(&mut self, key: &str, value: impl Into<Value>) {
         self.0.push((key.to_owned(), Item::Value(value.into())));
     }
@@ -34,7 +34,7 @@ impl OrderedObject {
         self.0.push((key.to_owned(), Item::Object(object)));
     }
 
-    /// Adds a key with an object of which `each` makes the members, unless the map is empty.
+    /// Adds a key with an object whose members `each` creates, unless the map is empty.
     pub(crate) fn put_map<K: ToString, V>(&mut self, key: &str, map: &BTreeMap<K, V>, each: impl Fn(&V) -> Item) {
         if !map.is_empty() {
             let members = map.iter().map(|(name, value)| (name.to_string(), each(value)));
@@ -42,7 +42,7 @@ impl OrderedObject {
         }
     }
 
-    /// Adds unknown keys, sorted, without those that are known keys of this version.
+    /// Adds the unknown keys, sorted. Keys that this version knows are left out.
     pub(crate) fn put_extra(&mut self, extra: &BTreeMap<String, Value>, is_known: impl Fn(&str) -> bool) {
         for (key, value) in extra {
             if !is_known(key.as_str()) {
@@ -56,7 +56,7 @@ impl OrderedObject {
         self.0.push((key, item));
     }
 
-    /// The whole file.
+    /// Returns the text of the whole file.
     pub(crate) fn into_text(self) -> String {
         let mut text = String::new();
         write_item(&mut text, &Item::Object(self), 0);

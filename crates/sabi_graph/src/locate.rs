@@ -3,9 +3,9 @@
 use crate::json::{Json, Member, Tree, parse};
 use crate::text_position::line_and_column;
 
-/// Line and column (both from 1, the column in characters) of a node in a graph file's text, or of one of its inputs or
-/// parameters. `node` is its id in a flat graph: of a node in a group (`instance/inner`) the place is
-/// that in the group, or that of the instance where the group is a file of its own.
+/// Returns line and column (both from 1, the column in characters) of a node in the text of a graph file, or of one of its
+/// inputs or parameters. `node` is the id in a flat graph. For a node in a group (`instance/inner`), this is the place in
+/// the group; if the group is a file of its own, it is the place of the instance.
 pub fn locate(text: &str, node: &str, member: Option<&str>) -> Option<(usize, usize)> {
     let root = parse(text).ok()?;
     let mut body = &root;
@@ -58,7 +58,7 @@ mod tests {
 }"#;
 
     #[test]
-    fn a_node_and_what_is_written_in_it_are_found() {
+    fn a_node_and_its_inputs_and_parameters_are_found() {
         let cases = [
             ("a", None, Some((8, 5))),
             ("a", Some("size"), Some((8, 37))),

@@ -1,5 +1,5 @@
-//! Migration of older files, by pure steps from the JSON of one version to the next. Offsets are kept, so that errors in
-//! an old file point into its text.
+//! Migration of older files: each step is a pure function from the JSON of one version to the JSON of the next. Offsets are
+//! kept, so that an error in an old file points into its text.
 
 use std::collections::BTreeMap;
 
@@ -7,10 +7,10 @@ use crate::file_error::{FileProblem, ReadError};
 use crate::json::{Json, Member, Tree};
 use crate::problem::{Problem, hint, quoted};
 
-/// Step `n` leads from version `n` to `n + 1`.
+/// Migration steps. Step `n` leads from version `n` to `n + 1`.
 const STEPS: [fn(Json) -> Result<Json, ReadError>; 1] = [links_into_nodes];
 
-/// The version that is written, and the newest that is read.
+/// The version that is written, which is also the newest that can be read.
 pub(crate) const NEWEST: u32 = STEPS.len() as u32;
 
 /// Migrates a file to the newest version.
@@ -69,8 +69,8 @@ pub(crate) fn version_of(json: &Json) -> Result<u32, ReadError> {
     }
 }
 
-/// Version 0, before the first release, kept links in a list beside the nodes, `"edges": [{"from": "node.port", "to":
-/// "node.input"}]`, which conflicted in every merge of two branches. Version 1 keeps each link in the node that reads it.
+/// Migrates version 0 to 1. Version 0, before the first release, kept links in a list beside the nodes, `"edges": [{"from": "node.port",
+/// "to": "node.input"}]`, which led to a conflict in every merge of two branches. Version 1 keeps each link in the node that reads it.
 fn links_into_nodes(mut json: Json) -> Result<Json, ReadError> {
     if let Some(groups) = members_of(&mut json, "groups") {
         for group in groups {
@@ -114,7 +114,7 @@ fn move_links(body: &mut Json) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// `from` and `to` of an edge.
+/// Returns `from` and `to` of an edge.
 fn ends(edge: Json) -> Result<(Json, Json), ReadError> {
     let example = "a link like {\"from\": \"node.port\", \"to\": \"node.input\"}";
     let Json {

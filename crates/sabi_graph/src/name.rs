@@ -2,10 +2,10 @@
 
 use crate::problem::{Problem, quoted};
 
-/// Longest such name, in characters.
+/// Maximum length of such a name, in characters.
 const NAME_LIMIT: usize = 200;
 
-/// Characters that no knob's name may have, since overrides `NAME=VALUE` and `node.param` are told apart by them.
+/// Characters that are not allowed in the name of a knob: an override is written `NAME=VALUE`, and a name with a dot means `node.param`.
 pub(crate) const NOT_IN_KNOBS: &str = ".=";
 
 /// Checks a name: 1 to 200 characters, no control characters and none of `without`.

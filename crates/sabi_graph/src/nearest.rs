@@ -3,18 +3,18 @@
 /// Words longer than this, in characters, are not compared.
 const LENGTH_LIMIT: usize = 64;
 
-/// The candidate with the smallest edit distance to `word` (case is ignored), or one that begins with `word`; `None` when
-/// none is near. Of several with the same distance, the first.
+/// Returns the candidate with the smallest edit distance to `word` (ignoring case), or one that starts with `word`; `None`
+/// if no candidate is close. Of several with the same distance, the first is returned.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = letters(word)?;
-    // One edit in three letters; short words may have one.
+    // One edit for every three letters is allowed, and one in short words.
     let limit = (word.len() / 3).max(1);
     candidates
         .into_iter()
         .filter_map(|candidate| {
             let letters = letters(candidate)?;
             let edits = distance(&word, &letters);
-            // Ids end in a random tail that may be left out.
+            // Ids end in random characters, which the user may have left out.
             let begins = word.len() >= 3 && letters.starts_with(&word);
             // A word with every letter changed is not related.
             let related = edits <= limit && edits < word.len().max(letters.len());
@@ -28,13 +28,13 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// Most names that are all listed.
+/// Maximum number of names that are all listed.
 const MOST_LISTED: usize = 12;
-/// Names that are listed of more.
+/// Number of names that are listed if there are more than `MOST_LISTED`.
 const NEAREST: usize = 5;
 
-/// Advice on a name that is none of these: the one that was probably meant, all of them if they are few, or those that are most alike.
-/// A clause, such as `did you mean 'wood'?`.
+/// Returns advice for an unknown name: the name that was probably meant, or all names if they are few, or the most similar
+/// ones. A clause, such as `did you mean 'wood'?`.
 pub fn advice_on<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.into_iter().collect();
     if let Some(near) = nearest(word, names.iter().copied()) {
@@ -52,10 +52,10 @@ pub fn advice_on<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> St
         1..=MOST_LISTED => format!("there is {}", quoted(&names)),
         count => {
             let mut alike = names;
-            let asked = letters(word).unwrap_or_default(); // An endless word is like none.
-            // A stable sort: of several that are as much alike, the first.
+            let asked = letters(word).unwrap_or_default(); // A word that is too long resembles no name.
+            // The sort is stable: of several equally similar names, the first comes first.
             alike.sort_by_cached_key(|name| {
-                let letters = letters(name).unwrap_or_default(); // As above.
+                let letters = letters(name).unwrap_or_default(); // A name that is too long resembles no word.
                 let is_part = letters.windows(asked.len().max(1)).any(|part| part == asked);
                 (!is_part, distance(&asked, &letters))
             });
@@ -65,7 +65,7 @@ pub fn advice_on<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> St
     }
 }
 
-/// Lower-case letters of a word; `None` when it is empty or longer than any name.
+/// Returns the lower-case letters of a word; `None` if it is empty or longer than any name.
 fn letters(word: &str) -> Option<Vec<char>> {
     let letters: Vec<char> = word
         .chars()
@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slip_of_the_fingers_finds_its_word() {
+    fn a_typing_error_finds_the_intended_word() {
         let known = ["amount", "roughness", "mask", "worn_p2dd", "color"];
         for (word, found) in [
             ("amont", Some("amount")),
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn advice_names_what_was_meant_or_all_of_few_or_the_most_alike_of_many() {
+    fn advice_is_the_intended_name_or_all_names_or_the_most_similar_ones() {
         let few = ["wood", "brass", "glass"];
         assert_eq!(advice_on("glas", few), "did you mean 'glass'?");
         assert_eq!(advice_on("x", few), "there is 'wood', 'brass', 'glass'");
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn an_endless_word_costs_nothing() {
+    fn a_very_long_word_is_not_compared() {
         assert_eq!(nearest(&"a".repeat(50_000_000), ["aaaa"]), None);
     }
 }

@@ -3,14 +3,14 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Sorts `0..keys.len()` so that each index comes after those it reads; ties are broken by the smallest key. `reads[i]`
-/// lists the indices that `i` reads.
+/// Sorts `0..keys.len()` so that each index comes after the indices that it reads. Ties are broken by the smallest key.
+/// `reads[i]` lists the indices that `i` reads.
 ///
 /// # Errors
-/// A circle in the order of the links, each member once, from the one with the smallest key.
+/// A circle, each member once in the order of the links, starting with the smallest key.
 pub(crate) fn topological<K: Ord>(keys: &[K], reads: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
     let mut readers = vec![Vec::new(); keys.len()];
-    // Of the graph of links, without the sources that are sorted already.
+    // Number of links into each index from indices that are not sorted yet.
     let mut in_degrees: Vec<usize> = vec![0; keys.len()];
     for (reader, sources) in reads.iter().enumerate() {
         for &source in sources {
@@ -39,7 +39,8 @@ pub(crate) fn topological<K: Ord>(keys: &[K], reads: &[Vec<usize>]) -> Result<Ve
     }
 }
 
-/// Walks against the links among nodes that were not sorted: each reads another such node, so the walk must close.
+/// Finds a circle by walking against the links among the nodes that could not be sorted. Each of them reads another one, so
+/// the walk must close.
 fn circle<K: Ord>(keys: &[K], reads: &[Vec<usize>], in_degrees: &[usize]) -> Vec<usize> {
     let is_unsorted = |index: &usize| in_degrees[*index] > 0;
     let Some(mut at) = (0..keys.len()).filter(is_unsorted).min_by_key(|&index| &keys[index]) else {
@@ -75,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_may_come_next_comes_by_name() {
+    fn ties_are_broken_by_name() {
         let keys = ["d", "c", "b", "a"];
         assert_eq!(
             topological(&keys, &[vec![], vec![], vec![], vec![]]),
@@ -88,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_circle_is_named_in_the_order_of_the_flow() {
+    fn a_circle_is_listed_in_the_order_of_the_links() {
         // b → c → a → b, and d reads a.
         let keys = ["a", "b", "c", "d"];
         assert_eq!(

@@ -19,8 +19,8 @@ impl PortType {
     /// All port types.
     pub const ALL: [PortType; 4] = [PortType::Mask, PortType::Color, PortType::Vector, PortType::Material];
 
-    /// Returns true if a result of type `from` may be wired to an input of this type: the same type, or mask and color,
-    /// which convert into each other (gray; luminance).
+    /// Returns true if an input of this type can be linked to a result of type `from`: the types are equal, or they are
+    /// mask and color, which are converted into each other (gray; luminance).
     pub fn accepts(self, from: PortType) -> bool {
         use PortType::{Color, Mask};
         self == from || matches!((self, from), (Mask, Color) | (Color, Mask))

@@ -11,7 +11,7 @@ pub enum Problem {
         /// The id, quoted.
         id: String,
     },
-    /// A port name that a link could not be written with.
+    /// A port name that cannot be written in a link.
     #[error("{name} cannot be the name of a port; use 1 to 64 characters without dots and slashes")]
     BadPortName {
         /// The name, quoted.
@@ -89,7 +89,7 @@ pub enum Problem {
         /// The knob, quoted.
         knob: String,
     },
-    /// A curve without the points that it needs.
+    /// A curve with too few or unusable points.
     #[error(
         "the curve of {slot} cannot be used; write at least two points [knob value, parameter value] whose knob values grow"
     )]
@@ -131,7 +131,7 @@ pub enum Problem {
     },
 }
 
-/// `a → b → a`, at most sixteen nodes long.
+/// Formats a circle as `a → b → a`, with at most sixteen nodes.
 fn arrows(nodes: &[NodeId]) -> String {
     let mut text = String::new();
     for id in nodes.iter().take(16) {
@@ -155,7 +155,7 @@ pub(crate) fn quoted(text: &str) -> String {
     format!("{cut:?}")
 }
 
-/// ` (did you mean "x"?)`, or nothing.
+/// Returns ` (did you mean "x"?)`, or an empty text.
 pub(crate) fn hint<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     match crate::nearest(word, candidates) {
         Some(near) => format!(" (did you mean {}?)", quoted(near)),
@@ -163,7 +163,7 @@ pub(crate) fn hint<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>
     }
 }
 
-/// Names in quotes with commas, at most twelve.
+/// Lists names in quotes with commas, at most twelve.
 pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     const MOST: usize = 12;
     let mut names_in_quotes: Vec<String> = Vec::new();

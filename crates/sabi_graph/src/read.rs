@@ -19,7 +19,7 @@ impl Document {
     /// Reads a graph file of this or an earlier version.
     ///
     /// # Errors
-    /// The first thing that is wrong with it, with its line and column.
+    /// The first error in the file, with its line and column.
     pub fn from_json(text: &str) -> Result<Document, FileError> {
         read(text).map_err(|error| error.in_text(text))
     }
@@ -28,7 +28,7 @@ impl Document {
 /// Returns the version of the file format that a graph file is written in.
 ///
 /// # Errors
-/// The text is no graph, or of a version that is not known.
+/// The text is not a graph, or has an unknown version.
 pub fn format_version(text: &str) -> Result<u32, FileError> {
     let read = || crate::migrate::version_of(&crate::json::parse(text)?);
     read().map_err(|error: ReadError| error.in_text(text))
@@ -37,7 +37,7 @@ pub fn format_version(text: &str) -> Result<u32, FileError> {
 fn read(text: &str) -> Result<Document, ReadError> {
     let json = crate::migrate::to_newest(crate::json::parse(text)?)?;
     let mut fields = Fields::of(json, "the file", &format::DOCUMENT)?;
-    // Both were checked by the migration.
+    // The migration checked these two keys already.
     fields.take("format");
     fields.take("version");
     let name = fields.text("name")?.unwrap_or_default(); // A document may have no name.

@@ -10,15 +10,16 @@ use crate::{Body, Document, Edit, GROUP_KIND, Graph, Node, SlotRef, Value};
 /// Change of paths when a file moves to another folder.
 #[derive(Clone, Copy)]
 pub struct Relocation<'a> {
-    /// Returns whether a parameter of a kind holds the path of a file. Takes the kind without its version, and the
-    /// parameter.
+    /// Returns whether a parameter of a kind holds the path of a file. Arguments are the kind without its version, and the
+    /// name of the parameter.
     pub is_file: &'a dyn Fn(&str, &str) -> bool,
     /// Converts a path relative to the old folder to one relative to the new folder.
     pub moved: &'a dyn Fn(&str) -> String,
 }
 
 impl Document {
-    /// Copy of this document for another folder: its paths to the model, images and group files lead to the same files.
+    /// Returns a copy of this document for another folder: its paths to the model, images and group files are rewritten to
+    /// lead to the same files.
     pub fn relocated(&self, relocation: Relocation<'_>) -> Document {
         let paths = PathRewriter {
             relocation,
@@ -34,14 +35,15 @@ impl Document {
     }
 }
 
-/// Rewrites the paths in documents and edits. A parameter is a path by the kind of its node, which is looked up in `states`.
+/// Rewrites the paths in documents and edits. Whether a parameter is a path follows from the kind of its node, which is
+/// looked up in `states`.
 pub(crate) struct PathRewriter<'a> {
     pub(crate) relocation: Relocation<'a>,
     pub(crate) states: Vec<&'a Document>,
 }
 
 impl PathRewriter<'_> {
-    /// Changes the paths that an edit brings into the document.
+    /// Rewrites the paths that an edit adds to the document.
     pub(crate) fn edit(&self, edit: &mut Edit) {
         match edit {
             Edit::AddNode { node, .. } => self.node(node),
@@ -145,8 +147,8 @@ impl PathRewriter<'_> {
         nodes.any(|node| self.names_file(&node.kind, node.group.as_deref(), &slot.name, seen))
     }
 
-    /// Returns true if a parameter is a path; that of an instance is a path if it sets a path inside the group. Paths
-    /// inside a group file are relative to that file, which does not move.
+    /// Returns true if a parameter is a path. A parameter of an instance is a path if it sets a path inside the group.
+    /// Paths inside a group file are relative to that file, which does not move.
     fn names_file(&self, kind: &str, group: Option<&str>, param: &str, seen: &mut BTreeSet<(String, String)>) -> bool {
         if kind != GROUP_KIND {
             let plain = kind.split_once('@').map_or(kind, |(plain, _)| plain);
@@ -164,7 +166,7 @@ impl PathRewriter<'_> {
     }
 }
 
-/// Returns true if an edit may bring a path into the document.
+/// Returns true if an edit may add a path to the document.
 pub(crate) fn may_bring_paths(edit: &Edit) -> bool {
     match edit {
         Edit::SetParam { value, .. } => matches!(value, Some(Value::Text(_))),

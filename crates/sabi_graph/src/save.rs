@@ -1,4 +1,4 @@
-//! From a document to its canonical text: fixed keys in their order, then unknown ones, sorted.
+//! Conversion of a document to its canonical text: fixed keys in their order, then unknown keys, sorted.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::migrate::NEWEST;
 use crate::{Graph, KnobCurve, Node, NodeId, NodeRows, Note, OutputRef, SlotRef, Value};
 
 impl Document {
-    /// The canonical text: the same document gives the same bytes, and reading them gives this document.
+    /// Returns the canonical text. Equal documents give the same bytes, and reading them gives an equal document.
     pub fn to_json(&self) -> String {
         let mut object = OrderedObject::default();
         object.put("format", "sabi");
@@ -51,7 +51,7 @@ fn put_description(object: &mut OrderedObject, description: &Description) {
     put_texts(object, "words", &description.words);
 }
 
-/// Puts a list of texts unless it is empty.
+/// Adds a list of texts, unless it is empty.
 fn put_texts(object: &mut OrderedObject, key: &str, texts: &[String]) {
     let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
     object.put_some(key, Some(texts).filter(|texts| !texts.is_empty()));

@@ -1,4 +1,4 @@
-//! Claims about the whole crate.
+//! Tests of the whole crate.
 
 mod edits;
 mod errors;
@@ -24,13 +24,13 @@ fn config() -> ProptestConfig {
     }
 }
 
-/// A document of this version with these lines for `nodes`, and more top-level keys before them.
+/// Creates a document of this version with these lines for `nodes`, and with more top-level keys before them.
 fn document(more: &str, nodes: &str) -> Document {
     let text = format!(r#"{{ "format": "sabi", "version": 1, {more} "nodes": {{ {nodes} }} }}"#);
     Document::from_json(&text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// Flattened without group files.
+/// Flattens a document that uses no group files.
 fn flat(document: &Document, overrides: &Overrides) -> Result<FlatGraph, FlattenError> {
     flatten(document, overrides, &mut |_| Err("no files in this test".to_owned()))
 }

@@ -1,4 +1,4 @@
-//! Rules of every document, checked by reading and editing.
+//! Rules for every document, checked when it is read and edited.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ pub(crate) fn is_group_file(name: &str) -> bool {
     name.ends_with(".sabi")
 }
 
-/// Checks that a node has a kind, and a group instance an existing group.
+/// Checks that a node has a kind, and that a group instance names an existing group.
 pub(crate) fn kind_and_group<'a>(
     node: &Node,
     is_group: impl Fn(&str) -> bool,
@@ -50,7 +50,7 @@ pub(crate) fn knob(graph: &Graph, name: &str, knob: &Exposed) -> Result<(), Prob
         return Err(Problem::CurveWithoutDefault { knob: quoted(name) });
     }
     match knob.range {
-        // Also refuses NaN.
+        // This comparison also refuses NaN.
         Some([low, high]) if !(low <= high && low.is_finite() && high.is_finite()) => {
             Err(Problem::EmptyRange { knob: quoted(name) })
         }
@@ -82,7 +82,7 @@ pub(crate) fn variant_sets(graph: &Graph, variant: &str, knob: &str) -> Result<(
     })
 }
 
-/// Checks that a group's input feeds inputs of existing nodes that no other group input feeds.
+/// Checks that an input of a group feeds existing inputs of nodes, and that no other input of the group feeds them.
 pub(crate) fn group_input(graph: &Graph, fed: &mut FedInputs, name: &str, input: &GroupInput) -> Result<(), Problem> {
     check_port_name(name)?;
     slots(graph, &input.to)?;
@@ -116,7 +116,7 @@ pub(crate) fn group_ports(group: &GroupDef) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Canonical form of a fit; `None` for a length that is not above zero.
+/// Returns the canonical form of a fit; `None` for a length that is not above zero.
 pub(crate) fn fit(fit: Fit) -> Option<Fit> {
     match fit {
         Fit::Length(metres) => crate::canonical_number(metres)
@@ -126,7 +126,7 @@ pub(crate) fn fit(fit: Fit) -> Option<Fit> {
     }
 }
 
-/// Checks the names of views, and makes their numbers canonical.
+/// Checks the names of views and converts their numbers to canonical form.
 pub(crate) fn views(views: &mut BTreeMap<String, SavedView>) -> Result<(), Problem> {
     for (name, view) in views {
         check_name("view", name, "")?;

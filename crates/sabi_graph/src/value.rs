@@ -1,4 +1,4 @@
-//! Values of parameters: those of JSON, with numbers in canonical form.
+//! Values of parameters: JSON values with numbers in canonical form.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -22,14 +22,14 @@ pub enum Value {
     Object(BTreeMap<String, Value>),
 }
 
-/// Limit of whole numbers that are exact in a file.
+/// Upper limit of whole numbers that a file stores exactly.
 const WHOLE_LIMIT: f64 = 9_007_199_254_740_992.0;
 
-/// Deepest nesting of values; deeper ones are refused, so that every document can be read back.
+/// Maximum nesting of values. Deeper ones are refused, so that every saved document can be read again.
 pub(crate) const DEPTH_LIMIT: usize = 64;
 
-/// Number in a file for `x`: whole numbers below 2⁵³ as they are, others as their shortest `f32` text
-/// read back; no negative zero. `None` when `x` is not finite or too large for an `f32`.
+/// Returns the number that a file stores for `x`. Whole numbers below 2⁵³ are stored exactly, others as their shortest
+/// `f32` text; there is no negative zero. Returns `None` if `x` is not finite or too large for an `f32`.
 pub fn canonical_number(x: f64) -> Option<f64> {
     if x.fract() == 0.0 && x.abs() < WHOLE_LIMIT {
         return Some(x + 0.0);
@@ -43,7 +43,7 @@ pub fn canonical_number(x: f64) -> Option<f64> {
     Some(read_back + 0.0)
 }
 
-/// The canonical text of a number; `null` for what no file can hold.
+/// Returns the canonical text of a number; `null` for a number that no file can hold.
 pub(crate) fn number_text(x: f64) -> String {
     match canonical_number(x) {
         // `Display` writes no exponents and the shortest digits that give the same number back.
@@ -53,8 +53,8 @@ pub(crate) fn number_text(x: f64) -> String {
 }
 
 impl Value {
-    /// Canonical form of this value (see [`canonical_number`]), or `None` when a number in it is not finite or beyond
-    /// `f32`, or when it is nested deeper than 64 levels.
+    /// Returns the canonical form of this value (see [`canonical_number`]), or `None` if it contains a number that is not
+    /// finite or beyond `f32`, or if it is nested deeper than 64 levels.
     pub fn canonical(self) -> Option<Value> {
         self.canonical_within(DEPTH_LIMIT)
     }
@@ -79,7 +79,7 @@ impl Value {
         })
     }
 
-    /// The number, if this is one.
+    /// Returns the number, if this value is a number.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Value::Number(x) => Some(*x),
@@ -87,7 +87,7 @@ impl Value {
         }
     }
 
-    /// The number as a `u32`, if this is a whole one in range.
+    /// Returns the number as a `u32`, if this value is a whole number in that range.
     pub fn as_u32(&self) -> Option<u32> {
         match self {
             Value::Number(x) if x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(x) => Some(*x as u32),
@@ -95,7 +95,7 @@ impl Value {
         }
     }
 
-    /// The text, if this is one.
+    /// Returns the text, if this value is a text.
     pub fn as_text(&self) -> Option<&str> {
         match self {
             Value::Text(text) => Some(text),
@@ -103,7 +103,7 @@ impl Value {
         }
     }
 
-    /// The truth value, if this is one.
+    /// Returns the truth value, if this value is one.
     pub fn as_bool(&self) -> Option<bool> {
         match self {
             Value::Bool(yes) => Some(*yes),
@@ -111,7 +111,7 @@ impl Value {
         }
     }
 
-    /// The items, if this is a list.
+    /// Returns the items, if this value is a list.
     pub fn as_list(&self) -> Option<&[Value]> {
         match self {
             Value::List(items) => Some(items),
@@ -119,7 +119,7 @@ impl Value {
         }
     }
 
-    /// Name of this value's type with its article, for messages: `a number`, `a list`.
+    /// Returns the name of this value's type with its article, for messages: `a number`, `a list`.
     pub(crate) fn type_with_article(&self) -> &'static str {
         match self {
             Value::Null => "null",
@@ -133,7 +133,7 @@ impl Value {
 }
 
 impl Serialize for Value {
-    /// Numbers are written as [`canonical_number`] has them, whole ones without a point.
+    /// Writes numbers in the form of [`canonical_number`], whole ones without a decimal point.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Value::Null => serializer.serialize_unit(),
@@ -189,7 +189,7 @@ impl<T: Into<Value>> From<Vec<T>> for Value {
 }
 
 impl fmt::Display for Value {
-    /// On one line, as JSON; used in messages and keys.
+    /// Writes the value as JSON on one line, for messages and keys.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Value::Null => f.write_str("null"),
@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_print_in_their_one_canonical_form() {
+    fn numbers_are_printed_in_canonical_form() {
         for (x, text) in [
             (0.0, "0"),
             (-0.0, "0"),
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn every_float_reads_back_as_itself() {
+    fn every_float_is_read_back_unchanged() {
         for bits in (0..=u32::MAX).step_by(1_000_003) {
             let x = f32::from_bits(bits);
             if x.is_finite() {
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_file_cannot_hold_is_not_canonical() {
+    fn values_that_no_file_can_hold_have_no_canonical_form() {
         assert_eq!(Value::Number(f64::INFINITY).canonical(), None);
         let deep = (0..100).fold(Value::Null, |inner, _| Value::List(vec![inner]));
         assert_eq!(deep.canonical(), None);

@@ -1,6 +1,6 @@
 //! Measures the encoding times of maps: `cargo run --release -p sabi_image --example encode_times -- MAP.png MAP.exr…`.
 //!
-//! Each file is decoded and encoded again as it was; times are the best of three.
+//! Each file is decoded and encoded again in the same format. Times are the best of three runs.
 
 use std::time::{Duration, Instant};
 

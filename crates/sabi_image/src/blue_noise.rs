@@ -1,17 +1,17 @@
-//! Thresholds of dithering: a tile of blue noise, computed in whole numbers.
+//! Thresholds for dithering: a tile of blue noise, computed with integers.
 
 use std::sync::OnceLock;
 
 const SIDE: usize = DitherPattern::SIDE;
 const CELLS: usize = SIDE * SIDE;
-/// Share of the pixels that the pattern begins with: one in ten, as Ulichney has it.
+/// Number of pixels in the initial pattern: one in ten, as recommended by Ulichney.
 const FIRST: usize = CELLS / 10;
 /// 1, 2^(-1/3) and 2^(-2/3), times 2^50.
 const CUBE_ROOTS: [u64; 3] = [1_125_899_906_842_624, 893_627_348_266_440, 709_272_496_352_849];
-/// Largest squared distance at which a pixel counts; beyond it the weight is 0.
+/// Largest squared distance at which a pixel has an effect. Beyond it the weight is 0.
 const FARTHEST: usize = 150;
 
-/// Arrangement of the thresholds of one channel: the tile, moved, mirrored and turned by a hash of the seed and the channel.
+/// Arrangement of the thresholds of one channel: the tile, shifted, mirrored and rotated according to a hash of seed and channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DitherPattern {
     hash: u32,
@@ -21,8 +21,8 @@ impl DitherPattern {
     /// Pixels along a side of the tile, after which thresholds repeat.
     pub(crate) const SIDE: usize = 64;
 
-    /// Creates the pattern of a channel. Patterns of other seeds and of other channels are arranged otherwise, so that the noise of
-    /// channels does not add up.
+    /// Creates the pattern of a channel. Patterns of different seeds and channels are arranged differently, so that the
+    /// noise of several channels does not add up.
     pub fn new(seed: u32, channel: &str, component: usize) -> DitherPattern {
         let named = channel
             .bytes()
@@ -32,8 +32,8 @@ impl DitherPattern {
         }
     }
 
-    /// Returns the threshold of a pixel, above 0 and below 1. Never nearer to both than 1/8192, which is more than the rounding
-    /// error of a float that represents a code of 8 bits: exact codes do not change.
+    /// Returns the threshold of a pixel, above 0 and below 1. Its distance from both is at least 1/8192, which is more than
+    /// the rounding error of a float that represents a code of 8 bits, so that exact codes are not changed.
     pub(crate) fn threshold(self, x: u32, y: u32) -> f32 {
         let bit = |at: u32| self.hash >> at & 1 == 1;
         let (x, y) = if bit(16) { (y, x) } else { (x, y) };
@@ -64,7 +64,7 @@ fn pcg(value: u32) -> u32 {
     (word >> 22) ^ word
 }
 
-/// Pattern of set pixels, with the energy that they give each pixel of the tile, which repeats.
+/// Pattern of set pixels, with the energy that they cause at each pixel of the tile. The tile repeats.
 #[derive(Clone)]
 struct Cells {
     is_set: Vec<bool>,
@@ -72,8 +72,8 @@ struct Cells {
 }
 
 impl Cells {
-    /// Sets or clears a pixel. Its energy falls with the squared distance d² as 2^(-d²/3): a Gaussian of 1.47 pixels, near the 1.5
-    /// that Ulichney found best, in whole numbers so that every machine gives the same tile.
+    /// Sets or clears a pixel. Its energy falls with the squared distance d² as 2^(-d²/3): a Gaussian with a standard deviation of about
+    /// 1.5 pixels, which Ulichney found best. It is computed with integers, so that every machine produces the same tile.
     fn put(&mut self, cell: usize, is_set: bool) {
         self.is_set[cell] = is_set;
         let (x, y) = (cell % SIDE, cell / SIDE);
@@ -94,21 +94,21 @@ impl Cells {
         }
     }
 
-    /// Returns the set pixel with the most others around it.
+    /// Returns the set pixel with the most set pixels around it.
     fn tightest_cluster(&self) -> usize {
         let set = (0..CELLS).filter(|cell| self.is_set[*cell]);
-        set.max_by_key(|cell| self.energy[*cell]).unwrap_or(0) // Never called on a clear tile.
+        set.max_by_key(|cell| self.energy[*cell]).unwrap_or(0) // There is always a set pixel when this is called.
     }
 
-    /// Returns the clear pixel with the fewest set ones around it.
+    /// Returns the clear pixel with the fewest set pixels around it.
     fn largest_void(&self) -> usize {
         let clear = (0..CELLS).filter(|cell| !self.is_set[*cell]);
-        clear.min_by_key(|cell| self.energy[*cell]).unwrap_or(0) // Never called on a full tile.
+        clear.min_by_key(|cell| self.energy[*cell]).unwrap_or(0) // There is always a clear pixel when this is called.
     }
 }
 
-/// Ranks of the pixels by the void-and-cluster method. Each prefix of the ranks is spread evenly, without low frequencies.
-/// Source: Ulichney, "The void-and-cluster method for dither array generation", SPIE 1913, 1993.
+/// Returns the ranks of the pixels by the void-and-cluster method. The pixels below any rank are evenly distributed,
+/// without low frequencies. Source: Ulichney, "The void-and-cluster method for dither array generation", SPIE 1913, 1993.
 fn ranks() -> Vec<u16> {
     let mut first = Cells {
         is_set: vec![false; CELLS],
@@ -121,8 +121,8 @@ fn ranks() -> Vec<u16> {
             first.put(hash as usize % CELLS, true);
         }
     }
-    // Each swap evens the pattern out, until the tightest cluster is the largest void. The number of swaps is limited, since
-    // ties might go round in a circle.
+    // Each swap makes the pattern more even, until the tightest cluster is also the largest void. The number of swaps is
+    // limited, since ties could lead to an endless loop.
     for _ in 0..CELLS {
         let cluster = first.tightest_cluster();
         first.put(cluster, false);
@@ -140,8 +140,8 @@ fn ranks() -> Vec<u16> {
         left.put(cluster, false);
         ranks[cluster] = rank as u16;
     }
-    // Where more than half is set, the tightest cluster of clear pixels is what the method looks for; since the energies of
-    // set and clear pixels have the same sum everywhere, that is the largest void, too.
+    // When more than half of the pixels are set, the method looks for the tightest cluster of clear pixels. The energies of
+    // set and clear pixels add up to the same sum everywhere, so this is also the largest void.
     for rank in count..CELLS {
         let void = first.largest_void();
         first.put(void, true);
@@ -161,7 +161,8 @@ mod tests {
         assert!(sorted.iter().copied().eq(0..CELLS as u16));
     }
 
-    /// Power of a pattern of zeros and ones at each frequency but 0, by the mean of white noise, with the cycles a tile.
+    /// Returns the power of a pattern of zeros and ones at each frequency except 0, relative to the mean of white noise,
+    /// with the frequency in cycles per tile.
     fn spectrum(ones: &[bool]) -> Vec<(f64, f64)> {
         let share = ones.iter().filter(|one| **one).count() as f64 / CELLS as f64;
         let turns: Vec<(f64, f64)> = (0..SIDE)
@@ -181,7 +182,7 @@ mod tests {
         (1..CELLS).map(of).collect()
     }
 
-    /// Mean power up to ten cycles a tile.
+    /// Returns the mean power up to ten cycles per tile.
     fn low_power(spectrum: &[(f64, f64)]) -> f64 {
         let low: Vec<f64> = spectrum
             .iter()
@@ -192,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn the_noise_has_no_low_frequencies_and_none_stands_out() {
+    fn the_noise_has_no_low_frequencies_and_no_dominant_one() {
         for (level, most) in [(0.1_f32, 0.1), (0.25, 0.05), (0.5, 0.05), (0.75, 0.05), (0.9, 0.1)] {
             let ones: Vec<bool> = tile()
                 .iter()
@@ -201,7 +202,7 @@ mod tests {
             let spectrum = spectrum(&ones);
             let low = low_power(&spectrum);
             assert!(low < most, "{level}: {low}");
-            // White noise has one of about 10; a regular pattern puts all power into few frequencies.
+            // The strongest frequency of white noise has about 10. A regular pattern has all its power in few frequencies.
             let strongest = spectrum.iter().map(|(_, power)| *power).fold(0.0, f64::max);
             assert!(strongest < 20.0, "{level}: {strongest}");
         }
@@ -210,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn channels_and_seeds_have_arrangements_of_their_own() {
+    fn channels_and_seeds_have_different_arrangements() {
         let patterns = [
             DitherPattern::new(0, "roughness", 0),
             DitherPattern::new(1, "roughness", 0),

@@ -1,4 +1,4 @@
-//! Bytes of a picture file to a [`Picture`].
+//! Decoding of image files to a [`Picture`].
 
 use std::borrow::Cow;
 use std::io::Cursor;
@@ -14,21 +14,21 @@ use crate::error::damaged;
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
 
-/// Deflate makes no file smaller than this fraction (RFC 1951: 258 bytes from 2 bits).
+/// Maximum compression ratio of deflate (RFC 1951: 258 bytes from 2 bits).
 const DEFLATE_BEST_RATIO: u64 = 1032;
-/// A JPEG has at least a bit for each 8 × 8 block of pixels (ITU-T T.81: no Huffman code is shorter).
+/// Maximum number of pixels for each byte of a JPEG: at least a bit for each 8 × 8 block (ITU-T T.81: no Huffman code is shorter).
 const JPEG_PIXELS_A_BYTE: u64 = 8 * 8 * 8;
-/// A run of 128 pixels of a TGA takes two bytes.
+/// Maximum number of pixels for each byte of a TGA: a run of 128 pixels takes two bytes.
 const TGA_PIXELS_A_BYTE: u64 = 64;
 
-/// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR, OpenEXR or KTX2 file, recognized by its content
-/// (TGA, which has no mark, by the name's ending). `name` is used in messages. Sizes are checked before memory is taken. Of an
-/// OpenEXR file with several layers, the first of [`layer_names`] is read.
+/// Decodes a PNG, JPEG, WebP, TGA, BMP, Radiance HDR, OpenEXR or KTX2 file. The format is recognized by the content (TGA,
+/// which has no signature, by the extension of the name). `name` is used in messages. Sizes are checked before memory is
+/// allocated. If an OpenEXR file has several layers, the first of [`layer_names`] is read.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     decode_chosen(name, bytes, None)
 }
 
-/// The picture of one layer of an OpenEXR file, by one of its [`layer_names`]; otherwise as [`decode`].
+/// Decodes one layer of an OpenEXR file, which is given by one of the [`layer_names`]. Otherwise like [`decode`].
 ///
 /// # Errors
 /// The file has no such layer.
@@ -51,9 +51,9 @@ fn decode_chosen(name: &str, bytes: &[u8], layer: Option<&str>) -> Result<Pictur
     })
 }
 
-/// Lists the layers of an OpenEXR file by its header alone, the one that [`decode`] reads first; files of other formats have none.
-/// A layer is what the channels of a part with one prefix show: color, a luminance, a vector (X, Y, Z) or a lone channel. Colors
-/// without a prefix go first, then those of layers that are named like a finished picture, such as `beauty` and `Combined`.
+/// Lists the layers of an OpenEXR file, reading only its header. The layer that [`decode`] reads is the first. Files of other formats have
+/// no layers. A layer consists of the channels of a part with a common prefix: color, a luminance, a vector (X, Y, Z) or a single channel.
+/// Colors without a prefix come first, then layers with names of a finished image, such as `beauty` and `Combined`.
 pub fn layer_names(name: &str, bytes: &[u8]) -> Result<Vec<String>, ImageError> {
     guarded(name, bytes, |format| match format {
         Format::Exr => exr_layer_names(name, bytes),
@@ -61,14 +61,12 @@ pub fn layer_names(name: &str, bytes: &[u8]) -> Result<Vec<String>, ImageError> 
     })
 }
 
-/// Checks by the header alone that [`decode`] accepts the bytes; no pixels are decoded. Its errors are those of
-/// [`decode`].
+/// Checks that [`decode`] accepts the bytes, reading only the header. No pixels are decoded. The errors are those of [`decode`].
 pub fn check_header(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
     decoded_size(name, bytes).map(drop)
 }
 
-/// Returns the memory that the picture takes once decoded, bytes, and its pixels, by the header alone. Its errors are those of
-/// [`decode`].
+/// Returns the number of pixels, and the size of the decoded image in bytes, reading only the header. The errors are those of [`decode`].
 pub fn decoded_size(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
     guarded(name, bytes, |format| match format {
         Format::Png => {
@@ -91,7 +89,7 @@ pub fn decoded_size(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError>
     })
 }
 
-/// Calls `read` with the format of the bytes. A panic in a third-party decoder becomes an error.
+/// Calls `read` with the format of the bytes. A panic in a decoder of another crate becomes an error.
 fn guarded<T>(name: &str, bytes: &[u8], read: impl FnOnce(Format) -> Result<T, ImageError>) -> Result<T, ImageError> {
     let format = recognize(name, bytes)?;
     catch_unwind(AssertUnwindSafe(|| read(format)))
@@ -124,7 +122,7 @@ impl Format {
     }
 }
 
-/// Marks of common files that are not read, so that the message can name them.
+/// Signatures of common files that are not supported, so that the message can name them.
 const FOREIGN: [(&[u8], &str); 10] = [
     (b"GIF8", "a GIF picture"),
     (b"II*\0", "a TIFF picture"),
@@ -169,7 +167,7 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
     Ok(format)
 }
 
-/// A PNG before its pixels.
+/// Opens a PNG and reads everything before its pixels.
 fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u8]>>, ImageError> {
     let damaged = |error: png::DecodingError| damaged(name, "PNG", error);
     let limits = png::Limits {
@@ -178,7 +176,7 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
-    // That there is one is all that matters, and a small one may unpack to gigabytes.
+    // Only the existence of a profile matters, and a small one may unpack to gigabytes.
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(damaged)?;
     let (width, height) = (header.width, header.height);
@@ -187,7 +185,7 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u
     let (color, depth) = reader.output_color_type();
     let pixel_bytes = color.samples() as u64 * sample_bytes(depth);
     check_size(name, width.into(), height.into(), pixel_bytes)?;
-    // A pixel of the file may be a single bit.
+    // A pixel of the file may take only a single bit.
     let least_bytes = u64::from(width) * u64::from(height) / 8 / DEFLATE_BEST_RATIO;
     if (bytes.len() as u64) < least_bytes {
         return Err(self::damaged(name, "PNG", "the file ends too early"));
@@ -198,8 +196,8 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u
 /// Returns whether a PNG file has a color profile before its pixels.
 fn has_profile(bytes: &[u8]) -> bool {
     const SIGNATURE_BYTES: usize = 8;
-    let mut rest = bytes.get(SIGNATURE_BYTES..).unwrap_or_default(); // Nothing follows.
-    // Each chunk is its length, its kind, its data and a checksum.
+    let mut rest = bytes.get(SIGNATURE_BYTES..).unwrap_or_default(); // A file that ends here has no chunks.
+    // Each chunk consists of its length, its type, its data and a checksum.
     while let Some((length, after)) = rest.split_first_chunk::<4>() {
         match after.first_chunk::<4>() {
             Some(b"iCCP") => return true,
@@ -207,12 +205,12 @@ fn has_profile(bytes: &[u8]) -> bool {
             Some(_) => {}
         }
         let skipped = (u32::from_be_bytes(*length) as usize).saturating_add(8);
-        rest = after.get(skipped..).unwrap_or_default(); // It was cut off.
+        rest = after.get(skipped..).unwrap_or_default(); // The file is truncated.
     }
     false
 }
 
-/// Bytes of a sample, once expanded.
+/// Returns the size of a sample in bytes after expansion to whole bytes.
 fn sample_bytes(depth: png::BitDepth) -> u64 {
     if depth == png::BitDepth::Sixteen { 2 } else { 1 }
 }
@@ -249,7 +247,7 @@ fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     })
 }
 
-/// Returns the color space that the chunks declare, the newest kind of chunk first (PNG specification, third edition, 4.3).
+/// Returns the color space that the chunks declare. Newer types of chunks take precedence (PNG specification, third edition, 4.3).
 fn declared_by_png(info: &png::Info<'_>, has_profile: bool) -> Declared {
     if let Some(cicp) = &info.coding_independent_code_points {
         // ITU-T H.273: 8 is linear, 13 is the sRGB curve.
@@ -285,14 +283,14 @@ fn explain_other(name: &str, format: ImageFormat, error: image::ImageError) -> I
     }
 }
 
-/// A picture of another format before its pixels.
+/// Opens an image of another format and reads everything before its pixels.
 fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<impl ImageDecoder + 'b, ImageError> {
     let format_name = Format::Other(format).name();
     if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(damaged(name, format_name, "the file ends too early"));
     }
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
-    // Sizes are judged below, with a better sentence; this bounds what the decoder itself takes.
+    // Sizes are checked below, with a clearer message. This limits the memory that the decoder itself allocates.
     let mut limits = image::Limits::no_limits();
     limits.max_alloc = Some(2 * MAX_DECODED_BYTES);
     reader.limits(limits);
@@ -320,7 +318,7 @@ fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<im
     Ok(decoder)
 }
 
-/// Bytes of a file as the decoder of its format takes them.
+/// Returns the bytes of a file in a form that the decoder of its format accepts.
 fn plain_of<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<Cow<'b, [u8]>, ImageError> {
     match format {
         ImageFormat::Bmp => decode_bmp::plain(name, bytes),
@@ -348,7 +346,7 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     })
 }
 
-/// Returns the samples unchanged, or the name of their kind where it is not read.
+/// Returns the samples unchanged, or the name of their type if it is not supported.
 fn samples_of(picture: DynamicImage) -> Result<Pixels, String> {
     Ok(match picture {
         DynamicImage::ImageLuma8(samples) => Pixels::U8(samples.into_raw()),
@@ -365,7 +363,7 @@ fn samples_of(picture: DynamicImage) -> Result<Pixels, String> {
     })
 }
 
-/// Returns whether the end-of-image marker follows the last scan. Decoders fill missing data with gray without an error.
+/// Returns whether the end-of-image marker follows the last scan. Decoders fill missing data with gray and report no error.
 fn jpeg_is_complete(bytes: &[u8]) -> bool {
     let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
     last([0xff, 0xd9]).is_some_and(|end| last([0xff, 0xda]).is_none_or(|scan| scan < end))

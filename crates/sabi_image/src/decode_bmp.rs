@@ -1,5 +1,5 @@
-//! Rarer kinds of BMP files, rewritten as plain ones for the decoder of the `image` crate, which reads bit masks without a mask
-//! for alpha and ends at runs that go on beyond the end of a row (BITMAPINFOHEADER, Win32; bitmap compression, Win32).
+//! Rare kinds of BMP files are rewritten as simple ones for the decoder of the `image` crate, which does not read bit masks
+//! with alpha and fails at runs that continue beyond the end of a row (BITMAPINFOHEADER, Win32; bitmap compression, Win32).
 
 use std::borrow::Cow;
 
@@ -11,20 +11,20 @@ const FILE_HEADER_BYTES: usize = 14;
 const INFO_HEADER_BYTES: u32 = 40;
 /// Size of the header whose last four numbers are bit masks for red, green, blue and alpha.
 const MASKS_HEADER_BYTES: u32 = 56;
-/// Size of the header of OS/2 2.x, whose numbers have other meanings from the compression on.
+/// Size of the header of OS/2 2.x, whose fields from the compression on have other meanings.
 const OS2_HEADER_BYTES: u32 = 64;
 
-/// Kinds of compression in the header.
+/// Values of the compression field.
 const PLAIN: u32 = 0;
 const RUNS_OF_8_BITS: u32 = 1;
 const RUNS_OF_4_BITS: u32 = 2;
 const BIT_MASKS: u32 = 3;
 const BIT_MASKS_WITH_ALPHA: u32 = 6;
 
-/// The file as the decoder takes it.
+/// Returns the file in a form that the decoder accepts.
 ///
 /// # Errors
-/// A valid kind of file that is not read. Damage is left to the decoder.
+/// The file is valid but of a kind that is not supported. Damage is reported later by the decoder.
 pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, ImageError> {
     let Some(header) = Header::read(bytes) else {
         return Ok(Cow::Borrowed(bytes));
@@ -41,7 +41,7 @@ pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, Im
         PLAIN | BIT_MASKS if header.bits == 64 => unread("it has 64 bits a pixel, which are not read".to_owned()),
         PLAIN | BIT_MASKS => Ok(Cow::Borrowed(bytes)),
         RUNS_OF_8_BITS | RUNS_OF_4_BITS => header.without_runs(name, bytes),
-        // Its masks lie where the larger header has them.
+        // The masks are at the same place as in the larger header.
         BIT_MASKS_WITH_ALPHA if header.size == INFO_HEADER_BYTES => {
             let mut rewritten = bytes.to_vec();
             rewritten[14..18].copy_from_slice(&MASKS_HEADER_BYTES.to_le_bytes());
@@ -60,22 +60,22 @@ pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, Im
     }
 }
 
-/// Sizes, kind and places of the pixels, as the file says them.
+/// Size, kind and place of the pixels, as declared in the file.
 struct Header {
-    /// Bytes of the header behind the file header.
+    /// Size of the header that follows the file header, in bytes.
     size: u32,
     width: u32,
     height: u32,
     bits: u16,
     compression: u32,
-    /// Place of the pixels in the file.
+    /// Offset of the pixels in the file.
     pixels_at: usize,
-    /// Place of the palette in the file.
+    /// Offset of the palette in the file.
     palette_at: usize,
 }
 
 impl Header {
-    /// Reads a header with a field for the compression; none where it is older, cut off, or its sizes make no sense.
+    /// Reads a header that has a compression field. Returns `None` if the header is older, truncated, or has impossible sizes.
     fn read(bytes: &[u8]) -> Option<Header> {
         let word = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
         let size = word(14).filter(|size| *size >= INFO_HEADER_BYTES)?;
@@ -90,10 +90,10 @@ impl Header {
         })
     }
 
-    /// The file with each pixel as a code of 8 bits. Pixels that no run covers have the first color of the palette. Runs end where
-    /// their row does, and pixels where the data do, as in the systems that the format comes from.
+    /// Returns the file with each pixel as a code of 8 bits. Pixels that no run covers have the first color of the palette.
+    /// A run ends at the end of its row, and missing data is allowed, as in the systems from which the format comes.
     fn without_runs<'b>(&self, name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, ImageError> {
-        // A negative height is that of rows from the top, which runs never are.
+        // A negative height means rows from the top, which is not possible with runs.
         if self.height > i32::MAX as u32 {
             return Ok(Cow::Borrowed(bytes));
         }
@@ -138,7 +138,7 @@ impl Header {
         Ok(Cow::Owned(plain))
     }
 
-    /// Codes of all pixels, row by row from the bottom.
+    /// Returns the codes of all pixels, row by row from the bottom.
     fn codes(&self, runs: &[u8], is_wide: bool) -> Vec<u8> {
         let (width, height) = (self.width as usize, self.height as usize);
         let mut codes = vec![0; width * height];
@@ -151,7 +151,7 @@ impl Header {
                     codes[y * width + x] = code;
                 }
             };
-            // Of 4 bits, two colors take turns.
+            // With 4 bits, a run alternates between two colors.
             let half = |byte: u8, at: usize| if at.is_multiple_of(2) { byte >> 4 } else { byte & 15 };
             match (*count, *value) {
                 (0, 0) => (x, y) = (0, y + 1),
@@ -171,7 +171,7 @@ impl Header {
                         put(x + at, if is_wide { *byte } else { half(*byte, at) });
                     }
                     x += length;
-                    // Filled up to whole words.
+                    // Data is padded to 16-bit words. The default stands for the end of the data.
                     rest = rest.get(taken.next_multiple_of(2)..).unwrap_or_default(); // The data end.
                 }
                 (length, value) => {
@@ -190,7 +190,7 @@ impl Header {
 mod tests {
     use crate::{ImageError, Pixels, decode};
 
-    /// A file of a header, what follows it, and pixels.
+    /// Creates a file from a header, the bytes after it, and pixels.
     fn file(size: [u32; 2], bits: u32, compression: u32, behind_header: &[u8], pixels: &[u8]) -> Vec<u8> {
         let head = 54 + behind_header.len();
         let mut bytes = b"BM".to_vec();
@@ -232,17 +232,17 @@ mod tests {
     }
 
     #[test]
-    fn runs_end_with_their_row_and_steps_leave_the_first_color() {
-        // From the bottom: a run of five in a row of three, then a step right, a single pixel, and the end.
+    fn runs_end_with_their_row_and_skipped_pixels_have_the_first_color() {
+        // From the bottom: a run of five in a row of three, then a step to the right, a single pixel, and the end.
         let eight = [5, 1, 0, 0, 0, 2, 1, 0, 1, 2, 0, 1];
         assert_eq!(
             codes(&file([3, 2], 8, 1, &PALETTE, &eight)),
             [K, G, K, R, R, R].concat()
         );
-        // Three single codes, filled up to a word; then two colors in turn.
+        // Three single codes, padded to a word, then a run that alternates between two colors.
         let four = [0, 3, 0x12, 0x30, 0, 0, 3, 0x31, 0, 0, 0, 1];
         assert_eq!(codes(&file([3, 2], 4, 2, &PALETTE, &four)), [W, R, W, R, G, W].concat());
-        // Pixels that the data do not reach.
+        // Pixels for which there is no data.
         assert_eq!(
             codes(&file([3, 2], 8, 1, &PALETTE, &[1, 3])),
             [K, K, K, W, K, K].concat()
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn kinds_that_are_not_read_are_not_called_damaged() {
+    fn unsupported_kinds_are_not_reported_as_damaged() {
         for (bits, compression) in [(24, 4), (24, 5), (32, 11), (64, 0), (24, 99)] {
             let error = decode("a.bmp", &file([1, 1], bits, compression, &[], &[0; 8])).unwrap_err();
             assert!(

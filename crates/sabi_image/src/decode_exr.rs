@@ -15,26 +15,26 @@ use crate::{Declared, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "OpenEXR";
 const DEEP: &str = "it holds deep samples, several for each pixel";
-/// Replacement for infinity: the largest half float, which most files use.
+/// Replacement for infinity: the largest half float, since most files use half floats.
 const LARGEST_HALF: f32 = 65504.0;
 
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
-/// Size and layers of the picture in a file, by its headers.
+/// Size and layers of the image in a file, according to its headers.
 struct Headers {
     size: DecodedSize,
-    /// Layers that make a picture, the one that is shown by default first.
+    /// Layers that form an image. The default layer is the first.
     layers: Vec<ExrLayer>,
 }
 
-/// Rejects unsupported files by their headers alone.
+/// Rejects unsupported files, reading only their headers.
 pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
     read_headers(name, bytes).map(|headers| headers.size)
 }
 
 /// Reads the headers of a file, and rejects unsupported ones.
 fn read_headers(name: &str, bytes: &[u8]) -> Result<Headers, ImageError> {
-    // The flag of files with deep parts (OpenEXR file layout, version field, bit 11).
+    // The flag for files with deep parts (OpenEXR file layout, version field, bit 11).
     if bytes.get(5).is_some_and(|flags| flags & 0x08 != 0) {
         return Err(unsupported(name, DEEP));
     }
@@ -53,24 +53,24 @@ fn read_headers(name: &str, bytes: &[u8]) -> Result<Headers, ImageError> {
     let pixels = |header: &Header| header.layer_size.area() as u64;
     Ok(Headers {
         size: DecodedSize {
-            // All channels are decoded, and four of them become the picture.
+            // All channels are decoded, although at most four of them are used.
             bytes: all_bytes,
-            pixels: meta.headers.iter().map(pixels).max().unwrap_or(0), // There is a layer.
+            pixels: meta.headers.iter().map(pixels).max().unwrap_or(0), // There is at least one layer.
         },
         layers: layers_of(name, &parts_of(&meta))?,
     })
 }
 
-/// Lists the names of the layers of a file that make a picture, the one that is shown by default first, by its headers alone.
+/// Lists the names of the layers of a file that form an image, the default layer first, reading only its header.
 pub(crate) fn exr_layer_names(name: &str, bytes: &[u8]) -> Result<Vec<String>, ImageError> {
     let headers = read_headers(name, bytes)?;
     Ok(headers.layers.into_iter().map(|layer| layer.name).collect())
 }
 
-/// Decodes the display window of a layer, or of the one that is shown by default; pixels of it that the file does not have are 0.
+/// Decodes the display window of a layer, or of the default layer. Pixels of the window that the file does not contain are 0.
 pub(crate) fn decode_exr(name: &str, bytes: &[u8], asked: Option<&str>) -> Result<Picture, ImageError> {
     check_exr(name, bytes)?;
-    // One thread: a panic in a worker thread of the decoder could not be caught.
+    // Decode on this thread: a panic in a worker thread of the decoder could not be caught.
     let image: Image<Layers<AnyChannels<FlatSamples>>> = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -94,7 +94,7 @@ pub(crate) fn decode_exr(name: &str, bytes: &[u8], asked: Option<&str>) -> Resul
     ))
 }
 
-/// Finds a layer by its name, or by its name in another case.
+/// Finds a layer by its name, or by its name ignoring case.
 fn find_layer<'l>(layers: &'l [ExrLayer], asked: &str) -> Option<&'l ExrLayer> {
     let exact = layers.iter().find(|layer| layer.name == asked);
     exact.or_else(|| layers.iter().find(|layer| layer.name.eq_ignore_ascii_case(asked)))
@@ -103,7 +103,7 @@ fn find_layer<'l>(layers: &'l [ExrLayer], asked: &str) -> Option<&'l ExrLayer> {
 fn no_layer(name: &str, asked: Option<&str>, layers: &[ExrLayer]) -> ImageError {
     ImageError::Layer {
         name: name.into(),
-        asked: asked.unwrap_or_default().into(), // Some layer is shown where none is asked for.
+        asked: asked.unwrap_or_default().into(), // Without a requested layer the default one is shown, so this is not used.
         layers: layers.iter().map(|layer| layer.name.clone()).collect(),
     }
 }
@@ -123,7 +123,7 @@ fn unsupported(name: &str, feature: &str) -> ImageError {
     }
 }
 
-/// Rejects unsupported layers; returns the bytes that the layer takes.
+/// Rejects unsupported layers. Returns the size of the decoded layer in bytes.
 fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
     if header.deep {
         return Err(unsupported(name, DEEP));
@@ -150,7 +150,7 @@ fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
     Ok(data.0 as u64 * data.1 as u64 * pixel_bytes)
 }
 
-/// Parts of a file by its headers.
+/// Returns the parts of a file according to its headers.
 fn parts_of(meta: &MetaData) -> Vec<Part> {
     let parts = meta.headers.iter().map(|header| Part {
         name: header.own_attributes.layer_name.as_ref().map(ToString::to_string),
@@ -164,7 +164,7 @@ fn parts_of(meta: &MetaData) -> Vec<Part> {
     parts.collect()
 }
 
-/// Part of a file that is decoded.
+/// Converts a decoded layer to a part.
 fn part_of_decoded(layer: &FlatLayer) -> Part {
     let channels = layer.channel_data.list.iter();
     Part {
@@ -173,7 +173,7 @@ fn part_of_decoded(layer: &FlatLayer) -> Part {
     }
 }
 
-/// Layers that make a picture, the one that is shown by default first.
+/// Returns the layers that form an image, the default layer first.
 ///
 /// # Errors
 /// There is none.
@@ -222,7 +222,7 @@ fn overlap(corner: i64, length: usize, window: usize) -> std::ops::Range<usize> 
     (corner.clamp(0, window as i64) as usize).min(end)..end
 }
 
-/// Returns a finite sample: renderers write NaN and infinity, which any filter would spread.
+/// Returns a finite sample. Renderers write NaN and infinity, which any filter would spread.
 fn sample(samples: &FlatSamples, index: usize) -> f32 {
     let value = match samples {
         FlatSamples::F16(list) => list.get(index).map_or(0.0, |value| value.to_f32()),
@@ -243,7 +243,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_data_lies_where_its_window_says() {
+    fn the_data_is_placed_according_to_its_window() {
         assert_eq!(overlap(-2, 5, 10), 0..3);
         assert_eq!(overlap(8, 5, 10), 8..10);
         assert_eq!(overlap(20, 5, 10), 10..10);

@@ -1,4 +1,5 @@
-//! Radiance HDR files: the header as programs really write it, and all eight orientations (Radiance file formats, Ward 1997).
+//! Radiance HDR files, including the variants of the header that programs really write, and all eight orientations
+//! (Radiance file formats, Ward 1997).
 
 use std::io::{Cursor, Read};
 
@@ -12,28 +13,28 @@ use crate::{Declared, ImageError, Picture, Pixels};
 const FORMAT: &str = "HDR";
 /// Bytes of a decoded pixel.
 const PIXEL_BYTES: u64 = 12;
-/// A line of the header is not longer.
+/// Maximum length of a line of the header.
 const LONGEST_LINE: usize = 1 << 16;
 
 /// Direction of rows or columns, and their number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Axis {
     is_y: bool,
-    /// True where they run up or to the left.
+    /// True if rows or columns run up or to the left.
     is_reversed: bool,
     length: u32,
 }
 
-/// A file whose header is read.
+/// A file whose header was read.
 #[derive(Debug)]
 pub(crate) struct HdrFile<'b> {
-    /// Axis from scanline to scanline, then the one along a scanline.
+    /// Axis from scanline to scanline, then the axis along a scanline.
     axes: [Axis; 2],
     scanlines: &'b [u8],
 }
 
 impl<'b> HdrFile<'b> {
-    /// Reads the header: the mark `#?` with the name of any program, and lines that end in LF or CR LF.
+    /// Reads the header: the signature `#?` with the name of any program, and lines that end in LF or CR LF.
     ///
     /// # Errors
     /// The header is damaged, the picture is too large, or its colors are not red, green and blue.
@@ -67,7 +68,7 @@ impl<'b> HdrFile<'b> {
         }
     }
 
-    /// Width and height.
+    /// Returns width and height.
     fn size(&self) -> [u32; 2] {
         let [outer, inner] = self.axes.map(|axis| axis.length);
         if self.axes[0].is_y {
@@ -82,13 +83,13 @@ impl<'b> HdrFile<'b> {
         DecodedSize::of_pixels(self.size(), PIXEL_BYTES)
     }
 
-    /// Decodes the scanlines and turns them upright.
+    /// Decodes the scanlines and brings the image to the normal orientation.
     pub(crate) fn decode(&self, name: &str) -> Result<Picture, ImageError> {
         let explain = |error: image::ImageError| damaged(name, FORMAT, error);
         let [outer, inner] = self.axes.map(|axis| axis.length);
         let header = format!("#?RADIANCE\n\n-Y {outer} +X {inner}\n");
         let decoder = HdrDecoder::new(Cursor::new(header).chain(self.scanlines)).map_err(explain)?;
-        // Within the limit of decoded pictures, which `open` has checked.
+        // The size is within the limit of decoded images, which `open` has checked.
         let mut samples = vec![0.0_f32; outer as usize * inner as usize * 3];
         decoder
             .read_image(bytemuck::cast_slice_mut(&mut samples))
@@ -103,7 +104,7 @@ impl<'b> HdrFile<'b> {
         })
     }
 
-    /// Samples in rows from the top, each from the left.
+    /// Returns the samples in rows from the top, each from left to right.
     fn upright(&self, samples: Vec<f32>) -> Vec<f32> {
         let [outer, inner] = self.axes;
         if outer.is_y && !outer.is_reversed && !inner.is_reversed {
@@ -127,7 +128,7 @@ impl<'b> HdrFile<'b> {
     }
 }
 
-/// Takes the next line, without its end; none where the text ends before the line or the line is too long.
+/// Takes the next line without its line end. Returns `None` if the text ends before the line end or the line is too long.
 fn next_line<'b>(rest: &mut &'b [u8]) -> Option<&'b [u8]> {
     let end = rest.iter().take(LONGEST_LINE).position(|byte| *byte == b'\n')?;
     let line = &rest[..end];
@@ -135,7 +136,7 @@ fn next_line<'b>(rest: &mut &'b [u8]) -> Option<&'b [u8]> {
     Some(line.strip_suffix(b"\r").unwrap_or(line))
 }
 
-/// Axes of a line such as `-Y 512 +X 1024`: −Y runs down and +X to the right.
+/// Reads the axes from a line such as `-Y 512 +X 1024`: −Y means down and +X to the right.
 fn axes_of(line: &str) -> Option<[Axis; 2]> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let [first, first_length, second, second_length] = *words.as_slice() else {
@@ -163,7 +164,7 @@ fn axes_of(line: &str) -> Option<[Axis; 2]> {
 mod tests {
     use crate::{ImageError, Pixels, decode, decoded_size};
 
-    /// A picture of two by one pixels, (1, 0.5, 0.25) and (2, 0, 0), behind a header.
+    /// Creates an image of 2 × 1 pixels, (1, 0.5, 0.25) and (2, 0, 0), with this header.
     fn file(header: &str, size: &str) -> Vec<u8> {
         let mut bytes = format!("{header}{size}\n").into_bytes();
         bytes.extend([128, 64, 32, 129, 128, 0, 0, 130]);
@@ -202,14 +203,14 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_upright_in_every_orientation() {
+    fn images_are_brought_upright_from_every_orientation() {
         for (size, expected) in [
             ("-Y 1 +X 2", ([2, 1], [LEFT, RIGHT])),
             ("+Y 1 +X 2", ([2, 1], [LEFT, RIGHT])),
             ("-Y 1 -X 2", ([2, 1], [RIGHT, LEFT])),
             ("+Y 2 +X 1", ([1, 2], [RIGHT, LEFT])),
             ("-Y 2 +X 1", ([1, 2], [LEFT, RIGHT])),
-            // Columns from the left, each from the top.
+            // Columns from left to right, each from the top.
             ("+X 2 -Y 1", ([2, 1], [LEFT, RIGHT])),
             ("-X 2 +Y 1", ([2, 1], [RIGHT, LEFT])),
             ("+X 1 +Y 2", ([1, 2], [RIGHT, LEFT])),
@@ -224,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn damage_other_colors_and_huge_sizes_are_told_apart() {
+    fn damage_unsupported_colors_and_huge_sizes_give_different_errors() {
         let why = |bytes: &[u8]| decode("a.hdr", bytes).unwrap_err();
         let xyze = why(&file("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n", "-Y 1 +X 2"));
         assert!(matches!(xyze, ImageError::Feature { .. }), "{xyze}");

@@ -1,5 +1,5 @@
-//! KTX2 textures (KTX File Format Specification 2.0): Basis Universal, which graphics cards take in a format of their own,
-//! and plain 8-bit texels. The first level becomes a picture.
+//! KTX2 textures (KTX File Format Specification 2.0): Basis Universal, which is converted to RGBA, and uncompressed 8-bit
+//! texels. The first level becomes the image.
 
 use std::io::Read;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::{Declared, ImageError, Picture, Pixels};
 pub(crate) const IDENTIFIER: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 const NAME: &str = "KTX2";
 
-/// Places of the header's numbers.
+/// Offsets of the header's fields.
 const VK_FORMAT: usize = 12;
 const SIZE: [usize; 3] = [20, 24, 28];
 const LAYERS: usize = 32;
@@ -24,12 +24,12 @@ const DESCRIPTOR: usize = 48;
 const KEY_VALUES: Range<usize> = 56..64;
 const GLOBAL_DATA: usize = 64;
 const FIRST_LEVEL: usize = 80;
-/// Places in the data format descriptor (Khronos Data Format Specification 1.3), behind its total size.
+/// Offsets in the data format descriptor (Khronos Data Format Specification 1.3), after its total size.
 const COLOR_MODEL: usize = 12;
 const TRANSFER: usize = 14;
 const TRANSFER_LINEAR: u8 = 1;
 const TRANSFER_SRGB: u8 = 2;
-/// Basis Universal has blocks of 4 × 4 texels; of UASTC each takes 16 bytes.
+/// Size of a Basis Universal block: 4 × 4 texels. In UASTC each block takes 16 bytes.
 const BLOCK_SIDE: u64 = 4;
 const UASTC_BLOCK_BYTES: u64 = 16;
 
@@ -38,7 +38,7 @@ const UASTC_BLOCK_BYTES: u64 = 16;
 enum Texels {
     Etc1s,
     Uastc,
-    /// So many 8-bit channels.
+    /// This number of 8-bit channels.
     Plain(u8),
 }
 
@@ -50,18 +50,18 @@ enum Scheme {
     Zstandard,
 }
 
-/// A texture before its texels.
+/// Header of a texture.
 struct Header {
     width: u32,
     height: u32,
     texels: Texels,
     scheme: Scheme,
     color_space: Declared,
-    /// Bytes of the first level in the file.
+    /// Byte range of the first level in the file.
     level: Range<usize>,
 }
 
-/// Checks by the header alone that [`decode_ktx2`] accepts the bytes.
+/// Checks that [`decode_ktx2`] accepts the bytes, reading only the header.
 pub(crate) fn check_ktx2(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
     let header = read_header(name, bytes)?;
     let channels = match header.texels {
@@ -71,7 +71,7 @@ pub(crate) fn check_ktx2(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageE
     Ok(DecodedSize::of_pixels([header.width, header.height], channels.into()))
 }
 
-/// The picture in a KTX2 file: RGBA, or RGB where that is stored.
+/// Decodes a KTX2 file to RGBA, or to RGB if that is stored.
 pub(crate) fn decode_ktx2(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     let header = read_header(name, bytes)?;
     let (channels, samples) = match header.texels {
@@ -87,10 +87,10 @@ pub(crate) fn decode_ktx2(name: &str, bytes: &[u8]) -> Result<Picture, ImageErro
     })
 }
 
-/// RGBA of a Basis Universal texture.
+/// Returns a Basis Universal texture as RGBA.
 fn transcoded(name: &str, bytes: &[u8]) -> Result<Vec<u8>, ImageError> {
     let contradiction = |_| damaged(name, NAME, "its contents contradict each other");
-    // Keys and values say nothing about the texels, and may be wrong in themselves.
+    // Remove keys and values: they are not needed for the texels and may be invalid.
     let mut file = bytes.to_vec();
     file[KEY_VALUES].fill(0);
     let texture = Transcoder::new(&file).map_err(contradiction)?;
@@ -99,11 +99,11 @@ fn transcoded(name: &str, bytes: &[u8]) -> Result<Vec<u8>, ImageError> {
         .map_err(contradiction)
 }
 
-/// Samples of plain texels.
+/// Returns the samples of uncompressed texels.
 fn plain(name: &str, level: &[u8], header: &Header, channels: u8) -> Result<Vec<u8>, ImageError> {
     let size = header.width as usize * header.height as usize * usize::from(channels);
     if header.scheme == Scheme::None {
-        // Its length is checked.
+        // The length was checked before.
         return Ok(level[..size].to_vec());
     }
     let frame = StreamingDecoder::new(level).map_err(|error| damaged(name, NAME, error))?;
@@ -115,26 +115,26 @@ fn plain(name: &str, level: &[u8], header: &Header, channels: u8) -> Result<Vec<
     }
 }
 
-/// The little-endian number at a place.
+/// Reads the little-endian 32-bit number at an offset.
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
     let word = bytes.get(at..)?.first_chunk()?;
     Some(u32::from_le_bytes(*word))
 }
 
-/// The little-endian number at a place.
+/// Reads the little-endian 64-bit number at an offset.
 fn long(bytes: &[u8], at: usize) -> Option<u64> {
     let long = bytes.get(at..)?.first_chunk()?;
     Some(u64::from_le_bytes(*long))
 }
 
-/// The range of the file whose start and length are at a place of the header.
+/// Reads the range of the file whose start and length are stored at an offset of the header.
 fn range(bytes: &[u8], at: usize) -> Option<Range<usize>> {
     let start = usize::try_from(long(bytes, at)?).ok()?;
     let end = start.checked_add(usize::try_from(long(bytes, at + 8)?).ok()?)?;
     (end <= bytes.len()).then_some(start..end)
 }
 
-/// Bytes of the first level once it is decompressed; 0 where nothing bounds them from below.
+/// Returns a lower bound for the bytes of the first level after decompression; 0 if there is none.
 fn first_level_bytes(texels: Texels, [width, height]: [u32; 2]) -> u64 {
     let pixels = u64::from(width) * u64::from(height);
     match texels {
@@ -143,16 +143,16 @@ fn first_level_bytes(texels: Texels, [width, height]: [u32; 2]) -> u64 {
             let blocks = [width, height].map(|side| u64::from(side).div_ceil(BLOCK_SIDE));
             blocks[0] * blocks[1] * UASTC_BLOCK_BYTES
         }
-        // Runs of blocks take less than a bit.
+        // A run of blocks can take less than a bit.
         Texels::Etc1s => 0,
     }
 }
 
-/// Storage of the texels by the number of Vulkan's format, the color model and the scheme; the error is a clause on what is not
-/// read.
+/// Returns the storage of the texels, given Vulkan's format number, the color model and the supercompression. The error is
+/// a clause about what is not supported.
 fn texels(format: u32, model: u8, scheme: Scheme) -> Result<Texels, String> {
     Ok(match (format, model, scheme) {
-        // The numbers of Vulkan: R8G8B8 and R8G8B8A8, UNORM and SRGB.
+        // Vulkan's numbers for R8G8B8 and R8G8B8A8, UNORM and SRGB.
         (23 | 29, _, Scheme::None | Scheme::Zstandard) => Texels::Plain(3),
         (37 | 43, _, Scheme::None | Scheme::Zstandard) => Texels::Plain(4),
         (0, 163, Scheme::BasisLz) => Texels::Etc1s,
@@ -196,7 +196,7 @@ fn read_header(name: &str, bytes: &[u8]) -> Result<Header, ImageError> {
     if scheme == Scheme::None && (level.len() as u64) < size {
         return Err(damaged(name, NAME, "its first level ends too early"));
     }
-    // The decoder takes memory for as many bytes as the level claims.
+    // The decoder allocates as many bytes as the level declares.
     if scheme == Scheme::Zstandard && claimed != size {
         return Err(damaged(
             name,

@@ -1,6 +1,6 @@
-//! OpenEXR files of floats, compressed block by block on all cores, the same bytes whatever the cores.
+//! OpenEXR files with floats, compressed block by block on all cores. The bytes do not depend on the number of cores.
 //!
-//! The layout is that of "OpenEXR File Layout" (openexr.com): one part, scan lines, ZIP.
+//! The layout follows "OpenEXR File Layout" (openexr.com): one part, scan lines, ZIP.
 
 use half::f16;
 use rayon::prelude::*;
@@ -10,13 +10,13 @@ use crate::ImageError;
 
 /// Rows that ZIP compresses together.
 const BLOCK_ROWS: usize = 16;
-/// Deflate's effort, 0..9: the least. Floats have few repetitions but those of the padding, which it finds as well; more effort
-/// takes twice the time for files that are smaller by a few hundredths.
+/// Compression level of deflate, 0..9: the lowest. Floats have few repetitions except for the padding, which this level
+/// finds as well. Higher levels take twice the time for files that are smaller by a few percent.
 const LEVEL: i32 = 1;
-/// The longest name that every reader takes, bytes.
+/// Maximum length of a name that every reader accepts, in bytes.
 const LONGEST_NAME: usize = 31;
 const MAGIC_AND_VERSION: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
-/// Numbers of the file format.
+/// Constants of the file format.
 const HALF: u32 = 1;
 const FLOAT: u32 = 2;
 const ZIP: u8 = 3;
@@ -25,15 +25,14 @@ const INCREASING_Y: u8 = 0;
 /// Samples of an OpenEXR file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExrSamples {
-    /// 16-bit floats: rounded, and within ±65504.
+    /// 16-bit floats, rounded and limited to ±65504.
     Half,
-    /// 32-bit floats, as they are.
+    /// 32-bit floats, unchanged.
     Float,
 }
 
-/// An OpenEXR file with lossless ZIP compression. Each channel is its name (`Y`, or `R`, `G`, `B`)
-/// and `width × height` values, row by row from the top. The file says nothing but its size and channels: no date, no
-/// program's name.
+/// Encodes an OpenEXR file with lossless ZIP compression. Each channel consists of its name (`Y`, or `R`, `G`, `B`) and `width × height`
+/// values, row by row from the top. The file contains only its size and channels, no date and no program name.
 pub fn encode_exr(
     width: u32,
     height: u32,
@@ -90,7 +89,7 @@ fn header(width: u32, height: u32, channels: &[(&str, &[f32])], samples: ExrSamp
     for (name, _) in channels {
         list.extend_from_slice(name.as_bytes());
         list.push(0);
-        // Not to be seen as logarithmic; every pixel has a sample.
+        // Linear (not logarithmic) perception, and one sample for each pixel.
         let kind = match samples {
             ExrSamples::Half => HALF,
             ExrSamples::Float => FLOAT,
@@ -125,8 +124,8 @@ fn header(width: u32, height: u32, channels: &[(&str, &[f32])], samples: ExrSamp
     header
 }
 
-/// A block as the file has it: rows, each one channel after the other; the even bytes before the odd ones; each byte as
-/// its difference from the one before; and deflated, unless that makes it longer.
+/// Converts a block to its form in the file: rows, each with one channel after the other; even bytes before odd ones; each
+/// byte as its difference from the previous one; then deflated, unless that makes it longer.
 fn compress(
     columns: usize,
     rows: std::ops::Range<usize>,
@@ -165,7 +164,7 @@ fn compress(
     Some(if deflated.len() < plain.len() { deflated } else { plain })
 }
 
-/// A float as 16 bits. Infinities would spoil filters of programs that read the file.
+/// Converts a float to 16 bits. Infinities are avoided, since they would spoil filters of programs that read the file.
 fn half(value: f32) -> f16 {
     f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
 }
@@ -176,7 +175,7 @@ mod tests {
     use crate::{Declared, Pixels, decode};
 
     #[test]
-    fn floats_come_back_bit_for_bit() {
+    fn floats_are_restored_bit_for_bit() {
         let values: Vec<f32> = (0..37 * 21).map(|i| f32::from_bits(0x3a00_0000 + i * 61_681)).collect();
         let negative: Vec<f32> = values.iter().map(|value| -value).collect();
         let gray = decode(
@@ -203,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bytes_are_the_same_twice_and_name_no_date_or_program() {
+    fn encoding_twice_gives_the_same_bytes_without_date_or_program_name() {
         let values: Vec<f32> = (0..300 * 200).map(|i| (i as f32 * 0.37).sin()).collect();
         let once = encode_exr(300, 200, &[("Y", &values)], ExrSamples::Float).unwrap();
         assert_eq!(
@@ -233,12 +232,12 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_stored_as_it_is() {
+    fn noise_is_stored_uncompressed() {
         let mut state = 1_u32;
         let values: Vec<f32> = (0..40 * 40)
             .map(|_| {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                // Any bits but those of infinities and of what is no number.
+                // Any bits except those of infinity and NaN.
                 f32::from_bits(state & 0xbfff_ffff)
             })
             .collect();
@@ -247,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_that_no_reader_takes_is_a_sentence() {
+    fn a_name_that_readers_would_refuse_is_an_error() {
         for name in ["", "a\0b", "a name of more than thirty-one bytes"] {
             let error = encode_exr(1, 1, &[(name, &[0.0])], ExrSamples::Float)
                 .unwrap_err()
@@ -257,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_number_of_values_is_a_sentence() {
+    fn a_wrong_number_of_values_is_an_error() {
         let error = encode_exr(4, 4, &[("Y", &[0.0; 15])], ExrSamples::Float).unwrap_err();
         assert_eq!(
             error.to_string(),

@@ -1,8 +1,8 @@
-//! PNG files, compressed strip by strip on all cores, the same bytes whatever the cores.
+//! PNG files, compressed strip by strip on all cores. The bytes do not depend on the number of cores.
 //!
-//! The way of a picture: [`Rows`] gives its bytes as the file orders them, a sample of the rows decides the [`method::Method`], and
-//! each strip of rows is filtered and deflated by itself and becomes an `IDAT` chunk. The strips are one zlib stream (RFC
-//! 1950): all but the last end at a byte border, and the checksum at its end is joined from theirs.
+//! [`Rows`] provides the bytes in the order of the file, a sample of the rows decides the [`method::Method`], and each
+//! strip of rows is filtered and deflated separately and becomes an `IDAT` chunk. The strips form one zlib stream (RFC
+//! 1950): all but the last end at a byte boundary, and the checksum at the end is combined from their checksums.
 
 mod choice;
 mod filter;
@@ -25,7 +25,7 @@ use crate::ImageError;
 /// Format of a PNG file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PngOptions {
-    /// 1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha.
+    /// Number of channels: 1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha.
     pub channels: u8,
     /// Bits of a sample, 8 or 16.
     pub bits: u8,
@@ -40,8 +40,8 @@ pub enum PngData<'a> {
     U8(&'a [u8]),
     /// For 16 bits, in native byte order; the file has them big-endian.
     U16(&'a [u16]),
-    /// For 8 or 16 bits, made some rows at a time, so that the samples are never in memory as a whole: fills the bytes of rows of
-    /// these numbers, 16 bits big-endian. A row may be asked for several times.
+    /// For 8 or 16 bits: rows that are computed in parts, so that the samples are never completely in memory. The function
+    /// fills in the bytes of the rows with these numbers, 16 bits big-endian. It may be called several times for a row.
     Rows(&'a (dyn Fn(Range<usize>, &mut [u8]) + Sync)),
 }
 
@@ -55,7 +55,7 @@ impl fmt::Debug for PngData<'_> {
     }
 }
 
-/// Bytes of the rows of a strip. Fixed, so that the file does not depend on the number of cores.
+/// Size of a strip in bytes. It is fixed, so that the file does not depend on the number of cores.
 const STRIP_BYTES: usize = 512 * 1024;
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// Length, name and checksum of a chunk.
@@ -63,7 +63,7 @@ const CHUNK_FRAME_BYTES: usize = 12;
 /// Deflate with a window of 32 KiB, checked header (RFC 1950).
 const ZLIB_HEADER: [u8; 2] = [0x78, 0x5e];
 
-/// A PNG file of the samples. No time, no text, no gamma: only what `options` ask for.
+/// Encodes a PNG file. It contains no time, text or gamma, only what `options` require.
 pub fn encode_png(width: u32, height: u32, data: PngData<'_>, options: PngOptions) -> Result<Vec<u8>, ImageError> {
     let refuse = |reason: String| ImageError::Encode { width, height, reason };
     check(width, height, data, options).map_err(refuse)?;
@@ -77,7 +77,7 @@ pub fn encode_png(width: u32, height: u32, data: PngData<'_>, options: PngOption
     file.extend_from_slice(&SIGNATURE);
     push_chunk(&mut file, *b"IHDR", &header(width, height, options));
     if options.srgb_chunk {
-        // Gamma and primaries, which `sRGB` implies, are left out. 0 is perceptual.
+        // Gamma and primaries are omitted, since `sRGB` implies them. 0 means perceptual.
         push_chunk(&mut file, *b"sRGB", &[0]);
     }
     for strip in strips {
@@ -110,7 +110,7 @@ fn check(width: u32, height: u32, data: PngData<'_>, options: PngOptions) -> Res
     Ok(())
 }
 
-/// Content of `IHDR`: size, depth and kind of color; deflate, filters by row, not interlaced.
+/// Returns the content of `IHDR`: size, bit depth and color type; deflate, filters by row, not interlaced.
 fn header(width: u32, height: u32, options: PngOptions) -> [u8; 13] {
     let color = match options.channels {
         1 => 0,
@@ -123,7 +123,7 @@ fn header(width: u32, height: u32, options: PngOptions) -> [u8; 13] {
     [a, b, c, d, e, f, g, h, options.bits, color, 0, 0, 0]
 }
 
-/// Strips of a picture, of which the first begins and the last ends the zlib stream.
+/// Compresses the strips of an image. The first starts the zlib stream and the last ends it.
 fn compress(rows: &Rows<'_>) -> Option<Vec<Strip>> {
     let method = chosen_method(rows)?;
     let rows_per_strip = (STRIP_BYTES / (rows.row_bytes + 1)).max(1);

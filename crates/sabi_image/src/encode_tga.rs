@@ -5,8 +5,8 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::ImageError;
 
-/// A TGA file with run lengths. `codes` has one, three or four components for each of `width × height` pixels, row by row from
-/// the top, interleaved. The format has no place for a color space.
+/// Encodes a TGA file with run-length compression. `codes` has one, three or four components for each of `width × height`
+/// pixels, row by row from the top, interleaved. The format cannot declare a color space.
 pub fn encode_tga(width: u32, height: u32, channels: u8, codes: &[u8]) -> Result<Vec<u8>, ImageError> {
     let refuse = |reason: String| ImageError::Encode { width, height, reason };
     let color = match channels {
@@ -19,7 +19,7 @@ pub fn encode_tga(width: u32, height: u32, channels: u8, codes: &[u8]) -> Result
     if codes.len() as u64 != expected || expected == 0 {
         return Err(refuse(format!("it has {} codes instead of {expected}", codes.len())));
     }
-    // The header holds sizes of 16 bits.
+    // The header stores sizes with 16 bits.
     if width.max(height) > u32::from(u16::MAX) {
         return Err(refuse(format!("a TGA file has at most {} pixels a side", u16::MAX)));
     }
@@ -35,7 +35,7 @@ mod tests {
     use crate::{Pixels, decode};
 
     #[test]
-    fn codes_come_back_from_the_top_as_they_were() {
+    fn codes_are_restored_exactly_from_the_top() {
         for channels in [1_u8, 3, 4] {
             let codes: Vec<u8> = (0..5 * 3 * u32::from(channels))
                 .map(|at| (at * 37 % 256) as u8)
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_format_cannot_hold_is_a_sentence() {
+    fn sizes_and_channels_that_the_format_cannot_hold_are_errors() {
         let told = |channels: u8, codes: &[u8]| encode_tga(2, 1, channels, codes).unwrap_err().to_string();
         assert_eq!(
             told(2, &[0; 4]),

@@ -1,34 +1,34 @@
-//! Errors of decoding and encoding pictures.
+//! Errors of decoding and encoding images.
 
 use thiserror::Error;
 
-/// Reason why a picture could not be decoded or encoded.
+/// Reason why an image could not be decoded or encoded.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ImageError {
-    /// The file holds nothing at all.
+    /// The file is empty.
     #[error("{name} is empty; check that it was saved or copied completely")]
     Empty {
         /// Name as given by the caller.
         name: String,
     },
-    /// A kind of picture that is not read.
+    /// A kind of image that is not supported.
     #[error(
         "{name} is {kind}, which Sabi does not read; save it as PNG, JPEG, WebP, TGA, BMP, HDR or OpenEXR and use that file"
     )]
     Unsupported {
         /// Name as given by the caller.
         name: String,
-        /// With its article: `a TIFF picture`.
+        /// Kind of the image with its article: `a TIFF picture`.
         kind: String,
     },
-    /// The right kind of file with something in it that is not read.
+    /// A supported kind of file that contains an unsupported feature.
     #[error("{name} cannot be used: {feature}; save it again as a plain {format} file")]
     Feature {
         /// Name as given by the caller.
         name: String,
         /// `PNG`, `OpenEXR`…
         format: &'static str,
-        /// Feature that is not read.
+        /// Feature that is not supported.
         feature: String,
     },
     /// The file contradicts itself or ends early.
@@ -41,7 +41,7 @@ pub enum ImageError {
         /// Message of the decoder.
         detail: String,
     },
-    /// More pixels than are read.
+    /// More pixels than are supported.
     #[error(
         "{name} claims {width} × {height} pixels; pictures of up to 16384 × 16384 and 1 GiB decoded are read, so make it smaller"
     )]
@@ -58,27 +58,27 @@ pub enum ImageError {
     Layer {
         /// Name as given by the caller.
         name: String,
-        /// Layer that was asked for.
+        /// Layer that was requested.
         asked: String,
         /// Layers of the file.
         layers: Vec<String>,
     },
-    /// The numbers given to an encoder do not make the picture that was asked for.
+    /// The numbers given to an encoder do not form the requested image.
     #[error("cannot encode a {width} × {height} picture: {reason}")]
     Encode {
-        /// Width asked for, pixels.
+        /// Requested width, pixels.
         width: u32,
-        /// Height asked for, pixels.
+        /// Requested height, pixels.
         height: u32,
         /// Contradiction between size and samples.
         reason: String,
     },
 }
 
-/// Most layers that a sentence names.
+/// Maximum number of layers that a message lists.
 const NAMED_LAYERS: usize = 12;
 
-/// Returns names of layers as a list in a sentence, of many only the first.
+/// Formats names of layers as a list in a sentence. Of many names only the first are listed.
 pub fn listed_layers(layers: &[String]) -> String {
     let named = layers.iter().take(NAMED_LAYERS).map(String::as_str).collect::<Vec<_>>();
     let named = named.join(", ");
@@ -88,7 +88,7 @@ pub fn listed_layers(layers: &[String]) -> String {
     }
 }
 
-/// Layers of a file as half a sentence.
+/// Formats the layers of a file as a clause.
 fn layers_there(layers: &[String]) -> String {
     match layers.is_empty() {
         true => "only OpenEXR files have layers, so leave the name empty".to_owned(),
@@ -96,10 +96,10 @@ fn layers_there(layers: &[String]) -> String {
     }
 }
 
-/// The error of a damaged file, with the words of its decoder.
+/// Returns the error for a damaged file, with the message of its decoder.
 pub(crate) fn damaged(name: &str, format: &'static str, detail: impl ToString) -> ImageError {
     let mut detail = detail.to_string().trim_end_matches('.').to_owned();
-    // The PNG decoder prints a chunk as a Rust value; its name is enough.
+    // The PNG decoder prints a chunk as a Rust value. Only the name is kept.
     const BEFORE_NAME: &str = "ChunkType { type: ";
     while let Some(start) = detail.find(BEFORE_NAME) {
         let Some(length) = detail[start..].find('}') else { break };

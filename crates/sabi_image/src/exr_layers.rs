@@ -1,8 +1,8 @@
-//! Layers of an OpenEXR file: channels that belong together by the part that they are in and by the prefix of their names.
+//! Layers of an OpenEXR file: channels of one part that have the same prefix.
 
 use std::collections::BTreeMap;
 
-/// Last parts of the names of layers that hold the finished picture, as renderers write them, in lower case.
+/// Last parts of the names of layers that contain the finished image, as renderers write them, in lower case.
 const FINISHED: [&str; 9] = [
     "beauty",
     "combined",
@@ -15,35 +15,35 @@ const FINISHED: [&str; 9] = [
     "image",
 ];
 
-/// Start of the names of layers of hashes (Cryptomatte specification 1.2), which are no picture, in lower case.
+/// Start of the names of layers with hashes (Cryptomatte specification 1.2), which are not images, in lower case.
 const HASHES: &str = "crypto";
 
-/// Channels of a part of a file in the file's order, and the name of the part, if it has one.
+/// Channels of a part of a file, in the file's order, and the name of the part, if it has one.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Part {
     pub(crate) name: Option<String>,
     pub(crate) channels: Vec<String>,
 }
 
-/// Channels that make a picture, as indices into the channels of a part.
+/// Channels that form an image, as indices into the channels of a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ExrLayer {
-    /// Name as artists know it, such as `beauty` or `ViewLayer.Combined`; the channels, as in `RGBA`, where they have no prefix and
-    /// their part has no name.
+    /// Name as artists know it, such as `beauty` or `ViewLayer.Combined`. If the channels have no prefix and the part has
+    /// no name, the name is that of the channels, such as `RGBA`.
     pub(crate) name: String,
     /// Number of the part.
     pub(crate) part: usize,
-    /// Channels of the picture in their order; none is 0 everywhere.
+    /// Channels of the image in order. `None` stands for a channel that is 0 everywhere.
     pub(crate) channels: Vec<Option<usize>>,
     rank: Rank,
 }
 
-/// Order in which layers are chosen where none is asked for.
+/// Order in which layers are chosen if none is requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Rank {
     /// Color without a prefix.
     Plain,
-    /// Color of a layer named like the finished picture.
+    /// Color of a layer with the name of a finished image.
     Finished,
     Color,
     Luminance,
@@ -53,11 +53,11 @@ enum Rank {
     Hashes,
 }
 
-/// Lists the layers of a file that make a picture, the one that is chosen by default first.
+/// Lists the layers of a file that form an image, the default layer first.
 pub(crate) fn layers(parts: &[Part]) -> Vec<ExrLayer> {
     let mut layers: Vec<ExrLayer> = Vec::new();
     for (number, part) in parts.iter().enumerate() {
-        // Prefixes in the order of the file, which is that of the alphabet.
+        // Prefixes in the order of the file, which is alphabetical.
         let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (index, channel) in part.channels.iter().enumerate() {
             let prefix = channel.rsplit_once('.').map_or("", |(prefix, _)| prefix);
@@ -67,12 +67,12 @@ pub(crate) fn layers(parts: &[Part]) -> Vec<ExrLayer> {
             layers.extend(layers_of_group(number, part, prefix, &indices));
         }
     }
-    // Stable: equals keep the order of the file.
+    // The sort is stable: layers of the same rank keep the order of the file.
     layers.sort_by_key(|layer| layer.rank);
     layers
 }
 
-/// Layers of the channels with one prefix: a picture, and every channel that it leaves out as one of its own.
+/// Returns the layers of the channels with one prefix: an image, and each remaining channel as a layer of its own.
 fn layers_of_group(number: usize, part: &Part, prefix: &str, indices: &[usize]) -> Vec<ExrLayer> {
     let last_of = |index: usize| {
         let name = part.channels[index].as_str();
@@ -85,7 +85,7 @@ fn layers_of_group(number: usize, part: &Part, prefix: &str, indices: &[usize]) 
     let (red, green, blue) = (find(&["R", "red"]), find(&["G", "green"]), find(&["B", "blue"]));
     let alpha = find(&["A", "alpha"]);
     let (x, y, z) = (find(&["X"]), find(&["Y"]), find(&["Z"]));
-    let own_name = part.name.as_deref().unwrap_or_default(); // A part without a name gives its layers none.
+    let own_name = part.name.as_deref().unwrap_or_default(); // A part without a name contributes nothing to the names of its layers.
     let name = if prefix.is_empty() { own_name } else { prefix };
     let is_finished = |name: &str| {
         let last = name.rsplit(['.', '/']).next().unwrap_or(name);
@@ -93,7 +93,7 @@ fn layers_of_group(number: usize, part: &Part, prefix: &str, indices: &[usize]) 
     };
     let is_hash = name.to_ascii_lowercase().starts_with(HASHES);
     let (rank, mut channels) = match (red, green, blue) {
-        // Two colors, as of a flow, have no third.
+        // Two of the three colors, as in an optical flow; the third does not exist.
         (Some(_), Some(_), _) | (Some(_), _, Some(_)) | (_, Some(_), Some(_)) => {
             let rank = match name {
                 _ if is_hash => Rank::Hashes,
@@ -107,7 +107,7 @@ fn layers_of_group(number: usize, part: &Part, prefix: &str, indices: &[usize]) 
             (Some(_), Some(_), _) => (Rank::Vector, vec![x, y, z]),
             (None, Some(luminance), _) => (Rank::Luminance, vec![Some(luminance)]),
             _ => {
-                // A lone channel of any name, such as depth, and the single color of a mask.
+                // A single channel with any name, such as depth, or the single color of a mask.
                 let lone = red
                     .or(green)
                     .or(blue)
@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// Name and channels of each layer, `-` for a channel that the file lacks.
+    /// Returns name and channels of each layer, with `-` for a channel that the file does not have.
     fn listed(parts: &[Part]) -> Vec<String> {
         let of_layer = |layer: ExrLayer| {
             let channels = layer.channels.iter().map(|channel| match channel {
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn components_come_from_one_layer_and_the_finished_picture_goes_first() {
+    fn components_come_from_one_layer_and_the_finished_image_comes_first() {
         let cases: [(&[&str], &[&str]); 9] = [
             (&["A", "B", "G", "R"], &["RGBA: R G B A"]),
             (
@@ -193,7 +193,7 @@ mod tests {
                     "View.Depth: View.Depth.Z",
                 ],
             ),
-            // A plain channel does not complete the colors of a layer.
+            // A channel without a prefix does not complete the colors of a layer.
             (
                 &["R", "diffuse.B", "diffuse.G"],
                 &["diffuse: - diffuse.G diffuse.B", "R: R"],
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_give_their_names_to_channels_without_a_prefix() {
+    fn parts_name_the_layers_of_channels_without_a_prefix() {
         let parts = [
             part(Some("depth"), &["Z"]),
             part(Some("diffuse"), &["B", "G", "R"]),

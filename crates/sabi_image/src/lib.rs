@@ -1,13 +1,13 @@
-//! Pictures in and out: PNG, EXR, HDR, color spaces, dithering.
+//! Decoding and encoding of images: PNG, EXR, HDR and others, color spaces, dithering.
 //!
-//! [`decode`] turns the bytes of a picture file into a [`Picture`], and [`check_header`] tells early whether it may;
-//! [`encode_png`] and [`encode_exr`] turn numbers into the bytes of a file.
+//! [`decode`] converts the bytes of an image file to a [`Picture`], and [`check_header`] checks beforehand whether it can.
+//! [`encode_png`] and [`encode_exr`] convert numbers to the bytes of a file.
 //!
 //! Invariants:
-//! * Nothing here opens files or knows what a picture is used for.
+//! * Nothing here opens files or knows the purpose of an image.
 //! * The same numbers give the same bytes, on every machine and any number of threads.
-//! * A picture's size is checked before memory is taken for it.
-//! * sRGB is decoded and encoded here and nowhere else on the processor.
+//! * The size of an image is checked before memory is allocated for it.
+//! * On the CPU, sRGB is decoded and encoded only here.
 //!
 //! ```
 //! use sabi_image::{Pixels, PngData, PngOptions, decode, encode_png, srgb8_from_linear};

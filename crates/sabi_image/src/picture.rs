@@ -1,4 +1,4 @@
-//! Decoded pictures and their conversion to linear values.
+//! Decoded images and their conversion to linear values.
 
 use std::sync::OnceLock;
 
@@ -12,29 +12,30 @@ pub enum Declared {
     Srgb,
     /// Proportional to light.
     Linear,
-    /// None is declared, as in most files.
+    /// No color space is declared, as in most files.
     Unknown,
 }
 
-/// Samples of a picture, row by row from the top, channels interleaved.
+/// Samples of an image, row by row from the top, channels interleaved.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pixels {
-    /// 255 counts as 1.
+    /// 8-bit codes; 255 stands for 1.
     U8(Vec<u8>),
-    /// 65535 counts as 1, native byte order.
+    /// 16-bit codes in native byte order; 65535 stands for 1.
     U16(Vec<u16>),
     /// The numbers themselves.
     F32(Vec<f32>),
 }
 
-/// A decoded picture.
+/// A decoded image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Pixels across.
+    /// Width in pixels.
     pub width: u32,
-    /// Pixels down.
+    /// Height in pixels.
     pub height: u32,
-    /// 1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha (never premultiplied, except as an OpenEXR file has it).
+    /// Number of channels: 1 gray, 2 gray and alpha, 3 RGB, 4 RGB and alpha (not premultiplied, except in OpenEXR files,
+    /// whose values are kept).
     pub channels: u8,
     /// `width × height × channels` samples.
     pub pixels: Pixels,
@@ -42,18 +43,18 @@ pub struct Picture {
     pub color_space: Declared,
 }
 
-/// A picture as linear RGBA.
+/// An image as linear RGBA.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearPicture {
-    /// Pixels across.
+    /// Width in pixels.
     pub width: u32,
-    /// Pixels down.
+    /// Height in pixels.
     pub height: u32,
-    /// Row by row from the top; gray is repeated, a missing alpha is 1.
+    /// Pixels, row by row from the top. Gray is repeated, and a missing alpha is 1.
     pub rgba: Vec<[f32; 4]>,
 }
 
-/// Values of all 8-bit codes: as they are, and through the sRGB curve.
+/// Values of all 8-bit codes, without and with the sRGB curve.
 struct Table8 {
     plain: [f32; 256],
     srgb: [f32; 256],
@@ -82,8 +83,8 @@ fn table16(as_srgb: bool) -> &'static [f32] {
 }
 
 impl Picture {
-    /// The picture as linear RGBA; `as_srgb` undoes the sRGB curve on everything but alpha. Codes go through tables whose
-    /// entries are the correctly rounded values, so 255 and 65535 are exactly 1.
+    /// Returns the image as linear RGBA. If `as_srgb` is true, the sRGB curve is inverted for all channels but alpha. Codes
+    /// are converted by tables of correctly rounded values, so that 255 and 65535 are exactly 1.
     pub fn linear_rgba(&self, as_srgb: bool) -> LinearPicture {
         let channels = usize::from(self.channels);
         let rgba = match &self.pixels {
@@ -166,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn gray_is_repeated_and_alpha_never_goes_through_the_curve() {
+    fn gray_is_repeated_and_the_curve_is_not_applied_to_alpha() {
         let half = linear_from_srgb_f64(128.0 / 255.0) as f32;
         assert_eq!(
             picture(1, Pixels::U8(vec![128])).linear_rgba(true).rgba[0],

@@ -1,23 +1,23 @@
-//! Quantization of floats to integer codes: rounding half up, and at other thresholds for dithering.
+//! Quantization of floats to integer codes: rounding half up, or with other thresholds for dithering.
 
 use crate::blue_noise::DitherPattern;
 
-/// Share of the way to the next code from which on plain rounding takes it.
+/// Threshold of plain rounding, as a share of the distance to the next code.
 const HALF: f64 = 0.5;
 
-/// Code of a value: clamped to 0..1, times 255, rounded half up; not-a-number gives 0.
+/// Returns the code of a value: clamped to 0..1, times 255, rounded half up. NaN gives 0.
 pub fn quantize_u8(value: f32) -> u8 {
     rounded(level(value, 255.0)) as u8
 }
 
-/// Code of a value: clamped to 0..1, times 65535, rounded half up; not-a-number gives 0.
+/// Returns the code of a value: clamped to 0..1, times 65535, rounded half up. NaN gives 0.
 pub fn quantize_u16(value: f32) -> u16 {
     rounded(level(value, 65535.0)) as u16
 }
 
-/// A value in codes, before it is rounded to one: clamped to 0..1, times the highest code; not-a-number gives 0.
+/// Returns a value in units of codes, before rounding: clamped to 0..1, times the highest code. NaN gives 0.
 ///
-/// It is a float, so that 0.7, which is no exact float, gives 178.5 of 255 and is rounded up.
+/// The result is a float, so that 0.7, which is not an exact float, gives 178.5 of 255 and is rounded up.
 #[inline]
 #[expect(
     clippy::manual_clamp,
@@ -27,43 +27,43 @@ pub fn level(value: f32, highest: f32) -> f32 {
     value.max(0.0).min(1.0) * highest
 }
 
-/// Code of a level, rounded half up.
+/// Returns the code of a level, rounded half up.
 #[inline]
 pub fn rounded(level: f32) -> u32 {
     code(level, HALF)
 }
 
-/// Never negative, so that cutting off is rounding down.
+/// Returns the code of a level, which is never negative, so that truncation rounds down.
 #[inline]
 fn code(level: f32, threshold: f64) -> u32 {
     (f64::from(level) + threshold) as u32
 }
 
-/// Thresholds at which the levels of a row of pixels round up, spread evenly over the picture, so that gradients show no steps.
-/// A level that is a code stays that code.
+/// Thresholds at which the levels of a row of pixels are rounded up. They are evenly distributed over the image, so that
+/// gradients show no steps. A level that is exactly a code keeps that code.
 #[derive(Clone, Copy, Debug)]
 pub struct DitheredRow {
-    /// They repeat.
+    /// Thresholds, which repeat along the row.
     thresholds: [f64; DitherPattern::SIDE],
 }
 
 impl DitheredRow {
-    /// Thresholds of a row for values whose exact codes are exact in floats but for their rounding: 8 bits.
+    /// Creates the thresholds of a row for values of 8 bits, whose floats are exact except for rounding.
     pub fn new(pattern: DitherPattern, y: u32) -> DitheredRow {
         DitheredRow {
             thresholds: std::array::from_fn(|x| f64::from(pattern.threshold(x as u32, y))),
         }
     }
 
-    /// Thresholds of a row that keep away from the ends: for 16 bits, and for values after the sRGB curve, which floats represent
-    /// with a larger error.
+    /// Creates the thresholds of a row with a larger distance from 0 and 1: for 16 bits, and for values with the sRGB
+    /// curve, which floats represent with a larger error.
     pub fn inner(pattern: DitherPattern, y: u32) -> DitheredRow {
         DitheredRow {
             thresholds: std::array::from_fn(|x| pattern.inner_threshold(x as u32, y)),
         }
     }
 
-    /// Code of the level of a pixel of the row.
+    /// Returns the code of the level of a pixel in the row.
     #[inline]
     pub fn code(&self, level: f32, x: usize) -> u32 {
         code(level, self.thresholds[x % DitherPattern::SIDE])
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn halves_round_up_and_ends_are_clamped() {
+    fn halves_are_rounded_up_and_values_outside_are_clamped() {
         let cases = [
             (0.0, 0),
             (1.0, 255),
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn dithering_leaves_every_exact_code_alone() {
+    fn dithering_does_not_change_exact_codes() {
         for y in 0..64 {
             let row = DitheredRow::new(pattern(), y);
             for code in 0..=255 {
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn dithering_of_16_bits_leaves_every_exact_code_alone() {
+    fn dithering_of_16_bits_does_not_change_exact_codes() {
         for y in 0..16 {
             let row = DitheredRow::inner(pattern(), y);
             for code in (0..=65535).step_by(13) {
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn dithering_keeps_the_mean_and_moves_no_pixel_by_more_than_one_code() {
+    fn dithering_keeps_the_mean_and_changes_no_pixel_by_more_than_one_code() {
         for value in [0.1, 0.3333, 0.5, 0.7001953, 0.9] {
             let mut sum = 0.0;
             for y in 0..128 {

@@ -1,23 +1,23 @@
-//! Largest pictures that are read.
+//! Limits for the size of images that are read.
 
 use crate::ImageError;
 
-/// Longest side that is read, pixels.
+/// Maximum side length, pixels.
 pub const MAX_SIDE: u32 = 16384;
-/// Most bytes that a picture may take once decoded.
+/// Maximum size of a decoded image in bytes.
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 
-/// Size of a picture once decoded.
+/// Size of a decoded image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DecodedSize {
-    /// Memory of its samples, bytes.
+    /// Size of its samples in bytes.
     pub bytes: u64,
-    /// Pixels.
+    /// Number of pixels.
     pub pixels: u64,
 }
 
 impl DecodedSize {
-    /// Returns the size of a picture of `width` × `height` pixels of so many bytes.
+    /// Returns the size of an image of `width` × `height` pixels with this many bytes each.
     pub(crate) fn of_pixels([width, height]: [u32; 2], pixel_bytes: u64) -> DecodedSize {
         let pixels = u64::from(width) * u64::from(height);
         DecodedSize {
@@ -27,7 +27,7 @@ impl DecodedSize {
     }
 }
 
-/// Rejects unsupported sizes before anything is allocated for them.
+/// Rejects unsupported sizes before any memory is allocated.
 pub(crate) fn check_size(name: &str, width: u64, height: u64, pixel_bytes: u64) -> Result<(), ImageError> {
     let bytes = width
         .checked_mul(height)

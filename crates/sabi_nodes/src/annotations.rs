@@ -14,10 +14,10 @@ pub(crate) struct Word {
     pub(crate) range: Range<usize>,
 }
 
-/// An annotation with its words.
+/// An annotation with the words after it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Annotation {
-    /// Without the `@`.
+    /// Name without the `@`.
     pub(crate) name: String,
     /// Place of `@name`.
     pub(crate) range: Range<usize>,
@@ -31,10 +31,10 @@ impl Annotation {
         words.join(" ")
     }
 
-    /// Place of the annotation with its words.
+    /// Returns the place of the annotation including its words.
     pub(crate) fn whole(&self) -> Range<usize> {
         match self.words.last() {
-            // On the annotation's own line only: a marked range ends with the line.
+            // Only the words on the annotation's own line: a marked range ends with the line.
             Some(last) => self.range.start..last.range.end,
             None => self.range.clone(),
         }
@@ -110,7 +110,7 @@ impl DocComment {
         read
     }
 
-    /// The prose as paragraphs: lines joined, empty lines between paragraphs kept.
+    /// Returns the prose as paragraphs: lines are joined, and empty lines between paragraphs are kept.
     pub(crate) fn prose(&self) -> String {
         let mut text = String::new();
         for line in &self.lines {
@@ -129,7 +129,7 @@ impl DocComment {
         text.trim_end().to_owned()
     }
 
-    /// Refuses annotations that are not in `known`, and repeated ones that are in `once`.
+    /// Refuses annotations that are not in `known`, and annotations in `once` that are repeated.
     pub(crate) fn check(&self, text: Text<'_>, known: &[&str], once: &[&str], faults: &mut Vec<Fault>) {
         let mut seen = BTreeSet::new();
         for annotation in &self.annotations {
@@ -162,7 +162,7 @@ impl DocComment {
     }
 }
 
-/// Fault of an annotation that is not known in its place.
+/// Returns the fault of an annotation that is not allowed at its place.
 pub(crate) fn unknown_annotation(text: Text<'_>, annotation: &Annotation, known: &[&str]) -> Fault {
     let everywhere = HEADER_ANNOTATIONS
         .iter()

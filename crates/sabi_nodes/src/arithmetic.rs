@@ -1,20 +1,21 @@
-//! Arithmetic as people type it: numbers, signs, powers, functions, names and units.
+//! Arithmetic as users type it: numbers, signs, powers, functions, names and units.
 //!
-//! Annotations of nodes (`@repeat ceil(params.width / texel)`) and the number fields of the editor (`2 * 3.4 cm`) share
-//! this grammar. They define the names, functions and units.
+//! Annotations of nodes (`@repeat ceil(params.width / texel)`) and number fields of the editor (`2 * 3.4 cm`) share this
+//! grammar. Each of them defines which names, functions and units exist.
 
 #[cfg(test)]
 mod tests;
 
-/// Deepest nesting of signs and parentheses, which limits the use of the stack.
+/// Maximum nesting of signs and parentheses, which limits the use of the stack.
 pub const DEPTH_LIMIT: u32 = 64;
 
-/// Syntax tree of an arithmetic text. Chains are flat, so that its depth is limited like the nesting of the text.
+/// Syntax tree of an arithmetic text. A chain of sums or products is one flat node, so the tree is only as deep as the
+/// parentheses are nested.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expression {
     /// A number.
     Number(f64),
-    /// A name that no parenthesis follows.
+    /// A name that is not a function.
     Name(Word),
     /// A function with its arguments.
     Call(Word, Vec<Expression>),
@@ -75,24 +76,24 @@ pub struct SyntaxError {
 pub enum SyntaxErrorKind {
     /// The text ends where a number is missing.
     UnexpectedEnd,
-    /// Something stands where a number is missing.
+    /// Something else is found where a number is expected.
     ExpectedNumber(String),
-    /// Something stands behind a complete expression.
+    /// Something follows a complete expression.
     TrailingText(String),
-    /// Something stands where a parenthesis should close.
+    /// Something else is found where a closing parenthesis is expected.
     ExpectedParenthesis(String),
     /// A parenthesis is not closed.
     UnclosedParenthesis,
-    /// Digits and points that are not a number.
+    /// Digits and points that do not form a number.
     BadNumber(String),
     /// Signs and parentheses are nested more than [`DEPTH_LIMIT`] deep.
     TooDeep,
 }
 
 impl Expression {
-    /// Reads a text, from the character at `start` (counted from 0) on.
+    /// Reads a text, starting at the character with index `start` (counted from 0).
     pub fn read(text: &str, start: usize, syntax: Syntax) -> Result<Expression, SyntaxError> {
-        // Word processors replace the hyphen by a minus sign.
+        // Word processors replace hyphens by minus signs.
         let letters = text.chars().map(|letter| if letter == '−' { '-' } else { letter });
         let mut reader = Reader {
             letters: letters.collect(),
@@ -107,7 +108,7 @@ impl Expression {
         }
     }
 
-    /// Number of numbers, names and functions in it.
+    /// Returns the number of numbers, names and functions in the expression.
     pub fn terms(&self) -> usize {
         match self {
             Expression::Number(_) | Expression::Name(_) => 1,
@@ -145,7 +146,7 @@ impl Reader {
         }
     }
 
-    /// A unit is that of everything in front of it: 1/2 cm is half a centimeter.
+    /// Reads a product. A unit applies to everything in front of it: 1/2 cm is half a centimeter.
     fn product(&mut self) -> Read {
         let mut first = self.signed()?;
         let mut rest = Vec::new();
@@ -167,7 +168,7 @@ impl Reader {
         }
     }
 
-    /// A sign binds less than a power: -2^2 is -4.
+    /// Reads a term with a sign. A sign binds more loosely than a power: -2^2 is -4.
     fn signed(&mut self) -> Read {
         match self.peek() {
             Some('-') => {
@@ -179,7 +180,7 @@ impl Reader {
         }
     }
 
-    /// From right to left: 2^3^2 is 2^9.
+    /// Reads a power. Powers are evaluated from right to left: 2^3^2 is 2^9.
     fn power(&mut self) -> Read {
         let base = self.single()?;
         match self.peek() {
@@ -225,7 +226,7 @@ impl Reader {
     fn number(&mut self) -> Read {
         let begin = self.at;
         self.take_while(|letter| letter.is_ascii_digit() || letter == '.');
-        // An exponent, unless the e begins a word.
+        // An `e` starts an exponent, unless it is the start of a word.
         if matches!(self.letters.get(self.at), Some('e' | 'E')) {
             let signed = usize::from(matches!(self.letters.get(self.at + 1), Some('+' | '-')));
             if self.letters.get(self.at + 1 + signed).is_some_and(char::is_ascii_digit) {
@@ -260,7 +261,7 @@ impl Reader {
         Ok(arguments)
     }
 
-    /// Reads what follows the sign or parenthesis at this place.
+    /// Skips the sign or parenthesis at the current place, and reads what follows one level deeper.
     fn after_sign<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, SyntaxError>) -> Result<T, SyntaxError> {
         self.at += 1;
         read(self)
@@ -276,7 +277,7 @@ impl Reader {
         Ok(result)
     }
 
-    /// Next character that is not blank.
+    /// Returns the next character that is not blank.
     fn peek(&mut self) -> Option<char> {
         self.take_while(char::is_whitespace);
         self.letters.get(self.at).copied()
@@ -301,7 +302,7 @@ impl Reader {
         SyntaxError { at: self.at + 1, kind }
     }
 
-    /// An error with the name, the digits or the sign at this place.
+    /// Returns an error that quotes the name, number or sign at the current place.
     fn error_at_token(&mut self, kind: fn(String) -> SyntaxErrorKind) -> SyntaxError {
         let begin = self.at;
         let is_in_name = self.syntax.is_in_name;

@@ -2,12 +2,12 @@
 
 use sabi_color::linear_from_srgb8;
 
-/// Code of a color, as graph files hold it: `#6b3a1e`.
+/// Returns the code of a color, as stored in graph files: `#6b3a1e`.
 pub fn color_code([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// sRGB components of `#rrggbb`; `None` when the text is not of that form.
+/// Returns the sRGB components of `#rrggbb`; `None` if the text does not have that form.
 pub(crate) fn color_srgb8(code: &str) -> Option<[u8; 3]> {
     let digits = code.strip_prefix('#').filter(|digits| digits.len() == 6)?;
     if !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
@@ -17,10 +17,10 @@ pub(crate) fn color_srgb8(code: &str) -> Option<[u8; 3]> {
     Some([r, g, b])
 }
 
-/// sRGB components of a color as people type it: `#6b3a1e` or `#fff`, with or without the `#`.
+/// Reads a color as users type it: `#6b3a1e` or `#fff`, with or without the `#`. Returns sRGB components.
 pub fn typed_color(text: &str) -> Option<[u8; 3]> {
     let digits = text.trim();
-    let digits = digits.strip_prefix('#').unwrap_or(digits); // The sign is optional.
+    let digits = digits.strip_prefix('#').unwrap_or(digits); // The `#` is optional.
     match digits.len() {
         3 => color_srgb8(&format!(
             "#{}",
@@ -30,7 +30,7 @@ pub fn typed_color(text: &str) -> Option<[u8; 3]> {
     }
 }
 
-/// Linear RGB of `#rrggbb` (sRGB); `None` when the text is not of that form.
+/// Returns linear RGB for `#rrggbb` (sRGB); `None` if the text does not have that form.
 pub fn color_linear(code: &str) -> Option<[f32; 3]> {
     color_srgb8(code).map(linear_from_srgb8)
 }
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_reads_back_as_itself() {
+    fn every_color_code_is_read_back_unchanged() {
         for code in 0..=255 {
             let srgb = [code, 255 - code, code ^ 0x55];
             assert_eq!(linear_from_srgb8(srgb).map(sabi_color::srgb8_from_linear), srgb);
@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn a_color_is_read_as_people_type_it() {
+    fn colors_are_accepted_in_all_forms_that_users_type() {
         for text in ["#6b3a1e", "6B3A1E", " #6b3a1e "] {
             assert_eq!(typed_color(text), Some([0x6b, 0x3a, 0x1e]));
         }
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_holds_a_color_in_one_form_only() {
+    fn only_one_form_of_color_is_accepted_in_files() {
         for text in ["6b3a1e", "#fff", " #6b3a1e", "##6b3a1"] {
             assert_eq!(color_srgb8(text), None, "{text}");
         }

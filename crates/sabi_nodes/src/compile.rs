@@ -12,7 +12,7 @@ use crate::link::uses::{SharedHeader, Uses};
 use crate::shader_files::{CORE, Libraries, shared_path};
 use crate::source_file::FILE_LIMIT_BYTES;
 
-/// Links a node's text, `core`, and the libraries in order: line 12 of an error is line 12 of the file.
+/// Links a node's text with `core` and these libraries. The node comes first, so that line 12 in an error is line 12 of the file.
 pub(crate) fn link_with_libraries(node: Text<'_>, used: &[String], libraries: &Libraries) -> LinkedModule {
     let mut linked = LinkedModule::default();
     linked.push_node(node.path, node.text);
@@ -25,7 +25,7 @@ pub(crate) fn link_with_libraries(node: Text<'_>, used: &[String], libraries: &L
     linked
 }
 
-/// Finds the libraries that a file uses directly or through others, in the order of first use, without `core`.
+/// Lists the libraries that a file uses, directly or through others, in the order of first use, without `core`.
 pub(crate) fn used_libraries(
     text: Text<'_>,
     uses: &[Word],
@@ -39,7 +39,7 @@ pub(crate) fn used_libraries(
     closure.names
 }
 
-/// Checks that a library compiles with `core` and what it uses.
+/// Checks that a library compiles together with `core` and the libraries that it uses.
 pub(crate) fn check_library(name: &str, libraries: &Libraries) -> Result<(), Fault> {
     let path = shared_path(name);
     let Some(library) = libraries.text(name) else {
@@ -58,7 +58,7 @@ pub(crate) fn check_library(name: &str, libraries: &Libraries) -> Result<(), Fau
     let header = SharedHeader::read(text, &mut faults);
     let mut used = used_libraries(text, &header.uses, libraries, &mut faults);
     first(faults)?;
-    // The library itself is the first text, so that it is not linked twice.
+    // The library itself is linked as the first text and must not be linked twice.
     used.retain(|used| used != name);
     let linked = if name == CORE {
         let mut linked = LinkedModule::default();

@@ -1,9 +1,9 @@
-//! Curves as shaders read them.
+//! Curves in the form that shaders read.
 
 use sabi_curve::with_slopes;
 
-/// Components in WGSL of a curve through `points` (x, y; x ascending): x, y, slope ([`with_slopes`]) and 1 for each of them, then the
-/// last point with 0, up to `room` points. Without points the curve is 0 everywhere.
+/// Returns the components in WGSL of a curve through `points` (x, y; x ascending): for each point x, y, slope ([`with_slopes`]) and 1. The
+/// remaining points up to `room` repeat the last point, with 0 in place of 1. A curve without points is 0 everywhere.
 pub fn curve_points(points: &[[f32; 2]], room: usize) -> Vec<f32> {
     let wide: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::from)).collect();
     let slopes = with_slopes(&wide).into_iter().map(|[.., slope]| slope);

@@ -5,7 +5,7 @@ use crate::scan::Scan;
 use crate::shader_files::{CORE, Libraries};
 use crate::words::nearest;
 
-/// Beginnings of naga's messages about types, each with a message and advice for the author of a node.
+/// Starts of naga's messages about types, each with a message and advice for the author of a node.
 const TYPES: [(&str, &str, &str); 9] = [
     (
         "The `return` expression",
@@ -88,7 +88,7 @@ fn quoted(message: &str, before: &str, after: &str) -> Option<String> {
     rest.split_once(after).map(|(word, _)| word.to_owned())
 }
 
-/// Advice for an unknown name: a library to use, a parameter of that name, or a similar known name.
+/// Returns advice for an unknown name: a library that declares it, a parameter with that name, or a similar known name.
 fn unknown_name_advice(name: &str, scan: &Scan, text: Text<'_>, libraries: &Libraries, used: &[String]) -> String {
     let declares = |text: &str, name: &str| {
         ["fn ", "const ", "struct ", "alias "].iter().any(|keyword| {
@@ -130,13 +130,13 @@ fn unknown_name_advice(name: &str, scan: &Scan, text: Text<'_>, libraries: &Libr
     }
 }
 
-/// Names of members: of the parameters, and of whatever `core` declares.
+/// Lists names of members: of the parameters, and of the structs that `core` declares.
 fn members<'a>(scan: &'a Scan, text: Text<'a>, libraries: &'a Libraries) -> Vec<&'a str> {
     let own = scan.items.iter().flat_map(|item| item.members.iter());
     let mut names: Vec<&str> = own
         .filter_map(|member| text.text.get(member.name_range.clone()))
         .collect();
-    // Without `core` there are none of its members to suggest.
+    // If `core` is missing, its members cannot be suggested.
     for line in libraries.text(CORE).into_iter().flat_map(str::lines) {
         if let Some((name, _)) = line.trim().split_once(": ")
             && crate::names::is_plain_name(name)

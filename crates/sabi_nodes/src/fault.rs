@@ -4,13 +4,13 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Longest piece of a source line that a message shows.
+/// Maximum length of the part of a source line that a message shows.
 const SNIPPET_CHARS: usize = 160;
 
-/// Most faults of one kind that are told of a file: finding the line of each takes as long as reading the file.
+/// Maximum number of faults of one kind that are reported for a file: finding the line of a fault takes as long as reading the file.
 pub(crate) const FAULTS_SHOWN: usize = 64;
 
-/// Start of the message for a text that parses but is not valid.
+/// Start of the message for a text that can be parsed but is not valid.
 pub(crate) const INVALID: &str = "This is not valid WGSL: ";
 
 /// Error in a WGSL file, for its author.
@@ -18,15 +18,15 @@ pub(crate) const INVALID: &str = "This is not valid WGSL: ";
 pub struct Fault {
     /// The file.
     pub path: PathBuf,
-    /// Line, counted from 1; 0 when the whole file is meant.
+    /// Line, counted from 1; 0 if the fault concerns the whole file.
     pub line: u32,
-    /// Column in characters, counted from 1; 0 when the whole file is meant.
+    /// Column in characters, counted from 1; 0 if the fault concerns the whole file.
     pub column: u32,
     /// Description of the fault, as a sentence.
     pub message: String,
     /// Advice for correcting it; may be empty.
     pub advice: String,
-    /// The source line (a piece of it when it is very long); empty when the whole file is meant.
+    /// The source line, or a part of it if the line is very long; empty if the fault concerns the whole file.
     pub snippet: String,
     /// Characters of [`Fault::snippet`] before the faulty ones.
     pub indent: u32,
@@ -35,7 +35,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// A fault of a whole file.
+    /// Creates a fault that concerns a whole file.
     pub(crate) fn of_file(path: &Path, message: impl Into<String>, advice: impl Into<String>) -> Fault {
         Fault {
             path: path.to_path_buf(),
@@ -49,7 +49,7 @@ impl Fault {
         }
     }
 
-    /// A fault of the bytes `range` of `text`; any range is allowed.
+    /// Creates a fault for the bytes `range` of `text`. Any range is allowed, also one outside of the text.
     pub(crate) fn at(
         path: &Path,
         text: &str,
@@ -85,7 +85,7 @@ impl Fault {
     }
 }
 
-/// The nearest character border at or below `at`.
+/// Returns the nearest character boundary at or below `at`.
 fn floor_boundary(text: &str, at: usize) -> usize {
     let mut at = at.min(text.len());
     while !text.is_char_boundary(at) {
@@ -96,7 +96,7 @@ fn floor_boundary(text: &str, at: usize) -> usize {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Messages read the same on every system.
+        // Use slashes on every system, so that messages are the same everywhere.
         let path = self.path.to_string_lossy().replace('\\', "/");
         if self.line == 0 {
             write!(f, "{path}: {}", self.message)?;
@@ -115,7 +115,7 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
-/// A text and where it came from: makes faults from byte ranges.
+/// A text with its path. Creates faults from byte ranges.
 #[derive(Clone, Copy)]
 pub(crate) struct Text<'a> {
     pub(crate) path: &'a Path,
@@ -123,7 +123,7 @@ pub(crate) struct Text<'a> {
 }
 
 impl Text<'_> {
-    /// A fault of the bytes `range`.
+    /// Creates a fault for the bytes `range`.
     pub(crate) fn fault(&self, range: Range<usize>, message: impl Into<String>, advice: impl Into<String>) -> Fault {
         Fault::at(self.path, self.text, range, message, advice)
     }

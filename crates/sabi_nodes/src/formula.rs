@@ -1,6 +1,7 @@
 //! Formulas in annotations: how often a function runs, and how wide its texels may be.
 //!
-//! `@repeat ceil(1.2 * params.width / texel)` depends on a parameter and on the model, so the planner evaluates it.
+//! A formula such as `@repeat ceil(1.2 * params.width / texel)` depends on a parameter and on the model, so it is evaluated
+//! by the planner.
 
 /// A formula over parameters and texel widths.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,7 +10,7 @@ pub enum Formula {
     Number(f64),
     /// The value of a parameter, by index in [`crate::kind::Kind::params`]; lengths are working units.
     Param(usize),
-    /// Width of a texel of the level that the function runs on, working units.
+    /// Width of a texel of the level on which the function runs, in working units.
     Texel,
     /// Width of a texel of the finest level, working units.
     Finest,
@@ -28,7 +29,7 @@ pub enum Operation {
     Multiply,
     /// a / b
     Divide,
-    /// Nearest whole number above.
+    /// Smallest whole number that is not less.
     Ceil,
     /// Square root.
     Sqrt,
@@ -47,14 +48,14 @@ pub enum Operation {
 pub struct Variables<'k> {
     /// Value of a parameter, by its index in [`crate::kind::Kind::params`].
     pub param: &'k dyn Fn(usize) -> f64,
-    /// Texel width of the level at hand.
+    /// Texel width of the level on which the function runs.
     pub texel: f64,
     /// Texel width of the finest level.
     pub finest: f64,
 }
 
 impl Formula {
-    /// Evaluates the formula; the result may be NaN or infinite, as where it divides by zero.
+    /// Evaluates the formula. The result may be NaN or infinite, for example after a division by zero.
     pub fn value(&self, variables: &Variables<'_>) -> f64 {
         match self {
             Formula::Number(number) => *number,
@@ -62,7 +63,7 @@ impl Formula {
             Formula::Texel => variables.texel,
             Formula::Finest => variables.finest,
             Formula::Operation(operation, of) => {
-                // Reading gives each operation as many formulas as it takes.
+                // When a formula is read, each operation gets as many operands as it takes.
                 let value = |index: usize| of.get(index).map_or(f64::NAN, |formula| formula.value(variables));
                 match operation {
                     Operation::Add => value(0) + value(1),
@@ -80,7 +81,7 @@ impl Formula {
         }
     }
 
-    /// Parameters that it depends on.
+    /// Returns the parameters that the formula depends on.
     pub fn params(&self) -> Vec<usize> {
         match self {
             Formula::Param(index) => vec![*index],

@@ -15,7 +15,7 @@ pub(crate) struct Header {
     pub(crate) version: u32,
 }
 
-/// Reads the header, and the libraries that it names with `@use`. There is no header without a label and a summary.
+/// Reads the header, and the libraries that it names with `@use`. Returns no header if the label or the summary is missing.
 pub(crate) fn read_header(text: Text<'_>, scan: &Scan, faults: &mut Vec<Fault>) -> (Option<Header>, Vec<Word>) {
     let comment = DocComment::read(&scan.header);
     let uses = comment
@@ -64,7 +64,7 @@ pub(crate) fn read_header(text: Text<'_>, scan: &Scan, faults: &mut Vec<Fault>) 
     (header, uses)
 }
 
-/// Reads `@version N`; 1 without it.
+/// Reads `@version N`. Without this annotation the version is 1.
 fn version(text: Text<'_>, comment: &DocComment, faults: &mut Vec<Fault>) -> u32 {
     let Some(annotation) = comment.get("version") else {
         return 1;

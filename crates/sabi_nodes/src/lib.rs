@@ -1,7 +1,7 @@
 //! Reads node kinds from WGSL text: header, reflection, rules, linking.
 //!
-//! A node is one WGSL file (`shaders/nodes/<category>/<name>.wgsl`). [`read_kind`] reads one, [`Library`] holds many and
-//! keeps the last good version of each.
+//! A node is one WGSL file (`shaders/nodes/<category>/<name>.wgsl`). [`read_kind`] reads a file. [`Library`] holds many
+//! kinds and keeps the last valid version of each.
 //!
 //! Invariants:
 //! * The file of a kind holds everything about it: ports, parameters, ranges and texts.
@@ -14,25 +14,25 @@
 //!
 //! let library = Library::builtin();
 //! let file = SourceFile {
-//!     path: "half.wgsl".into(),
-//!     id: "adjust/half".to_owned(),
-//!     text: "\
+//! path: "half.wgsl".into(),
+//! id: "adjust/half".to_owned(),
+//! text: "\
 //! //! Half
 //! //! Scales a mask.
 //!
 //! struct Params {
-//!     /// Factor.
-//!     /// @range 0 1 @default 0.5
-//!     factor: f32,
+//! /// Factor.
+//! /// @range 0 1 @default 0.5
+//! factor: f32,
 //! }
 //!
 //! /// The mask, scaled.
 //! /// @input source Mask to scale.
 //! fn mask(at: Surface, source: f32, params: Params) -> f32 {
-//!     return source * params.factor;
+//! return source * params.factor;
 //! }
 //! "
-//!     .to_owned(),
+//! .to_owned(),
 //! };
 //! let kind = read_kind(&file, library.libraries()).map_err(|faults| faults[0].to_string())?;
 //! assert_eq!(kind.label, "Half");

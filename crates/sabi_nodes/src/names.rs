@@ -1,6 +1,6 @@
 //! Names of ports and parameters.
 
-/// Words that are written otherwise than in names.
+/// Words whose spelling in labels differs from names.
 const SPELLINGS: [(&str, &str); 6] = [
     ("uv", "UV"),
     ("srgb", "sRGB"),
@@ -36,7 +36,7 @@ fn capitalized(word: &str) -> String {
         .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Returns true if a name can be that of a port, a parameter or a kind: `[a-z][a-z0-9_]*`.
+/// Returns true if a text can be the name of a port, a parameter or a kind: `[a-z][a-z0-9_]*`.
 pub(crate) fn is_plain_name(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_lowercase())
         && name

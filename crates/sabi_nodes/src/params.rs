@@ -1,4 +1,4 @@
-//! Reflects `struct Params`: shape from naga, everything else from the annotations.
+//! Reads `struct Params`: memory layout from naga, everything else from annotations.
 
 mod defaults;
 #[cfg(test)]
@@ -19,18 +19,18 @@ const ROLES: [&str; 8] = [
     "toggle", "choice", "color", "length", "angle", "seed", "extent", "curve",
 ];
 
-/// Most gradient stops, and most points of a curve.
+/// Maximum number of gradient stops, and of points of a curve.
 const POINTS_LIMIT: u32 = 16;
 
-/// Range of the points of a curve without `@range`.
+/// Range of the points of a curve that has no `@range`.
 const CURVE_RANGE: [f64; 2] = [-1000.0, 1000.0];
 
-/// The type `Params` of a module.
+/// Returns the type `Params` of a module.
 pub(crate) fn params_type(module: &Module) -> Option<(naga::Handle<Type>, &Type)> {
     module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Params"))
 }
 
-/// Size of `struct Params` in bytes.
+/// Returns the size of `struct Params` in bytes.
 pub(crate) fn params_size(module: &Module) -> u32 {
     match params_type(module) {
         Some((
@@ -44,7 +44,7 @@ pub(crate) fn params_size(module: &Module) -> u32 {
     }
 }
 
-/// Reads all parameters but those with faults.
+/// Reads all parameters except those with faults.
 pub(crate) fn read_params(text: Text<'_>, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) -> Vec<Param> {
     let Some(item) = scan.params() else {
         return Vec::new();
@@ -111,7 +111,7 @@ impl ParamReader<'_> {
         }
         let memory = self.memory(module, ty)?;
         let role = self.role(memory)?;
-        // Slopes of a curve must be finite.
+        // A curve always has a range, so that its slopes are finite.
         let widest = (role == Role::Curve).then_some(CURVE_RANGE);
         let range = self.ends("range", memory, &role).or(widest);
         let soft = self.ends("soft", memory, &role);
@@ -140,7 +140,7 @@ impl ParamReader<'_> {
             offset,
             default,
             bounds_a_loop: false,
-            // Found by the analysis of the functions.
+            // Set later, by the analysis of the functions.
             takes_mask: false,
             is_absolute,
             formerly: formerly.map(|word| word.text.clone()).collect(),
@@ -202,7 +202,7 @@ impl ParamReader<'_> {
         found
     }
 
-    /// Reads the role of the parameter and checks it against the type.
+    /// Reads the role of the parameter and checks that it suits the type.
     fn role(&mut self, memory: Memory) -> Option<Role> {
         let comment = self.comment.clone();
         let mut roles = comment
@@ -250,7 +250,7 @@ impl ParamReader<'_> {
         Some(role)
     }
 
-    /// Reads `@extent low along`, an end of the model along the direction in another parameter.
+    /// Reads `@extent low along`: an end of the model in the direction that another parameter holds.
     fn extent(&mut self, annotation: &Annotation) -> Option<Role> {
         let words: Vec<&str> = annotation.words.iter().map(|word| word.text.as_str()).collect();
         if let ([end @ ("low" | "high"), along], false) = (words.as_slice(), self.comment.get("default").is_some()) {

@@ -1,4 +1,4 @@
-//! Reflects functions: outputs, passes and inputs.
+//! Reads functions: outputs, passes and inputs.
 
 mod drafts;
 mod formulas;
@@ -31,14 +31,14 @@ pub(crate) struct Ports {
     pub(crate) inputs: Vec<Input>,
     pub(crate) outputs: Vec<Output>,
     pub(crate) shared: Vec<Shared>,
-    /// In ascending order of their numbers.
+    /// Passes, in ascending order of their numbers.
     pub(crate) passes: Vec<Pass>,
     pub(crate) rays: Option<Rays>,
     pub(crate) surveyed: Option<usize>,
     pub(crate) survey_groups: Option<usize>,
 }
 
-/// The function of that name in the file itself.
+/// Returns the function with this name in the file itself, not in a library.
 pub(crate) fn function<'m>(module: &'m Module, name: &str) -> Option<(Handle<Function>, &'m Function)> {
     module
         .functions
@@ -46,7 +46,7 @@ pub(crate) fn function<'m>(module: &'m Module, name: &str) -> Option<(Handle<Fun
         .find(|(_, function)| function.name.as_deref() == Some(name))
 }
 
-/// Port type of a WGSL type; with `vector`, `vec3f` is a vector instead of a color.
+/// Returns the port type of a WGSL type. If `vector` is true, `vec3f` is a vector instead of a color.
 fn port_type(ty: &Type, vector: bool) -> Option<PortType> {
     match &ty.inner {
         TypeInner::Scalar(naga::Scalar::F32) => Some(PortType::Mask),
@@ -87,19 +87,19 @@ struct Draft<'a> {
     gives: Gives,
 }
 
-/// Result of a documented function.
+/// Result type of a documented function.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Gives {
-    /// What a port carries.
+    /// A type that a port can carry.
     Port(PortType),
     /// A ray.
     Ray,
-    /// Any type, for other functions of the node.
+    /// Any type: the result is only used by other functions of the node.
     Shared,
 }
 
 impl Draft<'_> {
-    /// Port type of the result, if a port can carry it.
+    /// Returns the port type of the result, if a port can carry it.
     fn port(&self) -> Option<PortType> {
         match self.gives {
             Gives::Port(ty) => Some(ty),
@@ -112,7 +112,7 @@ impl Draft<'_> {
     }
 }
 
-/// Reads all documented functions but those with faults.
+/// Reads all documented functions except those with faults.
 pub(crate) fn read_ports(
     text: Text<'_>,
     scan: &Scan,
@@ -168,10 +168,10 @@ struct PortReader<'a> {
     module: &'a Module,
     params: &'a [Param],
     faults: &'a mut Vec<Fault>,
-    /// Annotations of `@input` by name.
+    /// Annotations of `@input`, by name of the input.
     described: BTreeMap<String, InputAnnotations>,
     inputs: Vec<Input>,
-    /// Names of passes in ascending order of their numbers, with their number and type.
+    /// Names of passes in ascending order of their numbers, with number and type.
     pass_numbers: Vec<(u32, String, PortType)>,
     /// Shared functions in the order of the file.
     shared: Vec<SharedType>,
@@ -186,7 +186,7 @@ impl<'a> PortReader<'a> {
         self.faults.push(self.text.fault(range, message, advice));
     }
 
-    /// Reads a function and adds it to what it is.
+    /// Reads a function and adds it to the ports according to its result and annotations.
     fn add_function(&mut self, draft: &Draft<'a>, ports: &mut Ports) {
         let ty = match draft.gives {
             Gives::Port(ty) => ty,
@@ -336,7 +336,7 @@ impl<'a> PortReader<'a> {
             .count()
     }
 
-    /// Checks that every `@input` names an argument.
+    /// Checks that every `@input` has the name of an argument.
     fn check_described(&mut self) {
         if !self.faults.is_empty() {
             return;

@@ -22,7 +22,7 @@ use crate::scan::scan;
 use crate::shader_files::Libraries;
 use crate::source_file::{FILE_LIMIT_BYTES, SourceFile};
 
-/// Reads one node file with the libraries it uses, and checks all rules. The error lists all faults that were found.
+/// Reads a node file with the libraries that it uses, and checks all rules. The error lists all faults that were found.
 pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<Fault>> {
     check_file(file).map_err(|fault| vec![fault])?;
     let text = Text {
@@ -62,7 +62,7 @@ pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<F
     Ok(assemble(file, header, used, params, params_size, ports, findings))
 }
 
-/// Checks that graph files can hold the id, and that the text is not too large.
+/// Checks that the id is valid in graph files, and that the text is not too large.
 fn check_file(file: &SourceFile) -> Result<(), Fault> {
     let named = file
         .id
@@ -146,7 +146,7 @@ fn assemble(
     }
 }
 
-/// Marks the parameters that bound loops, and those that a mask can multiply at each place.
+/// Marks the parameters that bound loops, and the parameters that a mask can multiply at each place.
 fn mark_params(params: &mut [Param], bound_loops: &BTreeSet<usize>, of_surface: &BTreeSet<usize>) {
     for (index, param) in params.iter_mut().enumerate() {
         param.bounds_a_loop = bound_loops.contains(&index);
@@ -154,7 +154,7 @@ fn mark_params(params: &mut [Param], bound_loops: &BTreeSet<usize>, of_surface: 
     }
 }
 
-/// Indices of the parameters that are read for the whole surface: by formulas, as the reach of rays, or by a survey.
+/// Returns the indices of the parameters that are read for the whole surface: by formulas, as the reach of rays, or by a survey.
 fn params_of_surface<'o>(
     functions: impl Iterator<Item = &'o Output>,
     rays: Option<&Rays>,
@@ -171,7 +171,7 @@ fn params_of_surface<'o>(
     of_surface
 }
 
-/// Returns true for one number that is not whole.
+/// Returns true if the parameter is a single number that is not restricted to whole numbers.
 fn is_number(param: &Param) -> bool {
     param.ty.memory == Memory::F32 && matches!(param.ty.role, Role::Plain | Role::Length | Role::Angle)
 }

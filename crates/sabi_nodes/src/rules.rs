@@ -1,4 +1,4 @@
-//! Rules for nodes: statements and declarations that they may not contain.
+//! Rules for nodes: statements and declarations that are not allowed in them.
 
 mod sizes;
 
@@ -11,10 +11,10 @@ use crate::params::params_type;
 use crate::ports::function;
 use crate::scan::{ItemKind, Scan};
 
-/// Directives, which would have to stand at the start of a linked kernel.
+/// Directives. They are refused because they would have to come first in the linked kernel.
 const DIRECTIVES: [&str; 3] = ["enable", "requires", "diagnostic"];
 
-/// Checks that naga attached exactly the doc comments that the scanner read.
+/// Checks that naga attached exactly those doc comments that the scanner read.
 pub(crate) fn check_docs(text: Text<'_>, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) {
     let empty = naga::DocComments::default();
     let docs = module.doc_comments.as_deref().unwrap_or(&empty);
@@ -123,7 +123,7 @@ fn check_function(linked: &LinkedModule, span: Span, function: &Function, faults
     check_statements(linked, function, faults);
 }
 
-/// Refuses statements that act on more than the place of the result, and `discard`, which gives no result.
+/// Refuses statements that have effects beyond the result for one place, and `discard`, which gives no result.
 fn check_statements(linked: &LinkedModule, function: &Function, faults: &mut Vec<Fault>) {
     visit(&function.body, &mut |statement, span| {
         let what = match statement {
@@ -150,7 +150,7 @@ fn check_statements(linked: &LinkedModule, function: &Function, faults: &mut Vec
     });
 }
 
-/// Refuses copies of the parameters: a loop whose bound is in a changed copy would not be limited by the range.
+/// Refuses copies of the parameters: the bound of a loop in a modified copy would not be limited by the range of the parameter.
 fn check_params_are_passed_on(linked: &LinkedModule, module: &Module, faults: &mut Vec<Fault>) {
     let Some((params, _)) = params_type(module) else {
         return;

@@ -1,4 +1,4 @@
-//! The shader files that come with the program, and the libraries that nodes use.
+//! The shader files that are part of the program, and the libraries that nodes use.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -43,14 +43,14 @@ fn read_shader_files() -> Vec<ShaderFile> {
         });
         files.collect::<std::io::Result<Vec<ShaderFile>>>()
     };
-    // Only those who build Sabi have debug builds.
+    // Only people who build Sabi run debug builds, and they have the source tree.
     read().unwrap_or_else(|error| {
         let shaders = shaders.display();
         panic!("A debug build reads its shaders from {shaders}: {error}. A release build includes them.")
     })
 }
 
-/// Node files: path in the repository, id, text.
+/// Returns the node files: path in the repository, id, text.
 pub(crate) fn node_files() -> impl Iterator<Item = (PathBuf, &'static str, &'static str)> {
     shader_files().filter_map(|file| {
         let id = file.path.strip_prefix("nodes/")?;
@@ -62,10 +62,10 @@ pub(crate) fn node_files() -> impl Iterator<Item = (PathBuf, &'static str, &'sta
     })
 }
 
-/// The library that is linked to every node without being asked.
+/// The library that is linked to every node automatically.
 pub(crate) const CORE: &str = "core";
 
-/// Path under which messages name a shared file, from its name in `@use`.
+/// Returns the path by which messages refer to a shared file, from its name in `@use`.
 pub(crate) fn shared_path(name: &str) -> PathBuf {
     PathBuf::from(if name.contains('/') {
         format!("{name}.wgsl")
@@ -83,7 +83,7 @@ pub(crate) fn shared_text<'a>(name: &str, libraries: &'a Libraries) -> Option<&'
     }
 }
 
-/// Text of a file of `source/`, `surface/` or `view/` by its name in `@use`, such as `surface/place`.
+/// Returns the text of a file of `source/`, `surface/` or `view/` by its name in `@use`, such as `surface/place`.
 fn shader_text(name: &str) -> Option<&'static str> {
     let found = shaders().find(|file| file.path == name);
     found.map(|file| file.text.as_str())
@@ -94,18 +94,18 @@ pub(crate) fn shader_names() -> impl Iterator<Item = &'static str> {
     shaders().map(|file| file.path.as_str())
 }
 
-/// Files of Sabi's own kernels and pictures.
+/// Returns the files for Sabi's own kernels and for rendering.
 fn shaders() -> impl Iterator<Item = &'static ShaderFile> {
     let folders = ["source/", "surface/", "view/"];
     shader_files().filter(move |file| folders.iter().any(|folder| file.path.starts_with(folder)))
 }
 
-/// Texts that nodes may use, by name (`noise` is `lib/noise.wgsl`). `core` is linked to every node without being asked.
+/// Texts that nodes may use, by name (`noise` is `lib/noise.wgsl`). `core` is linked to every node automatically.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Libraries(pub BTreeMap<String, String>);
 
 impl Libraries {
-    /// Those that come with the program.
+    /// Returns the built-in libraries.
     pub fn builtin() -> &'static Libraries {
         static BUILT_IN: LazyLock<Libraries> = LazyLock::new(|| {
             let texts = shader_files().filter_map(|file| {

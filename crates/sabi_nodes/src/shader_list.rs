@@ -1,9 +1,9 @@
-//! The list of the files of `shaders/`. The build script uses it to include them, and debug builds to read them as they run.
+//! The list of the files of `shaders/`. The build script uses it to embed them, and debug builds use it to read them at run time.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Lists the WGSL files: path below `shaders/` without the ending, and the file. Sorted by folder and name.
+/// Lists the WGSL files, each with its path below `shaders/` without the ending, and its full path. Sorted by folder and name.
 ///
 /// # Errors
 /// A folder cannot be read.
@@ -21,7 +21,7 @@ pub(crate) fn list(shaders: &Path) -> io::Result<Vec<(String, PathBuf)>> {
         for file in sorted_entries(&shaders.join(&folder))? {
             if file.extension().is_some_and(|ending| ending == "wgsl")
                 && let Some(name) = file.file_stem().map(|name| name.to_string_lossy().into_owned())
-                // Editors keep hidden files beside those that are open in them.
+                // Editors create hidden files beside files that are open in them.
                 && !name.starts_with('.')
             {
                 files.push((format!("{folder}/{name}"), file));

@@ -1,6 +1,6 @@
 //! Suggestions for misspelled words, and lists of words in messages.
 
-/// The candidate nearest to `word`; `None` where more than a third of the letters differ from each of them.
+/// Returns the candidate nearest to `word`; `None` if more than a third of the letters differ from every candidate.
 pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (word.chars().count().max(3)) / 3;
     candidates
@@ -11,7 +11,7 @@ pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
         .map(|(_, candidate)| candidate)
 }
 
-/// Edits (insert, delete, replace, swap of neighbors) from one word to the other; very long words count as far apart.
+/// Counts the edits (insert, delete, replace, swap of neighbors) from one word to the other. Very long words count as very different.
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     if a.len() > 100 || b.len() > 100 {
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_word_is_found_and_a_far_one_is_not() {
+    fn the_nearest_word_is_found_and_a_very_different_one_is_not() {
         let words = ["noise/simplex", "noise/white", "blend/mask"];
         assert_eq!(nearest("noise/simplx", words), Some("noise/simplex"));
         assert_eq!(nearest("blend/maks", words), Some("blend/mask"));
@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn words_are_listed_like_a_sentence() {
+    fn words_are_listed_as_in_a_sentence() {
         assert_eq!(list(["a", "b", "c"]), "`a`, `b` and `c`");
         assert_eq!(list(["a"]), "`a`");
     }

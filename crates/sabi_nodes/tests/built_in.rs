@@ -1,4 +1,4 @@
-//! The nodes that come with the program.
+//! Tests of the built-in nodes.
 
 #![allow(clippy::unwrap_used, reason = "a test that finds no node has failed")]
 
@@ -6,7 +6,7 @@ use sabi_nodes::kind::{Channel, ChannelWrite};
 use sabi_nodes::{Library, SourceFile, read_kind};
 
 #[test]
-fn every_built_in_node_and_library_is_faultless() {
+fn every_built_in_node_and_library_is_valid() {
     let (files, libraries) = Library::builtin_files();
     let count = files.len();
     let (library, faults) = Library::load(files, libraries);
@@ -28,7 +28,7 @@ fn a_layer_sets_the_channels_that_are_switched_on() {
     };
     assert_eq!(toggles(Channel::Height), [["height_on"]]);
     assert_eq!(toggles(Channel::Emission), [["emission_on"]]);
-    // Color and alpha, roughness and metallic share a texture each, and each of both sets it.
+    // Color and alpha share a texture, and so do roughness and metallic. Either of the two sets the shared channel.
     assert_eq!(toggles(Channel::Color), [["color_on"], ["alpha_on"]]);
     assert_eq!(
         toggles(Channel::Surface),
@@ -37,7 +37,7 @@ fn a_layer_sets_the_channels_that_are_switched_on() {
 }
 
 #[test]
-fn a_layer_without_a_coat_only_covers_the_one_below() {
+fn a_layer_without_a_coat_only_covers_the_coat_below() {
     let library = Library::builtin();
     let layer = library.kind("effect/layer").unwrap();
     let material = layer.output(Some("material")).unwrap();
@@ -68,7 +68,7 @@ fn a_blend_of_materials_passes_their_channels_on() {
 }
 
 #[test]
-fn relief_and_light_take_no_storage_where_they_are_zero() {
+fn relief_and_light_are_not_stored_where_they_are_zero() {
     let library = Library::builtin();
     let needs = |id: &str, channel| {
         let kind = library.kind(id).unwrap();
@@ -82,7 +82,7 @@ fn relief_and_light_take_no_storage_where_they_are_zero() {
     assert_eq!(needs("material/combine", Channel::Emission), Some(vec!["emission"]));
     assert_eq!(needs("material/adjust", Channel::Height), Some(vec!["height"]));
     assert_eq!(needs("material/adjust", Channel::Slope), None);
-    // The slope below is kept or fades: without a slope of its own, the layer sets none where there was none.
+    // The slope of the layer below is kept or fades. If the layer has no slope itself, it sets none where there was none.
     assert_eq!(
         needs("effect/layer", Channel::Slope),
         Some(vec!["slope_strength", "slope"])

@@ -25,7 +25,7 @@ fn stem(file: &Path) -> String {
     file.file_stem().unwrap().to_str().unwrap().to_owned()
 }
 
-/// The real `core`, and small libraries of the faults' own, so that no text changes when a library is added.
+/// Returns the real `core`, and small libraries that only these tests use, so that no text changes when a library is added.
 fn libraries() -> Libraries {
     let (_, built_in) = Library::builtin_files();
     let mut libraries = Libraries::default();
@@ -38,7 +38,7 @@ fn libraries() -> Libraries {
     libraries
 }
 
-/// The faults of a file as one text.
+/// Returns the faults of a file as one text.
 fn faults_of(file: &Path, libraries: &Libraries) -> String {
     let name = stem(file);
     let source = SourceFile {
@@ -56,7 +56,7 @@ fn faults_of(file: &Path, libraries: &Libraries) -> String {
 }
 
 #[test]
-fn every_faulty_node_gives_exactly_its_text() {
+fn every_faulty_node_gives_exactly_the_expected_text() {
     let libraries = libraries();
     let bless = env::var_os("BLESS").is_some();
     let mut wrong = Vec::new();
@@ -83,7 +83,7 @@ fn every_faulty_node_gives_exactly_its_text() {
 }
 
 #[test]
-fn every_text_belongs_to_a_faulty_node() {
+fn every_expected_text_belongs_to_a_faulty_node() {
     for entry in fs::read_dir(folder()).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|ending| ending == "txt") {

@@ -31,7 +31,7 @@ pub(crate) fn lay_out(boxes: &[LayoutBox]) -> Vec<[f32; 2]> {
         stack(rank, boxes, &mut middles);
     }
     for sweep in 0..SWEEPS {
-        // From the outputs to the sources first: the outputs on the right matter most.
+        // Start from the outputs, towards the sources: the outputs on the right matter most.
         let is_back = sweep % 2 == 0;
         let order: Vec<usize> = if is_back {
             (0..=last).rev().collect()
@@ -99,7 +99,7 @@ fn columns_of(boxes: &[LayoutBox], readers: &[Vec<usize>]) -> Vec<usize> {
     to_end.into_iter().map(|steps| longest - steps).collect()
 }
 
-/// Mean of the middles of some boxes; none if there are none.
+/// Returns the mean of the vertical middles of these boxes; `None` for no boxes.
 fn mean(of: &[usize], middles: &[f32]) -> Option<f32> {
     let sum: f32 = of.iter().map(|at| middles[*at]).sum();
     (!of.is_empty()).then(|| sum / of.len() as f32)
@@ -115,9 +115,9 @@ fn stack(rank: &[usize], boxes: &[LayoutBox], middles: &mut [f32]) {
     }
 }
 
-/// Moves boxes of a column to their wanted positions. Boxes that would overlap move by the same mean distance.
+/// Moves boxes of a column to their wanted positions. Boxes that would overlap form a block, which moves by their mean distance.
 fn spread(rank: &[usize], boxes: &[LayoutBox], wanted: &[f32], middles: &mut [f32]) {
-    // Blocks of adjacent boxes: the middle of the first box, and the boxes.
+    // Blocks of adjacent boxes: the middle of the block's first box, and the boxes.
     let mut blocks: Vec<(f32, Vec<usize>)> = Vec::new();
     for at in rank {
         blocks.push((wanted[*at], vec![*at]));
@@ -145,7 +145,7 @@ fn spread(rank: &[usize], boxes: &[LayoutBox], wanted: &[f32], middles: &mut [f3
     }
 }
 
-/// Offsets of the middles of a block's boxes from the middle of the first box, at the least distance.
+/// Returns the offsets of the middles of a block's boxes from the middle of its first box, packed as tightly as possible.
 fn offsets(block: &[usize], boxes: &[LayoutBox]) -> Vec<f32> {
     let mut offset = 0.0;
     let mut offsets = vec![0.0];
@@ -156,7 +156,7 @@ fn offsets(block: &[usize], boxes: &[LayoutBox]) -> Vec<f32> {
     offsets
 }
 
-/// Least distance of the middles of two boxes of a column.
+/// Returns the smallest allowed distance between the middles of two boxes of a column.
 fn distance(one: usize, other: usize, boxes: &[LayoutBox]) -> f32 {
     (boxes[one].height + boxes[other].height) / 2.0 + ROW_GAP
 }
@@ -174,14 +174,14 @@ mod tests {
     }
 
     #[test]
-    fn a_reader_stands_right_of_all_it_reads_and_level_with_a_single_one() {
+    fn a_box_is_right_of_all_boxes_it_reads_and_level_with_a_single_source() {
         let boxes = [boxed(100.0, &[]), boxed(100.0, &[0]), boxed(60.0, &[1, 0])];
         let places = lay_out(&boxes);
         assert!(places[0][0] < places[1][0] && places[1][0] < places[2][0], "{places:?}");
     }
 
     #[test]
-    fn boxes_of_a_column_never_touch() {
+    fn boxes_of_a_column_never_overlap() {
         let boxes: Vec<LayoutBox> = (0..9)
             .map(|at| boxed(50.0 + 20.0 * at as f32, &[]))
             .chain([boxed(400.0, &[0, 1, 2, 3]), boxed(80.0, &[4, 5, 6, 7, 8, 0])])
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_laid_out_as_nothing() {
+    fn an_empty_graph_has_an_empty_layout() {
         assert!(lay_out(&[]).is_empty());
     }
 }

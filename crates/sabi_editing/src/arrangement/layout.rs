@@ -10,16 +10,16 @@ use crate::node_size::GRID;
 use crate::open_document::OpenDocument;
 use crate::{arrangement, connections, node_size};
 
-/// Nodes that are laid out as one: those of a frame, or a single one.
+/// Nodes that are placed as a unit: the nodes of a frame, or a single node.
 struct Cluster {
-    /// Sorted.
+    /// Node ids, sorted.
     ids: Vec<NodeId>,
     /// Upper left corner of each node, relative to the corner of the cluster.
     places: Vec<[f32; 2]>,
     size: [f32; 2],
 }
 
-/// Lays the selected nodes out from left to right, or all where none are selected.
+/// Lays out the selected nodes from left to right, or all nodes if none is selected.
 pub fn lay_out(document: &mut OpenDocument) -> bool {
     let ids: Vec<NodeId> = match document.selection().is_empty() {
         true => document.graph().ids().cloned().collect(),
@@ -31,7 +31,7 @@ pub fn lay_out(document: &mut OpenDocument) -> bool {
     });
     let clusters = clusters(document, &ids);
     let reads = reads_of(document, &clusters);
-    // Frames that read each other have no order: then every node is a cluster of its own.
+    // Frames that read each other cannot be ordered. In that case every node is a cluster of its own.
     let (clusters, reads) = match is_ordered(&reads) {
         true => (clusters, reads),
         false => {

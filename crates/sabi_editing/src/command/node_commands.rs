@@ -34,9 +34,9 @@ pub enum NodeCommand {
         source: NodeSource,
         /// Upper left corner, canvas points.
         place: [f32; 2],
-        /// Wire that is connected to the node where it fits.
+        /// Wire to connect to the new node, if it fits.
         pending: Option<PendingWire>,
-        /// Input whose wire the node is inserted into.
+        /// Input into whose wire the node is inserted.
         into: Option<SlotRef>,
     },
     /// Replace a node, and keep its wires where they fit.
@@ -60,16 +60,16 @@ pub enum NodeCommand {
     },
     /// Duplicate the selected nodes.
     DuplicateSelected {
-        /// True if the inputs of the copies are connected as those of the originals are.
+        /// True if the inputs of the copies are connected like those of the originals.
         keeps_inputs: bool,
     },
     /// Mute the selected nodes, or unmute them if all are muted.
     ToggleMuted,
-    /// Have the selected nodes show only these rows, or all if all of them do so already.
+    /// Let the selected nodes show only these rows, or all rows if all selected nodes are in that state already.
     ToggleRows(NodeRows),
-    /// Draw wires from the selected nodes as their names, or as wires if all of them are drawn as names already.
+    /// Draw wires that start at the selected nodes as names, or as wires again if all of them are drawn as names.
     ToggleNamedWires,
-    /// Add the texture sets that image files are, by their names.
+    /// Add the texture sets that these image files form, according to their names.
     AddTextureSets {
         /// Image files.
         files: Vec<PathBuf>,
@@ -90,30 +90,30 @@ pub enum NodeCommand {
 pub enum KnobCommand {
     /// Set a knob of a node and of the selected nodes of its kind; `None` restores the default.
     Set {
-        /// Node whose knob it is.
+        /// Node that has the knob.
         node: NodeId,
         /// Name of the knob.
         knob: String,
         /// New value.
         value: Option<Value>,
     },
-    /// Set the knob that waits for a value.
+    /// Set a knob that was waiting for a value.
     SetTarget {
-        /// Knob that waits.
+        /// Knob to set.
         target: KnobTarget,
         /// New value.
         value: Value,
     },
     /// Publish a knob of a node together with those of the selected nodes of its kind.
     Publish {
-        /// Node whose knob it is.
+        /// Node that has the knob.
         node: NodeId,
         /// Name of the knob.
         knob: String,
     },
     /// Take a knob of a node off the panel.
     Unpublish {
-        /// Node whose knob it is.
+        /// Node that has the knob.
         node: NodeId,
         /// Name of the knob.
         knob: String,
@@ -127,9 +127,9 @@ pub enum ArrangeCommand {
     Move(Positions),
     /// Align the selected nodes.
     Align(Align),
-    /// Space the selected nodes evenly.
+    /// Distribute the selected nodes evenly.
     Distribute(Axis),
-    /// Move the selected nodes up or down until the wires between them are level.
+    /// Move the selected nodes up or down until the wires between them are horizontal.
     Straighten,
     /// Lay out the selected nodes from left to right, or all nodes if none is selected.
     LayOut,
@@ -140,7 +140,7 @@ pub enum ArrangeCommand {
 pub enum GroupCommand {
     /// Make a group of the selected nodes.
     Make,
-    /// Replace the selected instances by what their groups contain.
+    /// Replace the selected instances by the contents of their groups.
     Dissolve,
     /// Write the group of the selected instance into a library folder.
     SaveToLibrary(PathBuf),
@@ -148,23 +148,23 @@ pub enum GroupCommand {
     Update(Vec<String>),
     /// End the link of a group to its library.
     Unlink(String),
-    /// Give an instance of a group a variant, or the group's own values.
+    /// Set the variant of a group instance, or use the group's own values.
     ChooseVariant {
         /// Instance.
         node: NodeId,
         /// Name of the variant; none for the group's own values.
         name: Option<String>,
     },
-    /// Give an instance of a group other patterns and other values of its knobs, except for those that are kept.
+    /// Give a group instance another seed and other values of its knobs, except for knobs in `kept`.
     Randomize {
         /// Instance.
         node: NodeId,
-        /// Names of the knobs that stay.
+        /// Names of the knobs that keep their values.
         kept: BTreeSet<String>,
     },
 }
 
-/// Change of layers, which are counted from the top of their stack.
+/// Change of layers. Positions are counted from the top of a stack.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LayerCommand {
     /// Hide or show a layer.
@@ -201,43 +201,43 @@ pub enum LayerCommand {
         /// Kind of the node.
         kind: String,
     },
-    /// Add a node or group over all layers of the material at a place of the model.
+    /// Add a node or group above all layers of the material at a place of the model.
     AddOnModel {
         /// Node or group that is added.
         source: NodeSource,
-        /// Material at that place.
+        /// Material at the place.
         place: DroppedOn,
         /// True if the model has a normal map there.
         has_normal_map: bool,
     },
-    /// Add a node or group over the material that a node gives.
+    /// Add a node or group on top of the material that a node outputs.
     AddOnNode {
         /// Node or group that is added.
         source: NodeSource,
-        /// Node that gives the material.
+        /// Node that outputs the material.
         node: NodeId,
     },
-    /// Add a node as the mask of a layer, in place of another one.
+    /// Add a node as the mask of a layer, replacing an existing mask.
     AddMask {
         /// Node of the layer.
         node: NodeId,
         /// Node or group that is added.
         source: NodeSource,
     },
-    /// Add a layer that is filled or painted over all others of a stack.
+    /// Add a filled or painted layer above all other layers of a stack.
     AddByHand {
-        /// Output of the stack; none for the only one, which is added where there is none.
+        /// Output of the stack. `None` means the only stack; if there is none, an output is added.
         end: Option<StackEnd>,
         /// Layer that is added.
         what: HandLayer,
     },
-    /// Add a mask to a layer that is painted, in place of another one.
+    /// Add a painted mask to a layer, replacing an existing mask.
     PaintMask {
         /// Node of the layer.
         node: NodeId,
-        /// The mask where nothing is painted.
+        /// Value of the mask where nothing is painted.
         empty: f64,
     },
-    /// Disconnect the mask of a layer, which stays in the graph.
+    /// Disconnect the mask of a layer. The mask's nodes stay in the graph.
     RemoveMask(NodeId),
 }

@@ -1,4 +1,4 @@
-//! The one place where commands are performed. No match here has a wildcard: a command that is not handled does not compile.
+//! Performs commands. No match here has a wildcard arm, so that a command that is not handled does not compile.
 
 use std::path::Path;
 
@@ -357,7 +357,7 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
     is_done.into()
 }
 
-/// Adds a layer as one step; `add` is given its kind, and its group, which is imported.
+/// Adds a layer as one undo step. `add` receives its kind, and its group after that was imported.
 fn drop_layer(
     document: &mut OpenDocument,
     source: &NodeSource,
@@ -373,7 +373,7 @@ fn drop_layer(
     })
 }
 
-/// Name of a node or group that is added, for the history.
+/// Returns the name of a new node or group for the undo history.
 fn name_of(document: &OpenDocument, source: &NodeSource) -> String {
     match source {
         NodeSource::Kind(kind) => {
@@ -388,7 +388,7 @@ fn name_of(document: &OpenDocument, source: &NodeSource) -> String {
     }
 }
 
-/// Performs edits as one step, which is taken back where they add nothing, and selects the node that they add.
+/// Performs edits as one undo step and selects the node that they add. If they add no node, the step is canceled.
 fn as_one_step(
     document: &mut OpenDocument,
     step: &str,

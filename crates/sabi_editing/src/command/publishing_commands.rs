@@ -1,4 +1,5 @@
-//! Commands for what a graph publishes: knobs, variants, inputs and outputs. All go by their published names.
+//! Commands for everything that a graph publishes: knobs, variants, inputs and outputs. They refer to all of these by their
+//! published names.
 
 use std::collections::BTreeSet;
 
@@ -27,10 +28,10 @@ pub enum PanelCommand {
     Rename {
         /// Present name.
         name: String,
-        /// New name.
+        /// Current name.
         to: String,
     },
-    /// Set the section of the panel that a knob is in; an empty one is none.
+    /// Set the section of the panel that contains a knob. An empty title removes the knob from its section.
     SetSection {
         /// Name of the knob.
         name: String,
@@ -44,7 +45,7 @@ pub enum PanelCommand {
         /// Least and greatest value.
         range: Option<[f64; 2]>,
     },
-    /// Set the default of a knob; `None` leaves the values of its nodes.
+    /// Set the default of a knob. `None` removes it, so that the nodes keep their own values.
     SetDefault {
         /// Name of the knob.
         name: String,
@@ -60,9 +61,9 @@ pub enum PanelCommand {
     },
     /// Take a knob off the panel.
     Remove(String),
-    /// Give the knobs other values near their own, and the document another seed.
+    /// Give the knobs values near their current ones, and the document another seed.
     Randomize {
-        /// Knobs that stay, with `seed` for the document's seed.
+        /// Knobs that keep their values; `seed` stands for the document's seed.
         kept: BTreeSet<String>,
     },
 }
@@ -70,13 +71,13 @@ pub enum PanelCommand {
 /// Change of the variants of the panel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum VariantCommand {
-    /// Save the present values of the panel as a variant.
+    /// Save the current values of the panel as a variant.
     Save(String),
-    /// Show a variant, which edits of the panel then change; `None` shows the graph's own values.
+    /// Show a variant, which further edits of the panel then change. `None` shows the graph's own values.
     Show(Option<String>),
     /// Rename a variant.
     Rename {
-        /// Present name.
+        /// Current name.
         name: String,
         /// New name.
         to: String,
@@ -103,7 +104,7 @@ pub enum PortCommand {
     },
     /// Set the name of an input in files.
     RenameInput {
-        /// Present name.
+        /// Current name.
         name: String,
         /// New name.
         to: String,
@@ -121,7 +122,7 @@ pub enum PortCommand {
     Unfeed(SlotRef),
     /// Set the name of an output.
     RenameOutput {
-        /// Present name.
+        /// Current name.
         name: String,
         /// New name.
         to: String,
@@ -132,7 +133,7 @@ pub enum PortCommand {
     Retarget {
         /// Name of the output.
         name: String,
-        /// Result that it gives.
+        /// Result that the output is connected to.
         from: OutputRef,
     },
 }

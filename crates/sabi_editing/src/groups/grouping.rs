@@ -13,7 +13,7 @@ use crate::open_document::OpenDocument;
 use crate::references::Successors;
 use crate::{connections, groups, instances, new_nodes, references};
 
-/// Makes a group of the selected nodes and puts an instance in their place.
+/// Makes a group of the selected nodes and replaces them by an instance.
 pub fn make(document: &mut OpenDocument) -> bool {
     let ids = document.selection().clone();
     if ids.is_empty() {
@@ -35,7 +35,8 @@ pub fn make(document: &mut OpenDocument) -> bool {
     document.edit_and_select("Group", edits, [instance])
 }
 
-/// First node outside that depends on nodes inside and that nodes inside depend on: the group would form a cycle with it.
+/// Returns the first node outside that depends on a node inside while another node inside depends on it: the group would
+/// form a cycle with this node.
 fn first_between(document: &OpenDocument, ids: &BTreeSet<NodeId>) -> Option<NodeId> {
     let reached = |is_upstream: bool| {
         let mut seen = BTreeSet::new();
@@ -58,7 +59,7 @@ fn definition(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, bound
     let body = || Body::Group(name.to_owned());
     let fit = match document.shown() {
         Body::Main => None,
-        // Keeps the meaning of lengths.
+        // A group has the fit of the enclosing group, so that its lengths keep their meaning.
         Body::Group(open) => document.contents().groups.get(open).and_then(|group| group.fit),
     };
     let group = Box::new(GroupDef {
@@ -128,7 +129,7 @@ fn instance_edits(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, b
         }
     }
     edits.extend(references::redirecting(document, ids, boundary));
-    // Frames that contain no other nodes are in the group now.
+    // Frames that contain no other nodes are moved into the group.
     let frames = frames_around(document.graph(), |id| ids.contains(id));
     edits.extend(frames.into_keys().map(|id| Edit::RemoveFrame {
         body: document.body(),
@@ -147,19 +148,19 @@ struct Boundary {
     inputs: BTreeMap<String, BoundaryInput>,
     /// Outputs inside the group.
     outputs: BTreeMap<String, OutputRef>,
-    /// Name of the group's output for each form in which wires name an output.
+    /// Names of the group's outputs, for each form in which wires refer to an output.
     output_names: BTreeMap<OutputRef, String>,
-    /// Published knobs inside the group.
+    /// Published knobs of the new group.
     knobs: BTreeMap<String, Exposed>,
-    /// Name of the group's knob for each published knob outside.
+    /// Name of the group's knob for each published knob of the enclosing graph.
     knob_names: BTreeMap<String, String>,
 }
 
-/// Input of the group: a source that several inputs inside share.
+/// Input of the group: a source that one or more inputs inside share.
 struct BoundaryInput {
     /// Output outside that is connected.
     from: Option<OutputRef>,
-    /// Input of the shown group that feeds it.
+    /// Input of the shown group that feeds this input.
     fed: Option<String>,
     slots: Vec<SlotRef>,
 }
@@ -224,7 +225,7 @@ impl Boundary {
         }
     }
 
-    /// Makes an output inside the group an output of the group.
+    /// Adds an output of a node inside as an output of the group.
     fn add_output(&mut self, document: &OpenDocument, from: &OutputRef) {
         let plain = connections::canonical(document, from);
         let known = self.output_names.get(&plain).cloned();
@@ -240,7 +241,7 @@ impl Boundary {
         self.output_names.insert(from.clone(), name);
     }
 
-    /// Publishes in the group what a published knob outside controls there.
+    /// Publishes in the group the knobs of nodes inside that a published knob outside controls.
     fn add_knob(&mut self, published: &str, knob: &Exposed, ids: &BTreeSet<NodeId>) {
         let to: Vec<SlotRef> = knob
             .to
@@ -255,7 +256,7 @@ impl Boundary {
         let name = free_name(published, '_', is_taken);
         self.knob_names.insert(published.to_owned(), name.clone());
         let mut inside = knob.with_targets(to);
-        // The knob outside has both, except where curves inside need a default of their own.
+        // The knob outside keeps range and default. Only a knob with curves needs its own default inside.
         inside.range = None;
         inside.default = inside.default.filter(|_| !inside.curves.is_empty());
         self.knobs.insert(name, inside);
@@ -276,7 +277,7 @@ impl Successors for Boundary {
     }
 
     fn curve(&self, _: Option<&KnobCurve>, _: &SlotRef, _: &SlotRef) -> Option<KnobCurve> {
-        // The knob inside the group has it.
+        // The knob inside the group has the curve now.
         None
     }
 

@@ -44,7 +44,7 @@ pub fn dissolve_selected(document: &mut OpenDocument) -> bool {
     true
 }
 
-/// Replaces one instance. Returns the new nodes; none if that was refused.
+/// Replaces one instance. Returns the new nodes; `None` if this was refused.
 fn dissolve(
     document: &mut OpenDocument,
     id: &NodeId,
@@ -90,12 +90,12 @@ fn dissolve(
         return None;
     }
     notify_differences(document, instance, name, group);
-    // Refused without a notice where other instances use the group.
+    // Refused without a notice if the group has other instances.
     document.edit_quietly("Ungroup", Edit::RemoveGroup { name: name.to_owned() });
     Some(ids)
 }
 
-/// Edits that connect the wires of an instance to the nodes that replace it.
+/// Returns edits that move the wires of an instance to the nodes that replace it.
 fn rewired(document: &OpenDocument, id: &NodeId, instance: &Node, dissolved: &DissolvedGroup<'_>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (name, from) in &instance.inputs {
@@ -156,7 +156,7 @@ fn scale_lengths(
     }
 }
 
-/// Adds notices about properties of the instance that were lost.
+/// Adds notices about properties of the instance that are lost.
 fn notify_differences(document: &mut OpenDocument, instance: &Node, name: &str, group: &GroupDef) {
     let title = instance.label.clone().unwrap_or_else(|| name.to_owned());
     if instance
@@ -253,7 +253,7 @@ impl Successors for DissolvedGroup<'_> {
     }
 
     fn output(&self, from: &OutputRef) -> Option<OutputRef> {
-        // A wire that names no output means the only one.
+        // A wire that names no output means the only output.
         let first = self.group.outputs.keys().next();
         let inner = self.group.outputs.get(from.port.as_ref().or(first)?)?;
         Some(OutputRef {

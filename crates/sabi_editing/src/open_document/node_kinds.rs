@@ -1,4 +1,4 @@
-//! Node kinds of the open document. Reading their files takes its time, which callers spend where nothing waits for it.
+//! Node kinds of the open document. Reading their files takes time, so callers do it where nothing waits for it.
 
 use std::sync::Arc;
 
@@ -16,14 +16,14 @@ impl OpenDocument {
         OpenDocument::with_kinds(session, IdGenerator::random(), kinds, catalog)
     }
 
-    /// Opens the document of a session with the built-in node kinds, until those of its folders are read.
+    /// Opens the document of a session with the built-in node kinds only. The kinds of its folders are read later.
     pub fn before_kinds(session: Session) -> OpenDocument {
         let kinds = Arc::new(Kinds::builtin());
         let catalog = Arc::new(Catalog::new(&kinds));
         OpenDocument::with_kinds(session, IdGenerator::random(), kinds, catalog)
     }
 
-    /// Takes the node kinds of the document's folders for the first time since it was opened.
+    /// Sets the node kinds of the document's folders for the first time since the document was opened.
     pub fn first_kinds(&mut self, kinds: Kinds) {
         self.replace_kinds(kinds);
         self.opened = self.faces().clone();
@@ -37,7 +37,7 @@ impl OpenDocument {
         self.refresh();
     }
 
-    /// Node kinds, and a number that rises each time they are read again.
+    /// Returns the node kinds, and a number that increases each time they are read again.
     pub fn kinds(&self) -> (&Arc<Kinds>, u64) {
         (&self.kinds, self.kinds_revision)
     }

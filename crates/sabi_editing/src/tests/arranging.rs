@@ -14,7 +14,7 @@ fn pos(document: &OpenDocument, id: &str) -> [f32; 2] {
 }
 
 #[test]
-fn nodes_are_brought_in_line() {
+fn selected_nodes_are_aligned() {
     let mut document = opened("", NODES);
     select(&mut document, &["n", "w", "m"]);
     let all = |document: &OpenDocument| ["n", "w", "m"].map(|id| pos(document, id));
@@ -34,7 +34,7 @@ fn nodes_are_brought_in_line() {
 }
 
 #[test]
-fn distributed_nodes_have_equal_spaces_between_them_and_the_ends_stay() {
+fn distributed_nodes_have_equal_spaces_and_the_ends_stay() {
     let mut document = opened("", NODES);
     select(&mut document, &["n", "w", "m"]);
     let ends = |document: &OpenDocument| {
@@ -62,7 +62,7 @@ fn distributed_nodes_have_equal_spaces_between_them_and_the_ends_stay() {
     assert_eq!(said, "select three or more nodes to distribute them");
 }
 
-/// Returns the vertical offset of a wire's end from its beginning.
+/// Returns the vertical offset between the two ends of a wire.
 fn slant(document: &OpenDocument, input: &str) -> f32 {
     let input = to(input);
     let wire = connections::wire_into(document, &input).expect("a wire");
@@ -83,7 +83,7 @@ fn slant(document: &OpenDocument, input: &str) -> f32 {
 }
 
 #[test]
-fn wires_among_straightened_nodes_run_level() {
+fn wires_between_straightened_nodes_are_horizontal() {
     let mut document = opened("", NODES);
     selection::select_all(&mut document);
     step(&mut document, arrangement::straighten);
@@ -103,7 +103,7 @@ fn wires_among_straightened_nodes_run_level() {
 }
 
 #[test]
-fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
+fn a_layout_has_no_overlaps_and_repeating_it_changes_nothing() {
     let mut document = opened("", NODES);
     step(&mut document, arrangement::lay_out);
     let ids: Vec<NodeId> = document.graph().ids().cloned().collect();
@@ -127,7 +127,7 @@ fn a_layout_reads_from_left_to_right_without_overlaps_and_is_the_same_again() {
 }
 
 #[test]
-fn frames_are_laid_out_whole_and_apart_unless_they_read_each_other_in_turn() {
+fn frames_are_laid_out_as_units_unless_they_read_each_other() {
     let framed = |frames: [[&str; 2]; 2]| {
         let mut document = opened("", NODES);
         for ids in frames {
@@ -149,7 +149,7 @@ fn frames_are_laid_out_whole_and_apart_unless_they_read_each_other_in_turn() {
 }
 
 #[test]
-fn only_what_is_selected_is_laid_out() {
+fn only_selected_nodes_are_laid_out() {
     let mut document = opened("", NODES);
     select(&mut document, &["base", "layer"]);
     step(&mut document, arrangement::lay_out);
@@ -158,7 +158,7 @@ fn only_what_is_selected_is_laid_out() {
 }
 
 #[test]
-fn a_drag_is_one_step_and_only_of_what_moves() {
+fn a_drag_is_one_undo_step_for_the_nodes_that_move() {
     let mut document = opened("", NODES);
     select(&mut document, &["n", "w"]);
     let begin = arrangement::selected_positions(&document);

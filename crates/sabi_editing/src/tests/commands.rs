@@ -1,4 +1,4 @@
-//! Claims about commands: each says what came of it, and is one step where it changes the document.
+//! Tests of commands: each reports its result, and is one undo step if it changes the document.
 
 use super::*;
 use crate::command::{
@@ -21,7 +21,7 @@ fn add_kind(kind: &str, into: Option<SlotRef>) -> EditCommand {
     })
 }
 
-/// Commands of every kind that can be carried out on [`NODES`] with `a` and `b` selected, each by itself.
+/// Returns commands of every kind that can be performed on [`NODES`] with `a` and `b` selected, each alone.
 fn commands() -> Vec<EditCommand> {
     let node = || id("a");
     let knob = || "size".to_owned();
@@ -115,7 +115,7 @@ fn a_command_that_adds_a_node_returns_its_id() {
 }
 
 #[test]
-fn a_refused_command_leaves_the_document_as_it_is_and_says_why() {
+fn a_refused_command_changes_nothing_and_gives_the_reason() {
     let lost = || "lost".to_owned();
     let library = NodeSource::Library("lost.sabi".into());
     let refusals = [
@@ -153,7 +153,7 @@ fn a_refused_command_leaves_the_document_as_it_is_and_says_why() {
 }
 
 #[test]
-fn copied_nodes_come_as_a_text_that_can_be_pasted() {
+fn copied_nodes_are_returned_as_text_that_can_be_pasted() {
     let mut document = opened("", NODES);
     let copy = || EditCommand::Clipboard(ClipboardCommand::Copy);
     assert_eq!(perform(&mut document, copy()), Outcome::Unchanged);
@@ -192,7 +192,7 @@ fn frames_are_renamed_and_recolored() {
 }
 
 #[test]
-fn a_step_of_several_edits_is_ended_or_cancelled() {
+fn a_step_of_several_edits_can_be_ended_or_canceled() {
     let mut document = opened("", NODES);
     let history = |document: &mut OpenDocument, command| perform(document, EditCommand::History(command));
     let text = document.session.text().to_owned();

@@ -1,4 +1,4 @@
-//! Duplicates, and nodes as text.
+//! Duplicates, and nodes copied as text.
 
 use super::*;
 
@@ -8,7 +8,7 @@ const NODES: &str = r#"
     "i": { "kind": "adjust/invert", "inputs": { "source": "l" }, "pos": [600, 50] }"#;
 
 #[test]
-fn a_duplicate_keeps_seeds_and_wires_among_the_copies() {
+fn a_duplicate_keeps_seeds_and_the_wires_between_the_copies() {
     let mut document = opened(r#""frames": { "f": { "title": "Both", "nodes": ["l", "n"] } },"#, NODES);
     select(&mut document, &["n", "l"]);
     step(&mut document, |document| duplication::duplicate(document, false));
@@ -29,7 +29,7 @@ fn a_duplicate_keeps_seeds_and_wires_among_the_copies() {
 }
 
 #[test]
-fn a_duplicate_reads_what_was_read_only_if_it_is_asked_to() {
+fn a_duplicate_keeps_input_wires_only_if_asked_to() {
     let mut document = opened("", NODES);
     select(&mut document, &["l"]);
     step(&mut document, |document| duplication::duplicate(document, true));
@@ -60,7 +60,7 @@ fn a_copy_is_the_text_of_a_graph_file() {
     places.sort_by(|one, two| one[0].total_cmp(&two[0]));
     assert_eq!(places, [[100.0, 50.0], [400.0, 50.0]]);
     assert_eq!(other.graph().frames().len(), 1);
-    // Once more, beside the first.
+    // Paste a second time, beside the first copy.
     step(&mut other, |document| clipboard::paste(document, &text, [0.0; 2]));
     assert_eq!((other.graph().len(), other.graph().frames().len()), (4, 2));
 }
@@ -74,7 +74,7 @@ fn cutting_copies_and_deletes() {
 }
 
 #[test]
-fn what_is_no_graph_is_not_pasted() {
+fn a_text_that_is_not_a_graph_is_not_pasted() {
     let mut document = opened("", NODES);
     for text in [
         "",
@@ -97,7 +97,7 @@ fn what_is_no_graph_is_not_pasted() {
     assert_eq!(said, "a node can only stand at a finite place on the canvas");
 }
 
-/// A group that holds another one; `gain` tells versions of the inner one apart.
+/// Creates a group that contains another group; different values of `gain` give different inner groups.
 fn nested(gain: f64) -> OpenDocument {
     let groups = format!(
         r#""groups": {{
@@ -118,7 +118,7 @@ fn group_names(document: &OpenDocument) -> Vec<&str> {
 }
 
 #[test]
-fn groups_come_along_and_are_used_where_they_are_the_same() {
+fn pasted_groups_are_imported_or_reused_if_they_are_the_same() {
     let mut source = nested(0.5);
     selection::select_all(&mut source);
     let text = clipboard::copy(&source).expect("nodes");
@@ -135,7 +135,7 @@ fn groups_come_along_and_are_used_where_they_are_the_same() {
 }
 
 #[test]
-fn a_group_that_only_has_the_same_name_comes_under_another_once() {
+fn a_group_with_a_taken_name_is_imported_once_under_another_name() {
     let mut source = nested(0.5);
     selection::select_all(&mut source);
     let text = clipboard::copy(&source).expect("nodes");
@@ -151,7 +151,7 @@ fn a_group_that_only_has_the_same_name_comes_under_another_once() {
 }
 
 #[test]
-fn names_that_two_groups_of_the_clipboard_would_take_stay_apart() {
+fn two_pasted_groups_never_get_the_same_name() {
     let groups = |gain: f64| {
         let group = |gain: f64| {
             let node = format!(r#"{{ "kind": "noise/simplex", "params": {{ "gain": {gain} }} }}"#);
@@ -174,7 +174,7 @@ fn names_that_two_groups_of_the_clipboard_would_take_stay_apart() {
 }
 
 #[test]
-fn a_group_is_not_put_inside_itself() {
+fn a_group_is_not_pasted_into_itself() {
     let mut document = nested(0.5);
     select(&mut document, &["g"]);
     let text = clipboard::copy(&document).expect("an instance");
@@ -204,7 +204,7 @@ fn a_group_is_not_put_inside_itself() {
 }
 
 #[test]
-fn a_duplicate_with_its_inputs_is_fed_from_outside_as_well() {
+fn a_duplicate_with_inputs_is_also_fed_by_the_inputs_of_the_group() {
     let groups = r#""groups": { "G": { "inputs": { "base": { "to": ["one.base"] } }, "outputs": { "material": "one.material" },
         "nodes": { "one": { "kind": "effect/layer" } } } },"#;
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);
@@ -220,7 +220,7 @@ fn a_duplicate_with_its_inputs_is_fed_from_outside_as_well() {
     assert_eq!(ports::inputs(&document)["base"].to.len(), 2);
 }
 
-/// A graph in a file of that folder, with a picture beside it, alone and in a group.
+/// Creates a graph in a file of a folder, with an image node in the main graph and one in a group.
 fn with_pictures(folder: &std::path::Path) -> OpenDocument {
     let text = r#"{ "format": "sabi", "version": 1,
         "nodes": { "g": { "kind": "graph/group", "group": "Old" },
@@ -239,7 +239,7 @@ fn picture_in(document: &OpenDocument, group: &str, node: &str) -> Option<Value>
 }
 
 #[test]
-fn pictures_of_what_is_pasted_are_those_of_what_was_copied() {
+fn pasted_images_refer_to_the_same_files_as_the_copied_ones() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = folder.path().canonicalize().expect("a folder");
     let [mut one, mut other] = ["one", "other"].map(|name| with_pictures(&root.join(name)));
@@ -266,7 +266,7 @@ fn pictures_of_what_is_pasted_are_those_of_what_was_copied() {
 }
 
 #[test]
-fn pictures_of_a_group_lead_to_the_same_through_the_library() {
+fn images_of_a_group_refer_to_the_same_files_after_a_trip_through_the_library() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = folder.path().canonicalize().expect("a folder");
     let mut one = with_pictures(&root.join("one"));
@@ -278,14 +278,14 @@ fn pictures_of_a_group_lead_to_the_same_through_the_library() {
         picture_in(&other, "Old 2", "inner"),
         Some(Value::from("../../one/tex/torn.png"))
     );
-    // The graph that it was saved from has it already, and uses what it has.
+    // The graph from which the group was saved has it already, and reuses it.
     library::add(&mut one, &kept, [0.0; 2], None).expect("a node");
     assert_eq!(picture_in(&one, "Old", "inner"), Some(Value::from("tex/torn.png")));
     assert!(!one.contents().groups.contains_key("Old 2"));
 }
 
 #[test]
-fn what_is_pasted_where_it_was_copied_names_its_files_as_before() {
+fn nodes_pasted_into_their_own_document_refer_to_the_same_files() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut document = with_pictures(folder.path());
     for written in ["./tex/torn.png", "/somewhere/torn.png", "tex/../torn.png"] {
@@ -296,7 +296,7 @@ fn what_is_pasted_where_it_was_copied_names_its_files_as_before() {
         let pasted = document.selected_one().cloned().expect("the copy");
         assert_eq!(param(&document, pasted.as_str(), "file"), Some(Value::from(written)));
     }
-    // As it comes from a machine that has other folders.
+    // Simulate a text that was copied on a computer with other folders.
     let text = clipboard::copy(&document)
         .expect("a node")
         .replace("\"folder\": \"", "\"folder\": \"/of/nobody");
@@ -318,7 +318,7 @@ fn in_folder(folder: &std::path::Path, name: &str) -> OpenDocument {
 }
 
 #[test]
-fn copied_paint_nodes_bring_their_strokes_to_another_graph() {
+fn copied_paint_nodes_take_their_strokes_to_another_graph() {
     use crate::painting;
     use sabi_engine::paint::{Brush, Stroke};
     let [here, there] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
@@ -337,7 +337,7 @@ fn copied_paint_nodes_bring_their_strokes_to_another_graph() {
         there.path().join("other.paint/crate.strokes").exists(),
         "they are kept at once"
     );
-    // Without strokes, a copy names no place of them.
+    // A copy of nodes without strokes names no file for strokes.
     select(&mut other, &["hand"]);
     let text = clipboard::copy(&other).expect("a node");
     assert!(!text.contains("strokes_beside"), "{text}");

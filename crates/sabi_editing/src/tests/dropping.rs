@@ -35,7 +35,7 @@ fn output(name: &str) -> DroppedOn {
 }
 
 #[test]
-fn a_layer_goes_to_the_output_of_the_place_that_it_is_dropped_on() {
+fn a_layer_is_added_to_the_output_of_the_place_where_it_is_dropped() {
     let mut document = opened("", TWO_OUTPUTS);
     dropped(&mut document, kind("effect/layer"), output("b_wheel"), false).expect("a layer");
     assert_eq!(titles(&document, 0), ["Paint"]);
@@ -55,7 +55,7 @@ fn a_layer_goes_to_the_output_of_the_place_that_it_is_dropped_on() {
 }
 
 #[test]
-fn a_material_that_no_output_gives_gets_one_of_its_own() {
+fn a_material_without_an_output_gets_one() {
     let mut document = opened("", TWO_OUTPUTS);
     let glass = DroppedOn::Material("glass".to_owned());
     dropped(&mut document, kind("effect/layer"), glass, false).expect("a layer");
@@ -80,14 +80,14 @@ fn end_of(stack: &stack::Stack) -> String {
 }
 
 #[test]
-fn a_layer_on_an_empty_graph_lies_on_the_models_own_material() {
+fn a_layer_on_an_empty_graph_is_added_above_the_models_own_material() {
     let mut document = opened("", "");
     dropped(&mut document, kind("effect/layer"), DroppedOn::Unknown, true).expect("a layer");
     assert_eq!(titles(&document, 0), ["Layer", "Model"]);
 }
 
 #[test]
-fn a_drop_wires_the_normal_map_of_the_model_where_nothing_below_has_it() {
+fn a_drop_connects_the_models_normal_map_if_no_layer_below_has_it() {
     let nodes = r#""paint": { "kind": "source/material", "label": "Paint" },
         "out": { "kind": "output/material", "inputs": { "material": "paint" } }"#;
     let mut document = opened("", nodes);
@@ -108,7 +108,7 @@ fn a_drop_wires_the_normal_map_of_the_model_where_nothing_below_has_it() {
         .filter(|value| **value == Value::Bool(false))
         .count();
     assert!(switches >= 9, "it changes nothing else: {:?}", node.params);
-    // Now it has them.
+    // Now the layers below have the normal map.
     dropped(&mut document, kind("effect/relief"), output("out"), true).expect("a layer");
     assert_eq!(
         titles(&document, 0),
@@ -120,7 +120,7 @@ fn a_drop_wires_the_normal_map_of_the_model_where_nothing_below_has_it() {
 }
 
 #[test]
-fn a_base_material_of_the_library_keeps_the_normal_map_of_a_model() {
+fn a_base_material_of_the_library_keeps_the_models_normal_map() {
     let base = |name: &str| {
         let file = format!("base/{name}.sabi");
         let files = super::effect_library::all_files().into_iter();
@@ -142,7 +142,7 @@ fn a_base_material_of_the_library_keeps_the_normal_map_of_a_model() {
 }
 
 #[test]
-fn a_layer_that_is_dropped_on_a_node_is_read_by_all_that_read_the_node() {
+fn all_readers_of_a_node_read_the_layer_that_is_dropped_on_it() {
     let nodes = r#"
         "paint": { "kind": "source/material", "label": "Paint" },
         "dents": { "kind": "effect/relief", "inputs": { "base": "paint" } },

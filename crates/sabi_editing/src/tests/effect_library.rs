@@ -1,4 +1,4 @@
-//! The graphs of the effect library: how each is written, and what every group of it offers.
+//! The graphs of the effect library: how they are written, and what every group offers.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,7 +12,7 @@ use crate::library_folder::LibraryFolder;
 use crate::linked_groups;
 use crate::{library, nodes};
 
-/// Fewest groups of the library.
+/// Minimum number of groups in the library.
 const FEWEST: usize = 46;
 /// Groups whose lengths are shares of the whole model, each with its reason.
 const OF_THE_WHOLE_MODEL: [(&str, &str); 5] = [
@@ -31,7 +31,7 @@ const OF_THE_WHOLE_MODEL: [(&str, &str); 5] = [
         "stripes are painted over joints, once the object is put together",
     ),
 ];
-/// Most knobs that a group publishes.
+/// Maximum number of knobs that a group publishes.
 const MOST_KNOBS: usize = 9;
 
 fn folder() -> PathBuf {
@@ -55,7 +55,7 @@ pub(super) fn all_files() -> Vec<PathBuf> {
     files().into_values().flatten().collect()
 }
 
-/// All graphs of the project.
+/// Returns all graphs of the project.
 pub(super) fn all_graphs() -> impl Iterator<Item = PathBuf> {
     all_files().into_iter().chain(examples())
 }
@@ -65,7 +65,7 @@ fn is_without_places(document: &Document) -> bool {
 }
 
 #[test]
-fn every_graph_of_the_project_is_written_as_the_editor_saves_it() {
+fn every_graph_of_the_project_is_stored_as_the_editor_saves_it() {
     let bless = std::env::var("SABI_BLESS").is_ok_and(|what| what == "library");
     let mut wrong = Vec::new();
     for file in all_graphs() {
@@ -103,7 +103,7 @@ fn examples() -> Vec<PathBuf> {
 }
 
 #[test]
-fn every_group_of_the_library_offers_what_the_others_do() {
+fn every_group_of_the_library_offers_the_standard_knobs() {
     let files = files();
     let categories: Vec<&str> = files.keys().map(String::as_str).collect();
     assert_eq!(categories, ["base", "finish", "generator", "weathering"]);
@@ -147,7 +147,7 @@ fn faults_of(document: &Document) -> Vec<String> {
     let panel = graph.panel();
     let names: Vec<&str> = panel.iter().map(|(name, _)| *name).collect();
     expect(names.len() <= MOST_KNOBS, "publishes more than nine knobs");
-    // Random values of whole parts have no size.
+    // A group with random values for whole parts has no size; use its choice of parts instead.
     let second = if names.contains(&"by") { "by" } else { "size" };
     expect(
         names.starts_with(&["amount", second, "age"]),
@@ -195,7 +195,7 @@ fn with_instance(folder: &Path) -> crate::OpenDocument {
     document
 }
 
-/// A library of two groups, one of which uses the other; `knobs` are those that it publishes.
+/// Writes a library of two groups, one of which uses the other. `knobs` are the knobs that it publishes.
 fn write_library(folder: &Path, knobs: &str) {
     fs::create_dir_all(folder.join("weathering")).expect("a folder");
     let write = |name: &str, more: &str, nodes: &str| {
@@ -217,7 +217,7 @@ fn write_library(folder: &Path, knobs: &str) {
 const TWO_KNOBS: &str = r#""size": { "to": ["n.size"] }, "jitter": { "to": ["n.jitter"] }"#;
 
 #[test]
-fn an_instance_has_a_copy_of_its_library_file_with_all_that_it_uses() {
+fn an_instance_has_a_copy_of_its_library_file_and_of_all_files_it_uses() {
     let folder = tempfile::tempdir().expect("a folder");
     write_library(folder.path(), TWO_KNOBS);
     let document = with_instance(folder.path());
@@ -234,7 +234,7 @@ fn an_instance_has_a_copy_of_its_library_file_with_all_that_it_uses() {
 }
 
 #[test]
-fn an_update_keeps_the_knobs_that_are_left_and_undo_brings_the_version_before_back() {
+fn an_update_keeps_existing_knobs_and_can_be_undone() {
     let folder = tempfile::tempdir().expect("a folder");
     write_library(folder.path(), TWO_KNOBS);
     let mut document = with_instance(folder.path());
@@ -259,7 +259,7 @@ fn an_update_keeps_the_knobs_that_are_left_and_undo_brings_the_version_before_ba
 }
 
 #[test]
-fn an_unlinked_group_stays_as_it_is() {
+fn an_unlinked_group_stays_unchanged() {
     let folder = tempfile::tempdir().expect("a folder");
     write_library(folder.path(), TWO_KNOBS);
     let mut document = with_instance(folder.path());
@@ -272,7 +272,7 @@ fn an_unlinked_group_stays_as_it_is() {
 }
 
 #[test]
-fn all_updates_are_one_step_and_a_file_that_is_gone_does_not_hold_up_the_others() {
+fn all_updates_are_one_step_and_a_missing_file_does_not_block_the_others() {
     let folder = tempfile::tempdir().expect("a folder");
     write_library(folder.path(), TWO_KNOBS);
     let file = |name: &str| folder.path().join(format!("weathering/{name}.sabi"));
@@ -313,7 +313,7 @@ fn all_updates_are_one_step_and_a_file_that_is_gone_does_not_hold_up_the_others(
 }
 
 #[test]
-fn random_values_stay_in_their_ranges_and_leave_kept_knobs_alone() {
+fn random_values_stay_in_their_ranges_and_kept_knobs_stay_unchanged() {
     let folder = tempfile::tempdir().expect("a folder");
     write_library(
         folder.path(),
@@ -337,7 +337,7 @@ fn random_values_stay_in_their_ranges_and_leave_kept_knobs_alone() {
 }
 
 #[test]
-fn a_file_that_uses_itself_is_refused_with_its_name() {
+fn a_file_that_uses_itself_is_refused_by_name() {
     let folder = tempfile::tempdir().expect("a folder");
     write_library(folder.path(), TWO_KNOBS);
     let itself = r#"{ "format": "sabi", "version": 1, "outputs": { "mask": "i" },

@@ -1,4 +1,4 @@
-//! The graph that is seen, and what is selected in it.
+//! The shown graph, and the selection in it.
 
 use super::*;
 use crate::command::{EditCommand, Outcome, SelectionCommand, perform};
@@ -10,7 +10,7 @@ const NODES: &str = r#""g": { "kind": "graph/group", "group": "outer", "label": 
     "h": { "kind": "graph/group", "group": "outer" }, "n": { "kind": "noise/white" }"#;
 
 #[test]
-fn one_goes_into_groups_and_back_to_where_one_came_from() {
+fn groups_are_entered_and_left_again() {
     let mut document = opened(GROUPS, NODES);
     assert!(!navigation::enter(&mut document, &id("n")), "no group");
     assert!(navigation::enter(&mut document, &id("g")) && navigation::enter(&mut document, &id("i")));
@@ -29,7 +29,7 @@ fn one_goes_into_groups_and_back_to_where_one_came_from() {
 }
 
 #[test]
-fn a_node_is_found_and_called_by_the_way_to_it() {
+fn a_node_is_found_and_described_by_its_path() {
     let mut document = opened(GROUPS, NODES);
     for (path, title) in [
         ("n", Some("White noise")),
@@ -57,7 +57,7 @@ fn a_node_is_found_and_called_by_the_way_to_it() {
 }
 
 #[test]
-fn selecting_what_is_muted_takes_all_muted_nodes_of_the_shown_graph_and_no_others() {
+fn selecting_muted_nodes_selects_all_of_the_shown_graph_and_no_others() {
     let groups = r#""groups": { "wear": { "outputs": { "mask": "n" }, "nodes": {
         "n": { "kind": "noise/white" }, "m": { "kind": "noise/cells", "muted": true } } } },"#;
     let nodes = r#""a": { "kind": "noise/white", "muted": true }, "b": { "kind": "noise/white" },
@@ -73,7 +73,7 @@ fn selecting_what_is_muted_takes_all_muted_nodes_of_the_shown_graph_and_no_other
 }
 
 #[test]
-fn where_nothing_is_muted_the_selection_stays_and_a_sentence_says_so() {
+fn without_muted_nodes_the_selection_stays_and_a_notice_is_added() {
     let mut document = opened("", r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#);
     select(&mut document, &["b"]);
     let said = refused(&mut document, selection::select_muted);
@@ -82,7 +82,7 @@ fn where_nothing_is_muted_the_selection_stays_and_a_sentence_says_so() {
 }
 
 #[test]
-fn an_edit_inside_is_one_in_all_instances() {
+fn an_edit_inside_a_group_changes_all_instances() {
     let mut document = opened(GROUPS, NODES);
     navigation::enter(&mut document, &id("g"));
     navigation::enter(&mut document, &id("i"));
@@ -98,14 +98,14 @@ fn an_edit_inside_is_one_in_all_instances() {
 }
 
 #[test]
-fn an_entered_group_that_is_gone_is_left_and_nothing_there_stays_selected() {
+fn a_removed_group_is_left_and_its_selection_is_cleared() {
     let mut document = opened(GROUPS, NODES);
     select(&mut document, &["n"]);
     groups::make(&mut document);
     let made = document.selected_one().cloned().expect("the instance");
     navigation::enter(&mut document, &made);
     select(&mut document, &["n"]);
-    // The graph outside has a node of that id once more.
+    // The outer graph has a node with that id again.
     document.undo();
     assert!(navigation::breadcrumb(&document).is_empty());
     assert!(document.selection().is_empty(), "{:?}", document.selection());
@@ -114,7 +114,7 @@ fn an_entered_group_that_is_gone_is_left_and_nothing_there_stays_selected() {
 }
 
 #[test]
-fn undo_keeps_the_selection_as_far_as_it_is_there() {
+fn undo_keeps_the_selection_of_nodes_that_exist() {
     let mut document = opened("", NODES_PLAIN);
     select(&mut document, &["a", "b"]);
     nodes::set_knob(&mut document, &id("a"), "size", number(0.5));
@@ -134,7 +134,7 @@ const NODES_PLAIN: &str = r#""a": { "kind": "noise/white" }, "b": { "kind": "adj
     "c": { "kind": "adjust/invert", "inputs": { "source": "b" } }, "d": { "kind": "noise/cells" }"#;
 
 #[test]
-fn streams_are_selected_up_and_down() {
+fn upstream_and_downstream_nodes_are_selected() {
     let mut document = opened("", NODES_PLAIN);
     let selected = |document: &OpenDocument| document.selection().iter().map(NodeId::to_string).collect::<Vec<_>>();
     select(&mut document, &["b", "lost"]);
@@ -150,7 +150,7 @@ fn streams_are_selected_up_and_down() {
 }
 
 #[test]
-fn a_group_that_holds_itself_is_entered_once() {
+fn a_group_that_contains_itself_can_be_entered_only_once() {
     let groups = r#""groups": { "a": { "nodes": { "i": { "kind": "graph/group", "group": "a" } } } },"#;
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "a" }"#);
     assert!(navigation::enter(&mut document, &id("g")));

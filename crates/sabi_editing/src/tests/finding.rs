@@ -38,7 +38,7 @@ fn file_of(document: &OpenDocument, node: &str) -> String {
 }
 
 #[test]
-fn files_that_are_not_there_are_listed_as_they_are_written() {
+fn missing_files_are_listed_as_they_are_written() {
     let (document, _folder) = in_folder(&["graphs/lost/rust.png"]);
     assert_eq!(
         missing(&document),
@@ -52,7 +52,7 @@ fn files_that_are_not_there_are_listed_as_they_are_written() {
 }
 
 #[test]
-fn a_file_that_is_found_brings_along_those_beside_it_in_one_step() {
+fn finding_one_file_also_finds_missing_files_beside_it_in_one_step() {
     let moved = [
         "moved/rust.png",
         "moved/masks/dirt.png",
@@ -76,7 +76,7 @@ fn a_file_that_is_found_brings_along_those_beside_it_in_one_step() {
 }
 
 #[test]
-fn nothing_is_taken_from_above_the_folder_that_was_chosen() {
+fn no_file_above_the_chosen_folder_is_used() {
     let (mut document, folder) = in_folder(&["moved/hero.glb", "secret/rust.png", "moved/deep/none.png"]);
     let edit = sabi_graph::Edit::SetParam {
         body: document.body(),

@@ -5,7 +5,7 @@ use sabi_graph::Frame;
 use super::*;
 
 #[test]
-fn a_frame_stands_around_the_selected_nodes_and_goes_without_them() {
+fn a_frame_surrounds_the_selected_nodes_and_its_nodes_stay_when_it_is_removed() {
     let mut document = opened("", r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#);
     selection::select_all(&mut document);
     step(&mut document, frames::add);
@@ -40,7 +40,7 @@ fn a_frame_stands_around_the_selected_nodes_and_goes_without_them() {
 }
 
 #[test]
-fn a_node_is_in_one_frame_at_a_time_where_it_is_put_into_one() {
+fn moving_a_node_into_a_frame_removes_it_from_other_frames() {
     let mut document = opened(
         r#""frames": { "f": { "nodes": ["a", "gone"] }, "g": { "nodes": ["b"] } },"#,
         r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#,
@@ -61,7 +61,7 @@ fn a_node_is_in_one_frame_at_a_time_where_it_is_put_into_one() {
 }
 
 #[test]
-fn a_frame_goes_with_its_last_node_and_comes_back_with_it() {
+fn a_frame_is_removed_with_its_last_node_and_restored_with_it() {
     let mut document = opened(
         r#""frames": { "f": { "nodes": ["a", "b"] } },"#,
         r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }, "c": { "kind": "noise/white" }"#,

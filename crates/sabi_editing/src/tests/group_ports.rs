@@ -1,8 +1,8 @@
-//! Inputs and outputs of groups, and instances that follow.
+//! Inputs and outputs of groups, and instances that are adapted to them.
 
 use super::*;
 
-/// A group in two instances, one of them inside another group, which publishes what it is.
+/// Creates a group with two instances. One of them is inside another group, which publishes its ports.
 fn wear() -> OpenDocument {
     let groups = r#""groups": {
         "wear": { "inputs": { "where": { "to": ["l.source"], "label": "Where" } }, "outputs": { "mask": "l" },
@@ -23,13 +23,13 @@ fn wear() -> OpenDocument {
 }
 
 #[test]
-fn an_input_feeds_what_takes_it_and_nothing_else() {
+fn an_input_can_feed_only_inputs_that_accept_its_type() {
     let mut document = wear();
     let name = step(&mut document, |document| ports::publish_input(document, &to("b.above")));
     assert_eq!(name.as_deref(), Some("above"));
     step(&mut document, |document| ports::feed(document, "above", &to("b.mask")));
     assert_eq!(ports::inputs(&document)["above"].to, [to("b.above"), to("b.mask")]);
-    // What another input fed it feeds no more.
+    // An input fed by another input of the group is now fed by this one.
     step(&mut document, |document| ports::feed(document, "where", &to("b.mask")));
     assert_eq!(ports::inputs(&document)["above"].to, [to("b.above")]);
     step(&mut document, |document| ports::unfeed(document, &to("b.mask")));
@@ -48,7 +48,7 @@ fn an_input_feeds_what_takes_it_and_nothing_else() {
 }
 
 #[test]
-fn a_renamed_input_is_renamed_in_all_instances_and_in_groups_around() {
+fn a_renamed_input_is_renamed_in_all_instances_and_enclosing_groups() {
     let mut document = wear();
     let before = evaluated(&document);
     step(&mut document, |document| {
@@ -70,7 +70,7 @@ fn a_renamed_input_is_renamed_in_all_instances_and_in_groups_around() {
 }
 
 #[test]
-fn a_removed_input_takes_the_wires_of_all_instances_with_it() {
+fn removing_an_input_removes_its_wires_in_all_instances() {
     let mut document = wear();
     step(&mut document, |document| ports::remove_input(document, "where"));
     navigation::leave(&mut document);
@@ -80,7 +80,7 @@ fn a_removed_input_takes_the_wires_of_all_instances_with_it() {
 }
 
 #[test]
-fn a_second_output_does_not_make_wires_from_the_first_one_unclear() {
+fn adding_a_second_output_keeps_the_wires_from_the_first_one_valid() {
     let mut document = wear();
     let before = evaluated(&document);
     let name = step(&mut document, |document| ports::publish_output(document, &from("n.id")));
@@ -102,7 +102,7 @@ fn a_second_output_does_not_make_wires_from_the_first_one_unclear() {
 }
 
 #[test]
-fn a_removed_output_takes_the_wires_from_all_instances_with_it() {
+fn removing_an_output_removes_its_wires_in_all_instances() {
     let mut document = wear();
     step(&mut document, |document| ports::remove_output(document, "mask"));
     navigation::leave(&mut document);
@@ -115,7 +115,7 @@ fn a_removed_output_takes_the_wires_from_all_instances_with_it() {
 }
 
 #[test]
-fn a_removed_node_takes_along_what_it_published_everywhere() {
+fn removing_a_node_removes_everything_it_published() {
     let mut document = wear();
     select(&mut document, &["l"]);
     step(&mut document, |document| nodes::delete(document, false));
@@ -135,7 +135,7 @@ fn a_removed_node_takes_along_what_it_published_everywhere() {
 }
 
 #[test]
-fn what_is_taken_already_is_no_new_name() {
+fn a_taken_name_is_refused() {
     let mut document = wear();
     ports::publish_input(&mut document, &to("b.above"));
     ports::publish_output(&mut document, &from("n.id"));
@@ -171,7 +171,7 @@ fn what_is_taken_already_is_no_new_name() {
 }
 
 #[test]
-fn the_main_graph_has_inputs_and_outputs_for_those_who_use_its_file() {
+fn the_main_graph_has_inputs_and_outputs_for_files_that_use_it_as_a_group() {
     let mut document = opened("", r#""l": { "kind": "adjust/levels" }"#);
     step(&mut document, |document| {
         ports::publish_input(document, &to("l.source"))
@@ -186,7 +186,7 @@ fn the_main_graph_has_inputs_and_outputs_for_those_who_use_its_file() {
 }
 
 #[test]
-fn what_an_instance_never_had_from_its_group_is_left_alone() {
+fn references_of_an_instance_that_were_broken_before_are_not_changed() {
     let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } },
         "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let mut document = opened(

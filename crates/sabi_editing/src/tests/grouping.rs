@@ -1,4 +1,4 @@
-//! Groups made of nodes and taken apart: the graph gives what it gave.
+//! Grouping and ungrouping nodes does not change results.
 
 use super::*;
 
@@ -15,7 +15,7 @@ const NODES: &str = r#"
     "wear": { "kind": "output/mask", "inputs": { "source": "m" }, "pos": [1500, 300] }"#;
 
 #[test]
-fn a_group_and_its_end_leave_the_evaluation_as_it_was() {
+fn grouping_and_ungrouping_keeps_the_results() {
     let before = evaluated(&opened("", NODES));
     for ids in [
         vec!["n"],
@@ -33,7 +33,7 @@ fn a_group_and_its_end_leave_the_evaluation_as_it_was() {
         let instance = document.selected_one().cloned().expect("the instance");
         assert_eq!(evaluated(&document), before, "{ids:?}");
         assert_eq!(document.contents().groups.len(), 1);
-        // Once more around the first.
+        // Group the instance once more.
         step(&mut document, groups::make);
         assert_eq!(evaluated(&document), before, "{ids:?}");
         step(&mut document, groups::dissolve_selected);
@@ -45,7 +45,7 @@ fn a_group_and_its_end_leave_the_evaluation_as_it_was() {
 }
 
 #[test]
-fn several_wires_from_one_place_are_one_input_and_several_readers_of_one_result_one_output() {
+fn wires_from_one_source_share_an_input_and_readers_of_one_result_share_an_output() {
     let mut document = opened("", NODES);
     select(&mut document, &["low", "i"]);
     step(&mut document, groups::make);
@@ -64,7 +64,7 @@ fn several_wires_from_one_place_are_one_input_and_several_readers_of_one_result_
 }
 
 #[test]
-fn what_cannot_be_grouped_is_told() {
+fn the_reason_why_nodes_cannot_be_grouped_is_reported() {
     let mut document = opened("", NODES);
     select(&mut document, &["layer", "out"]);
     let said = refused(&mut document, groups::make);
@@ -81,7 +81,7 @@ fn what_cannot_be_grouped_is_told() {
 }
 
 #[test]
-fn the_panel_the_border_and_frames_go_into_the_group_and_come_out_again() {
+fn grouping_moves_panel_ports_and_frames_and_ungrouping_restores_them() {
     let more = r#""exposed": { "seed_of_noise": { "to": ["n.seed", "w.seed"], "default": 4, "label": "Seed", "range": [0, 9] },
              "depth": { "to": ["low.depth"] } },
            "variants": { "deep": { "depth": 0.5 } },
@@ -136,7 +136,7 @@ fn the_panel_the_border_and_frames_go_into_the_group_and_come_out_again() {
 }
 
 #[test]
-fn an_input_that_is_fed_and_wired_keeps_both() {
+fn an_input_that_is_both_fed_and_connected_keeps_both() {
     let group = r#""groups": { "g": { "inputs": { "in": { "to": ["l.source"] } }, "outputs": { "mask": "l" },
         "nodes": { "n": { "kind": "noise/white" }, "l": { "kind": "adjust/levels", "inputs": { "source": "n" } } } } },"#;
     let nodes = r#""w": { "kind": "noise/cells" }, "fed": { "kind": "graph/group", "group": "g", "inputs": { "in": "w" } },
@@ -153,7 +153,7 @@ fn an_input_that_is_fed_and_wired_keeps_both() {
 }
 
 #[test]
-fn a_group_made_inside_one_keeps_the_size_it_is_for() {
+fn a_group_made_inside_a_group_has_the_same_fit() {
     let group = r#""groups": { "g": { "fit": 2.5, "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let nodes = r#""g": { "kind": "graph/group", "group": "g" }, "out": { "kind": "output/mask", "inputs": { "source": "g" } }"#;
     let mut document = opened(group, nodes);
@@ -168,7 +168,7 @@ fn a_group_made_inside_one_keeps_the_size_it_is_for() {
 }
 
 #[test]
-fn what_an_instance_sets_is_set_on_what_comes_out() {
+fn ungrouping_applies_the_values_of_the_instance_to_the_nodes() {
     let group = r#""groups": { "g": { "outputs": { "mask": "n" },
         "exposed": { "a": { "to": ["n.gain"] }, "b": { "to": ["n.gain"], "default": 0.125 }, "size": { "to": ["n.size"] },
                      "deep": { "to": ["n.octaves"] } },
@@ -206,7 +206,7 @@ fn what_an_instance_sets_is_set_on_what_comes_out() {
 }
 
 #[test]
-fn what_cannot_be_carried_out_of_a_group_is_told() {
+fn properties_that_ungrouping_loses_are_reported() {
     let group = r#""groups": { "g": { "fit": "metres", "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let mut document = opened(
         group,
@@ -224,7 +224,7 @@ fn what_cannot_be_carried_out_of_a_group_is_told() {
 }
 
 #[test]
-fn a_group_goes_with_its_last_instance_only() {
+fn a_group_is_removed_only_with_its_last_instance() {
     let group = r#""groups": { "g": { "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let nodes = r#""a": { "kind": "graph/group", "group": "g" }, "b": { "kind": "graph/group", "group": "g" },
         "m": { "kind": "blend/mask", "inputs": { "above": "a", "below": "b" } },
@@ -242,7 +242,7 @@ fn a_group_goes_with_its_last_instance_only() {
 }
 
 #[test]
-fn a_group_is_renamed_for_all_its_instances_also_while_one_is_inside() {
+fn a_group_is_renamed_in_all_instances_also_while_it_is_entered() {
     let group = r#""groups": { "g": { "name": "Shown", "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let nodes = r#""a": { "kind": "graph/group", "group": "g" }, "b": { "kind": "graph/group", "group": "g" }"#;
     let mut document = opened(group, nodes);
@@ -271,7 +271,7 @@ fn a_group_is_renamed_for_all_its_instances_also_while_one_is_inside() {
 }
 
 #[test]
-fn the_only_instance_of_a_group_gives_it_its_name_and_one_of_several_a_label() {
+fn renaming_the_only_instance_renames_the_group_and_otherwise_sets_a_label() {
     let mut document = opened("", NODES);
     select(&mut document, &["m", "n", "r"]);
     step(&mut document, groups::make);
@@ -281,12 +281,12 @@ fn the_only_instance_of_a_group_gives_it_its_name_and_one_of_several_a_label() {
     assert_eq!(names, ["Rust"]);
     assert_eq!(document.node(&instance).and_then(|node| node.label.clone()), None);
     assert_eq!(document.title(&instance), "Rust");
-    // A second instance: a name is that of the node from now on.
+    // With a second instance, a name applies to the node only.
     nodes::add_instance(&mut document, "Rust", [0.0; 2], None).expect("a second instance");
     step(&mut document, |document| nodes::rename(document, &instance, "Old rust"));
     assert!(document.contents().groups.contains_key("Rust"));
     assert_eq!(document.title(&instance), "Old rust");
-    // A file is no name of a group of the document.
+    // A file name is not the name of a group of the document.
     step(&mut document, |document| nodes::rename(document, &instance, ""));
     assert_eq!(document.title(&instance), "Rust");
 }

@@ -17,7 +17,7 @@ fn added(document: &mut OpenDocument, command: LayerCommand) -> NodeId {
 }
 
 #[test]
-fn a_paint_layer_lies_on_top_and_shows_painted_colors_as_they_are() {
+fn a_paint_layer_is_added_on_top_and_shows_painted_colors_unchanged() {
     let mut document = opened("", NODES);
     let command = LayerCommand::AddByHand {
         end: Some(StackEnd::Node(id("out"))),
@@ -34,13 +34,13 @@ fn a_paint_layer_lies_on_top_and_shows_painted_colors_as_they_are() {
         wire(&document, &format!("{}.color_map", layer.node)),
         format!("{paint}.color")
     );
-    // The color of a layer multiplies its map: gray would darken what is painted.
+    // The color of a layer multiplies its color map: gray would darken the painted colors.
     assert_eq!(param(&document, layer.node.as_str(), "color"), Some("#ffffff".into()));
     assert_eq!(document.session.undo_names().collect::<Vec<_>>(), ["Add Paint layer"]);
 }
 
 #[test]
-fn a_fill_layer_covers_all_and_brings_an_output_where_there_is_none() {
+fn a_fill_layer_covers_everything_and_adds_an_output_if_there_is_none() {
     let mut document = document();
     let command = LayerCommand::AddByHand {
         end: None,
@@ -57,7 +57,7 @@ fn a_fill_layer_covers_all_and_brings_an_output_where_there_is_none() {
 }
 
 #[test]
-fn a_mask_is_painted_on_black_or_on_white_in_place_of_another() {
+fn a_mask_is_painted_on_black_or_white_and_replaces_the_old_mask() {
     for (empty, held) in [(0.0, None), (1.0, Some(Value::Number(1.0)))] {
         let mut document = opened("", NODES);
         let node = id("rust");
@@ -74,7 +74,7 @@ fn a_mask_is_painted_on_black_or_on_white_in_place_of_another() {
 }
 
 #[test]
-fn a_wire_into_the_color_map_of_a_layer_leaves_a_color_that_was_chosen() {
+fn connecting_a_color_map_keeps_a_color_that_was_chosen() {
     let mut document = opened(
         "",
         r##""p": { "kind": "source/paint" }, "gray": { "kind": "effect/layer", "pos": [300, 0] },

@@ -1,4 +1,4 @@
-//! Room for what is put into a wire.
+//! Space for nodes that are inserted into a wire.
 
 use super::*;
 
@@ -14,7 +14,7 @@ fn pos(document: &OpenDocument, id: &str) -> [f32; 2] {
 }
 
 #[test]
-fn what_is_made_from_a_node_in_a_wire_makes_room_for_it_in_one_step() {
+fn an_inserted_node_moves_others_aside_in_the_same_step() {
     let mut document = opened("", CHAIN);
     let before = ["clouds", "aside", "invert", "levels", "new"].map(|id| pos(&document, id));
     step(&mut document, |document| {
@@ -41,7 +41,7 @@ fn what_is_made_from_a_node_in_a_wire_makes_room_for_it_in_one_step() {
 }
 
 #[test]
-fn where_there_is_room_nothing_moves() {
+fn if_there_is_enough_space_no_node_moves() {
     let mut document = opened(
         "",
         &CHAIN.replace("[250, 0]", "[600, 0]").replace("[500, 40]", "[900, 40]"),
@@ -55,7 +55,7 @@ fn where_there_is_room_nothing_moves() {
 }
 
 #[test]
-fn what_may_be_put_into_a_wire_fits_both_of_its_ends() {
+fn a_node_can_be_inserted_into_a_wire_only_if_it_fits_both_ends() {
     let document = opened("", CHAIN);
     let into = to("invert.source");
     let fits = |kind: &str| {
@@ -72,7 +72,7 @@ fn what_may_be_put_into_a_wire_fits_both_of_its_ends() {
 }
 
 #[test]
-fn a_bend_is_brought_in_line_by_its_own_size() {
+fn a_reroute_is_aligned_by_its_own_size() {
     let mut document = opened("", CHAIN);
     step(&mut document, |document| {
         wires::reroute(document, &to("levels.source"), [470.0, 300.0])

@@ -42,7 +42,7 @@ fn the_chain_behind_an_output_is_a_list_of_layers() {
 }
 
 #[test]
-fn an_eye_and_an_opacity_are_those_of_the_node() {
+fn visibility_and_opacity_of_a_layer_are_those_of_its_node() {
     let mut document = opened("", NODES);
     step(&mut document, |document| layers::toggle(document, &id("moss")));
     assert!(!stack::all(&document)[0].layers[0].is_muted);
@@ -61,7 +61,7 @@ fn an_eye_and_an_opacity_are_those_of_the_node() {
 }
 
 #[test]
-fn a_layer_is_moved_with_all_that_it_is() {
+fn a_layer_is_moved_with_its_mask_and_settings() {
     for (from, to, now) in [
         (0, 1, ["Rust", "Moss", "Dents"]),
         (0, 2, ["Rust", "Dents", "Moss"]),
@@ -86,7 +86,7 @@ fn a_layer_is_moved_with_all_that_it_is() {
 }
 
 #[test]
-fn what_cannot_be_moved_says_why() {
+fn the_reason_why_a_layer_cannot_be_moved_is_given() {
     let mut document = opened("", NODES);
     let mut said =
         |from: usize, to: usize| refused(&mut document, |document| layers::move_to(document, &end(), from, to));
@@ -124,7 +124,7 @@ fn what_cannot_be_moved_says_why() {
 }
 
 #[test]
-fn a_bend_that_others_read_too_keeps_its_layers_in_place() {
+fn layers_behind_a_reroute_with_other_readers_cannot_be_moved() {
     let nodes = format!(r#"{NODES}, "two": {{ "kind": "output/material", "inputs": {{ "material": "bend" }} }}"#);
     let mut document = opened("", &nodes);
     assert_eq!(stack::all(&document).len(), 2);
@@ -144,7 +144,7 @@ fn a_bend_that_others_read_too_keeps_its_layers_in_place() {
 }
 
 #[test]
-fn a_layer_is_removed_as_if_it_were_mute() {
+fn removing_a_layer_has_the_same_result_as_muting_it() {
     let mut document = opened("", NODES);
     step(&mut document, |document| layers::remove(document, &end(), 1));
     assert_eq!(titles(&document), ["Moss", "Dents", "Plain material"]);
@@ -163,7 +163,7 @@ fn a_layer_is_removed_as_if_it_were_mute() {
 }
 
 #[test]
-fn a_layer_is_added_above_another() {
+fn a_layer_is_added_above_another_layer() {
     let mut document = opened("", NODES);
     let add_ = |document: &mut OpenDocument, at: usize, kind: &str| {
         step(document, |document| layers::add(document, &end(), at, kind)).expect("a layer")
@@ -205,7 +205,7 @@ fn a_layer_is_added_above_another() {
 }
 
 #[test]
-fn inside_a_group_its_material_outputs_are_stacks() {
+fn material_outputs_of_a_group_are_stacks() {
     let groups = r#""groups": { "g": { "inputs": { "under": { "to": ["low.base"] } }, "outputs": { "material": "top" },
         "nodes": { "low": { "kind": "effect/relief", "label": "Low" }, "mid": { "kind": "effect/layer", "label": "Mid", "inputs": { "base": "low" } },
                    "top": { "kind": "effect/layer", "label": "Top", "inputs": { "base": "mid" } } } } },"#;

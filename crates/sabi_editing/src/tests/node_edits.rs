@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::*;
 
 #[test]
-fn a_new_node_is_selected_and_has_a_seed_of_its_own() {
+fn a_new_node_is_selected_and_gets_its_own_seed() {
     let mut document = document();
     let [one, other] = [add(&mut document, "noise/simplex"), add(&mut document, "noise/simplex")];
     assert!(one.as_str().starts_with("simplex_"), "{one}");
@@ -15,7 +15,7 @@ fn a_new_node_is_selected_and_has_a_seed_of_its_own() {
 }
 
 #[test]
-fn a_node_dropped_at_the_end_of_a_wire_is_tied_to_it() {
+fn a_node_added_at_the_end_of_a_dragged_wire_is_connected() {
     let mut document = document();
     let noise = add(&mut document, "noise/simplex");
     let loose = PendingWire::From(out(&noise));
@@ -38,7 +38,7 @@ fn a_node_dropped_at_the_end_of_a_wire_is_tied_to_it() {
 }
 
 #[test]
-fn a_kind_that_nobody_knows_is_not_added() {
+fn an_unknown_kind_is_not_added() {
     let said = refused(&mut document(), |document| {
         nodes::add(document, "noise/simplx", [0.0; 2], None)
     });
@@ -54,7 +54,7 @@ fn a_kind_that_nobody_knows_is_not_added() {
 }
 
 #[test]
-fn a_group_file_is_added_with_what_it_takes_and_gives() {
+fn a_group_file_is_added_with_its_inputs_and_outputs() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("wear.sabi");
     let group = r#"{ "format": "sabi", "version": 1, "name": "Wear", "inputs": { "where": { "to": ["w.below"] } },
@@ -78,14 +78,14 @@ fn a_group_file_is_added_with_what_it_takes_and_gives() {
         said,
         "'wear.sabi' is a file of its own; open it to change what is inside"
     );
-    // Somebody else saves it.
+    // Another program saves the group file.
     std::fs::write(&file, group.replace("Wear", "Worn out")).expect("a writable folder");
     document.files_changed(&BTreeSet::from([file]));
     assert_eq!(document.title(&wear), "Worn out");
 }
 
 #[test]
-fn deleting_takes_what_hangs_on_a_node_and_undo_brings_it_back_selected() {
+fn undo_of_a_deletion_restores_all_references_and_selects_the_node() {
     let mut document = opened(
         r#""exposed": { "size": { "to": ["a.size"] } }, "frames": { "f": { "nodes": ["a", "b"] } },"#,
         r#""a": { "kind": "noise/simplex" }, "b": { "kind": "adjust/invert", "inputs": { "source": "a" } }"#,
@@ -99,7 +99,7 @@ fn deleting_takes_what_hangs_on_a_node_and_undo_brings_it_back_selected() {
 }
 
 #[test]
-fn what_needs_a_selection_does_nothing_without_one() {
+fn commands_that_need_a_selection_do_nothing_without_one() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex" }"#);
     type Does = fn(&mut OpenDocument) -> bool;
     let all: [(&str, Does); 11] = [
@@ -124,7 +124,7 @@ fn what_needs_a_selection_does_nothing_without_one() {
 }
 
 #[test]
-fn what_is_done_to_a_node_that_is_gone_is_refused_with_a_sentence() {
+fn edits_of_a_missing_node_are_refused_with_a_sentence() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex" }"#);
     let lost = id("lost");
     let refused_all = [
@@ -150,7 +150,7 @@ fn what_is_done_to_a_node_that_is_gone_is_refused_with_a_sentence() {
 }
 
 #[test]
-fn muting_is_for_all_selected_nodes_and_back_once_all_are_mute() {
+fn muting_applies_to_all_selected_nodes_and_unmutes_if_all_are_muted() {
     let mut document = opened(
         "",
         r#""a": { "kind": "noise/simplex", "muted": true }, "b": { "kind": "noise/cells" }"#,
@@ -164,7 +164,7 @@ fn muting_is_for_all_selected_nodes_and_back_once_all_are_mute() {
 }
 
 #[test]
-fn a_knob_is_set_on_all_selected_nodes_of_the_kind() {
+fn a_knob_is_set_on_all_selected_nodes_of_the_same_kind() {
     let mut document = opened(
         "",
         r#""a": { "kind": "noise/simplex" }, "b": { "kind": "noise/simplex" }, "c": { "kind": "noise/cells" }"#,
@@ -186,7 +186,7 @@ fn a_knob_is_set_on_all_selected_nodes_of_the_kind() {
 }
 
 #[test]
-fn what_is_so_already_is_no_step() {
+fn an_edit_without_effect_is_not_an_undo_step() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex", "params": { "size": 0.5 } }"#);
     refused(&mut document, |document| {
         nodes::set_knob(document, &id("a"), "size", number(0.5))
@@ -198,7 +198,7 @@ fn what_is_so_already_is_no_step() {
 }
 
 #[test]
-fn a_node_has_the_name_that_it_was_given_or_that_of_its_kind() {
+fn a_node_has_its_own_name_or_the_name_of_its_kind() {
     let mut document = opened("", r#""a": { "kind": "noise/simplex" }"#);
     let plain = document.title(&id("a"));
     step(&mut document, |document| {
@@ -210,7 +210,7 @@ fn a_node_has_the_name_that_it_was_given_or_that_of_its_kind() {
 }
 
 #[test]
-fn a_node_of_the_main_graph_is_muted_once_and_from_everywhere() {
+fn a_node_of_the_main_graph_is_muted_only_once_and_undo_unmutes_it() {
     let mut document = document();
     let noise = add(&mut document, "noise/simplex");
     assert!(nodes::mute_in_main_graph(&mut document, &noise));
@@ -225,20 +225,20 @@ fn a_node_of_the_main_graph_is_muted_once_and_from_everywhere() {
 }
 
 #[test]
-fn a_node_that_would_cover_another_one_lies_beside_it() {
+fn a_node_that_would_cover_another_is_placed_beside_it() {
     let document = opened("", r#""n": { "kind": "noise/cells", "pos": [0, 0] }"#);
     let face = document.face(&id("n")).cloned().expect("a node");
     let size = node_size::size_of(&face);
     let free = [0.0, size[1]];
     assert_eq!(nodes::uncovered(&document, &face, free), free);
-    // At a border, it moves by no more than it covers and the space between nodes.
+    // At the edge of another node it moves only by the overlap plus the space between nodes.
     let [x, y] = nodes::uncovered(&document, &face, [0.0, size[1] - 10.0]);
     assert!(x == 0.0 && (size[1]..size[1] + 30.0).contains(&y), "{x} {y}");
     for place in [[0.0, 0.0], [30.0, -20.0], [90.0, 100.0]] {
         let [x, y] = nodes::uncovered(&document, &face, place);
         assert!(x.abs() >= size[0] || y.abs() >= size[1], "{place:?}: {x} {y}");
     }
-    // To the right, as it is read, although the left is nearer by less than anybody sees.
+    // It is placed on the right, in reading direction, although the left is nearer by an amount that nobody can see.
     let [x, y] = nodes::uncovered(&document, &face, [-0.4, 0.0]);
     assert!(x >= size[0] && y == 0.0, "{x} {y}");
 }

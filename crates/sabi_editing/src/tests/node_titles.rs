@@ -1,10 +1,10 @@
-//! Sentences that name nodes by their titles.
+//! Sentences that refer to nodes by their titles.
 
 use super::*;
 use crate::node_paths::with_titles;
 
 #[test]
-fn a_sentence_names_nodes_by_their_titles_and_without_their_kinds() {
+fn ids_and_kinds_in_a_sentence_are_replaced_by_titles() {
     let document = opened(
         r#""groups": { "Worn": { "outputs": { "mask": "blur.mask" }, "nodes": { "blur": { "kind": "filter/blur" } } } },"#,
         r#""image_2": { "kind": "source/image", "label": "Rust photo" },

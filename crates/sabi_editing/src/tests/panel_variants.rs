@@ -14,7 +14,7 @@ fn panel() -> OpenDocument {
 }
 
 #[test]
-fn a_variant_keeps_what_the_panel_shows_and_brings_it_back() {
+fn a_variant_stores_the_values_of_the_panel_and_restores_them() {
     let mut document = panel();
     step(&mut document, |document| variants::save(document, " fine "));
     let kept: Vec<String> = document.graph().variants()["fine"]
@@ -41,7 +41,7 @@ fn a_variant_keeps_what_the_panel_shows_and_brings_it_back() {
     assert_eq!((shown(&document), document.graph().variants().len()), (own, 1));
 }
 
-/// Parameters of the nodes that the window shows.
+/// Returns the parameters of the nodes as they are evaluated in the editor.
 fn shown(document: &OpenDocument) -> Vec<BTreeMap<String, Value>> {
     let overrides = Overrides::of_preview(document.contents());
     let flat = document.session.graph().flatten(&overrides).expect("a graph");
@@ -49,14 +49,14 @@ fn shown(document: &OpenDocument) -> Vec<BTreeMap<String, Value>> {
 }
 
 #[test]
-fn every_variant_of_every_graph_is_shown_as_it_is_baked_whatever_was_shown_before() {
+fn every_variant_is_shown_as_it_is_baked_whatever_was_shown_before() {
     let mut tried = 0;
     for file in super::effect_library::all_graphs() {
         let session = Session::open(&file, None).expect("a graph that can be read");
         let mut document = OpenDocument::new(session);
         let names: Vec<String> = document.graph().variants().keys().cloned().collect();
         let own = shown(&document);
-        // In turn and back, so that each follows each other one.
+        // There and back, so that each variant is shown after its neighbors in both directions.
         for name in names.iter().chain(names.iter().rev()) {
             assert!(variants::show(&mut document, Some(name)), "{}: {name}", file.display());
             let overrides = Overrides {
@@ -75,7 +75,7 @@ fn every_variant_of_every_graph_is_shown_as_it_is_baked_whatever_was_shown_befor
 }
 
 #[test]
-fn knobs_change_the_shown_variant_and_a_reset_takes_the_base_value() {
+fn knobs_change_the_shown_variant_and_a_reset_restores_the_graphs_value() {
     let mut document = panel();
     variants::save(&mut document, "fine");
     variants::show(&mut document, Some("fine"));
@@ -83,7 +83,7 @@ fn knobs_change_the_shown_variant_and_a_reset_takes_the_base_value() {
     step(&mut document, |document| {
         panel_values::set(document, "size", &Value::Number(0.75))
     });
-    // The knob of the node as well, which the variant would override.
+    // Setting the knob of the node also changes the variant, which would override it otherwise.
     step(&mut document, |document| {
         nodes::set_knob(document, &id("n"), "size", Some(Value::Number(0.125)))
     });
@@ -102,13 +102,13 @@ fn knobs_change_the_shown_variant_and_a_reset_takes_the_base_value() {
     let before = document.contents().clone();
     assert!(panel_values::reset(&mut document, "size"));
     assert_eq!(document.contents(), &before, "a reset of what is not set sets nothing");
-    // A copy of the shown variant is shown in its place.
+    // After saving under another name, the copy is shown.
     step(&mut document, |document| variants::save(document, "copy"));
     assert_eq!(shown_variant::name(&document), Some("copy"));
 }
 
 #[test]
-fn a_variant_inside_of_a_group_is_that_of_the_entered_instance() {
+fn inside_a_group_the_variant_of_the_entered_instance_is_shown() {
     let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } },
         "variants": { "big": { "size": 3 } }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let nodes = r#""i": { "kind": "graph/group", "group": "g" }, "j": { "kind": "graph/group", "group": "g" },
@@ -134,7 +134,7 @@ fn a_variant_inside_of_a_group_is_that_of_the_entered_instance() {
 }
 
 #[test]
-fn a_renamed_variant_is_renamed_in_instances_and_a_removed_one_is_gone_there() {
+fn renaming_or_removing_a_variant_also_changes_all_instances() {
     let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } },
         "variants": { "big": { "size": 3 } }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let nodes = r#""i": { "kind": "graph/group", "group": "g", "params": { "variant": "big" } },
@@ -157,7 +157,7 @@ fn a_renamed_variant_is_renamed_in_instances_and_a_removed_one_is_gone_there() {
 }
 
 #[test]
-fn what_is_no_variant_is_told() {
+fn invalid_variant_names_are_reported() {
     let mut document = panel();
     variants::save(&mut document, "one");
     variants::save(&mut document, "two");
@@ -202,7 +202,7 @@ fn what_is_no_variant_is_told() {
 }
 
 #[test]
-fn what_no_instance_can_take_is_refused_before_it_is_shown() {
+fn a_variant_that_an_instance_cannot_take_is_refused() {
     let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"], "range": [0, 1] } },
         "nodes": { "n": { "kind": "noise/white" } } } }, "exposed": { "grain": { "to": ["i.size"] } },
         "variants": { "wide": { "grain": 2 } },"#;
@@ -214,7 +214,7 @@ fn what_no_instance_can_take_is_refused_before_it_is_shown() {
 }
 
 #[test]
-fn a_variant_that_is_gone_is_cleared_by_showing_the_base() {
+fn a_missing_variant_is_cleared_by_showing_the_graphs_own_values() {
     let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } },
         "variants": { "big": { "size": 3 } }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
     let nodes = r#""i": { "kind": "graph/group", "group": "g", "params": { "variant": "lost" } }"#;
@@ -227,7 +227,7 @@ fn a_variant_that_is_gone_is_cleared_by_showing_the_base() {
 }
 
 #[test]
-fn a_variant_that_is_tried_gives_what_it_gives_when_it_is_shown_and_changes_nothing() {
+fn trying_a_variant_gives_the_same_result_as_showing_it_and_changes_nothing() {
     let mut document = panel();
     variants::save(&mut document, "fine");
     panel_values::set_default(&mut document, "size", number(0.25));
@@ -247,7 +247,7 @@ fn a_variant_that_is_tried_gives_what_it_gives_when_it_is_shown_and_changes_noth
 }
 
 #[test]
-fn an_instance_that_is_given_a_variant_keeps_only_values_that_no_variant_has() {
+fn an_instance_with_a_variant_keeps_only_values_that_no_variant_sets() {
     let mut document = opened(
         r#""groups": { "Spots": {
             "exposed": { "octaves": { "to": ["n.octaves"] }, "size": { "to": ["n.size"] } }, "outputs": { "mask": "n" },

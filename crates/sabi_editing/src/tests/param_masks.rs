@@ -1,4 +1,4 @@
-//! Masks that multiply parameters are linked, published, copied and replaced as inputs are.
+//! Masks that multiply parameters are connected, published, copied and replaced like inputs.
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn inputs(document: &OpenDocument, node: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_parameter_takes_a_mask_and_its_node_then_has_an_input_for_it() {
+fn a_parameter_accepts_a_mask_and_its_node_then_has_an_input_for_it() {
     let mut document = opened("", NODES);
     assert_eq!(inputs(&document, "l"), ["source"]);
     step(&mut document, |document| {
@@ -33,7 +33,7 @@ fn a_parameter_takes_a_mask_and_its_node_then_has_an_input_for_it() {
 }
 
 #[test]
-fn a_new_node_is_linked_to_the_parameter_that_it_is_added_for() {
+fn a_node_added_for_a_parameter_is_connected_to_it() {
     let mut document = opened("", NODES);
     let pending = PendingWire::Into(to("l.gamma"));
     let new = step(&mut document, |document| {
@@ -43,12 +43,12 @@ fn a_new_node_is_linked_to_the_parameter_that_it_is_added_for() {
 }
 
 #[test]
-fn plain_inputs_come_before_parameters_that_take_a_mask() {
+fn normal_inputs_come_before_parameters_that_accept_a_mask() {
     let mut document = opened("", NODES);
     let [plain, params] = wires::accepting(&document, &from("c"), &id("l"));
     assert_eq!(plain, [to("l.source")]);
     assert!(params.contains(&to("l.gamma")) && !params.contains(&to("l.source")));
-    // A linked one is one of the parameters, whether it has a row or not.
+    // A connected mask is still listed with the parameters, whether it has a row or not.
     wires::connect(&mut document, &from("c"), &to("l.gamma"));
     let linked = wires::accepting(&document, &from("c"), &id("l"));
     assert_eq!(linked, [plain, params]);
@@ -57,7 +57,7 @@ fn plain_inputs_come_before_parameters_that_take_a_mask() {
 }
 
 #[test]
-fn a_parameter_of_a_group_s_node_is_fed_by_an_input_of_the_group() {
+fn an_input_of_a_group_can_feed_the_mask_of_a_parameter() {
     let groups = r#""groups": { "G": { "outputs": { "mask": "l" }, "inputs": { "where": { "to": ["l.source"] } },
         "nodes": { "l": { "kind": "adjust/levels" } } } },"#;
     let nodes = r#""c": { "kind": "noise/cells" }, "g": { "kind": "graph/group", "group": "G" },
@@ -88,7 +88,7 @@ fn a_parameter_of_a_group_s_node_is_fed_by_an_input_of_the_group() {
 }
 
 #[test]
-fn a_group_and_its_end_keep_the_mask_of_a_parameter() {
+fn grouping_and_ungrouping_keep_the_mask_of_a_parameter() {
     let before = evaluated(&opened("", NODES));
     for ids in [
         vec!["n"],
@@ -125,7 +125,7 @@ fn copies_keep_the_mask_of_a_parameter() {
 }
 
 #[test]
-fn a_muted_node_keeps_the_mask_of_its_parameter_and_does_not_pass_it_on() {
+fn a_muted_node_keeps_the_mask_of_its_parameter_but_does_not_pass_it_on() {
     let mut document = opened("", NODES);
     select(&mut document, &["n"]);
     step(&mut document, nodes::toggle_muted);
@@ -135,7 +135,7 @@ fn a_muted_node_keeps_the_mask_of_its_parameter_and_does_not_pass_it_on() {
 }
 
 #[test]
-fn swapping_inputs_leaves_the_mask_of_a_parameter_where_it_is() {
+fn swapping_inputs_does_not_move_the_mask_of_a_parameter() {
     let mut document = opened("", NODES);
     wires::connect(&mut document, &from("c"), &to("l.gamma"));
     select(&mut document, &["l"]);
@@ -144,7 +144,7 @@ fn swapping_inputs_leaves_the_mask_of_a_parameter_where_it_is() {
 }
 
 #[test]
-fn a_replaced_node_keeps_the_masks_of_the_parameters_that_the_new_one_has() {
+fn a_replaced_node_keeps_masks_of_parameters_that_the_new_node_also_has() {
     let mut document = opened("", NODES);
     wires::connect(&mut document, &from("c"), &to("l.gamma"));
     step(&mut document, |document| {
@@ -158,7 +158,7 @@ fn a_replaced_node_keeps_the_masks_of_the_parameters_that_the_new_one_has() {
         .param_mask("gain");
     let kept = if has_gain.is_some() { "c" } else { "" };
     assert_eq!(wire(&document, &format!("{cells}.gain")), kept);
-    // The mask of a parameter that is gone does not become another input.
+    // The mask of a parameter that no longer exists does not become another input.
     step(&mut document, |document| {
         node_replacement::by_kind(document, &id("l"), "blend/mask")
     });

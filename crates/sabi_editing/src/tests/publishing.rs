@@ -19,7 +19,7 @@ fn value(document: &OpenDocument, name: &str) -> Option<Value> {
 }
 
 #[test]
-fn a_knob_is_published_and_taken_back() {
+fn a_knob_is_published_and_unpublished() {
     let mut document = opened("", NODES);
     step(&mut document, |document| panel::expose(document, &id("n"), "size"));
     step(&mut document, |document| panel::expose(document, &id("w"), "size"));
@@ -40,7 +40,7 @@ fn a_knob_is_published_and_taken_back() {
 }
 
 #[test]
-fn one_published_knob_turns_several_of_the_same_sort() {
+fn one_published_knob_can_control_several_knobs_of_the_same_type() {
     let mut document = opened("", NODES);
     panel::expose(&mut document, &id("n"), "size");
     step(&mut document, |document| {
@@ -68,7 +68,7 @@ fn one_published_knob_turns_several_of_the_same_sort() {
 }
 
 #[test]
-fn a_published_knob_is_reset_to_what_it_held_when_the_graph_was_opened() {
+fn a_published_knob_is_reset_to_its_value_when_the_graph_was_opened() {
     let mut document = opened(r#""exposed": { "size": { "to": ["n.size", "w.size"] } },"#, NODES);
     panel_values::set(&mut document, "size", &Value::Number(0.75));
     assert_eq!(panel::knobs(&document)[0].at_first, Value::Number(0.5));
@@ -90,7 +90,7 @@ fn a_published_knob_is_reset_to_what_it_held_when_the_graph_was_opened() {
 }
 
 #[test]
-fn a_seed_on_a_panel_is_not_called_as_that_of_every_instance() {
+fn a_published_seed_does_not_take_the_reserved_name_of_the_instance_seed() {
     let mut document = opened("", NODES);
     selection::select_all(&mut document);
     selection::toggle(&mut document, &id("out"));
@@ -105,7 +105,7 @@ fn a_seed_on_a_panel_is_not_called_as_that_of_every_instance() {
 }
 
 #[test]
-fn a_renamed_knob_is_renamed_in_variants_instances_and_panels_around() {
+fn a_renamed_knob_is_renamed_in_variants_instances_and_enclosing_panels() {
     let groups = r#""groups": {
         "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } }, "variants": { "big": { "size": 3 } },
           "nodes": { "n": { "kind": "noise/white" } } } },
@@ -134,7 +134,7 @@ fn a_renamed_knob_is_renamed_in_variants_instances_and_panels_around() {
 }
 
 #[test]
-fn knobs_stand_in_the_order_and_the_sections_that_they_are_put_in() {
+fn knobs_keep_the_order_and_sections_that_were_set() {
     let mut document = opened("", NODES);
     for (node, knob) in [("n", "size"), ("n", "gain"), ("m", "opacity"), ("w", "jitter")] {
         panel::expose(&mut document, &id(node), knob);
@@ -167,7 +167,7 @@ fn knobs_stand_in_the_order_and_the_sections_that_they_are_put_in() {
 }
 
 #[test]
-fn a_knob_with_a_default_holds_that_and_turning_the_nodes_own_turns_it_too() {
+fn a_knob_with_a_default_overrides_nodes_and_setting_a_node_changes_the_default() {
     let mut document = opened("", NODES);
     panel::expose(&mut document, &id("n"), "size");
     step(&mut document, |document| {
@@ -213,7 +213,7 @@ fn dust() -> OpenDocument {
 }
 
 #[test]
-fn a_range_holds_for_everything_that_is_set() {
+fn a_range_applies_to_the_default_the_variants_and_the_instances() {
     let mut document = dust();
     navigation::enter(&mut document, &id("i"));
     let mut said = |range: [f64; 2]| {
@@ -250,7 +250,7 @@ fn a_range_holds_for_everything_that_is_set() {
 }
 
 #[test]
-fn an_instance_refuses_values_outside_of_the_range_and_names_that_its_group_lacks() {
+fn an_instance_refuses_values_out_of_range_and_unknown_knobs() {
     let mut document = dust();
     navigation::enter(&mut document, &id("i"));
     step(&mut document, |document| {
@@ -294,7 +294,7 @@ fn an_instance_refuses_values_outside_of_the_range_and_names_that_its_group_lack
 }
 
 #[test]
-fn a_color_that_is_taken_and_a_file_that_is_chosen_are_for_all_selected_nodes_of_the_kind() {
+fn a_picked_color_or_chosen_file_is_set_on_all_selected_nodes_of_the_same_kind() {
     let mut document = opened(
         "",
         r#""a": { "kind": "source/image" }, "b": { "kind": "source/image" }"#,

@@ -12,7 +12,7 @@ use super::*;
 use actions::Hands;
 use dice::Dice;
 
-/// Random edits in all, and in how many graphs.
+/// Total number of random edits, and number of graphs that they are spread over.
 const EDITS: usize = 10_000;
 const GRAPHS: usize = 25;
 
@@ -48,13 +48,13 @@ impl Hands {
         }
     }
 
-    /// Back to the beginning, and forth again.
+    /// Undoes everything, and redoes it.
     fn check_history(&mut self, empty: &str) {
         self.check();
         let after = self.document.session.text().to_owned();
         let steps = self.document.session.undo_names().count();
         assert!(steps < UNDO_STEPS, "all of it can be undone");
-        // The last step in view of the document; what nodes show need not be made for all the others.
+        // Check the last step as the editor does; the others need not list ports and knobs.
         for _ in 1..steps {
             self.document.session.undo().expect("a step back");
         }
@@ -71,7 +71,7 @@ impl Hands {
 }
 
 #[test]
-fn ten_thousand_random_edits_can_all_be_taken_back_and_done_again() {
+fn ten_thousand_random_edits_can_be_undone_and_redone() {
     let kinds: Vec<String> = kinds().1.entries().map(|entry| entry.id.clone()).collect();
     for graph in 0..GRAPHS {
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -99,7 +99,7 @@ fn ten_thousand_random_edits_can_all_be_taken_back_and_done_again() {
 }
 
 #[test]
-fn a_long_day_of_edits_takes_no_more_memory_than_a_short_one() {
+fn memory_does_not_grow_with_the_number_of_edits() {
     let mut document = document();
     let node = add(&mut document, "noise/white");
     for edit in 0..2 * UNDO_STEPS {

@@ -8,7 +8,7 @@ use super::effect_library::all_files;
 use super::*;
 use crate::random_knobs::{randomize, randomize_panel};
 
-/// Draws of a knob.
+/// Number of draws for each knob.
 const DRAWS: usize = 120;
 
 /// A document with an instance of a group that publishes a size, a share and a color.
@@ -27,7 +27,7 @@ fn value(document: &OpenDocument, node: &NodeId, knob: &str) -> f64 {
     params[knob].as_number().expect("a number")
 }
 
-/// First random values of a knob, each from the beginning.
+/// Returns the first random value of a knob for many draws, each from the initial state.
 fn draws(document: &mut OpenDocument, node: &NodeId, knob: &str) -> Vec<f64> {
     let draw = |_| {
         assert!(randomize(document, node, &BTreeSet::new()));
@@ -44,7 +44,7 @@ fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 #[test]
-fn random_values_begin_at_the_chosen_variant() {
+fn random_values_stay_near_the_chosen_variant() {
     let (mut document, node) = with_instance();
     instance_variants::choose(&mut document, &node, Some("fine"));
     let sizes = draws(&mut document, &node, "size");
@@ -60,7 +60,7 @@ fn random_values_begin_at_the_chosen_variant() {
 }
 
 #[test]
-fn random_values_begin_at_what_the_artist_has_set() {
+fn random_values_start_from_values_that_the_artist_has_set() {
     let (mut document, node) = with_instance();
     nodes::set_knob(&mut document, &node, "size", number(0.9));
     let sizes = draws(&mut document, &node, "size");
@@ -68,7 +68,7 @@ fn random_values_begin_at_what_the_artist_has_set() {
 }
 
 #[test]
-fn random_lengths_are_as_often_smaller_as_larger_and_seldom_at_an_end() {
+fn random_lengths_are_as_often_smaller_as_larger_and_rarely_at_an_end() {
     let (mut document, node) = with_instance();
     let sizes = draws(&mut document, &node, "size");
     let smaller = sizes.iter().filter(|size| **size < 0.3).count() as f64 / DRAWS as f64;
@@ -82,7 +82,7 @@ fn random_lengths_are_as_often_smaller_as_larger_and_seldom_at_an_end() {
 }
 
 #[test]
-fn random_values_do_not_wander_off() {
+fn repeated_random_values_do_not_drift_away() {
     let (mut document, node) = with_instance();
     for _ in 0..DRAWS {
         randomize(&mut document, &node, &BTreeSet::new());
@@ -92,7 +92,7 @@ fn random_values_do_not_wander_off() {
 }
 
 #[test]
-fn random_values_of_all_effects_stay_in_their_ranges_and_away_from_the_ends_of_scales() {
+fn random_values_of_all_effects_stay_in_range_and_away_from_the_ends_of_scales() {
     let (mut scales, mut at_an_end) = (0, 0);
     for file in all_files() {
         let mut document = document_with(Session::new(None), 7);
@@ -121,7 +121,7 @@ fn random_values_of_all_effects_stay_in_their_ranges_and_away_from_the_ends_of_s
 }
 
 #[test]
-fn random_values_of_the_panel_are_one_step_and_leave_kept_knobs_alone() {
+fn random_values_of_the_panel_are_one_step_and_keep_the_given_knobs() {
     let exposed = r#""seed": 5, "exposed": { "size": { "to": ["n.size"], "range": [0.02, 1], "default": 0.3 },
         "share": { "to": ["n.jitter"], "range": [0, 1], "default": 0.5 } },"#;
     let mut document = opened(exposed, r#""n": { "kind": "noise/cells" }"#);
@@ -148,7 +148,7 @@ fn random_values_of_the_panel_are_one_step_and_leave_kept_knobs_alone() {
 }
 
 #[test]
-fn random_values_of_the_panel_are_for_the_shown_variant() {
+fn random_values_of_the_panel_change_the_shown_variant() {
     let exposed = r#""exposed": { "size": { "to": ["n.size"], "range": [0.02, 1], "default": 0.3 } },
         "variants": { "fine": { "size": 0.05 } }, "preview": { "variant": "fine" },"#;
     let mut document = opened(exposed, r#""n": { "kind": "noise/cells" }"#);

@@ -1,8 +1,8 @@
-//! Sources of readers after nodes before them are deleted: the same as after muting those nodes.
+//! After nodes are deleted, their readers have the same sources as if the nodes were muted.
 
 use super::*;
 
-/// Describes each node that is not muted with the sources of its inputs; muted nodes act as wires, as in the planner.
+/// Describes each node that is not muted, with the sources of its inputs. Muted nodes pass inputs on, as in the planner.
 fn heard(document: &OpenDocument) -> Vec<String> {
     let flat = flat(document);
     let entry = |at: usize| kinds().1.entry(&flat.nodes[at].kind).expect("a built-in kind").clone();
@@ -39,7 +39,7 @@ fn heard(document: &OpenDocument) -> Vec<String> {
     heard
 }
 
-/// Deletes nodes with healing, and compares with muting them.
+/// Deletes nodes with reconnection, and compares the result with muting them.
 fn heals_as_muting(mut document: OpenDocument, ids: &[&str]) -> OpenDocument {
     select(&mut document, ids);
     for text in ids {
@@ -68,7 +68,7 @@ const CHAIN: &str = r#"
     "out": { "kind": "output/material", "inputs": { "material": "layer" } }"#;
 
 #[test]
-fn readers_get_what_muting_would_give() {
+fn readers_of_deleted_nodes_read_what_muting_would_give() {
     let document = heals_as_muting(opened("", CHAIN), &["one"]);
     assert_eq!(wire(&document, "two.above"), "n");
     let document = heals_as_muting(opened("", CHAIN), &["two", "three"]);
@@ -95,7 +95,7 @@ fn readers_get_what_muting_would_give() {
 }
 
 #[test]
-fn an_input_with_a_mute_source_passes_nothing_and_the_next_one_does() {
+fn an_input_with_a_muted_source_passes_nothing_and_the_next_input_is_used() {
     let nodes = r#""dead": { "kind": "noise/cells", "muted": true }, "n": { "kind": "noise/white" },
         "m": { "kind": "blend/mask", "inputs": { "below": "dead", "above": "n" } },
         "out": { "kind": "output/mask", "inputs": { "source": "m" } }"#;
@@ -109,7 +109,7 @@ fn an_input_with_a_mute_source_passes_nothing_and_the_next_one_does() {
 }
 
 #[test]
-fn wires_heal_through_bends() {
+fn wires_are_reconnected_through_reroutes() {
     let nodes = r#""n": { "kind": "noise/white" }, "r": { "kind": "graph/reroute", "inputs": { "source": "n" } },
         "m": { "kind": "adjust/levels", "inputs": { "source": "r" } }, "empty": { "kind": "graph/reroute" },
         "b": { "kind": "blend/mask", "inputs": { "below": "empty", "above": "m" } },
@@ -123,7 +123,7 @@ fn wires_heal_through_bends() {
     assert_eq!(wire(&document, "out.source"), "n");
 }
 
-/// A group that passes its material input `over` on, whatever stands before that by name.
+/// A group that passes on its material input `over`, although other inputs come first by name.
 const GROUP: &str = r#""groups": {
     "inner": { "inputs": { "mask": { "to": ["blend.mask"] }, "above": { "to": ["blend.above"] }, "over": { "to": ["blend.below"] } },
       "outputs": { "material": "blend", "edge": "n" },
@@ -133,7 +133,7 @@ const GROUP: &str = r#""groups": {
       "nodes": { "r": { "kind": "graph/reroute" }, "i": { "kind": "graph/group", "group": "inner", "inputs": { "over": "r" } } } } },"#;
 
 #[test]
-fn wires_heal_through_groups_as_their_inside_would_pass_them_on() {
+fn wires_are_reconnected_through_groups_as_the_nodes_inside_pass_them_on() {
     let nodes = r#""a": { "kind": "source/material" }, "o": { "kind": "source/material", "params": { "roughness": 1 } },
         "g": { "kind": "graph/group", "group": "outer", "inputs": { "above": "a", "over": "o" } },
         "e": { "kind": "graph/group", "group": "inner" },
@@ -146,7 +146,7 @@ fn wires_heal_through_groups_as_their_inside_would_pass_them_on() {
 }
 
 #[test]
-fn inside_a_group_its_inputs_and_outputs_heal_too() {
+fn inputs_and_outputs_of_a_group_are_reconnected_inside_it() {
     let nodes = r#""o": { "kind": "source/material" },
         "g": { "kind": "graph/group", "group": "wear", "inputs": { "base": "o" } },
         "out": { "kind": "output/material", "inputs": { "material": "g.material" } }"#;
@@ -167,7 +167,7 @@ fn inside_a_group_its_inputs_and_outputs_heal_too() {
 }
 
 #[test]
-fn what_is_taken_out_of_its_wires_keeps_those_among_itself() {
+fn detached_nodes_keep_the_wires_between_them() {
     let mut document = opened("", CHAIN);
     select(&mut document, &["two", "three"]);
     step(&mut document, wires::detach_selected);
@@ -178,7 +178,7 @@ fn what_is_taken_out_of_its_wires_keeps_those_among_itself() {
 }
 
 #[test]
-fn groups_that_hold_themselves_end_a_heal_all_the_same() {
+fn reconnection_ends_for_groups_that_contain_themselves() {
     let groups = r#""groups": {
         "a": { "inputs": { "in": { "to": ["b.in"] } }, "outputs": { "out": "b.out" }, "nodes": { "b": { "kind": "graph/group", "group": "b" } } },
         "b": { "inputs": { "in": { "to": ["a.in"] } }, "outputs": { "out": "a.out" }, "nodes": { "a": { "kind": "graph/group", "group": "a" } } } },"#;
@@ -195,7 +195,7 @@ fn groups_that_hold_themselves_end_a_heal_all_the_same() {
 }
 
 #[test]
-fn what_is_taken_out_of_its_wires_is_not_fed_from_outside_any_more() {
+fn detached_nodes_are_no_longer_fed_by_the_group() {
     let groups = r#""groups": { "G": { "inputs": { "base": { "to": ["one.base"] } }, "outputs": { "material": "two.material" },
         "nodes": { "one": { "kind": "effect/layer" }, "two": { "kind": "effect/relief", "inputs": { "base": "one" } } } } },"#;
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "G" }"#);

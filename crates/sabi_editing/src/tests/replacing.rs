@@ -1,9 +1,9 @@
-//! A node of another kind in the place of one.
+//! Replacement of a node by a node of another kind.
 
 use super::*;
 
 #[test]
-fn wires_knobs_names_frames_and_the_panel_turn_to_the_new_node() {
+fn wires_knobs_labels_frames_and_the_panel_refer_to_the_new_node() {
     let mut document = opened(
         r#""exposed": { "wear": { "to": ["n.size", "n.lacunarity"], "label": "Wear" } },
            "frames": { "f": { "nodes": ["n", "levels"] } }, "outputs": { "mask": "n" },"#,
@@ -26,7 +26,7 @@ fn wires_knobs_names_frames_and_the_panel_turn_to_the_new_node() {
 }
 
 #[test]
-fn wires_go_to_inputs_of_their_name_before_others_that_fit() {
+fn wires_go_to_inputs_with_the_same_name_before_others_that_fit() {
     let nodes = r#""a": { "kind": "noise/cells" }, "b": { "kind": "noise/white" }, "c": { "kind": "source/material" },
         "d": { "kind": "source/material", "params": { "roughness": 1 } },
         "blend": { "kind": "material/blend", "inputs": { "above": "c", "below": "d", "mask": "a" } },
@@ -39,7 +39,7 @@ fn wires_go_to_inputs_of_their_name_before_others_that_fit() {
     let wires = ["base", "mask", "color_map"].map(|input| wire(&document, &format!("{layer}.{input}")));
     assert_eq!(wires, ["d", "a", ""], "the material below comes first");
     assert_eq!(wire(&document, "out.material"), layer.as_str());
-    // Nothing fits a mask there, and no material comes out.
+    // The new node has no input for a mask and no material output.
     step(&mut document, |document| {
         node_replacement::by_kind(document, &layer, "noise/simplex")
     });
@@ -47,7 +47,7 @@ fn wires_go_to_inputs_of_their_name_before_others_that_fit() {
 }
 
 #[test]
-fn a_value_that_the_new_kind_does_not_take_is_left_behind() {
+fn a_value_that_the_new_kind_does_not_accept_is_dropped() {
     let mut document = opened(
         "",
         r#""n": { "kind": "noise/simplex", "params": { "size": 1e30, "stretch": [1, 2, 3], "mode": "ridged" } }"#,
@@ -62,7 +62,7 @@ fn a_value_that_the_new_kind_does_not_take_is_left_behind() {
 }
 
 #[test]
-fn a_node_in_a_group_is_replaced_with_what_feeds_it() {
+fn a_node_in_a_group_is_replaced_and_stays_fed_by_the_group() {
     let mut document = opened(
         r#""groups": { "wear": { "inputs": { "where": { "to": ["levels.source"] } }, "outputs": { "mask": "levels" },
              "exposed": { "low": { "to": ["levels.low"] } },
@@ -78,14 +78,14 @@ fn a_node_in_a_group_is_replaced_with_what_feeds_it() {
     let new = document.selected_one().cloned().expect("the new node");
     assert_eq!(ports::inputs(&document)["where"].to, [slot(&new, "source")]);
     assert_eq!(ports::outputs(&document)["mask"], out(&new));
-    // The new kind has no such knob: the instance must not set what is not there.
+    // The new kind has no such knob, so the instance must not set it any more.
     navigation::leave(&mut document);
     assert_eq!(param(&document, "g", "low"), None);
     flat(&document);
 }
 
 #[test]
-fn what_cannot_be_replaced_is_told() {
+fn the_reason_why_a_node_cannot_be_replaced_is_reported() {
     let mut document = opened("", r#""n": { "kind": "noise/simplex" }"#);
     let said = refused(&mut document, |document| {
         node_replacement::by_kind(document, &id("n"), "noise/simplex")
@@ -98,7 +98,7 @@ fn what_cannot_be_replaced_is_told() {
 }
 
 #[test]
-fn a_node_of_no_known_kind_can_be_replaced() {
+fn a_node_of_an_unknown_kind_can_be_replaced() {
     let mut document = opened(
         "",
         r#""a": { "kind": "noise/white" }, "n": { "kind": "magic/wand", "inputs": { "wood": "a" } },
@@ -113,7 +113,7 @@ fn a_node_of_no_known_kind_can_be_replaced() {
 }
 
 #[test]
-fn an_instance_of_a_group_takes_the_place_of_a_node_and_of_another_instance() {
+fn an_instance_can_replace_a_node_or_another_instance() {
     let groups = r#""groups": {
         "One": { "inputs": { "source": { "to": ["l.source"] } }, "outputs": { "mask": "l.mask" },
                  "nodes": { "l": { "kind": "adjust/levels" } } },

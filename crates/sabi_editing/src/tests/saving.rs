@@ -1,11 +1,11 @@
-//! Saving from the document.
+//! Saving the open document.
 
 use sabi_engine::Disk;
 
 use super::*;
 
 #[test]
-fn a_graph_saved_elsewhere_finds_its_group_files_and_undo_still_works() {
+fn a_graph_saved_in_another_folder_finds_its_group_files_and_can_be_undone() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     std::fs::create_dir_all(folder.path().join("deep")).expect("a writable folder");
     let group = r#"{ "format": "sabi", "version": 1, "name": "Wear", "outputs": { "mask": "n" },
@@ -43,7 +43,7 @@ fn a_graph_saved_elsewhere_finds_its_group_files_and_undo_still_works() {
 }
 
 #[test]
-fn a_group_in_the_library_is_whole_after_a_fault_at_any_step_and_replaces_no_other() {
+fn a_fault_while_saving_to_the_library_leaves_whole_files_and_replaces_none() {
     let saved_on = |disk: &Disk| {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let library = folder.path().join("library");

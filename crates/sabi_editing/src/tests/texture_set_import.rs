@@ -1,4 +1,4 @@
-//! Folders of pictures that become materials.
+//! Folders of image files that become materials.
 
 use std::path::PathBuf;
 
@@ -55,7 +55,7 @@ fn a_texture_set_becomes_a_material_in_one_step() {
 }
 
 #[test]
-fn a_normal_map_of_direct_x_is_read_as_such() {
+fn a_normal_map_for_direct_x_is_read_as_such() {
     let mut document = opened("", "");
     texture_sets::add(&mut document, &files(&["wall_nor_dx_1k.png"]), [0.0; 2]);
     let material = document.selected_one().cloned().expect("the material");
@@ -69,7 +69,7 @@ fn a_normal_map_of_direct_x_is_read_as_such() {
 }
 
 #[test]
-fn each_set_of_a_folder_is_a_material_and_none_lies_over_another() {
+fn each_set_of_a_folder_is_a_material_and_none_covers_another() {
     let mut document = opened("", "");
     let sets = files(&[
         "wall_diff.png",
@@ -101,7 +101,7 @@ fn source_of(document: &OpenDocument, channel: &str) -> (NodeId, Option<String>)
 }
 
 #[test]
-fn maps_of_the_preset_for_unreal_are_unpacked_with_green_downward() {
+fn maps_of_the_unreal_preset_are_unpacked_with_green_down() {
     let mut document = opened("", "");
     let set = files(&["T_crate_BC.png", "T_crate_ORM.png", "T_crate_N.png", "T_crate_H.png"]);
     assert!(step(&mut document, |document| texture_sets::add(
@@ -126,7 +126,7 @@ fn maps_of_the_preset_for_unreal_are_unpacked_with_green_downward() {
 }
 
 #[test]
-fn the_smoothness_of_a_mask_map_is_inverted_to_a_roughness() {
+fn the_smoothness_of_a_mask_map_is_inverted_to_roughness() {
     let mut document = opened("", "");
     let set = files(&["crate_BaseMap.png", "crate_MaskMap.png", "crate_Normal.png"]);
     texture_sets::add(&mut document, &set, [0.0; 2]);
@@ -143,9 +143,9 @@ fn the_smoothness_of_a_mask_map_is_inverted_to_a_roughness() {
 }
 
 #[test]
-fn the_roughness_of_sheen_is_read_from_the_alpha_where_the_picture_has_one() {
+fn the_roughness_of_sheen_is_read_from_the_alpha_if_the_image_has_one() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Kind of the colors in the header of a PNG: 2 is RGB and 6 is RGB with alpha, 4 is gray with alpha.
+    // Color type in the header of a PNG: 2 is RGB, 6 is RGB with alpha, 4 is gray with alpha.
     let header = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x01\0\0\0\x01\x08";
     let png = |kind: u8| [header.as_slice(), &[kind]].concat();
     let sheen = folder.path().join("crate_Sheen.png");
@@ -166,18 +166,18 @@ fn the_roughness_of_sheen_is_read_from_the_alpha_where_the_picture_has_one() {
 }
 
 #[test]
-fn a_map_of_its_own_goes_before_one_that_packs_several() {
+fn a_separate_map_is_preferred_to_a_packed_one() {
     let mut document = opened("", "");
     let set = files(&["wall_arm.png", "wall_rough.png", "wall_diff.png"]);
     texture_sets::add(&mut document, &set, [0.0; 2]);
     assert_eq!(source_of(&document, "roughness").1.as_deref(), Some("mask"));
     assert_eq!(source_of(&document, "metallic").1.as_deref(), Some("b"));
-    // Three pictures and their material.
+    // Three images and their material.
     assert_eq!(document.graph().len(), 4);
 }
 
 #[test]
-fn pictures_that_are_no_maps_or_no_channels_are_told() {
+fn images_that_are_no_maps_are_reported() {
     let mut document = opened("", "");
     let said = refused(&mut document, |document| {
         texture_sets::add(document, &files(&["cat.png", "dog.jpg"]), [0.0; 2])

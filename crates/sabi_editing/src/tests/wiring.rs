@@ -15,7 +15,7 @@ fn two_masks() -> OpenDocument {
 }
 
 #[test]
-fn a_wire_takes_the_place_of_the_one_that_was_there() {
+fn a_new_wire_replaces_the_old_one() {
     let mut document = two_masks();
     step(&mut document, |document| {
         wires::connect(document, &from("b"), &to("levels.source"))
@@ -34,7 +34,7 @@ fn a_wire_takes_the_place_of_the_one_that_was_there() {
 }
 
 #[test]
-fn a_wire_from_the_first_result_names_the_node_alone_unless_it_is_a_group() {
+fn a_wire_from_the_first_output_names_only_the_node_unless_it_is_a_group() {
     let mut document = two_masks();
     wires::connect(&mut document, &from("a.mask"), &to("levels.source"));
     assert_eq!(wire(&document, "levels.source"), "a");
@@ -42,14 +42,14 @@ fn a_wire_from_the_first_result_names_the_node_alone_unless_it_is_a_group() {
     assert_eq!(wire(&document, "levels.source"), "a.id");
     for port in ["g", "g.mask"] {
         wires::connect(&mut document, &from(port), &to("levels.source"));
-        // A group of two outputs is asked which one; so is one that gets a second one later.
+        // A wire from a group always names the output, since the group has two outputs, or may get a second one later.
         assert_eq!(wire(&document, "levels.source"), "g.mask");
     }
     flat(&document);
 }
 
 #[test]
-fn a_wire_that_does_not_fit_is_refused_and_says_why() {
+fn a_wire_that_does_not_fit_is_refused_with_the_reason() {
     let mut document = two_masks();
     let mut said = |from_: &str, to_: &str| {
         refused(&mut document, |document| {
@@ -81,7 +81,7 @@ fn a_wire_that_does_not_fit_is_refused_and_says_why() {
 }
 
 #[test]
-fn a_bend_takes_what_those_take_who_read_it() {
+fn a_reroute_accepts_what_its_readers_accept() {
     let mut document = two_masks();
     step(&mut document, |document| {
         wires::reroute(document, &to("layer.base"), [0.0; 2])
@@ -92,7 +92,7 @@ fn a_bend_takes_what_those_take_who_read_it() {
         wires::connect(document, &from("a"), &to(&format!("{bend}.source")))
     });
     assert!(said.starts_with("'Base' takes a material"), "{said}");
-    // One that nobody reads takes anything, whatever comes in now.
+    // A reroute without readers accepts any type, whatever it reads now.
     wires::disconnect(&mut document, &[to("layer.base")]);
     assert!(wires::connect(
         &mut document,
@@ -106,7 +106,7 @@ fn a_bend_takes_what_those_take_who_read_it() {
 }
 
 #[test]
-fn a_node_is_put_into_a_wire() {
+fn a_node_is_inserted_into_a_wire() {
     let mut document = two_masks();
     let invert = add(&mut document, "adjust/invert");
     assert!(wires::can_insert(&document, &invert, &to("layer.mask")));
@@ -118,7 +118,7 @@ fn a_node_is_put_into_a_wire() {
 }
 
 #[test]
-fn a_node_is_put_into_a_wire_by_an_input_that_is_free() {
+fn a_node_is_inserted_into_a_wire_by_a_free_input() {
     let mut document = two_masks();
     let blend = add(&mut document, "blend/mask");
     wires::connect(&mut document, &from("b"), &slot(&blend, "below"));
@@ -130,7 +130,7 @@ fn a_node_is_put_into_a_wire_by_an_input_that_is_free() {
 }
 
 #[test]
-fn a_node_that_does_not_fit_is_not_put_into_a_wire() {
+fn a_node_that_does_not_fit_is_not_inserted_into_a_wire() {
     let mut document = two_masks();
     let relief = add(&mut document, "effect/relief");
     let why = "to insert a node into a wire, its output must be unconnected, and it needs a free input and an output of fitting types";
@@ -152,7 +152,7 @@ fn a_node_that_does_not_fit_is_not_put_into_a_wire() {
 }
 
 #[test]
-fn a_node_made_from_a_reader_is_not_put_before_it() {
+fn a_node_is_not_inserted_before_a_node_it_depends_on() {
     let mut document = opened(
         "",
         r#""a": { "kind": "noise/cells" }, "levels": { "kind": "adjust/levels", "inputs": { "source": "a" } },
@@ -202,7 +202,7 @@ fn a_second_mask_is_blended_with_the_first_one() {
 }
 
 #[test]
-fn a_mask_is_not_merged_into_what_it_is_made_from() {
+fn a_mask_is_not_merged_into_its_own_source() {
     let mut document = two_masks();
     let invert = add(&mut document, "adjust/invert");
     wires::connect(&mut document, &from("levels"), &slot(&invert, "source"));
@@ -216,7 +216,7 @@ fn a_mask_is_not_merged_into_what_it_is_made_from() {
 }
 
 #[test]
-fn swapping_takes_along_the_knob_of_an_input_that_nothing_leads_to() {
+fn swapping_inputs_also_swaps_the_knobs_of_unconnected_inputs() {
     let mut document = opened(
         "",
         r#""a": { "kind": "noise/cells" },
@@ -235,7 +235,7 @@ fn swapping_takes_along_the_knob_of_an_input_that_nothing_leads_to() {
 }
 
 #[test]
-fn swapping_takes_along_what_feeds_an_input_from_outside() {
+fn swapping_inputs_also_swaps_the_inputs_of_the_group_that_feed_them() {
     let groups = r#""groups": { "G": {
         "inputs": { "one": { "to": ["m.below", "other.below"] }, "two": { "to": [] } },
         "outputs": { "mask": "m.mask" },
@@ -253,7 +253,7 @@ fn swapping_takes_along_what_feeds_an_input_from_outside() {
 }
 
 #[test]
-fn a_height_that_is_wired_shows_something_at_once_and_keeps_a_value_that_it_has() {
+fn connecting_a_height_sets_a_visible_strength_unless_one_was_set() {
     let mut document = document();
     let layer = add(&mut document, "effect/layer");
     let clouds = add(&mut document, "noise/simplex");
@@ -273,7 +273,7 @@ fn a_height_that_is_wired_shows_something_at_once_and_keeps_a_value_that_it_has(
     nodes::set_knob(&mut document, &layer, "height", number(-0.2));
     assert!(wires::connect(&mut document, &from, &to));
     assert_eq!(height(&document), Some(Value::Number(-0.2)));
-    // A node that is added on a wire gives it a value, too.
+    // Inserting a node into the wire sets the value, too.
     nodes::set_knob(&mut document, &layer, "height", None);
     let pending = PendingWire::Into(to);
     assert!(nodes::add(&mut document, "noise/cells", [0.0, 0.0], Some(&pending)).is_some());

@@ -1,4 +1,4 @@
-//! Insertion of nodes into wires, with room for them.
+//! Insertion of nodes into wires, and making space for them.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::{connections, node_size};
 
 /// Space between an inserted node and the nodes before and after it, canvas points.
 const ROOM: f32 = 3.0 * GRID;
-/// Steps up and down in which a free place is looked for.
+/// Maximum number of steps up and down in which a free place is searched.
 const MOST_STEPS: i32 = 200;
 
 /// Inserts a node into the wire that leads to an input. Nodes that would overlap it move to the right.
@@ -52,8 +52,8 @@ fn inserting(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Option<Vec<E
     Some(vec![into, out])
 }
 
-/// Edits that move an inserted node to the right of its source, and the nodes behind it to the right of it, as far as they
-/// would overlap.
+/// Returns edits that move an inserted node to the right of its source, and the nodes behind it further right, as far as
+/// they would overlap.
 fn making_room(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Vec<Edit> {
     let Some((source, own)) = connections::wire_into(document, to).zip(document.node(id)) else {
         return Vec::new();
@@ -70,8 +70,8 @@ fn making_room(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Vec<Edit> 
     edits
 }
 
-/// Place for a box, given by its corner and size, to the right of a node and before another one, and edits that move the latter
-/// and all that depends on it to the right, as far as they would overlap. `own` is the node that the box is of, if it exists.
+/// Returns a place for a box to the right of a node and before another one, and edits that move the latter and all nodes
+/// that depend on it to the right, as far as they would overlap. `own` is the node of the box, if it exists.
 pub(crate) fn room_between(
     document: &OpenDocument,
     (mut place, size): ([f32; 2], [f32; 2]),
@@ -100,12 +100,12 @@ pub(crate) fn room_between(
     (place, moves.collect())
 }
 
-/// A place near this one where a box covers none of these nodes: the same, or one above or below it.
+/// Returns a place near this one where a box covers none of these nodes: the same place, or one above or below it.
 pub(crate) fn uncovering(document: &OpenDocument, place: [f32; 2], size: [f32; 2], nodes: &[&NodeId]) -> [f32; 2] {
     let step = |at: i32| 2.0 * GRID * (if at % 2 == 0 { -(at / 2) } else { at / 2 + 1 }) as f32;
     let places = (0..MOST_STEPS).map(|at| [place[0], place[1] + if at == 0 { 0.0 } else { step(at) }]);
     let is_free = |place: &[f32; 2]| nodes.iter().all(|id| right_of(document, id, *place, size).is_none());
-    places.into_iter().find(is_free).unwrap_or(place) // A graph this dense has no better place.
+    places.into_iter().find(is_free).unwrap_or(place) // If the graph is so dense that no place is free, the given place is used.
 }
 
 /// Returns the left edge at which a box of `size` is right of a node; none if the box at `place` does not overlap it.

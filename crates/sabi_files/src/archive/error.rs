@@ -8,8 +8,8 @@ use super::names::NameFault;
 use super::{MOST_BYTES, MOST_ENTRIES};
 use crate::error::FileError;
 
-/// Reason why an archive was not written or not unpacked. Nothing is left behind then. Its text names no flag: the callers know what can
-/// be chosen instead.
+/// Reason why an archive was not written or not unpacked. In that case no files are left behind. The text names no command
+/// line flag: callers know which alternatives they offer.
 #[derive(Debug, Error)]
 pub enum ArchiveError {
     /// The file to be written exists.
@@ -18,10 +18,10 @@ pub enum ArchiveError {
     /// The folder to unpack into has files.
     #[error("the folder {} has files", .0.display())]
     FolderInUse(PathBuf),
-    /// The folder to unpack into is no folder.
+    /// The path to unpack into is not a folder.
     #[error("{} is no folder", .0.display())]
     NoFolder(PathBuf),
-    /// An entry has a name that not every system can hold.
+    /// An entry has a name that is not valid on every system.
     #[error("the archive cannot hold '{name}': {fault}")]
     Name {
         /// The name.
@@ -40,18 +40,18 @@ pub enum ArchiveError {
     Unread {
         /// The file.
         path: PathBuf,
-        /// Reason of the system.
+        /// Error of the operating system.
         why: String,
     },
     /// A file changed its length while it was packed.
     #[error("{} was changed while it was packed", .0.display())]
     Changed(PathBuf),
-    /// The file is no archive, or a damaged one.
+    /// The file is not an archive, or is damaged.
     #[error("{} is no zip archive, or a damaged one: {why}", path.display())]
     NoArchive {
         /// The file.
         path: PathBuf,
-        /// Reason of the reader.
+        /// Error of the reader.
         why: String,
     },
     /// Two entries have one name.
@@ -62,15 +62,15 @@ pub enum ArchiveError {
         "'{0}' in the archive is no ordinary file but a link or a device, through which files elsewhere could be changed"
     )]
     NotPlain(String),
-    /// An entry that the caller does not take.
+    /// An entry that the caller refuses.
     #[error("'{name}' in the archive is not unpacked: {why}")]
     Unwanted {
         /// The entry.
         name: String,
-        /// Reason of the caller.
+        /// Reason given by the caller.
         why: String,
     },
-    /// Two entries share bytes of the archive, which a small one uses to claim much.
+    /// Two entries share bytes of the archive, with which a small archive can claim a huge content.
     #[error("'{0}' in the archive is damaged: it shares its bytes with another entry")]
     Overlapping(String),
     /// An entry is locked with a password.
@@ -84,13 +84,13 @@ pub enum ArchiveError {
         /// Fault of the entry.
         why: String,
     },
-    /// The archive could not be made.
+    /// The archive could not be created.
     #[error("the archive cannot be made: {0}")]
     Unmade(String),
     /// The disk refuses.
     #[error(transparent)]
     Disk(#[from] FileError),
-    /// The user stopped it.
+    /// The user canceled the operation.
     #[error("stopped")]
     Canceled,
 }

@@ -1,4 +1,4 @@
-//! Names of entries that every system can hold, and tells apart.
+//! Names of entries that are valid and distinct on every system.
 
 use std::collections::BTreeMap;
 
@@ -6,36 +6,36 @@ use thiserror::Error;
 
 use crate::invisible::is_invisible;
 
-/// Longest part of a name, in bytes: file systems allow 255 bytes or 255 units of 16 bits.
+/// Maximum length of a part of a name, in bytes: file systems allow 255 bytes, or 255 units of 16 bits.
 const LONGEST_PART: usize = 255;
-/// Longest name, in bytes: with the folder before it, it has to be a path.
+/// Maximum length of a name, in bytes: together with a folder it must form a valid path.
 const LONGEST_NAME: usize = 1024;
 
-/// Reason why an archive cannot have an entry of a name.
+/// Reason why an archive cannot have an entry with a certain name.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum NameFault {
-    /// It is absolute, or leads up.
+    /// The name is absolute, or leads out of the folder.
     #[error("its name leads out of the folder")]
     Outside,
-    /// It is empty, or a part of it is.
+    /// The name or a part of it is empty.
     #[error("its name, or a part of it, is empty")]
     Empty,
-    /// It has a character that Windows refuses.
+    /// The name has a character that Windows refuses.
     #[error("Windows has no names with the character {0:?}")]
     Character(char),
-    /// It has a character that is not seen, or shows the name as another one.
+    /// The name has a character that is invisible or changes how the name is displayed.
     #[error("its name has the character U+{:04X}, which is not seen and may show it as another name", u32::from(*.0))]
     Invisible(char),
-    /// It has the name of a device.
+    /// The name is the name of a device.
     #[error("'{0}' is the name of a device on Windows")]
     Device(String),
     /// A part ends in a dot or a space, which Windows drops.
     #[error("Windows has no names that end in a dot or a space")]
     End,
-    /// It is too long.
+    /// The name is too long.
     #[error("its name is too long")]
     Long,
-    /// Another entry has the name, as far as every system can tell.
+    /// Another entry has the same name on some systems.
     #[error("'{0}' is in the archive as well, and many disks take both names for one")]
     Taken(String),
 }
@@ -43,9 +43,9 @@ pub enum NameFault {
 /// Names of the entries of one archive.
 #[derive(Clone, Debug, Default)]
 pub struct EntryNames {
-    /// Names of files, by the form in which many disks compare them.
+    /// Names of files, by the form in which many file systems compare them.
     files: BTreeMap<String, String>,
-    /// Folders that these names bring along, likewise.
+    /// Folders of these files, by the same form.
     folders: BTreeMap<String, String>,
 }
 
@@ -53,7 +53,7 @@ impl EntryNames {
     /// Adds the name of a file, with `/` between folders.
     ///
     /// # Errors
-    /// Some systems cannot hold it beside the others; nothing is added then.
+    /// The name is not valid or not distinct on some systems. It is not added.
     pub fn add(&mut self, name: &str) -> Result<(), NameFault> {
         check(name)?;
         let whole = folded(name);
@@ -75,12 +75,12 @@ impl EntryNames {
     }
 }
 
-/// Form of a name in which names are equal if disks that ignore case take them for one.
+/// Returns a form of a name that is equal for names that file systems which ignore case treat as the same.
 fn folded(name: &str) -> String {
     name.to_uppercase().to_lowercase()
 }
 
-/// Checks that a name is a plain path below a folder, on every system.
+/// Checks that a name is a plain relative path inside a folder, on every system.
 pub(super) fn check(name: &str) -> Result<(), NameFault> {
     if name.is_empty() {
         return Err(NameFault::Empty);
@@ -111,7 +111,7 @@ fn check_part(part: &str) -> Result<(), NameFault> {
     if part.ends_with(['.', ' ']) {
         return Err(NameFault::End);
     }
-    // Windows finds the device behind any ending, and behind spaces before it.
+    // Windows recognizes a device name with any extension, and with spaces before the extension.
     let stem = part.split('.').next().unwrap_or(part).trim_end();
     if is_device(&stem.to_ascii_uppercase()) {
         return Err(NameFault::Device(part.to_owned()));
@@ -119,7 +119,7 @@ fn check_part(part: &str) -> Result<(), NameFault> {
     Ok(())
 }
 
-/// Devices of Windows, which are found in every folder.
+/// Returns true for a device of Windows, which exists in every folder.
 fn is_device(stem: &str) -> bool {
     let numbered = stem.strip_prefix("COM").or_else(|| stem.strip_prefix("LPT"));
     let is_number = |rest: &str| {

@@ -8,7 +8,7 @@ use crate::test_folder::listing;
 /// Accepts every name.
 const ALL: Accepts<'static> = &|_| Ok(());
 
-/// The fault of the last of some names in one archive.
+/// Returns the fault of the last of these names, which are added to one archive.
 fn fault(names: &[&str]) -> Option<NameFault> {
     let mut known = EntryNames::default();
     let mut faults: Vec<Option<NameFault>> = names.iter().map(|name| known.add(name).err()).collect();
@@ -23,7 +23,7 @@ fn entries(files: &[(&str, &[u8])]) -> BTreeMap<String, EntryContent> {
 }
 
 #[test]
-fn a_name_is_one_that_every_system_can_hold() {
+fn a_name_must_be_valid_on_every_system() {
     for good in [
         "a.png",
         "a/b c/d.strokes",
@@ -67,7 +67,7 @@ fn a_name_is_one_that_every_system_can_hold() {
 }
 
 #[test]
-fn names_that_a_disk_takes_for_one_are_refused() {
+fn names_that_a_file_system_treats_as_the_same_are_refused() {
     let taken = |other: &str| Some(NameFault::Taken(other.to_owned()));
     assert_eq!(fault(&["a.png", "A.PNG"]), taken("a.png"));
     assert_eq!(fault(&["ä", "Ä"]), taken("ä"));
@@ -77,7 +77,7 @@ fn names_that_a_disk_takes_for_one_are_refused() {
 }
 
 #[test]
-fn the_same_files_give_the_same_archive_which_gives_the_files_back() {
+fn the_same_files_give_the_same_archive_and_unpacking_restores_them() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let files: [(&str, &[u8]); 4] = [
@@ -109,7 +109,7 @@ fn the_same_files_give_the_same_archive_which_gives_the_files_back() {
 }
 
 #[test]
-fn a_folder_that_is_there_and_empty_is_filled_and_one_with_files_is_not() {
+fn an_empty_folder_is_filled_and_a_folder_with_files_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     write_archive(&at("a.zip"), &entries(&[("x/y", b"1"), ("z", b"2")]), false, &|| false).unwrap();
@@ -120,7 +120,7 @@ fn a_folder_that_is_there_and_empty_is_filled_and_one_with_files_is_not() {
     assert!(matches!(read("out"), Err(ArchiveError::FolderInUse(_))));
     assert!(matches!(read("a.zip"), Err(ArchiveError::NoFolder(_))));
     drop(read("dropped").unwrap());
-    // Files that another program wrote meanwhile stay.
+    // Files that another program has written in the meantime are kept.
     let late = read("late").unwrap();
     fs::create_dir(at("late")).unwrap();
     fs::write(at("late/own"), b"own").unwrap();
@@ -130,7 +130,7 @@ fn a_folder_that_is_there_and_empty_is_filled_and_one_with_files_is_not() {
 }
 
 #[test]
-fn an_archive_is_whole_or_not_there() {
+fn an_archive_is_either_complete_or_missing() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let write = |entries: &BTreeMap<String, EntryContent>, replaces: bool, stops: bool| {
@@ -169,7 +169,7 @@ fn an_archive_is_whole_or_not_there() {
 
 #[cfg(unix)]
 #[test]
-fn what_a_killed_process_left_of_an_archive_is_removed_and_what_another_one_unpacks_stays() {
+fn left_overs_of_killed_processes_are_removed_but_not_files_being_unpacked() {
     let root = tempfile::tempdir().unwrap();
     let archive = root.path().join("a.zip");
     write_archive(&archive, &entries(&[("a.png", b"a")]), false, &|| false).unwrap();
@@ -194,7 +194,7 @@ fn what_a_killed_process_left_of_an_archive_is_removed_and_what_another_one_unpa
 }
 
 #[test]
-fn an_entry_that_the_caller_does_not_take_leaves_nothing_behind() {
+fn an_entry_that_the_caller_refuses_leaves_no_files_behind() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let files: [(&str, &[u8]); 2] = [("a.png", b"1"), (".git/config", b"[core]")];
@@ -212,8 +212,8 @@ fn an_entry_that_the_caller_does_not_take_leaves_nothing_behind() {
 }
 
 #[test]
-fn entries_that_share_their_bytes_are_refused() {
-    // Two directory entries that name one local entry, as archives do that unpack to a million times their size.
+fn entries_that_share_bytes_are_refused() {
+    // Two directory entries that refer to one local entry, a trick of archives that unpack to a million times their size.
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     write_archive(
@@ -224,7 +224,7 @@ fn entries_that_share_their_bytes_are_refused() {
     )
     .unwrap();
     let mut bytes = fs::read(at("a.zip")).unwrap();
-    // The signature of an entry of the directory; 42 bytes behind it is the place of the local entry (APPNOTE 4.3.12).
+    // The signature of a directory entry; the offset of the local entry is stored 42 bytes behind it (APPNOTE 4.3.12).
     let places: Vec<usize> = (0..bytes.len() - 4)
         .filter(|at| bytes[*at..].starts_with(b"PK\x01\x02"))
         .collect();

@@ -1,4 +1,4 @@
-//! Archives from anywhere, unpacked beside their place and then moved there.
+//! Unpacks untrusted archives: first into a temporary folder beside the target, from which the files are then moved.
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -17,17 +17,17 @@ use crate::error::{FileError, Operation, io_reason};
 use crate::temporary::{TemporaryFolder, is_temporary_name, sweep_folders, temporary_folder_in};
 use crate::whole::{Durability, create_folder, folder_of, sync_folder};
 
-/// Decides whether an archive may have an entry of a name; the error is a clause.
+/// Decides whether an archive may have an entry with this name. The error is a clause.
 pub type Accepts<'a> = &'a dyn Fn(&str) -> Result<(), String>;
 
-/// Bytes that are copied at a time, and between two looks at whether the user stopped it.
+/// Number of bytes that are copied at a time, between two checks for cancellation.
 const CHUNK: u64 = 1 << 20;
-/// Kind of file in the permissions of Unix, and the two kinds that are unpacked.
+/// Bits for the kind of a file in Unix permissions, and the two kinds that are unpacked.
 const KIND_BITS: u32 = 0o170_000;
 const PLAIN_FILE: u32 = 0o100_000;
 const FOLDER: u32 = 0o040_000;
 
-/// An archive that was unpacked under a temporary name. Dropping it removes all of it.
+/// An archive that was unpacked into a temporary folder. Dropping it removes all files.
 #[derive(Debug)]
 pub struct UnpackedArchive {
     disk: Disk,
@@ -36,26 +36,27 @@ pub struct UnpackedArchive {
     names: Vec<String>,
 }
 
-/// An entry as the archive claims it to be.
+/// An entry as declared by the archive.
 struct Claim {
     name: String,
     bytes: u64,
     is_folder: bool,
 }
 
-/// Bytes of an archive that an entry takes: its header and its data.
+/// Bytes of an archive that belong to an entry: its header and its data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct ByteRange {
     start: u64,
-    /// First byte behind it.
+    /// First byte after the range.
     end: u64,
     /// Number of the entry.
     entry: usize,
 }
 
 impl UnpackedArchive {
-    /// Unpacks an archive for a folder that does not exist or is empty. Nothing that the archive claims is believed: all names and sizes
-    /// are checked before the first file is written, and the sizes again while they are. Names that the caller does not accept are refused.
+    /// Unpacks an archive for a target folder that does not exist or is empty. Nothing that the archive claims is trusted:
+    /// all names and sizes are checked before the first file is written, and sizes are checked again during writing. Names
+    /// that the caller does not accept are refused.
     ///
     /// # Errors
     /// See [`ArchiveError`]; nothing is left behind.
@@ -93,7 +94,7 @@ impl UnpackedArchive {
         let mut opened = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
         let claims = claims(&mut opened, accepts)?;
         let place = if is_there { target } else { existing_folder(target) };
-        // A killed process may have left a part of an archive.
+        // A killed process may have left parts of an archive.
         sweep_folders(place);
         if is_there {
             is_empty_folder_but(target, |_| false)?;
@@ -123,12 +124,12 @@ impl UnpackedArchive {
         &self.names
     }
 
-    /// Folder that the files are in until they are put in place.
+    /// Returns the folder that contains the files until they are moved to the target.
     pub fn folder(&self) -> &Path {
         self.temporary.path()
     }
 
-    /// Puts the files in place durably.
+    /// Moves the files to the target folder durably.
     ///
     /// # Errors
     /// The folder has got files meanwhile, or the disk refuses; nothing is left behind, unless the operation is
@@ -143,13 +144,13 @@ impl UnpackedArchive {
         let from = self.temporary.path();
         let renamed = self.disk.rename(from, &self.target, || fs::rename(from, &self.target));
         renamed.map_err(|error| FileError::new(Operation::Replace, &self.target, error))?;
-        // It does not exist under that name any more.
+        // The temporary folder was renamed, so it must not be removed.
         self.temporary.keep();
         Ok(sync_folder(&self.disk, above)?)
     }
 
-    /// Moves the files into the folder, which exists: it may be the current one of a shell, or the root of a disk. A process that
-    /// is killed meanwhile leaves some of them, each whole, and the others in the temporary folder.
+    /// Moves the files into an existing folder, which may be the current folder of a shell or the root of a disk. If the process is killed
+    /// during this, some files have been moved, each of them complete, and the others are in the temporary folder.
     fn move_into(self) -> Result<(), ArchiveError> {
         let rename = |from: &Path, to: &Path| self.disk.rename(from, to, || fs::rename(from, to));
         let first = |name: &String| name.split('/').next().unwrap_or(name).to_owned();
@@ -159,7 +160,7 @@ impl UnpackedArchive {
             let [from, to] = [self.temporary.path(), &self.target].map(|folder| folder.join(&top));
             if let Err(error) = rename(&from, &to) {
                 for (from, to) in moved {
-                    // Back, to be removed with the others.
+                    // Move the file back, so that it is removed together with the others.
                     let _ = rename(&to, &from);
                 }
                 return Err(FileError::new(Operation::Replace, &to, error).into());
@@ -169,7 +170,7 @@ impl UnpackedArchive {
         Ok(sync_folder(&self.disk, &self.target)?)
     }
 
-    /// Writes the names of the files to the disk.
+    /// Syncs the folders, so that the names of the files are on the disk.
     fn sync_folders(&self) -> Result<(), ArchiveError> {
         let root = self.temporary.path();
         let above = |name: &String| {
@@ -181,14 +182,14 @@ impl UnpackedArchive {
         };
         let folders: BTreeSet<PathBuf> = self.names.iter().flat_map(above).collect();
         for folder in folders {
-            // As the system names it: `root.join("")` ends in a separator.
+            // Normalize the path: `root.join("")` ends in a separator.
             let folder: PathBuf = folder.components().collect();
             sync_folder(&self.disk, &folder)?;
         }
         Ok(())
     }
 
-    /// Writes an entry, which may have no other size than it claims.
+    /// Writes an entry. It must have exactly the size that the archive declares.
     fn write<R: Read + Seek>(
         &self,
         entry: &mut ZipFile<'_, R>,
@@ -196,10 +197,10 @@ impl UnpackedArchive {
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<(), ArchiveError> {
         let path = self.temporary.path().join(&claim.name);
-        // The names of folders are synced with those of the files.
+        // Folders are synced later, together with the names of their files.
         create_folder(&self.disk, folder_of(&path), Durability::Unsynced)?;
         let refused = |error| match io::Error::kind(&error) {
-            // The disk takes two names for one that looked apart.
+            // The file system treats two names as the same that were considered distinct.
             io::ErrorKind::AlreadyExists => ArchiveError::SameNames,
             _ => FileError::new(Operation::Write, &self.target.join(&claim.name), error).into(),
         };
@@ -212,7 +213,7 @@ impl UnpackedArchive {
             if is_canceled() {
                 return Err(ArchiveError::Canceled);
             }
-            // The checksum is compared at the end of the entry.
+            // The reader compares the checksum at the end of the entry.
             let read = limited
                 .read(&mut chunk)
                 .map_err(|error| damaged(&claim.name, error.to_string()))?;
@@ -240,15 +241,15 @@ impl UnpackedArchive {
         Ok(())
     }
 
-    /// Writes the bytes of all files to the disk. After all of them were written, most are there already: to wait for each one before the
-    /// next is written takes many times as long.
+    /// Syncs the bytes of all files. This is done after all files were written, when most bytes are on the disk already:
+    /// syncing each file before the next one is written takes many times as long.
     fn sync_files(&self, is_canceled: &dyn Fn() -> bool) -> Result<(), ArchiveError> {
         for name in &self.names {
             if is_canceled() {
                 return Err(ArchiveError::Canceled);
             }
             let path = self.temporary.path().join(name);
-            // Some systems sync only what may be written to.
+            // Some systems can sync only files that are opened for writing.
             let open = || OpenOptions::new().write(true).open(&path);
             let synced = self
                 .disk
@@ -259,12 +260,12 @@ impl UnpackedArchive {
     }
 }
 
-/// Checks all that an archive claims.
+/// Checks everything that an archive claims.
 fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>, accepts: Accepts<'_>) -> Result<Vec<Claim>, ArchiveError> {
     if archive.len() > MOST_ENTRIES {
         return Err(ArchiveError::TooMany(archive.len()));
     }
-    // The reader keeps the last of two entries with one name, and others keep the first.
+    // Of two entries with the same name, this reader would keep the last one, while other programs keep the first.
     if archive.has_duplicate_names() {
         return Err(ArchiveError::SameNames);
     }
@@ -306,7 +307,7 @@ fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>, accepts: Accepts<'_>) -> 
             start: entry.header_start(),
             end: entry
                 .data_start()
-                .unwrap_or(entry.header_start()) // An entry without data has its header alone.
+                .unwrap_or(entry.header_start()) // An entry without data consists only of its header.
                 .saturating_add(entry.compressed_size()),
             entry: claims.len(),
         });
@@ -341,7 +342,7 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Returns true for a folder that exists, and false for one that does not.
+/// Returns true if the folder exists, and false if it does not.
 ///
 /// # Errors
 /// It has files whose names are not those of left-overs, or is no folder.
@@ -361,7 +362,7 @@ fn is_empty_folder_but(target: &Path, is_left: impl Fn(&str) -> bool) -> Result<
     }
 }
 
-/// The nearest folder above a path that exists, so that no folder is left where nothing is unpacked.
+/// Returns the nearest existing parent of a path. The temporary folder is created there, so that no folder is created if unpacking fails.
 fn existing_folder(target: &Path) -> &Path {
     let mut folder = folder_of(target);
     while !folder.is_dir() && folder.file_name().is_some() {

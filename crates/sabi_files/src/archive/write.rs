@@ -18,11 +18,11 @@ use crate::error::io_reason;
 use crate::whole::part_writer::PartWriter;
 use crate::whole::{Durability, WholeFile, create_folder, folder_of};
 
-/// Endings of files that are compressed already: to deflate them takes long and saves nothing.
+/// Extensions of files that are compressed already. Compressing them again takes long and saves nothing.
 const COMPRESSED: [&str; 6] = ["png", "jpg", "jpeg", "webp", "exr", "zip"];
-/// Bytes that are copied at a time, and between two looks at whether the user stopped it.
+/// Number of bytes that are copied at a time, between two checks for cancellation.
 const CHUNK: usize = 1 << 20;
-/// Sizes from which an entry needs the larger fields of zip64.
+/// Size from which an entry needs zip64 fields.
 const LARGE: u64 = u32::MAX as u64;
 
 /// Content of an entry.
@@ -30,12 +30,12 @@ const LARGE: u64 = u32::MAX as u64;
 pub enum EntryContent {
     /// These bytes.
     Bytes(Vec<u8>),
-    /// Those of a file.
+    /// The bytes of a file.
     File(PathBuf),
 }
 
-/// Writes an archive of entries by name; returns the bytes of each entry, in the order of names. The same entries give the same bytes:
-/// names are sorted, and times and permissions are always the same.
+/// Writes an archive with these entries. Returns the size of each entry in bytes, in the order of names. The same entries
+/// give the same bytes: names are sorted, and times and permissions are always the same.
 ///
 /// # Errors
 /// The target exists and is not to be replaced, an entry cannot be read or has a name that some systems cannot hold, or the disk
@@ -83,13 +83,13 @@ pub(crate) fn write_archive_on(
         return Err(error.into());
     }
     written?;
-    // Another program may have made the file meanwhile.
+    // Another program may have created the file in the meantime.
     refuse_existing(target, replaces)?;
     whole.commit()?;
     Ok(sizes)
 }
 
-/// Writes all entries with their sizes, bytes.
+/// Writes all entries and returns their sizes in bytes.
 fn write_entries(
     to: PartWriter<'_>,
     entries: &BTreeMap<String, EntryContent>,
@@ -115,7 +115,7 @@ fn refuse_existing(target: &Path, replaces: bool) -> Result<(), ArchiveError> {
     }
 }
 
-/// A failure of one entry: of this crate, or of the writer.
+/// Failure of one entry: an error of this crate, or of the zip writer.
 enum Failure {
     Archive(ArchiveError),
     Zip(ZipError),
@@ -165,7 +165,7 @@ fn write_entry<W: Write + Seek>(
     Ok(())
 }
 
-/// Options of an entry, which depend on nothing but its name and size.
+/// Returns the options of an entry, which depend only on its name and size.
 fn options(name: &str, size: u64) -> SimpleFileOptions {
     let ending = name
         .rsplit_once('.')
@@ -183,7 +183,7 @@ fn options(name: &str, size: u64) -> SimpleFileOptions {
         .large_file(size >= LARGE)
 }
 
-/// Size of an entry. A pipe or a device may have no end.
+/// Returns the size of an entry. Pipes and devices are refused, since they may have no end.
 fn size_of(content: &EntryContent) -> Result<u64, ArchiveError> {
     let path = match content {
         EntryContent::Bytes(bytes) => return Ok(bytes.len() as u64),

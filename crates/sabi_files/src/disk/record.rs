@@ -1,4 +1,4 @@
-//! Record of the steps of a test's disk.
+//! Record of the steps of a test disk.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 
 use super::{Fault, Step};
 
-/// Steps so far, and what of their changes the disk itself does not have yet.
+/// Steps so far, and changes that have not reached the disk yet.
 #[derive(Debug, Default)]
 pub(super) struct Record {
-    /// Fault, and the step at which it happens.
+    /// Fault, and the step at which it occurs.
     fault: Option<(Fault, usize)>,
     pub(super) steps: usize,
     pub(super) has_ended: bool,
     is_full: bool,
-    /// Files with bytes that were not synced.
+    /// Files with bytes that have not been synced.
     unsynced: BTreeSet<PathBuf>,
-    /// Names that were made in folders which were not synced since.
+    /// Names that were created in folders that have not been synced since.
     unsynced_names: BTreeSet<PathBuf>,
 }
 
@@ -28,12 +28,12 @@ impl Record {
         }
     }
 
-    /// Returns whether the process is going to end.
+    /// Returns whether the simulated process is going to end.
     pub(super) fn will_end(&self) -> bool {
         self.fault.is_some_and(|(fault, _)| fault == Fault::End)
     }
 
-    /// Counts a step. Returns the error of the system where it fails.
+    /// Counts a step. Returns the error of the system if the step fails.
     pub(super) fn begin(&mut self, step: Step) -> io::Result<()> {
         let at = self.steps;
         self.steps += 1;
@@ -52,22 +52,22 @@ impl Record {
         Ok(())
     }
 
-    /// Returns whether a write that failed has written a part.
+    /// Returns whether the failed write has written a part of its bytes.
     pub(super) fn leaves_parts(&self) -> bool {
         let at = self.steps.checked_sub(1);
-        // Later writes of a process that has ended write nothing.
+        // After the process has ended, later writes write nothing.
         let is_first = self.fault.is_some_and(|(_, from)| Some(from) == at);
         self.has_ended && is_first || self.is_full
     }
 
-    /// Notes a change.
+    /// Records a change.
     pub(super) fn changed(&mut self, step: Step, path: &Path) {
         let path = path.to_owned();
         match step {
             Step::CreateFolder | Step::CreateFile => {
                 self.unsynced_names.insert(path);
             }
-            // Links have temporary names, too, which nobody misses. Renaming: see `renamed`.
+            // Links have temporary names as well, whose loss does not matter. For renaming see `renamed`.
             Step::CreateTemporary | Step::Link | Step::Rename => {}
             Step::Write | Step::Append | Step::Shorten => {
                 self.unsynced.insert(path);
@@ -83,12 +83,12 @@ impl Record {
         }
     }
 
-    /// Notes that a file, or a folder with all in it, has another name.
+    /// Records that a file or folder was renamed, including everything in it.
     pub(super) fn renamed(&mut self, from: &Path, to: &Path) {
         self.unsynced.remove(to);
         for paths in [&mut self.unsynced, &mut self.unsynced_names] {
             let moved = |path: PathBuf| match path.strip_prefix(from) {
-                // Joined with nothing, a path would end like a folder.
+                // Joining an empty path would add a separator at the end.
                 Ok(below) if below.as_os_str().is_empty() => to.to_owned(),
                 Ok(below) => to.join(below),
                 Err(_) => path,
@@ -98,7 +98,7 @@ impl Record {
         self.unsynced_names.insert(to.to_owned());
     }
 
-    /// Files and folders that a power failure could take or leave incomplete.
+    /// Returns the files and folders that a power failure could remove or leave incomplete.
     pub(super) fn at_risk(&self) -> Vec<PathBuf> {
         let all = self.unsynced.union(&self.unsynced_names);
         // Temporary files are removed without a step.

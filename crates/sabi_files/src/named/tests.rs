@@ -1,4 +1,4 @@
-//! Tests of paths that files name.
+//! Tests of paths written in files.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ fn base(folder: &str) -> PathBase {
 }
 
 #[test]
-fn a_path_starts_from_the_folder_of_the_file_that_names_it() {
+fn a_path_is_relative_to_the_folder_of_the_file_that_contains_it() {
     let graph = PathBase::of_file(Path::new("/w/graphs/rust.sabi"));
     assert_eq!(graph.folder(), Path::new("/w/graphs"));
     assert_eq!(graph.resolve("../a.png"), Path::new("/w/graphs/../a.png"));
@@ -23,7 +23,7 @@ fn a_path_starts_from_the_folder_of_the_file_that_names_it() {
 }
 
 #[test]
-fn a_backslash_separates_folders_unless_a_file_has_it_in_its_name() {
+fn a_backslash_separates_folders_unless_a_file_name_contains_it() {
     let folder = tempfile::tempdir().unwrap();
     let graph = base(folder.path().to_str().unwrap());
     assert_eq!(graph.resolve("b\\a.png"), folder.path().join("b/a.png"));
@@ -34,7 +34,7 @@ fn a_backslash_separates_folders_unless_a_file_has_it_in_its_name() {
 }
 
 #[test]
-fn a_file_of_a_model_is_looked_for_in_three_places() {
+fn a_file_of_a_model_is_searched_in_three_places() {
     let model = base("/w");
     let places = |written| {
         model
@@ -49,7 +49,7 @@ fn a_file_of_a_model_is_looked_for_in_three_places() {
 }
 
 #[test]
-fn a_path_is_written_relative_to_the_folder_where_both_share_more_than_the_root() {
+fn a_path_is_written_relative_if_both_share_more_than_the_root() {
     for (target, folder, written) in [
         ("/w/a.png", "/w", "a.png"),
         ("/w/b/a.png", "/w/c/d", "../../b/a.png"),
@@ -62,7 +62,7 @@ fn a_path_is_written_relative_to_the_folder_where_both_share_more_than_the_root(
 }
 
 #[test]
-fn a_path_leads_where_it_led_from_another_folder() {
+fn a_path_refers_to_the_same_file_after_a_move_to_another_folder() {
     for (path, from, to, written) in [
         ("a.png", "/w/here", "/w/there", "../here/a.png"),
         ("a.png", "/w", "/w/there", "../a.png"),
@@ -98,7 +98,7 @@ fn absolute_paths_near_the_new_folder_can_be_shortened() {
 }
 
 #[test]
-fn an_absolute_path_has_no_detours() {
+fn an_absolute_path_contains_no_dots() {
     for (path, written) in [
         ("a.png", "/w/here/a.png"),
         ("..\\a.png", "/w/a.png"),
@@ -113,7 +113,7 @@ fn an_absolute_path_has_no_detours() {
 
 #[cfg(unix)]
 #[test]
-fn a_path_that_is_no_text_is_refused_and_one_below_such_a_folder_is_not() {
+fn a_path_that_is_not_text_is_refused_unless_only_its_folder_is_not() {
     use std::ffi::OsStr;
     use std::os::unix::ffi::OsStrExt;
     let folder = Path::new("/w").join(OsStr::from_bytes(b"\xff"));

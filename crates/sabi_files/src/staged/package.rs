@@ -1,4 +1,4 @@
-//! Packages: files of a staged set in one archive, stored as they are.
+//! Packages: files of a staged set in one uncompressed archive.
 
 use std::cell::OnceCell;
 use std::ffi::OsStr;
@@ -15,15 +15,15 @@ use crate::error::{FileError, Operation};
 use crate::whole::WholeFile;
 use crate::whole::part_writer::PartWriter;
 
-/// Bytes of an archive's records for each file, beside its name, the padding included.
+/// Upper bound for the bytes of an archive's records for each file, including padding but not the file name.
 const RECORD_BYTES: u64 = 512;
-/// Largest archive that programs without zip64 can read.
+/// Maximum size of an archive that programs without zip64 can read.
 const MOST_BYTES: u64 = u32::MAX as u64;
 
 impl StagedSet {
-    /// Stages an archive of a first file with its bytes and of files of the set that are staged already, none of them compressed.
-    /// The bytes of each file begin at a multiple of `alignment`. The same files give the same bytes. Returns false, and
-    /// stages nothing, if the archive could have 4 GiB or more, which programs without zip64 cannot read.
+    /// Stages an uncompressed archive that consists of a first file, given by its bytes, and of files of the set that are staged already.
+    /// The bytes of each file start at a multiple of `alignment`. The same files give the same bytes. Returns false, and stages nothing,
+    /// if the archive could have 4 GiB or more, which programs without zip64 cannot read.
     ///
     /// # Errors
     /// Those of [`StagedSet::stage`]; or a file is not staged.
@@ -81,14 +81,14 @@ impl StagedSet {
     /// Writes the bytes of a staged file to `to`.
     ///
     /// # Errors
-    /// No such file is staged, or one of both cannot be read or written.
+    /// No such file is staged, or it cannot be read, or `to` cannot be written.
     pub fn copy_staged(&self, file_name: &str, to: &mut dyn Write) -> Result<(), StagedError> {
         let copied = self.staged_file(file_name).and_then(|mut file| io::copy(&mut file, to));
         copied.map_err(|error| FileError::new(Operation::Write, &self.folder.join(file_name), error))?;
         Ok(())
     }
 
-    /// Opens a staged file at its start.
+    /// Opens a staged file for reading from its start.
     fn staged_file(&self, file_name: &str) -> io::Result<File> {
         let named = Some(OsStr::new(file_name));
         let found = self.files.iter().find(|(target, _)| target.file_name() == named);

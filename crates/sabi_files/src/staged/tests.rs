@@ -4,7 +4,7 @@ use super::*;
 use crate::test_folder::listing;
 
 #[test]
-fn a_file_that_is_read_is_never_written_over() {
+fn an_input_file_is_never_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     let texture = folder.path().join("bottle_normal.png");
     fs::write(&texture, b"the artist's own").unwrap();
@@ -25,7 +25,7 @@ fn a_file_that_is_read_is_never_written_over() {
 
 #[cfg(unix)]
 #[test]
-fn what_is_no_file_is_not_replaced_by_one() {
+fn only_ordinary_files_are_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let socket = folder.path().join("map.png");
     let _listening = std::os::unix::net::UnixListener::bind(&socket).unwrap();
@@ -35,7 +35,7 @@ fn what_is_no_file_is_not_replaced_by_one() {
 }
 
 #[test]
-fn nothing_shows_under_its_name_before_everything_is_complete() {
+fn no_file_appears_under_its_name_before_all_are_complete() {
     let root = tempfile::tempdir().unwrap();
     let folder = root.path().join("a/b");
     let mut set = StagedSet::create(&folder).unwrap();
@@ -53,7 +53,7 @@ fn nothing_shows_under_its_name_before_everything_is_complete() {
 }
 
 #[test]
-fn what_is_dropped_leaves_the_old_files_and_nothing_else() {
+fn dropping_a_set_leaves_the_old_files_and_nothing_else() {
     let root = tempfile::tempdir().unwrap();
     fs::write(root.path().join("one.png"), b"old").unwrap();
     let mut set = StagedSet::create(root.path()).unwrap();
@@ -67,7 +67,7 @@ fn what_is_dropped_leaves_the_old_files_and_nothing_else() {
 }
 
 #[test]
-fn a_folder_in_the_way_of_one_file_leaves_all_old_files() {
+fn a_folder_with_the_name_of_a_target_leaves_all_old_files() {
     let root = tempfile::tempdir().unwrap();
     fs::write(root.path().join("one.png"), b"old").unwrap();
     fs::create_dir(root.path().join("two.png")).unwrap();
@@ -86,7 +86,7 @@ fn a_folder_in_the_way_of_one_file_leaves_all_old_files() {
 }
 
 #[test]
-fn a_rename_that_fails_brings_back_the_files_before_it() {
+fn after_a_failed_rename_the_files_before_it_are_restored() {
     let root = tempfile::tempdir().unwrap();
     let folder = root.path().join("new folder");
     for has_earlier in [true, false] {
@@ -125,7 +125,7 @@ fn a_rename_that_fails_brings_back_the_files_before_it() {
 }
 
 #[test]
-fn files_that_cannot_be_brought_back_are_counted() {
+fn files_that_cannot_be_restored_are_counted() {
     let root = tempfile::tempdir().unwrap();
     let placed = ["one.png", "two.png", "three.png"].map(|name| {
         let target = root.path().join(name);
@@ -157,7 +157,7 @@ fn a_commit_leaves_no_second_names_of_earlier_files() {
 }
 
 #[test]
-fn a_file_where_the_folder_should_be_is_a_sentence() {
+fn a_file_in_place_of_the_folder_gives_a_clear_error() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("file");
     fs::write(&file, b"x").unwrap();
@@ -169,7 +169,7 @@ fn a_file_where_the_folder_should_be_is_a_sentence() {
 }
 
 #[test]
-fn a_name_is_used_once_and_stays_in_its_folder() {
+fn a_name_is_used_once_and_cannot_leave_the_folder() {
     let root = tempfile::tempdir().unwrap();
     let mut set = StagedSet::create(root.path()).unwrap();
     set.stage("a.png", b"1").unwrap();
@@ -235,7 +235,7 @@ fn a_file_with_the_same_bytes_keeps_its_time_stamp() {
 }
 
 #[test]
-fn a_file_that_changes_after_it_was_found_the_same_leaves_all_as_they_are() {
+fn if_an_unchanged_file_changes_before_the_commit_nothing_is_replaced() {
     let root = tempfile::tempdir().unwrap();
     let [same, other] = ["same.png", "other.png"].map(|name| root.path().join(name));
     fs::write(&same, b"same").unwrap();
@@ -253,7 +253,7 @@ fn a_file_that_changes_after_it_was_found_the_same_leaves_all_as_they_are() {
 
 #[cfg(unix)]
 #[test]
-fn names_that_are_not_utf_8_are_told_apart() {
+fn names_that_are_not_utf_8_are_distinguished() {
     use std::os::unix::ffi::OsStrExt;
     let root = tempfile::tempdir().unwrap();
     let names = [b"a\xfe.png".as_slice(), b"a\xff.png"].map(OsStr::from_bytes);
@@ -268,7 +268,7 @@ fn names_that_are_not_utf_8_are_told_apart() {
     }
 }
 
-/// Number of two or four bytes of an archive.
+/// Reads a little-endian number of two or four bytes.
 fn number(bytes: &[u8], at: usize, length: usize) -> usize {
     bytes[at..at + length]
         .iter()
@@ -276,7 +276,7 @@ fn number(bytes: &[u8], at: usize, length: usize) -> usize {
         .fold(0, |sum, byte| (sum << 8) | usize::from(*byte))
 }
 
-/// Names, first bytes and contents of the files of an archive without compression, as PKWARE's APPNOTE 4.3.7 has them.
+/// Returns names, offsets and contents of the files in an uncompressed archive, according to PKWARE's APPNOTE 4.3.7.
 fn stored_files(bytes: &[u8]) -> Vec<(String, usize, Vec<u8>)> {
     let mut files = Vec::new();
     let mut at = 0;
@@ -297,7 +297,7 @@ fn stored_files(bytes: &[u8]) -> Vec<(String, usize, Vec<u8>)> {
 }
 
 #[test]
-fn the_files_of_a_package_are_aligned_and_as_they_were() {
+fn the_files_of_a_package_are_aligned_and_unchanged() {
     let package = || {
         let folder = tempfile::tempdir().unwrap();
         let mut set = StagedSet::create(folder.path()).unwrap();
@@ -327,7 +327,7 @@ fn the_files_of_a_package_are_aligned_and_as_they_were() {
 }
 
 #[test]
-fn a_package_takes_no_name_twice_and_no_file_that_is_not_there() {
+fn a_package_refuses_duplicate_and_missing_files() {
     let folder = tempfile::tempdir().unwrap();
     let mut set = StagedSet::create(folder.path()).unwrap();
     set.stage("a.usdz", b"1").unwrap();
@@ -345,7 +345,7 @@ fn a_package_with_the_same_bytes_keeps_its_time_stamp() {
     let long_ago = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000);
     let staged = |content: &[u8]| {
         let mut set = StagedSet::create(root.path()).unwrap();
-        // A member that is unchanged is read from its place.
+        // A file that is unchanged is read from its final place.
         set.stage("a.png", content).unwrap();
         assert!(set.stage_package("all.usdz", ("a.usda", b""), &["a.png"], 64).unwrap());
         set.commit().unwrap();

@@ -1,4 +1,4 @@
-//! The project that a folder belongs to.
+//! The project that contains a folder.
 
 use std::env;
 use std::ffi::OsString;
@@ -7,13 +7,13 @@ use std::sync::LazyLock;
 
 use crate::read::read_plain;
 
-/// Mark of a repository: a folder, or a file that names one.
+/// Mark of a repository: a folder, or a file that refers to one.
 const REPOSITORY: &str = ".git";
-/// File in the folder of a repository.
+/// File that the folder of a repository always contains.
 const REPOSITORY_HEAD: &str = "HEAD";
-/// Start of a file that names the folder of a repository, as work trees and submodules have it.
+/// Start of a file that refers to the folder of a repository, as in work trees and submodules.
 const REPOSITORY_LINK: &[u8] = b"gitdir:";
-/// Most bytes of a file that names the folder of a repository.
+/// Maximum size of a file that refers to the folder of a repository, in bytes.
 const MOST_LINK_BYTES: u64 = 8192;
 /// Mark of a project: a file, which may be empty.
 const PROJECT: &str = "sabi.toml";
@@ -21,15 +21,15 @@ const PROJECT: &str = "sabi.toml";
 /// Home folders of the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Homes {
-    /// Canonical paths; none where the user has no home folder.
+    /// Canonical paths; empty if the user has no home folder.
     Known(Vec<PathBuf>),
-    /// The environment gives no whole path, and the system knows none.
+    /// The environment has no absolute path, and the system knows no home folder.
     Unknown,
 }
 
 impl Homes {
-    /// The home folders: that of the environment, and that of the system's list of users. Programs are started with an odd `HOME`, and
-    /// none of them may turn the real home folder into a project.
+    /// Returns the home folders: the one of the environment, and the one of the system's list of users. Both are needed,
+    /// since a program may be started with an unusual `HOME`, which must not turn the real home folder into a project.
     pub(super) fn of_user() -> &'static Homes {
         static HOMES: LazyLock<Homes> = LazyLock::new(|| {
             let named = match cfg!(unix) {
@@ -46,7 +46,7 @@ impl Homes {
         if named.is_none() && listed.is_none() {
             return Homes::Unknown;
         }
-        // A folder that does not exist holds nothing.
+        // A folder that does not exist contains nothing.
         let homes = named
             .into_iter()
             .chain(listed)
@@ -54,7 +54,7 @@ impl Homes {
         Homes::Known(homes.collect())
     }
 
-    /// Returns true if a folder may be a home folder, or is above one.
+    /// Returns true if a folder is a home folder or above one, or if that cannot be excluded.
     fn may_be_below(&self, folder: &Path) -> bool {
         match self {
             Homes::Known(homes) => homes.iter().any(|home| home.starts_with(folder)),
@@ -63,8 +63,8 @@ impl Homes {
     }
 }
 
-/// Returns the nearest folder, from a canonical one upwards, that holds a mark of a project. The home folder and what is above it
-/// are none: many keep their settings in a repository there, and it holds everything that must not leave.
+/// Returns the nearest folder, starting from a canonical one and going up, that contains a project mark. The home folder and the folders
+/// above it never count: many people keep their settings in a repository there, and it contains private files that a graph must not read.
 pub(super) fn project_of<'f>(folder: &'f Path, homes: &Homes) -> Option<&'f Path> {
     let is_project = |folder: &&Path| {
         folder.parent().is_some() && !homes.may_be_below(folder) && (is_repository(folder) || has_project_file(folder))
@@ -72,8 +72,8 @@ pub(super) fn project_of<'f>(folder: &'f Path, homes: &Homes) -> Option<&'f Path
     folder.ancestors().find(is_project)
 }
 
-/// Returns true if a folder is the root of a repository of the user: others can put a folder of that name into a folder that all may
-/// write to.
+/// Returns true if a folder is the root of a repository of the user. The owner is checked, since others can put a `.git`
+/// folder into a folder to which everybody may write.
 fn is_repository(folder: &Path) -> bool {
     let mark = folder.join(REPOSITORY);
     let is_whole = mark.join(REPOSITORY_HEAD).is_file()
@@ -81,20 +81,20 @@ fn is_repository(folder: &Path) -> bool {
     is_whole && owner::is_of_user(&mark)
 }
 
-/// Returns true if a folder has the file of a project, made by the user or by the owner of the folder.
+/// Returns true if a folder contains a project file that was made by the user or by the owner of the folder.
 fn has_project_file(folder: &Path) -> bool {
     let mark = folder.join(PROJECT);
     mark.is_file() && (owner::is_of_user(&mark) || owner::is_of_owner(&mark, folder))
 }
 
-/// The home folder in the system's list of users.
+/// Returns the home folder according to the system's list of users.
 #[cfg(unix)]
 fn listed_home() -> Option<PathBuf> {
     const MOST_BYTES: u64 = 1 << 20;
     let user = owner::user()?.to_string();
     let list = read_plain(Path::new("/etc/passwd"), MOST_BYTES).ok()?;
     let list = String::from_utf8_lossy(&list);
-    // Name, password, number, group, remark, home, shell.
+    // Fields: name, password, number, group, remark, home, shell.
     let mut lines = list.lines().map(|line| line.split(':').collect::<Vec<&str>>());
     let line = lines.find(|fields| fields.get(2) == Some(&user.as_str()))?;
     let home = PathBuf::from(line.get(5)?);
@@ -116,12 +116,12 @@ mod owner {
 
     /// Number of the administrator, who can write everywhere anyway.
     const ADMINISTRATOR: u32 = 0;
-    /// Permission of all to write.
+    /// Permission for everybody to write.
     const ALL_WRITE: u32 = 0o002;
 
-    /// Number of the user that this process acts for; none where no file can be made.
+    /// Returns the number of the user on whose behalf this process runs; `None` if no file can be created.
     pub(super) fn user() -> Option<u32> {
-        // The owner of a new file is the one that the system takes for the user.
+        // A new file is owned by the user that the system considers current.
         static USER: LazyLock<Option<u32>> = LazyLock::new(|| {
             let file = tempfile::tempfile().ok()?;
             file.metadata().ok().map(|found| found.uid())
@@ -129,13 +129,13 @@ mod owner {
         *USER
     }
 
-    /// Returns true if the user or the administrator made a file; the owner of a link counts, and not that of its target.
+    /// Returns true if the user or the administrator owns a file. For a link, the owner of the link counts, not that of its target.
     pub(super) fn is_of_user(path: &Path) -> bool {
         let owner = fs::symlink_metadata(path).map(|found| found.uid());
         owner.is_ok_and(|owner| owner == ADMINISTRATOR || user() == Some(owner))
     }
 
-    /// Returns true if the owner of a folder made a file in it, and not all may write there.
+    /// Returns true if a file in a folder has the owner of the folder, and not everybody may write there.
     pub(super) fn is_of_owner(path: &Path, folder: &Path) -> bool {
         let (Ok(file), Ok(folder)) = (fs::symlink_metadata(path), fs::metadata(folder)) else {
             return false;
@@ -144,7 +144,7 @@ mod owner {
     }
 }
 
-/// Permissions of folders are left to the system here.
+/// On this system, permissions of folders are left to the system.
 #[cfg(not(unix))]
 mod owner {
     use std::path::Path;
@@ -164,7 +164,7 @@ mod tests {
 
     use super::*;
 
-    /// A folder with a folder of graphs below it.
+    /// Creates a folder with a folder of graphs below it.
     fn place() -> (tempfile::TempDir, PathBuf, PathBuf) {
         let folder = tempfile::tempdir().unwrap();
         let root = folder.path().canonicalize().unwrap();
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_repository_is_known_by_its_content() {
+    fn a_repository_is_recognized_by_its_content() {
         let (_folder, mine, graphs) = place();
         let found = || project_of(&graphs, &nobody()) == Some(mine.as_path());
         let mark = mine.join(".git");
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn the_home_folder_is_no_project_whatever_the_environment_says() {
+    fn the_home_folder_is_never_a_project_whatever_the_environment_says() {
         let (_folder, mine, graphs) = place();
         fs::write(mine.join("sabi.toml"), b"").unwrap();
         let project = |named: Option<&str>, listed: Option<&Path>| {
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(project(Some(&text(&elsewhere)), None), Some(mine.as_path()));
         assert_eq!(project(Some(&text(&mine)), None), None);
         assert_eq!(project(Some(&text(&graphs)), None), None, "a folder above it");
-        // An odd variable does not hide the home folder that the system knows, and without both there is no project.
+        // An unusual variable does not hide the home folder that the system knows. If both are missing, there is no project.
         for odd in [Some(""), Some("relative/home"), Some("."), None] {
             assert_eq!(project(odd, Some(&mine)), None, "{odd:?}");
             assert_eq!(project(odd, Some(&elsewhere)), Some(mine.as_path()), "{odd:?}");
@@ -225,7 +225,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_mark_that_another_user_put_into_a_folder_makes_no_project() {
+    fn a_mark_that_another_user_put_into_a_folder_is_ignored() {
         use std::os::unix::fs::{PermissionsExt, chown};
 
         let (_folder, mine, graphs) = place();
@@ -235,7 +235,7 @@ mod tests {
         fs::create_dir(mine.join(".git")).unwrap();
         fs::write(mine.join(".git/HEAD"), b"ref").unwrap();
         assert!(found());
-        // Only the administrator can give files away.
+        // Only the administrator can change the owner of a file.
         if owner::user() != Some(0) {
             return;
         }

@@ -6,7 +6,7 @@ use super::TrustedPaths;
 use crate::address::{is_device_name, is_url, leads_to_network};
 use crate::{PathBase, Refusal, Unread, canonical};
 
-/// A folder with a project, a file beside it, and one of another project.
+/// A folder with a project, a file beside the project, and a file of another project.
 struct Place {
     folder: tempfile::TempDir,
 }
@@ -45,7 +45,7 @@ impl Place {
 }
 
 #[test]
-fn a_file_reaches_what_is_below_its_folder_and_below_trusted_ones() {
+fn a_file_can_refer_to_files_below_its_folder_and_trusted_folders() {
     let place = Place::new();
     let (base, none) = (place.base(), TrustedPaths::default());
     assert_eq!(none.check(&base, "sub/b.png"), Ok(place.path("mine/graphs/sub/b.png")));
@@ -80,7 +80,7 @@ fn the_project_of_a_named_file_is_trusted() {
     let check = || TrustedPaths::of_file(&graph).check(&place.base(), "../pictures/c.png");
     assert_eq!(check(), place.outside("mine/pictures/c.png"));
     for mark in ["sabi.toml", ".git"] {
-        // What the file of a work tree holds; the file of a project may hold anything.
+        // Content that is valid for the file of a work tree. The project file may have any content.
         fs::write(place.path("mine").join(mark), b"gitdir: elsewhere").unwrap();
         assert_eq!(check(), Ok(place.path("mine/pictures/c.png")), "{mark}");
         fs::remove_file(place.path("mine").join(mark)).unwrap();
@@ -92,7 +92,7 @@ fn the_project_of_a_named_file_is_trusted() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_leads_no_further_than_its_target_may() {
+fn a_link_is_refused_if_its_target_is_refused() {
     use std::os::unix::fs::symlink;
 
     let place = Place::new();
@@ -111,7 +111,7 @@ fn a_link_leads_no_further_than_its_target_may() {
 }
 
 #[test]
-fn addresses_of_the_network_are_refused_whatever_is_trusted() {
+fn network_addresses_are_refused_whatever_is_trusted() {
     let place = Place::new();
     let all = TrustedPaths::default().with_path(Path::new("/"));
     for written in [
@@ -166,7 +166,7 @@ fn devices_are_refused_whatever_is_trusted() {
         device("/proc/self/environ")
     );
     assert_eq!(all.check(&place.base(), "zero.png"), device("/dev/zero"));
-    // Trust does not help with a socket either, and is not advised.
+    // Trust does not help with a socket either, so it is not advised.
     let socket = place.path("other/socket");
     let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
     let refused = TrustedPaths::default().check(&place.base(), "../../other/socket");
@@ -179,7 +179,7 @@ fn devices_are_refused_whatever_is_trusted() {
 }
 
 #[test]
-fn windows_takes_some_names_for_devices_with_any_ending() {
+fn device_names_of_windows_are_recognized_with_any_extension() {
     for name in [
         "NUL",
         "con.png",
@@ -207,7 +207,7 @@ fn windows_takes_some_names_for_devices_with_any_ending() {
 }
 
 #[test]
-fn a_refusal_is_a_sentence_and_says_what_trust_would_help() {
+fn a_refusal_is_a_sentence_and_names_the_folder_to_trust() {
     for (refusal, sentence, folder) in [
         (
             Refusal::Outside {

@@ -1,4 +1,4 @@
-//! Whole files that are written in parts, not from start to end.
+//! Files that are written in parts, not only from start to end.
 
 use std::cell::OnceCell;
 use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
@@ -6,8 +6,8 @@ use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use super::WholeFile;
 use crate::error::{FileError, Operation};
 
-/// Writer of a [`WholeFile`] that goes on without writing after a failure, since the writer of archives finishes them in its
-/// destructor, and panics where their file does not let it.
+/// Writer of a [`WholeFile`] that ignores writes after a failure and reports success. This is needed because the zip writer
+/// finishes the archive in its destructor and panics if writing fails there.
 pub(crate) struct PartWriter<'a> {
     whole: &'a mut WholeFile,
     failure: &'a OnceCell<FileError>,
@@ -16,7 +16,7 @@ pub(crate) struct PartWriter<'a> {
 }
 
 impl<'a> PartWriter<'a> {
-    /// Starts at the beginning of a file. The first failure is put into `failure`, which is empty.
+    /// Starts at the beginning of a file. The first failure is stored in `failure`, which must be empty.
     pub(crate) fn new(whole: &'a mut WholeFile, failure: &'a OnceCell<FileError>) -> PartWriter<'a> {
         PartWriter {
             whole,
@@ -26,12 +26,12 @@ impl<'a> PartWriter<'a> {
         }
     }
 
-    /// Does a piece of work on the file, unless an earlier one has failed.
+    /// Performs work on the file, unless earlier work has failed.
     fn attempt(&mut self, work: impl FnOnce(&mut WholeFile) -> Result<(), FileError>) {
         if self.failure.get().is_none()
             && let Err(error) = work(self.whole)
         {
-            // It is empty, as was just seen.
+            // The cell is empty, as was just checked.
             let _ = self.failure.set(error);
         }
     }
@@ -45,7 +45,7 @@ impl Write for PartWriter<'_> {
         Ok(bytes.len())
     }
 
-    /// Does nothing, since nothing is held back.
+    /// Does nothing, since nothing is buffered.
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }

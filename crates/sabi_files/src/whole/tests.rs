@@ -4,7 +4,7 @@ use super::*;
 use crate::test_folder::listing;
 
 #[test]
-fn a_file_is_replaced_in_a_folder_that_is_created() {
+fn a_file_is_replaced_and_its_folder_is_created() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("a/b/file.txt");
     write_whole(&file, b"first").unwrap();
@@ -21,7 +21,7 @@ fn a_crash_in_the_middle_leaves_the_earlier_file() {
     write_whole(&file, b"earlier").unwrap();
     let mut begun = WholeFile::create(&file).unwrap();
     begun.write(b"hal").unwrap();
-    // A process that ends here runs no destructor.
+    // Simulates a process that ends here, without destructors.
     std::mem::forget(begun);
     assert_eq!(fs::read(&file).unwrap(), b"earlier");
     assert_eq!(listing(root.path()).len(), 2);
@@ -47,7 +47,7 @@ fn a_temporary_file_of_a_crash_is_never_written_to_again() {
 }
 
 #[test]
-fn a_dropped_file_leaves_the_earlier_one_and_nothing_else() {
+fn dropping_an_unfinished_file_leaves_only_the_earlier_file() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("file.txt");
     write_whole(&file, b"earlier").unwrap();
@@ -59,7 +59,7 @@ fn a_dropped_file_leaves_the_earlier_one_and_nothing_else() {
 }
 
 #[test]
-fn writers_of_one_file_at_a_time_leave_one_of_their_texts() {
+fn concurrent_writers_of_one_file_leave_the_complete_text_of_one() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("file.txt");
     let texts: Vec<Vec<u8>> = (0..8).map(|number| vec![b'a' + number; 10_000]).collect();
@@ -74,7 +74,7 @@ fn writers_of_one_file_at_a_time_leave_one_of_their_texts() {
 }
 
 #[test]
-fn a_folder_in_the_way_stays_and_is_named() {
+fn a_folder_with_the_name_of_the_target_stays_and_is_reported() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("folder");
     fs::create_dir(&file).unwrap();
@@ -94,7 +94,7 @@ fn a_folder_in_the_way_stays_and_is_named() {
 }
 
 #[test]
-fn the_longest_name_that_a_file_can_have_can_be_written() {
+fn a_file_with_the_longest_possible_name_can_be_written() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("n".repeat(255));
     write_whole(&file, b"1").unwrap();
@@ -109,7 +109,7 @@ mod on_unix {
     use super::*;
 
     #[test]
-    fn a_name_that_is_not_utf_8_is_written_to_exactly_that_file() {
+    fn a_name_that_is_not_utf_8_is_used_exactly() {
         let root = tempfile::tempdir().unwrap();
         let names: [&[u8]; 2] = [b"a\xff.txt", b"a\xfe.txt"];
         for name in names {
@@ -127,7 +127,7 @@ mod on_unix {
     }
 
     #[test]
-    fn a_link_stays_and_the_file_behind_it_is_written() {
+    fn a_link_is_kept_and_its_target_is_written() {
         let root = tempfile::tempdir().unwrap();
         let [file, link] = ["file", "link"].map(|name| root.path().join(name));
         fs::write(&file, b"earlier").unwrap();
@@ -138,7 +138,7 @@ mod on_unix {
     }
 
     #[test]
-    fn permissions_stay_and_those_of_a_new_file_are_the_usual_ones() {
+    fn permissions_are_kept_and_new_files_get_the_usual_ones() {
         let root = tempfile::tempdir().unwrap();
         let [usual, file] = ["usual", "file"].map(|name| root.path().join(name));
         fs::write(&usual, b"1").unwrap();

@@ -32,7 +32,7 @@ impl Document {
         }
     }
 
-    /// A group with canonical values, if it fits into the document under a name.
+    /// Returns a group with canonical values if it can be added to the document under this name.
     fn checked_group(&self, name: &str, mut group: GroupDef) -> Result<GroupDef, EditError> {
         validate::group_ports(&group)?;
         for (_, node) in group.graph.nodes() {
@@ -67,7 +67,7 @@ impl Document {
         }
     }
 
-    /// Instances of a group outside itself: `node`, or `group/node`.
+    /// Returns the instances of a group outside the group itself, as `node` or `group/node`.
     fn instances_of(&self, name: &str) -> Vec<String> {
         let main = std::iter::once((None, &self.graph));
         let groups = self.groups.iter().filter(|(group, _)| *group != name);
@@ -81,7 +81,7 @@ impl Document {
             .collect()
     }
 
-    /// Renames instances of the group within itself, too: flattening refuses them, but editing keeps them.
+    /// Renames a group and its instances, also instances inside the group itself: flattening refuses those, but editing keeps them.
     pub(super) fn rename_group(
         &mut self,
         name: String,
@@ -92,7 +92,7 @@ impl Document {
         if !self.groups.contains_key(&name) {
             return Err(missing("group", &name, self.groups.keys()));
         }
-        // Instances of a file with that name would become instances of the group, and the inverse could not tell them apart.
+        // Instances of a group file with the new name would become instances of this group, and the inverse could not tell them apart.
         if to != name && (self.groups.contains_key(&to) || !self.instances_of(&to).is_empty()) {
             return Err(EditError::GroupExists { name: quoted(&to) });
         }

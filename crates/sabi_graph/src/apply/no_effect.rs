@@ -3,7 +3,7 @@
 use crate::{Document, Edit};
 
 impl Document {
-    /// Returns true if an edit would leave the document unchanged; `false` for an edit that would be refused.
+    /// Returns true if an edit would leave the document unchanged. Returns false for an edit that would be refused.
     pub fn is_unchanged_by(&self, edit: &Edit) -> bool {
         match edit {
             Edit::Batch(edits) => edits.iter().all(|edit| self.is_unchanged_by(edit)),

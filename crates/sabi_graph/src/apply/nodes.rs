@@ -28,7 +28,7 @@ impl Document {
         let inputs = std::mem::take(&mut node.inputs);
         let graph = self.body_mut(&body)?;
         graph.insert(id.clone(), node)?;
-        // No node reads the new one, so its links cannot close a circle.
+        // No node reads the new node yet, so its links cannot close a circle.
         for (input, from) in inputs {
             graph.link(&id, &input, from)?;
         }
@@ -48,7 +48,7 @@ impl Document {
         })
     }
 
-    /// Removes everything that refers to the node by edits of their own, then the node; the inverse does the reverse.
+    /// Removes everything that refers to the node, each by an edit, and then the node. The inverse restores it all.
     pub(super) fn remove_node(&mut self, body: Body, id: NodeId) -> Result<Edit, EditError> {
         self.body(&body)?.find(id.as_str())?;
         let unlinking = self.edits_that_unlink(&body, &id)?;

@@ -84,7 +84,7 @@ impl Document {
         })
     }
 
-    /// Removes the knob from the variants first, so that each of them sets published knobs only.
+    /// Removes the knob from the variants first, so that a variant never sets a knob that is not published.
     pub(super) fn unexpose(&mut self, body: Body, name: String) -> Result<Edit, EditError> {
         let graph = self.body_mut(&body)?;
         let Some(knob) = graph.exposed.remove(&name) else {

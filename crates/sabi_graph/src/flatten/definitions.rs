@@ -11,7 +11,7 @@ use crate::{GROUP_KIND, Graph, NodeId, OutputRef};
 /// Reads a group file by its path relative to the document.
 pub(super) type ReadFile<'a> = &'a mut dyn FnMut(&str) -> Result<Document, String>;
 
-/// Most group files. The limit ends recursion through folders that are linked into themselves.
+/// Maximum number of group files. The limit ends recursion through folders that contain symbolic links to themselves.
 const FILE_LIMIT: usize = 1000;
 
 /// Address of a graph: a file (0 is the document), and a group in it or its main graph.
@@ -21,15 +21,15 @@ struct Address {
     group: Option<String>,
 }
 
-/// The graphs in use; number 0 is the document's own.
+/// The graphs in use. Number 0 is the document's main graph.
 pub(super) struct Definitions<'a> {
     document: &'a Document,
     /// Fit of the document, or the override.
     fit: Fit,
-    /// Group files with their paths; file `n` of an address is number `n - 1` here.
+    /// Group files with their paths. File `n` of an [`Address`] is at index `n - 1` here.
     files: Vec<(String, Document)>,
     addresses: Vec<Address>,
-    /// The graph that an instance stands for, by the graph it is in and its id.
+    /// The graph that each instance uses, by the graph that contains the instance and by the id of the instance.
     pub(super) instances: BTreeMap<(usize, NodeId), usize>,
 }
 
@@ -83,7 +83,7 @@ impl<'a> Definitions<'a> {
         let fit = if address.file == 0 { self.fit } else { document.fit };
         match &address.group {
             Some(name) => {
-                // Only groups that exist have an address.
+                // An address exists only for a group that exists.
                 let group = &document.groups[name];
                 Definition {
                     graph: &group.graph,
@@ -124,7 +124,7 @@ impl<'a> Definitions<'a> {
         self.get(number).graph.nodes().filter_map(named).collect()
     }
 
-    /// The graph that `name` means to an instance in graph `user`; a file is read when it is first named.
+    /// Returns the graph that `name` refers to in an instance of graph `user`. A group file is read when it is first named.
     fn address(
         &mut self,
         user: usize,
@@ -192,7 +192,7 @@ impl<'a> Definitions<'a> {
         let Err(mut circle) = crate::order::topological(&names, uses) else {
             return Ok(());
         };
-        // From the outermost group inward: each contains an instance of the next.
+        // Sort the groups from the outermost inward: each contains an instance of the next.
         circle[1..].reverse();
         let mut chain: Vec<&str> = circle.iter().map(|&number| names[number].as_str()).collect();
         chain.push(chain[0]);
@@ -202,7 +202,7 @@ impl<'a> Definitions<'a> {
     }
 }
 
-/// Resolves a path written in `file` against the folder of `file`; absolute paths stay.
+/// Resolves a path written in `file` relative to the folder of `file`. Absolute paths are unchanged.
 pub(super) fn resolve(file: &str, path: &str) -> String {
     let path = path.replace('\\', "/");
     let has_drive = path.as_bytes().get(1) == Some(&b':');
@@ -232,7 +232,7 @@ mod tests {
     use super::resolve;
 
     #[test]
-    fn a_path_is_relative_to_the_file_it_stands_in() {
+    fn a_path_is_relative_to_the_file_that_contains_it() {
         for (file, path, found) in [
             ("", "rust.sabi", "rust.sabi"),
             ("lib/rust.sabi", "noise.sabi", "lib/noise.sabi"),

@@ -10,7 +10,7 @@ pub enum FlattenError {
     NoSuchVariant {
         /// The name, quoted.
         name: String,
-        /// The nearest, as a question.
+        /// The nearest existing name, as a question.
         hint: String,
         /// All of them, quoted.
         known: String,
@@ -20,7 +20,7 @@ pub enum FlattenError {
     NoSuchKnob {
         /// The name, quoted.
         name: String,
-        /// The nearest, as a question.
+        /// The nearest existing name, as a question.
         hint: String,
         /// All exposed knobs, quoted.
         known: String,
@@ -56,7 +56,7 @@ pub enum FlattenError {
         instance: String,
         /// The group, quoted.
         name: String,
-        /// The nearest, as a question.
+        /// The nearest existing name, as a question.
         hint: String,
     },
     /// A group instance without a group.
@@ -72,7 +72,7 @@ pub enum FlattenError {
         instance: String,
         /// The path relative to the document, quoted.
         file: String,
-        /// The reader's sentence.
+        /// The error of the reader, a sentence.
         why: String,
     },
     /// More group files than the limit.
@@ -84,7 +84,7 @@ pub enum FlattenError {
     /// A group inside itself.
     #[error("a group cannot hold itself: {chain}; take one of these instances out")]
     Recursion {
-        /// Groups, each holding the next.
+        /// Groups, each containing an instance of the next.
         chain: String,
     },
     /// Instances nested deeper than the limit.

@@ -8,25 +8,25 @@ use super::{FlatNode, FlattenError, NodeRef, Overrides};
 use crate::problem::{hint, listed, quoted};
 use crate::{Fit, GROUP_KIND, Node, NodeId, OutputRef, REROUTE_KIND, Value};
 
-/// Most instances within one another.
+/// Maximum depth of instances inside instances.
 const DEPTH_LIMIT: usize = 256;
-/// Most nodes and instances.
+/// Maximum number of nodes and instances.
 const COUNT_LIMIT: usize = 100_000;
-/// Most bytes of ids and parameters.
+/// Maximum number of bytes of ids and parameters.
 const BYTE_LIMIT: usize = 256 << 20;
 
 /// The document (number 0) or a group instance.
 pub(super) struct Instance {
-    /// Number of its graph.
+    /// Number of the graph of the instance.
     pub(super) definition: usize,
-    /// The instance it stands in, and its node there.
+    /// Enclosing instance, and the node of this instance in it.
     pub(super) parent: Option<(usize, NodeId)>,
-    /// Prefix of the ids in it: empty, or `outer/inner/`.
+    /// Prefix of the ids of the nodes inside: empty, or `outer/inner/`.
     pub(super) prefix: String,
     depth: usize,
     seeds: Vec<u32>,
     length_scale: f64,
-    /// Fit in place of those of the groups in it.
+    /// Fit that replaces the fits of the groups inside.
     fit: Option<Fit>,
     muted: bool,
     settings: Settings,
@@ -51,7 +51,7 @@ pub(super) struct Expansion {
     pub(super) nodes: Vec<FlatNode>,
     /// Instance and id of each node of the flat graph.
     pub(super) origins: Vec<(usize, NodeId)>,
-    /// By instance and id.
+    /// Results of expanding, by instance and node id.
     pub(super) expanded: BTreeMap<usize, BTreeMap<NodeId, Expanded>>,
     bytes: usize,
 }
@@ -78,7 +78,7 @@ pub(super) fn expand(all: &Definitions<'_>, seed: u32, overrides: &Overrides) ->
 }
 
 impl Expansion {
-    /// The instance that contains a node, and its result there; `None` where the node does not exist.
+    /// Returns the instance that contains a node, and the result inside it; `None` if the node does not exist.
     pub(super) fn place(&self, all: &Definitions<'_>, wanted: &NodeRef) -> Option<(usize, OutputRef)> {
         let (prefix, id) = match wanted.node.rfind('/') {
             Some(at) => wanted.node.split_at(at + 1),
@@ -87,7 +87,7 @@ impl Expansion {
         let instance = self.instances.iter().position(|instance| instance.prefix == prefix)?;
         let (id, expanded) = self.expanded.get(&instance)?.get_key_value(id)?;
         let port = match expanded {
-            // A link from an instance has to name an output; a preview of it shows the first one.
+            // A link from an instance must name an output, but a preview of an instance shows the first output.
             Expanded::Instance(inner) if wanted.port.is_none() => all
                 .get(self.instances[*inner].definition)
                 .outputs
@@ -125,11 +125,11 @@ impl Expansion {
         Ok(())
     }
 
-    /// Adds a node to the total size and checks the limits: nested groups grow exponentially, and a small file must not fill
-    /// the memory.
+    /// Adds a node to the total size and checks the limits. Nested groups grow exponentially, so a small file could
+    /// otherwise fill the memory.
     fn check_size(&mut self, path: &str, params: &BTreeMap<String, Value>) -> Result<(), FlattenError> {
         let values: usize = params.iter().map(|(name, value)| name.len() + size_bytes(value)).sum();
-        // Each node has a fixed cost besides its texts.
+        // Each node has a fixed cost besides the length of its texts.
         self.bytes += 256 + path.len() + values;
         if self.bytes > BYTE_LIMIT || self.instances.len() + self.nodes.len() >= COUNT_LIMIT {
             return Err(FlattenError::TooLarge { count: COUNT_LIMIT });
@@ -165,7 +165,7 @@ impl Expansion {
             });
         }
         let mut seeds = outer.seeds.clone();
-        // An instance with seed 0 gives the same results as its nodes outside of a group.
+        // Seed 0 changes nothing: the nodes of the instance give the same results as they would outside of a group.
         if knobs.seed != 0 {
             seeds.push(knobs.seed);
         }

@@ -1,4 +1,4 @@
-//! Knobs converted to parameters.
+//! Conversion of knobs to parameters.
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ pub const INSTANCE_KNOBS: [&str; 4] = ["fit", "scale", "seed", "variant"];
 /// Value of the knob `fit` of an instance that keeps the fit of its group.
 const AS_MADE: &str = "as_made";
 
-/// Parameters that knobs set, in order: later ones win.
+/// Parameters that knobs set, in order. Later entries win.
 pub(super) type Settings = Vec<(SlotRef, Value)>;
 
-/// Control panel of a graph, with the settings so far. `of` names the graph in messages: empty, or ` of "instance"`.
+/// Control panel of a graph with the settings made so far. `of` describes the graph in messages: empty, or ` of "instance"`.
 pub(super) struct Panel<'a> {
     graph: &'a Graph,
     of: String,
@@ -25,7 +25,7 @@ pub(super) struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    /// A panel with all knobs at their defaults, and then the variant.
+    /// Creates a panel with all knobs at their defaults, and applies the variant.
     pub(super) fn new(graph: &'a Graph, of: String, variant: Option<&str>) -> Result<Self, FlattenError> {
         let mut panel = Panel {
             graph,
@@ -39,7 +39,7 @@ impl<'a> Panel<'a> {
         Ok(panel)
     }
 
-    /// Sets an exposed knob; `false` when there is none of that name.
+    /// Sets a published knob. Returns false if there is no knob with this name.
     pub(super) fn set(&mut self, name: &str, value: &Value) -> Result<bool, FlattenError> {
         let graph = self.graph;
         match graph.exposed().get(name) {
@@ -206,7 +206,8 @@ pub(super) fn of_instance(
     })
 }
 
-/// Fit that the knob `fit` names, `None` inside for that of the group; `None` for another value.
+/// Returns the fit that a value of the knob `fit` names. The inner `None` stands for the fit of the group, the outer `None`
+/// for an invalid value.
 fn fit_named(value: &Value) -> Option<Option<Fit>> {
     match value.as_text()? {
         "unit" => Some(Some(Fit::Unit)),

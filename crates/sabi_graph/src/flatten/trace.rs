@@ -14,7 +14,7 @@ type FedInputs<'a> = BTreeMap<&'a str, BTreeMap<&'a str, &'a str>>;
 pub(super) struct Tracer<'a> {
     expansion: &'a Expansion,
     definitions: Vec<Definition<'a>>,
-    /// By number of the definition.
+    /// Fed inputs, by number of the graph.
     fed: Vec<FedInputs<'a>>,
     /// Origins of reroutes found so far, by instance and id.
     reroute_origins: BTreeMap<(usize, &'a NodeId), Option<FlatRef>>,
@@ -32,7 +32,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Links of the node `id` of an instance, without inputs whose link ends at an unconnected reroute or group input.
+    /// Returns the links of the node `id` of an instance. Inputs whose link ends at an unconnected reroute or group input are left out.
     pub(super) fn inputs(
         &mut self,
         instance: usize,
@@ -63,14 +63,15 @@ impl<'a> Tracer<'a> {
         Ok(inputs)
     }
 
-    /// Link of an input and the instance it is in: the link from outside of the group, else its own.
+    /// Returns the link of an input and the instance that contains the link: the link from outside the group if there is
+    /// one, otherwise the input's own link.
     fn link(&self, instance: usize, id: &NodeId, input: &str) -> Option<(usize, &'a OutputRef)> {
         let inner = &self.expansion.instances[instance];
         let feeding = self.fed[inner.definition]
             .get(id.as_str())
             .and_then(|inputs| inputs.get(input));
         let outside = match (&inner.parent, feeding) {
-            // The depth of this recursion is that of the instances.
+            // This recursion is as deep as the instances are nested.
             (Some((outer, node)), Some(group_input)) => self.link(*outer, node, group_input),
             _ => None,
         };
@@ -80,7 +81,7 @@ impl<'a> Tracer<'a> {
         })
     }
 
-    /// The node of the flat graph at the beginning of a link; `None` for an unconnected reroute.
+    /// Returns the node of the flat graph at the start of a link; `None` for an unconnected reroute.
     pub(super) fn trace(
         &mut self,
         mut instance: usize,
@@ -132,7 +133,7 @@ impl<'a> Tracer<'a> {
         format!("{}{id}", self.expansion.instances[instance].prefix)
     }
 
-    /// The result inside a group that one of its outputs passes on.
+    /// Returns the result inside a group that one of the group's outputs passes on.
     fn output(&self, outer: usize, inner: usize, from: &OutputRef) -> Result<&'a OutputRef, FlattenError> {
         let outputs = self.definitions[self.expansion.instances[inner].definition].outputs;
         let names = || outputs.keys().map(String::as_str);

@@ -8,11 +8,11 @@ use crate::migrate::NEWEST;
 /// Object of a graph file with its keys, for documentation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FormatObject {
-    /// Word for it, as the schema has it.
+    /// Name of the object, as in the schema.
     pub name: &'static str,
     /// Description, a sentence.
     pub about: &'static str,
-    /// Its keys, in the order of writing.
+    /// Keys, in the order of writing.
     pub keys: Vec<FormatKey>,
 }
 
@@ -21,7 +21,7 @@ pub struct FormatObject {
 pub struct FormatKey {
     /// The key.
     pub name: &'static str,
-    /// Its value, in words.
+    /// Description of the value.
     pub value: String,
     /// True if the object must have it.
     pub is_needed: bool,
@@ -45,7 +45,7 @@ pub fn format_objects() -> Vec<FormatObject> {
     OBJECTS.iter().map(object).collect()
 }
 
-/// A shape in words.
+/// Describes a shape in words.
 fn words(shape: &Shape) -> String {
     match shape {
         Shape::Word(word) => format!("`\"{word}\"`"),
@@ -68,7 +68,7 @@ fn words(shape: &Shape) -> String {
     }
 }
 
-/// The JSON schema (draft 2020-12) of graph files, as text. Keys that it does not name are allowed, since they are kept.
+/// Returns the JSON schema (draft 2020-12) of graph files, as text. It allows keys that it does not name, since saving keeps unknown keys.
 pub fn format_schema() -> String {
     let mut schema = OrderedObject::default();
     schema.put("$schema", "https://json-schema.org/draft/2020-12/schema");

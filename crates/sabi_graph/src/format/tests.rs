@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::Document;
 
-/// Sentences about the unknown keys of a graph with these members.
+/// Returns the warnings about unknown keys of a graph with these members.
 fn told(members: &str) -> Vec<String> {
     let text = format!("{{ \"format\": \"sabi\", \"version\": 1,\n{members} }}");
     Document::from_json(&text).expect("unknown keys are no errors");
@@ -13,7 +13,7 @@ fn told(members: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_misspelled_key_is_told_with_its_place_and_the_key_that_was_meant() {
+fn a_misspelled_key_is_reported_with_its_place_and_a_suggestion() {
     let cases = [
         (
             r#""nodes": { "a": { "kind": "x", "parms": { "size": 3 } } }"#,
@@ -118,7 +118,7 @@ fn the_schema_in_the_documentation_is_that_of_the_code() {
     );
 }
 
-/// Rows of the tables of the page, by the word of the object.
+/// Rows of the tables on the documentation page, by name of the object.
 #[test]
 fn the_page_of_the_format_lists_exactly_the_keys_of_the_code() {
     let page = read("graph-file.md");
@@ -142,7 +142,7 @@ fn the_page_of_the_format_lists_exactly_the_keys_of_the_code() {
 }
 
 #[test]
-fn a_conflict_of_git_is_named_as_such() {
+fn a_git_conflict_is_reported_as_such() {
     let text = "{ \"format\": \"sabi\", \"version\": 1, \"nodes\": {\n<<<<<<< HEAD\n  \"a\": { \"kind\": \"x\" }\n=======\n  \"b\": { \"kind\": \
                 \"x\" }\n>>>>>>> other\n} }";
     let told = |text: &str| {
@@ -156,7 +156,7 @@ fn a_conflict_of_git_is_named_as_such() {
         "a.sabi:2:1: \"<<<<<<< HEAD\" is a conflict marker of git: two versions of the graph were merged and differ here; keep one \
          side or both, and remove the lines that begin with <<<<<<<, ======= and >>>>>>>"
     );
-    // One that was left after the others were removed.
+    // A marker that was left in the file when the others were removed.
     let rest = text.replace("<<<<<<< HEAD\n", "").replace("=======\n", ",");
     assert!(
         told(&rest).starts_with("a.sabi:4:1: \">>>>>>> other\" is a conflict marker"),

@@ -1,4 +1,4 @@
-//! Keys of a graph file that nothing reads: those of a newer version, or misspelled ones.
+//! Keys of a graph file that this version does not read: keys of a newer version, or misspelled ones.
 
 use std::fmt;
 
@@ -8,20 +8,20 @@ use crate::migrate::to_newest;
 use crate::problem::{listed, quoted};
 use crate::text_position::line_and_column;
 
-/// Key of a graph file that nothing reads; it is kept when the file is saved. Prints as a sentence, with line and column.
+/// Key of a graph file that this version does not read. It is kept when the file is saved. Prints as a sentence with line and column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownKey {
     /// Line in the text, from 1.
     pub line: usize,
     /// Column in the line, in characters from 1.
     pub column: usize,
-    /// Object that it stands in, such as `node "edges"`.
+    /// Object that contains the key, such as `node "edges"`.
     pub place: String,
     /// The key.
     pub key: String,
     /// The known key that was probably meant.
     pub meant: Option<&'static str>,
-    /// Known keys of the object that it does not have.
+    /// Known keys that the object does not have, as candidates for a suggestion.
     free: Vec<&'static str>,
 }
 
@@ -36,7 +36,7 @@ impl fmt::Display for UnknownKey {
     }
 }
 
-/// Lists the keys that nothing reads in the text of a graph file, in their order; none in a text that is no graph.
+/// Lists the unknown keys in the text of a graph file, in order. The list is empty for a text that is not a graph.
 pub fn unknown_keys(text: &str) -> Vec<UnknownKey> {
     let Some(json) = parse(text).ok().and_then(|json| to_newest(json).ok()) else {
         return Vec::new();
@@ -57,7 +57,7 @@ struct Search<'t> {
 }
 
 impl Search<'_> {
-    /// Searches an object with fixed keys; `of` ends the words for what is in it, such as ` of group "rust"`.
+    /// Searches an object with fixed keys. `of` is appended to descriptions of what the object contains, such as ` of group "rust"`.
     fn object(&mut self, json: &Json, keys: &'static ObjectKeys, place: &str, of: &str) {
         let Tree::Object(members) = &json.tree else { return };
         let is_free = |name: &&str| members.iter().all(|member| member.key != **name);
@@ -66,7 +66,7 @@ impl Search<'_> {
                 Some(known) => self.value(&member.value, known, place, of),
                 None => {
                     let (line, column) = line_and_column(self.text, member.key_at);
-                    // A key that is there already was not meant.
+                    // A key that is present already cannot be the one that was meant.
                     let free: Vec<&str> = keys.keys.iter().map(|known| known.name).filter(is_free).collect();
                     let key = UnknownKey {
                         line,
@@ -100,7 +100,8 @@ impl Search<'_> {
     }
 }
 
-/// The known key that was probably meant: one with few other letters, or one that it begins, or that begins with it.
+/// Returns the known key that was probably meant: one with few different letters, one that starts with `key`, or one that
+/// `key` starts with.
 fn meant(key: &str, free: &[&'static str]) -> Option<&'static str> {
     let near = crate::nearest(key, free.iter().copied());
     let begins = || {

@@ -14,7 +14,7 @@ use crate::problem::Problem;
 use crate::validate;
 use crate::{Graph, KnobCurve, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType, SlotRef, Value};
 
-/// Width of a note whose file does not say it, canvas points.
+/// Width of a note whose file does not give one, in canvas points.
 const NOTE_WIDTH: f64 = 240.0;
 
 pub(super) struct Body {
@@ -57,7 +57,7 @@ pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> 
     Ok(Body { graph, inputs, outputs })
 }
 
-/// Adds an offset in the text to a problem.
+/// Returns a function that adds an offset in the text to a problem.
 fn at(at: usize) -> impl Fn(Problem) -> ReadError {
     move |problem| ReadError::new(at, problem)
 }
@@ -93,7 +93,7 @@ fn link_error(link: &Link, problem: Problem) -> ReadError {
         .in_port(&link.input)
 }
 
-/// A node without its links, which go to `links`.
+/// Reads a node without its links, which are appended to `links`.
 fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec<Link>) -> Result<Node, ReadError> {
     let begin = json.at;
     let mut fields = Fields::of(json, "nodes", &format::NODE)?;
@@ -145,7 +145,7 @@ fn read_params(members: Vec<Member>) -> Result<BTreeMap<String, Value>, ReadErro
     members.into_iter().map(kept).collect()
 }
 
-/// Reads texts of the form `node.name`; the nodes must exist.
+/// Reads texts of the form `node.name`. The nodes must exist.
 fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, ReadError> {
     let mut slots = Vec::new();
     for (begin, text) in fields.texts("to")? {

@@ -1,4 +1,4 @@
-//! Reads the known keys of an object one by one and keeps the others.
+//! Reads the known keys of an object one by one. Keys that are not read are kept as unknown keys.
 
 use std::collections::BTreeMap;
 
@@ -11,13 +11,13 @@ use crate::problem::{Problem, quoted};
 pub(super) struct Fields {
     /// Offset of the object in the text.
     at: usize,
-    /// All keys that are read.
+    /// All keys that are known for this object.
     known: &'static ObjectKeys,
     members: BTreeMap<String, Json>,
 }
 
 impl Fields {
-    /// Members of an object; `what` names the value in the error for one that is not an object.
+    /// Takes the members of an object. `what` describes the value in the error for a value that is not an object.
     pub(super) fn of(json: Json, what: &str, known: &'static ObjectKeys) -> Result<Self, ReadError> {
         let at = json.at;
         let members = members(json, what)?
@@ -35,7 +35,7 @@ impl Fields {
         self.members.remove(key)
     }
 
-    /// Value of a required key.
+    /// Returns the value of a required key.
     pub(super) fn need(&mut self, key: &str, advice: &'static str) -> Result<Json, ReadError> {
         let missing = FileProblem::Missing {
             key: quoted(key),
@@ -58,7 +58,7 @@ impl Fields {
         }
     }
 
-    /// A whole number that fits 32 bits.
+    /// Reads a whole number that fits into 32 bits.
     pub(super) fn whole(&mut self, key: &str) -> Result<Option<u32>, ReadError> {
         let Some(json) = self.take(key) else {
             return Ok(None);
@@ -69,12 +69,12 @@ impl Fields {
         }
     }
 
-    /// Two numbers.
+    /// Reads two numbers.
     pub(super) fn pair(&mut self, key: &str) -> Result<Option<[f64; 2]>, ReadError> {
         self.numbers(key, "a list of two numbers")
     }
 
-    /// So many numbers; `expected` says how many in words.
+    /// Reads `N` numbers. `expected` describes them in the error.
     pub(super) fn numbers<const N: usize>(
         &mut self,
         key: &str,
@@ -108,12 +108,12 @@ impl Fields {
         }
     }
 
-    /// Members of the object under a key; empty without the key.
+    /// Returns the members of the object under a key; none if the key is missing.
     pub(super) fn map(&mut self, key: &str) -> Result<Vec<Member>, ReadError> {
         self.take(key).map_or(Ok(Vec::new()), |json| members(json, key))
     }
 
-    /// Texts of the list under a key with their offsets; empty without the key.
+    /// Returns the texts of the list under a key, with their offsets; none if the key is missing.
     pub(super) fn texts(&mut self, key: &str) -> Result<Vec<(usize, String)>, ReadError> {
         match self.take(key) {
             None => Ok(Vec::new()),
@@ -150,7 +150,7 @@ pub(super) fn text(json: Json, key: &str) -> Result<String, ReadError> {
     }
 }
 
-/// A value of any sort.
+/// Reads a value of any type.
 pub(super) fn value(json: Json, name: &str) -> Result<Value, ReadError> {
     let at = json.at;
     let bad = || ReadError::new(at, Problem::BadValue { name: quoted(name) });

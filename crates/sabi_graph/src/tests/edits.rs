@@ -12,7 +12,7 @@ fn id(text: &str) -> NodeId {
 
 const MAIN: Body = Body::Main;
 
-/// `a → b → c`, and all that can hang on a node.
+/// A chain `a → b → c`, with everything that can refer to a node.
 fn chain() -> Document {
     document(
         r#""exposed": { "amount": { "to": ["b.opacity", "c.opacity"] }, "only": { "to": ["b.gain"] } },
@@ -28,7 +28,7 @@ fn chain() -> Document {
 }
 
 #[test]
-fn removing_a_node_takes_what_hangs_on_it_and_undo_brings_it_all_back() {
+fn removing_a_node_removes_all_references_to_it_and_undo_restores_them() {
     let mut document = chain();
     let before = document.to_json();
     let inverse = document
@@ -87,7 +87,7 @@ fn a_batch_that_fails_changes_nothing() {
 }
 
 #[test]
-fn what_no_file_could_hold_is_refused() {
+fn values_that_no_file_can_hold_are_refused() {
     let bad_value = Edit::SetParam {
         body: MAIN,
         node: id("a"),
@@ -129,7 +129,7 @@ fn what_no_file_could_hold_is_refused() {
 }
 
 #[test]
-fn what_names_something_that_is_not_there_is_refused() {
+fn references_to_missing_things_are_refused() {
     let instance = |group: Option<&str>| Edit::AddNode {
         body: MAIN,
         id: id("i"),
@@ -174,7 +174,7 @@ fn what_names_something_that_is_not_there_is_refused() {
     }
 }
 
-/// The edit is refused with these words and changes nothing.
+/// Asserts that the edit is refused with this text and changes nothing.
 fn refused(edit: Edit, text: &str) {
     let mut document = chain();
     assert_eq!(document.apply(edit).unwrap_err().to_string(), text);
@@ -252,7 +252,7 @@ fn a_drag_of_many_edits_is_one_step_of_undo() {
 }
 
 #[test]
-fn a_drag_remembers_where_it_began_and_not_where_it_went() {
+fn a_drag_records_only_the_value_before_it() {
     let (mut document, mut history) = (chain(), History::new());
     let before = document.to_json();
     history.begin("Drag");
@@ -272,7 +272,7 @@ fn a_drag_remembers_where_it_began_and_not_where_it_went() {
 }
 
 #[test]
-fn the_oldest_steps_make_room_for_new_ones() {
+fn the_oldest_steps_are_dropped_when_there_are_too_many() {
     let (mut document, mut history) = (chain(), History::new());
     for seed in 0..3 * UNDO_STEPS as u32 {
         history
@@ -313,7 +313,7 @@ proptest! {
 }
 
 #[test]
-fn a_document_in_the_place_of_another_gives_way_to_it_again() {
+fn replacing_a_whole_document_can_be_undone() {
     let mut first = chain();
     let other = document("", r#""lone": { "kind": "noise/white" }"#);
     let replace = Edit::Replace {
@@ -328,7 +328,7 @@ fn a_document_in_the_place_of_another_gives_way_to_it_again() {
 }
 
 #[test]
-fn a_group_of_edits_that_is_canceled_leaves_what_can_be_done_again() {
+fn canceling_a_group_of_edits_restores_the_redo_stack() {
     let (mut document, mut history) = (chain(), History::new());
     let seed = |seed| Edit::SetSeed { seed };
     history.apply(&mut document, "Seed", seed(1)).unwrap();
@@ -339,7 +339,7 @@ fn a_group_of_edits_that_is_canceled_leaves_what_can_be_done_again() {
     history.cancel(&mut document).unwrap();
     assert_eq!(document, chain());
     assert_eq!(history.redo(&mut document).unwrap().as_deref(), Some("Seed"));
-    // One that is made forgets it, as any edit does.
+    // A group that is not canceled clears the redo stack, as any edit does.
     history.undo(&mut document).unwrap();
     history.begin("Drag");
     history.apply(&mut document, "Seed", seed(2)).unwrap();
@@ -348,7 +348,7 @@ fn a_group_of_edits_that_is_canceled_leaves_what_can_be_done_again() {
 }
 
 #[test]
-fn places_and_frames_are_all_that_no_result_depends_on() {
+fn moving_a_node_affects_no_result_but_muting_one_does() {
     let node: NodeId = chain().graph.ids().next().unwrap().clone();
     let body = Body::Main;
     let moved = Edit::Move {

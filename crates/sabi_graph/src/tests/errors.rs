@@ -1,8 +1,8 @@
-//! Errors point into the file and say what to do.
+//! Errors name a place in the file and advise what to do.
 
 use crate::Document;
 
-/// A file with these lines for its body; `nodes` begins on line 2.
+/// Returns the error for a file with these lines as its body; `nodes` starts on line 2.
 fn error_of(body: &str) -> String {
     let text = format!("{{ \"format\": \"sabi\", \"version\": 1,\n{body} }}");
     Document::from_json(&text)
@@ -18,7 +18,7 @@ fn check(cases: &[(&str, &str)]) {
 }
 
 #[test]
-fn links_that_cannot_be_name_their_node_and_input() {
+fn an_impossible_link_is_reported_with_its_node_and_input() {
     check(&[
         (
             "\"nodes\": { \"worn_p2dd\": { \"kind\": \"blend/mask\" },\n  \"rust\": { \"kind\": \"effect/layer\",\n    \
@@ -46,7 +46,7 @@ fn links_that_cannot_be_name_their_node_and_input() {
 }
 
 #[test]
-fn a_node_in_a_group_is_named_with_its_group() {
+fn an_error_in_a_group_names_the_group_and_the_node() {
     check(&[(
         "\"groups\": { \"grain\": { \"nodes\": { \"n\": { \"params\": {} } } } },\n\"nodes\": {}",
         "2:40: group \"grain\", node \"n\": the node has no kind; give it one, as in \"kind\": \"noise/simplex\"",
@@ -54,7 +54,7 @@ fn a_node_in_a_group_is_named_with_its_group() {
 }
 
 #[test]
-fn what_is_published_must_be_there() {
+fn a_published_knob_or_port_must_exist() {
     let nodes = "\"nodes\": { \"edges\": { \"kind\": \"x\" } }";
     for (more, text) in [
         (
@@ -105,7 +105,7 @@ fn what_is_published_must_be_there() {
 }
 
 #[test]
-fn an_instance_names_a_group_that_is_there() {
+fn an_instance_must_name_an_existing_group() {
     check(&[
         (
             "\"groups\": { \"grain\": { \"nodes\": {} } },\n\"nodes\": { \"i\": { \"kind\": \"graph/group\", \"group\": \
@@ -121,7 +121,7 @@ fn an_instance_names_a_group_that_is_there() {
 }
 
 #[test]
-fn text_that_is_not_json_says_where_and_what() {
+fn a_syntax_error_in_json_is_reported_with_its_place() {
     for (text, message) in [
         (
             "",
@@ -173,7 +173,7 @@ fn text_that_is_not_json_says_where_and_what() {
 }
 
 #[test]
-fn the_version_of_a_file_is_the_one_that_it_is_written_in() {
+fn the_format_version_of_a_file_is_the_version_it_was_written_in() {
     for version in [0, 1] {
         let text = format!("{{ \"format\": \"sabi\", \"version\": {version}, \"nodes\": {{}} }}");
         assert_eq!(crate::format_version(&text), Ok(version));
@@ -199,7 +199,7 @@ fn a_newer_file_is_refused_by_its_version() {
 }
 
 #[test]
-fn hostile_files_end_in_a_sentence() {
+fn a_hostile_file_gives_an_error_message_and_no_crash() {
     let deep = "[".repeat(1_000_000);
     let message = "line 1, column 130: values are nested more than 128 deep here; flatten them";
     assert_eq!(Document::from_json(&deep).unwrap_err().to_string(), message);
@@ -215,7 +215,7 @@ fn hostile_files_end_in_a_sentence() {
 }
 
 #[test]
-fn an_old_file_is_wrong_at_the_place_where_it_was_written() {
+fn an_error_in_an_old_file_is_reported_at_its_place_in_that_file() {
     let text = "{ \"format\": \"sabi\", \"version\": 0,\n\"nodes\": { \"a\": { \"kind\": \"x\" } },\n\"edges\": [\n{ \
                 \"from\": \"b\", \"to\": \"a.in\" }] }";
     let message = "line 4, column 11: node \"a\", input \"in\": there is no node \"b\"";

@@ -1,4 +1,4 @@
-//! Sources of the results of the document's nodes in a flat graph.
+//! Finding, in a flat graph, where the results of the document's nodes come from.
 
 use super::document;
 use crate::{Document, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find};
@@ -73,7 +73,7 @@ fn instances_and_reroutes_are_found_at_any_depth() {
 }
 
 #[test]
-fn what_is_not_there_or_not_connected_is_nothing() {
+fn a_missing_or_unconnected_node_has_no_source() {
     assert_eq!(
         found(&["gone", "a/gone", "gone/cut", "loose", "b.raw", "b/wire", ""]),
         vec![Ok(None); 7]
@@ -81,7 +81,7 @@ fn what_is_not_there_or_not_connected_is_nothing() {
 }
 
 #[test]
-fn an_output_that_an_instance_does_not_have_leaves_the_others() {
+fn a_wrong_output_name_does_not_affect_the_other_results() {
     let found = found(&["a.rim", "bend.x", "clouds"]);
     let texts: Vec<String> = found
         .iter()

@@ -1,4 +1,4 @@
-//! Fits of the nodes of a flat graph: those that their lengths were written for.
+//! Fits of the nodes of a flat graph: each node has the fit that its lengths were written for.
 
 use crate::{Document, Fit, Overrides, flatten};
 
@@ -27,7 +27,7 @@ fn fits(fit: Option<Fit>) -> Vec<(String, Fit)> {
 }
 
 #[test]
-fn a_group_keeps_the_fit_it_was_made_for_and_the_rest_takes_the_override() {
+fn a_group_keeps_its_own_fit_and_all_other_nodes_take_the_override() {
     let named = |c: Fit| {
         [
             ("a/n".to_owned(), Fit::Length(2.0)),
@@ -41,7 +41,7 @@ fn a_group_keeps_the_fit_it_was_made_for_and_the_rest_takes_the_override() {
 }
 
 #[test]
-fn an_instance_with_a_fit_of_its_own_gives_it_to_all_that_is_inside() {
+fn the_fit_of_an_instance_applies_to_everything_inside() {
     let text = TEXT.replace(
         r#""group": "made_for_two" },"#,
         r#""group": "made_for_two", "params": { "fit": "piece" } },"#,

@@ -3,7 +3,7 @@
 use super::{document, flat};
 use crate::{Document, FlatGraph, FlatNode, Overrides, Value};
 
-/// A line for each node: `id kind(params) <- input:source`.
+/// Formats each node as a line `id kind(params) <- input:source`.
 fn lines(graph: &FlatGraph) -> Vec<String> {
     let line = |node: &FlatNode| {
         let mut line = format!("{} {}", node.id, node.kind);
@@ -26,7 +26,7 @@ fn set(name: &str, value: impl Into<Value>) -> Overrides {
     }
 }
 
-/// A mask through a group around a group … six deep, each a passage for the mask and a place for one effect.
+/// Creates groups nested six deep. Each passes the mask on and has an input for one effect.
 fn nested_six_deep() -> Document {
     let mut groups = String::new();
     for level in 1..=6 {
@@ -88,7 +88,7 @@ fn one_mask_through_six_levels_into_three_effects_stays_one_node() {
 }
 
 #[test]
-fn a_group_is_what_its_flat_form_is() {
+fn a_group_flattens_to_the_nodes_that_it_contains() {
     let grouped = document(
         r#""groups": { "dust": { "inputs": { "on": { "to": ["layer.base"] } }, "outputs": { "out": "layer" },
             "nodes": { "grain": { "kind": "noise/simplex" },
@@ -145,7 +145,7 @@ fn later_settings_win_over_earlier_ones() {
 }
 
 #[test]
-fn a_wrong_override_says_what_there_is() {
+fn an_error_about_an_override_lists_the_existing_names() {
     let document = document(
         r#""exposed": { "amount": { "to": ["edges_k7f2.width"], "range": [0, 1] } }, "variants": { "heavy": {} },"#,
         r#""edges_k7f2": { "kind": "surface/edges" }"#,
@@ -199,7 +199,7 @@ fn with_instance(instance: &str, more_nodes: &str) -> Document {
 }
 
 #[test]
-fn a_wrong_instance_says_what_its_group_has() {
+fn an_error_about_an_instance_lists_the_names_of_its_group() {
     let reads = |port: &str| format!(r#", "r": {{ "kind": "x", "inputs": {{ "source": "i{port}" }} }}"#);
     for (instance, more, text) in [
         (
@@ -255,7 +255,7 @@ fn a_wrong_instance_says_what_its_group_has() {
 }
 
 #[test]
-fn kinds_and_reroutes_are_written_as_they_are_meant() {
+fn a_bad_version_or_a_named_output_of_a_reroute_is_an_error() {
     let error = |nodes: &str| {
         flat(&document("", nodes), &Overrides::default())
             .unwrap_err()
@@ -282,7 +282,7 @@ fn instance_knobs_variants_and_mute_reach_inside() {
 }
 
 #[test]
-fn an_input_with_nothing_at_its_end_is_not_connected() {
+fn an_input_whose_link_ends_at_an_unconnected_reroute_is_not_connected() {
     let document = document(
         r#""groups": { "g": { "inputs": { "in": { "to": ["n.source", "n.base"] } }, "outputs": { "out": "n" },
               "nodes": { "own": { "kind": "y" }, "n": { "kind": "x", "inputs": { "base": "own" } } } } },"#,
@@ -290,7 +290,7 @@ fn an_input_with_nothing_at_its_end_is_not_connected() {
            "fed": { "kind": "graph/group", "group": "g", "inputs": { "in": "i" } },
            "r": { "kind": "x", "inputs": { "source": "loose" } }"#,
     );
-    // Where the outside gives nothing, a node inside keeps its own link.
+    // If nothing is connected to the group's input, the node inside keeps its own link.
     let graph = flat(&document, &Overrides::default()).unwrap();
     assert_eq!(
         lines(&graph),
@@ -305,7 +305,7 @@ fn an_input_with_nothing_at_its_end_is_not_connected() {
 }
 
 #[test]
-fn a_long_row_of_reroutes_is_followed_once() {
+fn each_reroute_of_a_long_chain_is_followed_only_once() {
     let mut nodes =
         String::from(r#""n": { "kind": "x" }, "w0": { "kind": "graph/reroute", "inputs": { "source": "n" } }"#);
     for place in 1..20_000 {

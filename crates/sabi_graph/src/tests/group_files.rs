@@ -1,4 +1,4 @@
-//! Groups in files of their own, and groups without end.
+//! Groups in files of their own, and groups that contain themselves.
 
 use super::{document, flat};
 use crate::{Fit, FlattenError, Overrides, Value, flatten};
@@ -48,7 +48,7 @@ fn groups_of_groups_that_fill_the_memory_are_refused() {
 }
 
 #[test]
-fn a_group_file_brings_its_fit_its_groups_and_its_folder() {
+fn a_group_file_keeps_its_fit_its_groups_and_its_folder() {
     let main = document(
         r#""fit": 2,"#,
         r#""a": { "kind": "graph/group", "group": "lib/rust.sabi", "params": { "amount": 0.5 } },
@@ -92,14 +92,14 @@ fn a_group_file_brings_its_fit_its_groups_and_its_folder() {
     let error = flatten(&main, &Overrides::default(), &mut |_| Err("no such file".to_owned())).unwrap_err();
     let text = "node \"a\" needs the group file \"lib/rust.sabi\", which cannot be read: no such file";
     assert_eq!(error.to_string(), text);
-    // Each of these files names one in a folder further down.
+    // Each of these files uses a group file in a deeper folder.
     let endless = document("", r#""a": { "kind": "graph/group", "group": "lib/rust.sabi" }"#);
     let error = flatten(&endless, &Overrides::default(), &mut |_| Ok(endless.clone())).unwrap_err();
     assert!(matches!(error, FlattenError::TooManyFiles { .. }), "{error}");
 }
 
 #[test]
-fn a_group_file_that_holds_itself_is_named() {
+fn a_group_file_that_contains_itself_is_reported_by_name() {
     let main = document("", r#""a": { "kind": "graph/group", "group": "lib/rust.sabi" }"#);
     let rust = document("", r#""r": { "kind": "graph/group", "group": "../lib/rust.sabi" }"#);
     let error = flatten(&main, &Overrides::default(), &mut |_| Ok(rust.clone()))

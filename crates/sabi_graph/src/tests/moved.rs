@@ -1,9 +1,9 @@
-//! Documents that are written in another folder.
+//! Documents that are saved in another folder.
 
 use super::document;
 use crate::{Body, Document, Edit, History, Node, Relocation, Value};
 
-/// One folder deeper, where everything that was here is one folder up.
+/// Rewrites a path for a document that moves one folder deeper.
 fn deeper(path: &str) -> String {
     format!("../{path}")
 }
@@ -23,7 +23,7 @@ fn relocation(moved: &dyn Fn(&str) -> String) -> Relocation<'_> {
     }
 }
 
-/// Paths in all places that have some, and the same words where they are none.
+/// Creates a document with paths in all places that can have one, and with the same texts in places that cannot.
 fn pictures() -> Document {
     document(
         r#""preview": { "mesh": "a.glb" },
@@ -40,7 +40,7 @@ fn pictures() -> Document {
 }
 
 #[test]
-fn all_paths_and_nothing_else_follow_to_another_folder() {
+fn exactly_the_paths_are_rewritten_for_another_folder() {
     let before = pictures().to_json();
     let moved = pictures().relocated(relocation(&deeper));
     let text = moved.to_json();
@@ -52,7 +52,7 @@ fn all_paths_and_nothing_else_follow_to_another_folder() {
 }
 
 #[test]
-fn undo_after_a_move_leads_to_what_was_before_as_it_is_written_now() {
+fn undo_after_a_move_restores_the_document_with_paths_of_the_new_folder() {
     let (mut document, mut history) = (Document::default(), History::new());
     let mut image = Node::new("source/image");
     image.params.insert("file".to_owned(), Value::from("a.png"));
@@ -102,7 +102,7 @@ fn undo_after_a_move_leads_to_what_was_before_as_it_is_written_now() {
 }
 
 #[test]
-fn a_document_that_was_put_away_follows_to_another_folder() {
+fn a_replaced_document_in_the_history_is_rewritten_for_another_folder() {
     let (mut document, mut history) = (pictures(), History::new());
     let replace = Edit::Replace {
         document: Box::new(Document::default()),

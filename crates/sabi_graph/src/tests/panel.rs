@@ -7,7 +7,7 @@ use super::{config, document};
 use crate::{Document, Edit, Node, Overrides};
 
 #[test]
-fn knobs_stand_on_the_panel_by_order_then_name_and_sections_stay_together() {
+fn knobs_are_sorted_by_order_then_name_and_sections_stay_together() {
     let document = document(
         r#""exposed": {
              "a": { "to": ["n.a"] },
@@ -46,7 +46,7 @@ fn a_knob_with_curves_gives_each_parameter_its_own_value() {
     assert_eq!(Document::from_json(&document.to_json()), Ok(document));
 }
 
-/// A group inside a group, and instances of the inner one in both graphs.
+/// Creates a group inside a group, and instances of the inner group in both graphs.
 fn nested() -> Document {
     document(
         r#""groups": {
@@ -65,7 +65,7 @@ fn rename(to: &str, shown: Option<&str>) -> Edit {
 }
 
 #[test]
-fn a_group_is_renamed_in_all_its_instances_and_undo_brings_every_byte_back() {
+fn a_group_is_renamed_in_all_its_instances_and_undo_restores_every_byte() {
     let mut document = nested();
     let before = document.to_json();
     let inverse = document.apply(rename("grain", None)).unwrap();
@@ -83,7 +83,7 @@ fn a_group_is_renamed_in_all_its_instances_and_undo_brings_every_byte_back() {
 }
 
 #[test]
-fn a_group_takes_no_name_that_another_one_has() {
+fn a_group_cannot_take_the_name_of_another_group() {
     for name in ["outer", "file.sabi"] {
         let mut document = nested();
         let error = document.apply(rename(name, None)).unwrap_err().to_string();
@@ -103,7 +103,7 @@ fn a_group_takes_no_name_that_another_one_has() {
 }
 
 #[test]
-fn an_edit_that_would_be_refused_is_not_one_that_changes_nothing() {
+fn an_edit_that_would_be_refused_does_not_count_as_one_without_effect() {
     let document = nested();
     let lost = Edit::SetParam {
         body: crate::Body::Main,
@@ -120,11 +120,11 @@ proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn an_edit_is_said_to_change_nothing_only_if_it_does(mut document in a_document(), edits in prop::collection::vec(an_edit(), 1..20)) {
+    fn an_edit_counts_as_without_effect_only_if_it_changes_nothing(mut document in a_document(), edits in prop::collection::vec(an_edit(), 1..20)) {
         for edit in edits {
             let before = document.to_json();
             let is_idle = document.is_unchanged_by(&edit);
-            // Made a second time, what gives values finds them there already.
+            // Edits that set values have no effect when they are applied a second time.
             let gives = matches!(edit, Edit::Move { .. } | Edit::SetMuted { .. } | Edit::SetDisplay { .. } | Edit::SetLabel { .. }
                 | Edit::SetParam { .. } | Edit::Connect { .. } | Edit::Disconnect { .. } | Edit::SetSeed { .. }
                 | Edit::SetOutput { .. } | Edit::RenameDocument { .. });

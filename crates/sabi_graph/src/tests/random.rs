@@ -11,7 +11,7 @@ use crate::{
     SlotRef, Value,
 };
 
-/// Few enough names that edits often meet.
+/// Generates ids from a small set, so that edits often refer to the same nodes.
 fn a_node_id() -> impl Strategy<Value = NodeId> {
     prop::sample::select(vec!["a", "b", "c", "d_1", "e_2", "f"]).prop_map(|id| id.parse().unwrap())
 }
@@ -247,7 +247,7 @@ fn a_node_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// One of the edits of what is around the nodes.
+/// Generates an edit of the panel, the variants, the ports or the frames.
 fn a_panel_edit() -> impl Strategy<Value = Edit> {
     let place = || (a_body(), a_name());
     let settings = || prop::option::of(prop::collection::btree_map(a_name(), a_value(), 0..3));
@@ -285,16 +285,16 @@ fn a_panel_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Any edit; many of them do not fit a given document.
+/// Generates any edit. Many of them do not fit a given document.
 pub(super) fn an_edit() -> impl Strategy<Value = Edit> {
     let one = || prop_oneof![3 => a_node_edit(), 2 => a_panel_edit()];
     prop_oneof![8 => one(), 1 => prop::collection::vec(one(), 0..4).prop_map(Edit::Batch)]
 }
 
-/// A document that edits made.
+/// Generates a document by random edits.
 pub(super) fn a_document() -> impl Strategy<Value = Document> {
     (prop::collection::vec(an_edit(), 0..60), values()).prop_map(|(edits, extra)| {
-        // In the form in which files keep it.
+        // Values are stored in their canonical form.
         let kept = |(key, value): (String, Value)| Some((key, value.canonical()?));
         let mut document = Document {
             extra: extra.into_iter().filter_map(kept).collect(),

@@ -1,4 +1,4 @@
-//! Saving adds and removes nothing.
+//! Saving a loaded document adds and removes nothing.
 
 use proptest::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::{Document, OutputRef, Value};
 const NEWEST: &str = include_str!("../../tests_data/version_1.sabi");
 
 #[test]
-fn saving_what_was_loaded_gives_the_same_bytes() {
+fn saving_a_loaded_file_gives_the_same_bytes() {
     let document = Document::from_json(NEWEST).unwrap_or_else(|error| panic!("{}", error.with_name("version_1.sabi")));
     assert_eq!(document.to_json(), NEWEST);
 }
@@ -26,7 +26,7 @@ fn layout_and_order_of_the_text_do_not_matter() {
 }
 
 #[test]
-fn version_0_becomes_the_newest_one() {
+fn version_0_is_migrated_to_the_newest_version() {
     let document = Document::from_json(include_str!("../../tests_data/version_0.sabi")).unwrap();
     let link = |node: Option<&crate::Node>| node.and_then(|node| node.inputs.get("source").map(OutputRef::to_string));
     assert_eq!(link(document.graph.node("levels_1")).as_deref(), Some("grain_1.mask"));
@@ -43,7 +43,7 @@ fn version_0_becomes_the_newest_one() {
 }
 
 #[test]
-fn the_smallest_file_is_three_keys() {
+fn the_smallest_valid_file_has_three_keys() {
     let text = "{\n  \"format\": \"sabi\",\n  \"version\": 1,\n  \"nodes\": {}\n}\n";
     assert_eq!(Document::default().to_json(), text);
     assert_eq!(Document::from_json(text), Ok(Document::default()));
@@ -53,7 +53,7 @@ proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn loading_what_was_saved_gives_the_same_document(document in a_document()) {
+    fn loading_a_saved_document_gives_the_same_document(document in a_document()) {
         let text = document.to_json();
         let loaded = Document::from_json(&text);
         prop_assert_eq!(loaded.as_ref(), Ok(&document), "{}", text);
@@ -66,7 +66,7 @@ proptest! {
     }
 
     #[test]
-    fn a_damaged_file_is_a_document_or_an_error_inside_it(at in 0..NEWEST.len(), c in any::<char>()) {
+    fn a_damaged_file_is_either_read_or_gives_an_error_within_the_file(at in 0..NEWEST.len(), c in any::<char>()) {
         let mut text: Vec<char> = NEWEST.chars().collect();
         let at = at.min(text.len() - 1);
         text[at] = c;
@@ -78,14 +78,14 @@ proptest! {
     }
 
     #[test]
-    fn a_file_that_was_cut_off_is_an_error(at in 0..NEWEST.len() - 2) {
+    fn a_truncated_file_is_an_error(at in 0..NEWEST.len() - 2) {
         prop_assume!(NEWEST.is_char_boundary(at));
         prop_assert!(Document::from_json(&NEWEST[..at]).is_err());
     }
 }
 
 #[test]
-fn the_example_graphs_are_as_a_save_leaves_them() {
+fn the_example_graphs_are_in_canonical_form() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs");
     let folders = [folder.to_owned(), format!("{folder}/thesis")];
     let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());

@@ -1,4 +1,4 @@
-//! Every kind of picture that artists' tools write.
+//! Tests of unusual kinds of image files that artists' tools write.
 
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
@@ -7,7 +7,7 @@ use exr::prelude::{
 
 use super::*;
 
-/// 8 × 8 pixels of one red, as print has it: four inks, stored inverted with Adobe's mark. Hexadecimal.
+/// 8 × 8 pixels of one red in CMYK, as used for printing, stored inverted with Adobe's marker. Hexadecimal.
 const CMYK_JPEG: &str = "\
     ffd8ffee000e41646f626500640000000000ffdb004300100b0c0e0c0a100e0d0e1211101318281a181616183123251d283a333d3c393338\
     3740485c4e404457453738506d51575f626768673e4d71797064785c656763ffc000140800080008044311004d11005911004b1100ffc400\
@@ -35,7 +35,7 @@ fn from_hexadecimal(text: &str) -> Vec<u8> {
         .collect()
 }
 
-/// A PNG of 2 × 2 pixels from its rows, interlaced or not.
+/// Creates a PNG of 2 × 2 pixels from its rows, interlaced or not.
 fn png_file(color: u8, depth: u8, rows: [&[u8]; 2], interlaced: bool, more: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
     let mut chunk = |kind: &[u8; 4], data: &[u8]| {
@@ -55,7 +55,7 @@ fn png_file(color: u8, depth: u8, rows: [&[u8]; 2], interlaced: bool, more: &[(&
         chunk(kind, data);
     }
     let pixel = rows[0].len() / 2;
-    // Adam7 has the first pixel in its first pass, the second in its sixth, the second row in its last.
+    // Adam7 stores the first pixel in its first pass, the second in its sixth, and the second row in its last.
     let lines = if interlaced {
         vec![&rows[0][..pixel], &rows[0][pixel..], rows[1]]
     } else {
@@ -103,7 +103,7 @@ fn every_color_type_and_depth_of_png_is_read_interlaced_or_not() {
 }
 
 #[test]
-fn a_transparent_color_of_a_png_becomes_alpha() {
+fn a_transparent_color_of_a_png_is_converted_to_alpha() {
     let rows: [&[u8]; 2] = [&[1, 2, 3, 4, 5, 6], &[7, 8, 9, 1, 2, 3]];
     let file = png_file(2, 8, rows, false, &[(b"tRNS", &[0, 1, 0, 2, 0, 3])]);
     let picture = decode("a.png", &file).unwrap();
@@ -117,8 +117,8 @@ fn a_transparent_color_of_a_png_becomes_alpha() {
 }
 
 #[test]
-fn jpegs_of_print_and_in_several_scans_are_read_as_rgb() {
-    // Quantizing costs a few codes.
+fn cmyk_and_progressive_jpegs_are_read_as_rgb() {
+    // Quantization changes the values by a few codes.
     for (name, text, expected, slack) in [
         ("print.jpg", CMYK_JPEG, [255, 0, 0], 6),
         ("scans.jpg", PROGRESSIVE_JPEG, [200, 100, 50], 4),
@@ -138,7 +138,7 @@ fn jpegs_of_print_and_in_several_scans_are_read_as_rgb() {
 }
 
 #[test]
-fn the_ending_of_the_name_may_lie() {
+fn a_wrong_file_extension_does_not_matter() {
     let rows: [&[u8]; 2] = [&[1, 2], &[3, 4]];
     let picture = decode("a.jpg", &png_file(0, 8, rows, false, &[])).unwrap();
     assert_eq!(picture.pixels, Pixels::U8(vec![1, 2, 3, 4]));
@@ -146,7 +146,7 @@ fn the_ending_of_the_name_may_lie() {
 }
 
 #[test]
-fn a_claim_that_the_file_is_too_short_for_is_refused_before_memory_is_taken() {
+fn a_declared_size_that_the_file_cannot_contain_is_refused_before_allocation() {
     let mut jpeg = from_hexadecimal(PROGRESSIVE_JPEG);
     let frame = jpeg.windows(2).position(|mark| mark == [0xff, 0xc2]).unwrap();
     jpeg[frame + 5..frame + 9].copy_from_slice(&[0x3f, 0xff, 0x3f, 0xff]);
@@ -229,7 +229,7 @@ fn exr_files_of_every_layout_are_read() {
 }
 
 #[test]
-fn what_is_no_number_becomes_one() {
+fn infinity_and_not_a_number_are_replaced_by_finite_numbers() {
     let mut values = vec![1.0; 16];
     values[..3].copy_from_slice(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
     let picture = decode(
@@ -244,7 +244,7 @@ fn what_is_no_number_becomes_one() {
 }
 
 #[test]
-fn deep_pixels_are_refused_by_name() {
+fn deep_images_are_refused_with_their_name() {
     let mut file = exr_file(vec![layer(
         "Y",
         FlatSamples::F32(vec![1.0; 16]),

@@ -19,7 +19,7 @@ fn png_bytes(
 }
 
 #[test]
-fn palettes_bits_and_transparent_colors_are_spread_out() {
+fn palettes_single_bits_and_transparent_colors_are_expanded() {
     let palette = png_bytes(
         png::ColorType::Indexed,
         png::BitDepth::Two,
@@ -43,7 +43,7 @@ fn palettes_bits_and_transparent_colors_are_spread_out() {
 }
 
 #[test]
-fn chunks_say_which_curve_a_png_uses() {
+fn chunks_declare_the_transfer_curve_of_a_png() {
     let with = |more: fn(&mut png::Encoder<'_, &mut Vec<u8>>)| {
         let file = png_bytes(png::ColorType::Grayscale, png::BitDepth::Eight, &[0; 4], more);
         decode("g.png", &file).unwrap().color_space
@@ -68,7 +68,7 @@ fn chunks_say_which_curve_a_png_uses() {
 }
 
 #[test]
-fn a_color_profile_is_seen_and_not_unpacked() {
+fn a_color_profile_is_detected_without_unpacking_it() {
     let mut info = png::Info::with_size(2, 2);
     info.color_type = png::ColorType::Grayscale;
     info.bit_depth = png::BitDepth::Eight;
@@ -83,7 +83,7 @@ fn a_color_profile_is_seen_and_not_unpacked() {
         (picture.pixels, picture.color_space),
         (Pixels::U8(vec![9; 4]), Declared::Unknown)
     );
-    // Its bytes do not matter, and neither does what else the file says.
+    // The content of the profile does not matter, nor do other chunks.
     let start = file.windows(4).position(|window| window == b"iCCP").unwrap();
     file[start + 8..start + 200].fill(7);
     assert!(has_profile(&file));
@@ -131,7 +131,7 @@ fn the_other_formats_are_read_by_content() {
 }
 
 #[test]
-fn a_file_cut_short_anywhere_is_a_sentence_that_names_it() {
+fn a_truncated_file_gives_an_error_that_names_it() {
     let mut files: Vec<(&str, Vec<u8>)> = FORMATS.iter().map(|&(name, format)| (name, encoded(format))).collect();
     let options = crate::PngOptions {
         channels: 1,
@@ -156,7 +156,7 @@ fn a_file_cut_short_anywhere_is_a_sentence_that_names_it() {
 }
 
 #[test]
-fn any_flipped_byte_is_a_picture_or_a_sentence() {
+fn a_file_with_any_flipped_byte_gives_an_image_or_an_error() {
     let mut files: Vec<(&str, Vec<u8>)> = FORMATS.iter().map(|&(name, format)| (name, encoded(format))).collect();
     let values: Vec<f32> = (0..900).map(|i| i as f32).collect();
     files.push((
@@ -178,7 +178,7 @@ fn any_flipped_byte_is_a_picture_or_a_sentence() {
 }
 
 #[test]
-fn what_is_wrong_is_said_in_a_sentence() {
+fn errors_are_clear_sentences() {
     let says = |name, bytes: &[u8]| decode(name, bytes).unwrap_err().to_string();
     assert_eq!(
         says("a.png", b""),
@@ -206,7 +206,7 @@ fn what_is_wrong_is_said_in_a_sentence() {
 }
 
 #[test]
-fn a_huge_claim_is_refused_before_memory_is_taken() {
+fn a_huge_declared_size_is_refused_before_allocation() {
     let options = crate::PngOptions {
         channels: 1,
         bits: 8,
@@ -214,7 +214,7 @@ fn a_huge_claim_is_refused_before_memory_is_taken() {
     };
     let mut file = crate::encode_png(1, 1, crate::PngData::U8(&[0]), options).unwrap();
     file[16..20].copy_from_slice(&70_000u32.to_be_bytes());
-    // The checksum of the header must fit, or that is what is reported.
+    // The checksum of the header must be correct, otherwise the checksum would be reported.
     let mut crc = flate2::Crc::new();
     crc.update(&file[12..29]);
     let sum = crc.sum();
@@ -241,7 +241,7 @@ fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn hostile_files_of_the_wild_never_get_through_as_a_panic() {
+fn known_hostile_files_never_cause_a_panic() {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     if !data.is_dir() {
         println!("left out: there is no ../shared/data beside the project");

@@ -1,6 +1,6 @@
 use super::*;
 
-/// Colors of the corners of the pictures below, of which the last is half transparent where the picture has alpha.
+/// Colors of the corners of the images below. The last one is half transparent if the image has alpha.
 const CORNERS: [[u8; 3]; 4] = [[200, 40, 30], [20, 180, 60], [30, 50, 210], [240, 240, 240]];
 
 /// 7 × 6 texels in four colors, packed as ETC1S by `basisu -ktx2`. Hexadecimal.
@@ -13,7 +13,7 @@ const ETC1S: &str = "\
     0000000040881ad8c3610a3c6dfcffffff57555555adaaaaaa0200c144000000000000f2df27880130054000000000806420022204080000\
     0040c23401c004000000000000020800d7052c";
 
-/// The same by `basisu -ktx2 -uastc`. Hexadecimal.
+/// The same image by `basisu -ktx2 -uastc`. Hexadecimal.
 const UASTC_ZSTANDARD: &str = "\
     ab4b5458203230bb0d0a1a0a000000000100000007000000060000000000000000000000010000000100000002000000680000002c000000\
     940000002400000000000000000000000000000000000000b800000000000000340000000000000040000000000000002c00000000000000\
@@ -21,7 +21,7 @@ const UASTC_ZSTANDARD: &str = "\
     556e6976657273616c20312e3135000028b52ffd20405d0100f81719c5e37fd0c700978296e77f14f5d74346fa7f224703171e1e1e1074ce\
     010400807040f8cc6208c005";
 
-/// The same without alpha and not sRGB, by `basisu -ktx2 -uastc -linear -ktx2_no_zstandard`. Hexadecimal.
+/// The same image without alpha and not sRGB, by `basisu -ktx2 -uastc -linear -ktx2_no_zstandard`. Hexadecimal.
 const UASTC: &str = "\
     ab4b5458203230bb0d0a1a0a000000000100000007000000060000000000000000000000010000000100000000000000680000002c000000\
     940000002c00000000000000000000000000000000000000c000000000000000400000000000000040000000000000002c00000000000000\
@@ -37,7 +37,7 @@ fn from_hexadecimal(text: &str) -> Vec<u8> {
         .collect()
 }
 
-/// A texture of 2 × 2 plain texels of `size` bytes; its header may be edited.
+/// Creates a texture of 2 × 2 uncompressed texels of `size` bytes.
 fn plain_file(vk_format: u32, scheme: u32, size: u32, level: &[u8]) -> Vec<u8> {
     let mut file = IDENTIFIER.to_vec();
     let descriptor = [0, 0, 44 << 16 | 2, u32::from(TRANSFER_SRGB) << 16 | 1];
@@ -51,10 +51,10 @@ fn plain_file(vk_format: u32, scheme: u32, size: u32, level: &[u8]) -> Vec<u8> {
     file
 }
 
-/// The texels of those files.
+/// Texels of these textures.
 const RGBA: [u8; 16] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
 
-/// A frame of Zstandard (RFC 8878) of one block that is not compressed.
+/// Creates a Zstandard frame (RFC 8878) with one uncompressed block.
 fn zstandard_frame(content: &[u8]) -> Vec<u8> {
     let size = content.len() as u8;
     let header = [0x28, 0xb5, 0x2f, 0xfd, 0x20, size, size << 3 | 1, 0, 0];
@@ -73,7 +73,7 @@ fn said(file: &[u8]) -> String {
 }
 
 #[test]
-fn basis_textures_show_their_colors() {
+fn basis_textures_have_the_expected_colors() {
     for (name, text, tolerance, alpha, declared) in [
         ("ETC1S", ETC1S, 4, 128, Declared::Srgb),
         ("UASTC, Zstandard", UASTC_ZSTANDARD, 0, 128, Declared::Srgb),
@@ -97,7 +97,7 @@ fn basis_textures_show_their_colors() {
 }
 
 #[test]
-fn plain_texels_are_read_packed_or_not() {
+fn uncompressed_texels_are_read_with_and_without_zstandard() {
     let rgb = &RGBA[..12];
     for (vk_format, scheme, level, channels, expected) in [
         (37, 0, RGBA.to_vec(), 4, &RGBA[..]),
@@ -113,7 +113,7 @@ fn plain_texels_are_read_packed_or_not() {
 }
 
 #[test]
-fn textures_that_are_no_picture_are_named() {
+fn textures_that_are_not_images_are_refused_with_the_reason() {
     let file = || plain_file(37, 0, 16, &RGBA);
     for (file, feature) in [
         (edited(file(), SIZE[2], 2), "it holds several pictures or a volume"),
@@ -132,13 +132,13 @@ fn textures_that_are_no_picture_are_named() {
 }
 
 #[test]
-fn claims_are_checked_before_memory_is_taken() {
+fn declared_sizes_are_checked_before_allocation() {
     let damaged = |detail: &str| {
         format!("a.ktx2 is a damaged KTX2 file ({detail}); open and save it again in a paint program, or copy it anew")
     };
     let zstandard = from_hexadecimal(UASTC_ZSTANDARD);
     let contradiction = damaged("the size of its first level contradicts its pixels");
-    // 4 GiB and a bit, and 16 bytes too few.
+    // More than 4 GiB, and 16 bytes too few.
     assert_eq!(said(&edited(zstandard.clone(), FIRST_LEVEL + 20, 1)), contradiction);
     assert_eq!(said(&edited(zstandard.clone(), FIRST_LEVEL + 16, 48)), contradiction);
     assert_eq!(
@@ -160,7 +160,7 @@ fn claims_are_checked_before_memory_is_taken() {
 }
 
 #[test]
-fn a_texture_cut_short_anywhere_is_an_error() {
+fn a_truncated_texture_is_an_error() {
     for text in [ETC1S, UASTC_ZSTANDARD, UASTC] {
         let file = from_hexadecimal(text);
         for end in 1..file.len() {

@@ -1,4 +1,4 @@
-//! Choice of the method of compression by a sample of the picture.
+//! Chooses the method of compression with a sample of the image.
 
 use rayon::prelude::*;
 
@@ -13,14 +13,14 @@ const METHODS: [Method; 4] = [
     Method::new(Filter::Smallest, Matches::Any),
     Method::new(Filter::Off, Matches::Any),
 ];
-/// Bytes of neighboring rows in a sample.
+/// Size of a part of the sample in bytes; a part consists of neighboring rows.
 const PART_BYTES: usize = 64 * 1024;
-/// Parts of a sample at most, evenly over the picture.
+/// Maximum number of parts of a sample. They are evenly distributed over the image.
 const PARTS: usize = 8;
-/// Parts of the picture for each part of the sample at least, so that a choice takes little time.
+/// Minimum ratio of image to sample, so that the choice takes little time.
 const THINNING: usize = 96;
 
-/// Returns the method that makes a sample of the rows smallest; none if the compressor fails.
+/// Returns the method that gives the smallest sample; `None` if the compressor fails.
 pub(super) fn chosen_method(rows: &Rows<'_>) -> Option<Method> {
     let part_rows = (PART_BYTES / (rows.row_bytes + 1)).clamp(1, rows.height);
     let parts = (rows.height / (part_rows * THINNING)).clamp(1, PARTS);
@@ -34,7 +34,7 @@ pub(super) fn chosen_method(rows: &Rows<'_>) -> Option<Method> {
     Some(METHODS[cheapest])
 }
 
-/// Returns the size of compressed rows for each method. Those of twice the time must be worth it.
+/// Returns the cost of rows for each method: their compressed size, increased for a method that takes twice the time.
 fn costs(block: &Block<'_>) -> Option<[u64; METHODS.len()]> {
     let mut costs = [0; METHODS.len()];
     for (cost, method) in costs.iter_mut().zip(METHODS) {

@@ -1,23 +1,23 @@
-//! Filters of rows (PNG specification, 9): each byte as its difference from a guess.
+//! Filters of rows (PNG specification, 9): each byte is stored as its difference from a prediction.
 
 use super::rows::Block;
 
-/// Choice of the filter of each row.
+/// How the filter of each row is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Filter {
-    /// Rows as they are, which is best where pixels of few values repeat.
+    /// No filter, which is best if pixels with few different values repeat.
     Off,
-    /// The filter with the smallest sum of differences, the usual guess at what compresses best (PNG specification, 12.8).
+    /// The filter with the smallest sum of differences, the usual heuristic for the best compression (PNG specification, 12.8).
     Smallest,
 }
 
-/// Filters by their number in the file, and the guess at each byte; the average is never much better than Paeth's.
+/// Filters by their number in the file. The average filter is not used, since it is never much better than Paeth's.
 const NONE: u8 = 0;
 const LEFT: u8 = 1;
 const UP: u8 = 2;
 const PAETH: u8 = 4;
 
-/// Returns rows with the filter's number in front of each.
+/// Returns the filtered rows, each with the number of its filter in front.
 pub(super) fn filter_rows(block: &Block<'_>, filter: Filter) -> Vec<u8> {
     let zeros = vec![0; block.row_bytes];
     let rows = block.rows_with_above(&zeros);
@@ -34,7 +34,7 @@ pub(super) fn filter_rows(block: &Block<'_>, filter: Filter) -> Vec<u8> {
     out
 }
 
-/// Returns the number of the best filter and the index of its row in `trials`; none for the row as it is.
+/// Returns the number of the best filter and the index of its row in `trials`; `None` for the unfiltered row.
 fn smallest(row: &[u8], above: &[u8], pixel_bytes: usize, trials: &mut [Vec<u8>; 3]) -> (u8, Option<usize>) {
     let [left, up, paeth] = trials;
     for trial in [&mut *left, &mut *up, &mut *paeth] {
@@ -53,7 +53,7 @@ fn smallest(row: &[u8], above: &[u8], pixel_bytes: usize, trials: &mut [Vec<u8>;
     for ((out, &byte), ((&before, &over), &corner)) in paeth[first..].iter_mut().zip(&row[first..]).zip(neighbors) {
         *out = byte.wrapping_sub(paeth_guess(before, over, corner));
     }
-    // On a tie the lower number wins.
+    // If two filters are equally good, the lower number is chosen.
     let mut best = (cost(row), NONE, None);
     for (index, (number, trial)) in [(LEFT, &*left), (UP, &*up), (PAETH, &*paeth)].into_iter().enumerate() {
         let cost = cost(trial);

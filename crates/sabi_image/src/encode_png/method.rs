@@ -2,20 +2,20 @@
 
 use super::filter::Filter;
 
-/// Method of compressing a picture.
+/// Method of compressing an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Method {
     pub(super) filter: Filter,
     pub(super) matches: Matches,
 }
 
-/// Repeated bytes that deflate looks for.
+/// Kind of repetitions that deflate searches for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Matches {
-    /// Runs of one byte. Noisy maps, and all of 16 bits, have hardly any others, and are done in half the time and smaller:
-    /// short matches by chance cost more than they save.
+    /// Runs of one byte. Noisy maps, and all maps of 16 bits, have hardly any other repetitions. They are compressed in
+    /// half the time and become smaller, since short accidental matches cost more than they save.
     Runs,
-    /// Any in the last 32 KiB, as patterns and flat pictures have them.
+    /// Any repetition in the last 32 KiB, as in patterns and flat images.
     Any,
 }
 

@@ -1,11 +1,11 @@
-//! Rows of a picture as a PNG file orders their bytes.
+//! Rows of an image, with their bytes in the order of a PNG file.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
 use super::{PngData, PngOptions};
 
-/// Rows of a picture whose samples fit its size.
+/// Rows of an image whose samples match its size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows<'a> {
     data: PngData<'a>,
@@ -14,13 +14,13 @@ pub(super) struct Rows<'a> {
     pixel_bytes: usize,
 }
 
-/// Some neighboring rows.
+/// Several neighboring rows.
 #[derive(Debug)]
 pub(super) struct Block<'a> {
-    /// Their bytes, after those of the row above if there is one.
+    /// Bytes of the rows, after those of the row above if there is one.
     bytes: Cow<'a, [u8]>,
     has_row_above: bool,
-    /// True if they are the last of the picture.
+    /// True if these are the last rows of the image.
     pub(super) is_last: bool,
     pub(super) row_bytes: usize,
     pub(super) pixel_bytes: usize,
@@ -37,7 +37,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Returns rows with the one above.
+    /// Returns rows together with the row above them.
     pub(super) fn block(&self, rows: Range<usize>) -> Block<'a> {
         let with_above = rows.start.saturating_sub(1)..rows.end;
         Block {
@@ -67,7 +67,7 @@ impl<'a> Rows<'a> {
 }
 
 impl Block<'_> {
-    /// Returns the rows from the top, each with the one above: zeros above the first of the picture.
+    /// Returns the rows from the top, each with the row above. Above the first row of the image are zeros.
     pub(super) fn rows_with_above<'b>(
         &'b self,
         zeros: &'b [u8],

@@ -1,4 +1,4 @@
-//! Strips of rows, filtered and deflated by themselves.
+//! Strips of rows, each filtered and deflated separately.
 
 use zlib_rs::adler32::adler32;
 use zlib_rs::{Deflate, DeflateConfig, DeflateFlush, Status, Strategy, compress_bound};
@@ -18,15 +18,15 @@ pub(super) struct Strip {
     pub(super) filtered_bytes: u64,
 }
 
-/// Room for the end of a strip.
+/// Bytes reserved for the end of a strip.
 const FLUSH_BYTES: usize = 64;
-/// Deflate without header and checksum, in a window of 32 KiB.
+/// Window parameter: deflate without header and checksum, 32 KiB.
 const RAW_WINDOW: i32 = -15;
-/// Effort of the search for matches, 0..9.
+/// Compression level, 0..9.
 const LEVEL: i32 = 3;
 
 impl Strip {
-    /// Compresses rows; none if the compressor fails. The last rows of the picture end the stream, others end at a byte border.
+    /// Compresses rows; `None` if the compressor fails. The last rows of the image end the stream, others end at a byte boundary.
     pub(super) fn new(block: &Block<'_>, method: Method) -> Option<Strip> {
         let filtered = filter_rows(block, method.filter);
         Some(Strip {
@@ -57,7 +57,7 @@ fn deflate(bytes: &[u8], matches: Matches, is_last: bool) -> Option<Vec<u8>> {
     };
     let status = deflate.compress(bytes, &mut out, flush).ok()?;
     let (read, written) = (deflate.total_in(), deflate.total_out() as usize);
-    // A flush is complete once it leaves room in the output.
+    // A flush is complete if it did not fill the output.
     let is_complete = status == Status::StreamEnd || (!is_last && written < out.len());
     out.truncate(written);
     out.shrink_to_fit();

@@ -7,7 +7,7 @@ fn wavy(samples: usize) -> Vec<u8> {
         .collect()
 }
 
-/// Kinds and contents of the chunks, by hand.
+/// Parses the types and contents of the chunks.
 fn chunks(file: &[u8]) -> Vec<(String, Vec<u8>)> {
     assert_eq!(&file[..8], b"\x89PNG\r\n\x1a\n");
     let mut rest = &file[8..];
@@ -23,7 +23,7 @@ fn chunks(file: &[u8]) -> Vec<(String, Vec<u8>)> {
     found
 }
 
-/// The zlib stream of all `IDAT` chunks.
+/// Returns the zlib stream of all `IDAT` chunks.
 fn stream(file: &[u8]) -> Vec<u8> {
     let parts = chunks(file).into_iter().filter(|(kind, _)| kind == "IDAT");
     parts.flat_map(|(_, content)| content).collect()
@@ -40,7 +40,7 @@ fn kinds(file: &[u8]) -> Vec<String> {
 }
 
 #[test]
-fn all_channel_counts_and_depths_come_back_exactly() {
+fn all_channel_counts_and_depths_are_restored_exactly() {
     for channels in 1..=4u8 {
         let data8 = wavy(67 * 45 * usize::from(channels));
         let data16: Vec<u16> = data8
@@ -71,13 +71,13 @@ fn another_decoder_reads_files_of_several_strips() {
         srgb_chunk: true,
     };
     let file = encode_png(1024, 700, PngData::U8(&data), options).unwrap();
-    // `inflate` checks the checksum that was joined from the strips.
+    // `inflate` verifies the checksum that was combined from the strips.
     assert_eq!(inflated(&file).len(), 700 * (1024 * 3 + 1));
     assert_eq!(image::load_from_memory(&file).unwrap().to_rgb8().into_raw(), data);
 }
 
 #[test]
-fn the_srgb_chunk_is_there_when_asked_for_and_nothing_else_speaks_of_color() {
+fn only_a_requested_srgb_chunk_describes_the_color_space() {
     let options = PngOptions {
         channels: 1,
         bits: 8,
@@ -128,7 +128,7 @@ fn the_bytes_do_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-fn noise_and_flat_fields_of_any_strip_length_survive() {
+fn noise_and_flat_images_of_any_strip_length_are_restored() {
     let mut state = 1u32;
     for (width, height) in [(1, 1), (1, 3000), (5000, 1), (1025, 513)] {
         let noise: Vec<u8> = (0..width * height)
@@ -150,7 +150,7 @@ fn noise_and_flat_fields_of_any_strip_length_survive() {
 }
 
 #[test]
-fn a_request_that_does_not_fit_is_a_sentence() {
+fn a_request_that_does_not_match_the_samples_is_an_error() {
     let options = PngOptions {
         channels: 3,
         bits: 8,

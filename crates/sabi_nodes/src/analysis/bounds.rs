@@ -1,4 +1,4 @@
-//! The number of rounds of a loop, as far as it follows from the code.
+//! Upper bounds for the number of rounds of a loop, where they follow from the code.
 
 use naga::{BinaryOperator, Block, Expression, Function, Handle, LocalVariable, ScalarKind, Statement};
 
@@ -13,7 +13,7 @@ pub(super) struct BoundedLoop {
 }
 
 impl<'m> Reader<'m> {
-    /// Bound of a loop of the form of `for`, or why it cannot be found.
+    /// Returns the bound of a loop that has the form of a `for` loop, or the reason why it cannot be found.
     pub(super) fn bound(
         &self,
         frame: &Frame<'m>,
@@ -44,7 +44,7 @@ impl<'m> Reader<'m> {
         bound: Handle<Expression>,
         strict: bool,
     ) -> Result<BoundedLoop, String> {
-        // All assignments are followed for each comparison.
+        // All assignments are traced for each comparison.
         self.fuel.step(frame.function.expressions.len());
         let name = frame.function.local_variables[counter]
             .name
@@ -90,7 +90,7 @@ impl<'m> Reader<'m> {
         })
     }
 
-    /// Interval of the counter before the first round.
+    /// Returns the interval of the counter before the first round.
     fn start(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Interval {
         let own: Vec<_> = stores(frame.function, continuing)
             .iter()
@@ -112,7 +112,7 @@ impl<'m> Reader<'m> {
         values.unwrap_or(Interval::exactly(0))
     }
 
-    /// Step of the counter after each round: at least 1, added by one statement.
+    /// Returns the step of the counter after each round: at least 1, added by one statement.
     fn step(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Option<i64> {
         let all = stores(frame.function, continuing);
         let mut own = all.iter().filter(|store| store.local == counter);
@@ -136,7 +136,7 @@ impl<'m> Reader<'m> {
     }
 }
 
-/// Condition under which the loop continues: the body starts with `if condition {} else { break; }`.
+/// Returns the condition under which the loop continues: the body starts with `if condition {} else { break; }`.
 fn loop_condition(body: &Block) -> Option<Handle<Expression>> {
     for statement in body {
         match statement {
@@ -149,7 +149,7 @@ fn loop_condition(body: &Block) -> Option<Handle<Expression>> {
                 if leaves && accept.is_empty() {
                     return Some(*condition);
                 }
-                // The form that naga gives to `&&`.
+                // naga translates `&&` to this form.
                 let only_stores = |block: &Block| {
                     block.iter().all(|statement| {
                         matches!(
@@ -169,7 +169,7 @@ fn loop_condition(body: &Block) -> Option<Handle<Expression>> {
     None
 }
 
-/// `counter < bound` (strict), `counter <= bound`, and the same the other way around.
+/// Returns the sides of `counter < bound` (strict) or `counter <= bound`, also when they are swapped.
 fn comparison(
     function: &Function,
     condition: Handle<Expression>,
@@ -187,7 +187,7 @@ fn comparison(
     Some((loaded(function, counter)?, bound, strict))
 }
 
-/// The variable that an expression reads.
+/// Returns the variable that an expression reads.
 fn loaded(function: &Function, expression: Handle<Expression>) -> Option<Handle<LocalVariable>> {
     let Expression::Load { pointer } = function.expressions[expression] else {
         return None;

@@ -1,7 +1,7 @@
-//! Channels that a function that returns a material can set, and the conditions for it.
+//! Channels that a function that returns a material can set, and the conditions under which it does.
 //!
-//! Follows each member of the returned material back to where it comes from. A member that is only copied, mixed or
-//! selected from material inputs is passed on, and not set. Code that the analysis does not follow counts as always set.
+//! The analysis traces each member of the returned material back to its origin. A member that is only copied, mixed or selected from
+//! material inputs is passed on, which does not count as set. Code that the analysis cannot follow counts as always set.
 
 mod math;
 mod needs;
@@ -34,13 +34,13 @@ const MEMBERS: [(&str, Channel); 15] = [
     ("transmission", Channel::Subsurface),
 ];
 
-/// Longest path through expressions, and most expressions visited.
+/// Maximum length of a path through expressions, and maximum number of expressions visited.
 const DEPTH_LIMIT: u32 = 64;
 const FUEL: u32 = 1 << 16;
-/// Most expressions and assignments that are looked through for them.
+/// Maximum number of expressions and assignments that are searched.
 const SCAN_FUEL: u64 = 1 << 22;
 
-/// The channels that the material function `root` sets; empty for other functions.
+/// Returns the channels that the material function `root` sets; none for functions with other results.
 pub(super) fn channels(
     module: &Module,
     params: &[Param],
@@ -107,7 +107,7 @@ struct Reader<'m> {
     root: Handle<Function>,
     /// Bindings of the arguments of `root`, in order.
     inputs: &'m [Argument],
-    /// By member.
+    /// Channel of each member of `Material`.
     channels: Vec<Option<Channel>>,
     plain: Option<Handle<Function>>,
     fuel: u32,
@@ -116,7 +116,7 @@ struct Reader<'m> {
 
 struct Frame<'m> {
     function: &'m Function,
-    /// By argument; used for materials only.
+    /// Writes for each argument; used only for arguments that are materials.
     arguments: Vec<Writes>,
     stores: Vec<Store>,
     calls: Calls,
@@ -139,7 +139,7 @@ impl<'m> Reader<'m> {
         channel.is_some_and(|channel| !matches!(channel, Channel::Color | Channel::Surface))
     }
 
-    /// Takes fuel for a look through that many parts of a function; `false` once there is none left.
+    /// Takes fuel for searching this many parts of a function. Returns false if not enough is left.
     fn scans(&mut self, parts: usize) -> bool {
         self.scan_fuel = self.scan_fuel.saturating_sub(parts as u64);
         self.scan_fuel > 0
@@ -177,7 +177,7 @@ impl<'m> Reader<'m> {
         writes
     }
 
-    /// Channels that an expression of type material sets.
+    /// Returns the conditions under which an expression of type material sets each member.
     fn material(&mut self, frame: &mut Frame<'m>, expression: Handle<Expression>, depth: u32) -> Writes {
         let (Some(depth), true) = (depth.checked_sub(1), self.use_fuel()) else {
             return self.all_set();
@@ -225,7 +225,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// A material of zeros differs from the plain one in some members.
+    /// Returns the writes of a material of zeros, which differs from the plain material in some members.
     fn zero(&self) -> Writes {
         let members = 0..self.channels.len();
         members
@@ -328,7 +328,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// Conditions for a value that is read through a pointer and stored in a member.
+    /// Returns the conditions under which storing the value behind `pointer` in `member` sets it.
     fn value_behind(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, member: usize, depth: u32) -> Write {
         let function = frame.function;
         match function.expressions[pointer] {
@@ -344,7 +344,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// Conditions for a local variable that is stored in a member.
+    /// Returns the conditions under which storing a local variable in `member` sets it.
     fn value_local(&mut self, frame: &mut Frame<'m>, local: Handle<LocalVariable>, member: usize, depth: u32) -> Write {
         if frame.open.contains(&local) {
             return None;

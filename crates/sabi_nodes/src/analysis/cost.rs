@@ -1,4 +1,4 @@
-//! Size of a node's code with all calls expanded, as an estimate of what compiling it takes.
+//! Size of a node's code with all calls expanded, as an estimate of the time to compile it.
 
 use std::collections::HashMap;
 
@@ -13,8 +13,8 @@ use crate::fault::Fault;
 use crate::kind::Cost;
 use crate::link::LinkedModule;
 
-/// Highest cost of a node, over all its functions. Code of this cost compiles in 0.2 to 19 s and 300 MiB at most with llvmpipe on one core, which
-/// was measured for chains of every function.
+/// Maximum cost of a node, over all its functions. Code of this cost takes llvmpipe on one core 0.2 to 19 s and at most 300
+/// MiB to compile, measured with chains of every function.
 const COST_LIMIT: u32 = 1 << 15;
 
 /// Cost of a branch: a condition, a case of a `switch`, a loop.
@@ -55,7 +55,7 @@ impl<'a> Costs<'a> {
         costs
     }
 
-    /// Cost of the code of a block outside of loops.
+    /// Returns the cost of the code of a block outside of loops.
     fn straight(
         &self,
         block: &Block,
@@ -79,7 +79,7 @@ impl<'a> Costs<'a> {
         costs.fold(0, u32::saturating_add)
     }
 
-    /// Cost of a statement without its expressions and the blocks in it.
+    /// Returns the cost of a statement without its expressions and without the blocks in it.
     fn of_statement(&self, statement: &Statement, copied: &impl Fn(Handle<Expression>) -> u32) -> Cost {
         let own = match statement {
             Statement::Call { function, .. } => return self.of([*function]),
@@ -94,13 +94,13 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// Cost of one evaluation of all of `roots`.
+    /// Returns the cost of evaluating all of `roots` once.
     pub(super) fn of(&self, roots: impl IntoIterator<Item = Handle<Function>>) -> Cost {
         let costs = roots.into_iter().filter_map(|root| self.of_functions.get(&root));
         costs.fold(Cost::default(), |sum, cost| sum.and(*cost))
     }
 
-    /// Refuses functions that a driver would compile for too long.
+    /// Refuses functions that a driver would take too long to compile.
     pub(super) fn check(&self, roots: &[Handle<Function>]) -> Result<(), Fault> {
         let all = self.of(roots.iter().copied()).all;
         if all <= COST_LIMIT {
@@ -116,7 +116,7 @@ impl<'a> Costs<'a> {
     }
 }
 
-/// Fours of numbers that an expression copies, or chooses one of.
+/// Returns the number of groups of four numbers that an expression copies or selects one from.
 fn size<'t>(
     module: &Module,
     expression: &Expression,
@@ -133,7 +133,8 @@ fn size<'t>(
     };
     let base = match expression {
         Expression::Access { base, .. } => match *type_of(*base) {
-            // A driver asks for each half of the elements which one is meant, and for each half of these.
+            // For a computed index, a driver compiles a binary search: it selects one half of the elements, and again one
+            // half of each half.
             TypeInner::Pointer {
                 base,
                 space: AddressSpace::Function,
@@ -144,7 +145,7 @@ fn size<'t>(
                 } => elements.get().div_ceil(2),
                 _ => BRANCH,
             },
-            // An array without an address is stored as a whole before a computed index takes one of its elements.
+            // An array that is not in a variable is first stored as a whole, and then a computed index selects one of its elements.
             ref value => fours(value),
         },
         _ => 1,
@@ -152,14 +153,15 @@ fn size<'t>(
     fours(ty).max(base).max(1)
 }
 
-/// Additions that take a software driver as long to compile as an operation does, measured with Mesa's llvmpipe on chains of a
-/// thousand. Compile time grows faster than the length of the code, so the weights are above those of short chains.
+/// Returns the number of additions that take a software driver as long to compile as this operation, measured with Mesa's
+/// llvmpipe on chains of a thousand operations. Compile time grows faster than the length of the code, so the weights are
+/// above those measured for short chains.
 fn weight<'t>(expression: &Expression, ty: &TypeInner, type_of: &impl Fn(Handle<Expression>) -> &'t TypeInner) -> u32 {
     match *expression {
         Expression::ImageLoad { .. } | Expression::ImageSample { .. } => 16,
         Expression::Unary { .. } | Expression::Select { .. } | Expression::As { .. } => numbers(ty),
         Expression::Binary { op, left, right } => numbers(ty) * binary_weight(op, type_of(left), type_of(right)),
-        // A determinant's result is one number of many.
+        // The result of a determinant is one number, computed from many.
         Expression::Math { fun, arg, .. } => numbers(ty).max(numbers(type_of(arg))) * math_weight(fun),
         _ => 1,
     }
@@ -191,7 +193,7 @@ fn math_weight(function: MathFunction) -> u32 {
     }
 }
 
-/// Numbers of a value in registers.
+/// Returns how many numbers a value in registers consists of.
 fn numbers(ty: &TypeInner) -> u32 {
     match *ty {
         TypeInner::Vector { size, .. } => size as u32,

@@ -1,8 +1,8 @@
-//! The most that one evaluation of a piece of code takes.
+//! Maximum effort of evaluating a piece of code once.
 
 use naga::{Expression, Function, Handle, MathFunction};
 
-/// Rounds and calls, and the work of all of them.
+/// Number of rounds and calls, and the total work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Effort {
     /// Rounds of loops and calls of functions.
@@ -12,7 +12,7 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// Effort of expressions alone.
+    /// Returns the effort of the expressions alone.
     pub(super) fn of_expressions(
         function: &Function,
         expressions: impl IntoIterator<Item = Handle<Expression>>,
@@ -26,7 +26,7 @@ impl Effort {
         }
     }
 
-    /// Both, one after the other.
+    /// Returns the effort of both, one after the other.
     pub(super) fn and(self, other: Effort) -> Effort {
         Effort {
             rounds: self.rounds.saturating_add(other.rounds),
@@ -34,7 +34,7 @@ impl Effort {
         }
     }
 
-    /// The larger of both, where only one is done.
+    /// Returns the larger effort of two alternatives.
     pub(super) fn or(self, other: Effort) -> Effort {
         Effort {
             rounds: self.rounds.max(other.rounds),
@@ -42,7 +42,7 @@ impl Effort {
         }
     }
 
-    /// This effort in each of some rounds; a round counts although nothing is in it.
+    /// Returns the effort of this in each of some rounds. A round counts even if it is empty.
     pub(super) fn times(self, rounds: u64) -> Effort {
         Effort {
             rounds: self.rounds.max(1).saturating_mul(rounds),
@@ -51,8 +51,8 @@ impl Effort {
     }
 }
 
-/// Simple operations that an expression takes, about: drivers compute transcendental functions from a few others, and wait for
-/// textures.
+/// Returns the approximate number of simple operations for an expression: drivers compute transcendental functions from
+/// several operations, and texture reads wait for memory.
 fn work(expression: &Expression) -> u64 {
     match expression {
         Expression::ImageLoad { .. } | Expression::ImageSample { .. } => 8,

@@ -1,13 +1,13 @@
 //! Limits on the work and the memory of an analysis.
 //!
-//! A function is analyzed once for each set of whole numbers that it is called with, which are as many as there are ways
-//! through the calls: each level of calls can double them.
+//! A function is analyzed once for each combination of whole numbers that it is called with. There are as many combinations
+//! as paths through the calls, and each level of calls can double them.
 
 use std::cell::Cell;
 
-/// Most statements and expressions that one file is analyzed for.
+/// Maximum number of statements and expressions that are analyzed for one file.
 const STEPS: u64 = 1 << 22;
-/// Most bytes of what is remembered about calls.
+/// Maximum number of bytes that are kept about calls.
 const BYTES: u64 = 16 << 20;
 
 /// Work and memory that are left.
@@ -25,12 +25,12 @@ impl Fuel {
         }
     }
 
-    /// Takes this many steps; `false` once there are none left.
+    /// Takes this many steps. Returns false if not enough are left.
     pub(super) fn step(&self, steps: usize) -> bool {
         take(&self.steps, steps)
     }
 
-    /// Takes this many bytes; `false` once there are none left.
+    /// Takes this many bytes. Returns false if not enough are left.
     pub(super) fn remember(&self, bytes: usize) -> bool {
         take(&self.bytes, bytes)
     }

@@ -1,4 +1,4 @@
-//! Intervals of whole numbers, as far as they follow from the code.
+//! Intervals of whole numbers, where they follow from the code.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,10 +11,10 @@ use super::fuel::Fuel;
 use super::walk::Store;
 use crate::kind::{Memory, Param, Role};
 
-/// Longest path through expressions.
+/// Maximum length of a path through expressions.
 const DEPTH_LIMIT: u32 = 64;
 
-/// Most expressions visited for one interval.
+/// Maximum number of expressions visited for one interval.
 const FUEL: u32 = 4096;
 
 /// Interval of whole numbers, both ends included.
@@ -27,7 +27,7 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// All values of an `i32` or a `u32`.
+    /// Returns the interval of all values of an `i32` or a `u32`.
     pub(super) fn unknown(kind: ScalarKind) -> Interval {
         let (low, high) = limits(kind);
         Interval {
@@ -45,7 +45,7 @@ impl Interval {
         }
     }
 
-    /// Smallest interval that contains both.
+    /// Returns the smallest interval that contains both.
     pub(super) fn or(self, other: Interval) -> Interval {
         self.with(&other, |a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
@@ -56,7 +56,7 @@ impl Interval {
         self
     }
 
-    /// This interval where the type can hold it, else all values, since the computation would wrap around.
+    /// Returns this interval if the type can hold it, otherwise all values of the type, since the computation could wrap around.
     fn within(self, kind: ScalarKind) -> Interval {
         let (low, high) = limits(kind);
         if self.low >= low && self.high <= high {
@@ -74,10 +74,10 @@ fn limits(kind: ScalarKind) -> (i64, i64) {
     }
 }
 
-/// A function as one call sees it.
+/// State of a function during one call of it.
 pub(super) struct Frame<'m> {
     pub(super) function: &'m Function,
-    /// Intervals of the arguments; `None` for other types than whole numbers.
+    /// Intervals of the arguments; `None` for arguments that are not whole numbers.
     pub(super) arguments: Vec<Option<Interval>>,
     /// All assignments in the function.
     pub(super) stores: Vec<Store>,
@@ -94,7 +94,7 @@ pub(super) struct Reader<'m> {
 }
 
 impl<'m> Reader<'m> {
-    /// Interval of an expression in a frame; `None` for other types than `i32` and `u32`.
+    /// Returns the interval of an expression in a frame; `None` for types other than `i32` and `u32`.
     pub(super) fn interval(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Interval> {
         let kind = self.kind(frame, expression, DEPTH_LIMIT)?;
         let mut query = Query {
@@ -106,7 +106,7 @@ impl<'m> Reader<'m> {
         Some(query.get(expression, kind, DEPTH_LIMIT))
     }
 
-    /// Signed or unsigned.
+    /// Returns whether an expression is signed or unsigned; `None` for other types.
     fn kind(&self, frame: &Frame<'m>, expression: Handle<Expression>, depth: u32) -> Option<ScalarKind> {
         let next = depth.checked_sub(1)?;
         let of_type = |ty: Handle<Type>| match self.module.types[ty].inner {
@@ -160,7 +160,7 @@ impl<'m> Reader<'m> {
         )
     }
 
-    /// Type of a member of `base` where that is of type `Params`.
+    /// Returns the type of a member of `base` if `base` is of type `Params`.
     fn member_type(&self, frame: &Frame<'m>, base: Handle<Expression>, index: u32) -> Option<Handle<Type>> {
         let Expression::FunctionArgument(argument) = frame.function.expressions[base] else {
             return None;
@@ -174,7 +174,7 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// Interval of a parameter, which the linked kernel clamps to its range.
+    /// Returns the interval of a parameter, which the linked kernel clamps to its range.
     fn param(&self, index: usize) -> Option<Interval> {
         let ty = &self.params.get(index)?.ty;
         let [low, high] = ty.range?;
@@ -267,7 +267,7 @@ impl Query<'_, '_> {
         }
     }
 
-    /// Interval of a variable: all values that are ever stored in it.
+    /// Returns the interval of a variable: it contains all values that are ever stored in it.
     fn local(&mut self, local: Handle<LocalVariable>, kind: ScalarKind, depth: u32) -> Option<Interval> {
         if let Some(counter) = self.frame.counters.get(&local.index()) {
             return Some(counter.clone());

@@ -1,4 +1,4 @@
-//! Checks that every loop has a bound that follows from the code, and limits the rounds of all loops for a texel.
+//! Checks that every loop has a bound that follows from the code, and limits the total rounds of all loops for a texel.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,11 +14,11 @@ use crate::kind::Param;
 use crate::link::LinkedModule;
 use crate::params::params_type;
 
-/// Most rounds and calls of a function for a texel, with all its rays: the work for a texel cannot be split or
-/// interrupted.
+/// Maximum number of rounds and calls of a function for a texel, with all its rays: the work for a texel can be neither
+/// split nor interrupted.
 const ROUNDS_LIMIT: u64 = 1 << 16;
 
-/// Most operations of a function for a texel, with all its rays, as [`Effort`] counts them.
+/// Maximum number of operations of a function for a texel, with all its rays, as counted by [`Effort`].
 const WORK_LIMIT: u64 = 1 << 24;
 
 const LOOP_FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a constant, a `u32` or `i32` parameter with `@range`, \
@@ -27,7 +27,7 @@ const LOOP_FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a cons
 const NOT_COUNTED: &str = "The rounds and calls of this function cannot be counted: functions call each other with too many different whole numbers.";
 const NOT_COUNTED_ADVICE: &str = "Call functions less often, or hand over as `f32` what bounds no loop.";
 
-/// Checks all loops that `roots` reach; gives the parameters that bound one, and the work of all roots for a texel.
+/// Checks all loops that `roots` reach. Returns the parameters that bound a loop, and the work of all roots for a texel.
 pub(super) fn check(
     linked: &LinkedModule,
     module: &Module,
@@ -63,7 +63,7 @@ pub(super) fn check(
     (counter.bounding, work)
 }
 
-/// Message and advice for a function with too many rounds.
+/// Returns message and advice for a function with too many rounds.
 fn too_many(rounds: u64, rays: u64) -> (String, &'static str) {
     if rays == 1 {
         let message =
@@ -84,7 +84,7 @@ fn too_many(rounds: u64, rays: u64) -> (String, &'static str) {
 struct Counter<'a, 'm> {
     linked: &'a LinkedModule,
     reader: Reader<'m>,
-    /// Effort of a function by the intervals of its arguments.
+    /// Efforts that were computed already, by function and intervals of the arguments.
     known: BTreeMap<(usize, Vec<Option<Interval>>), Effort>,
     bounding: BTreeSet<usize>,
     /// The call in the node's text that leads into a library.
@@ -93,7 +93,7 @@ struct Counter<'a, 'm> {
 }
 
 impl<'m> Counter<'_, 'm> {
-    /// Work of a documented function for a texel, which is a fault where it is too much or cannot be counted.
+    /// Returns the work of a documented function for a texel. Reports a fault if it is too much or cannot be counted.
     fn root(&mut self, root: &Root<'_>) -> u64 {
         let arguments = vec![None; self.reader.module.functions[root.handle].arguments.len()];
         let effort = self.function(root.handle, arguments);
@@ -117,14 +117,14 @@ impl<'m> Counter<'_, 'm> {
         work
     }
 
-    /// Effort of a function, at least one call.
+    /// Returns the effort of a function, which is at least one call.
     fn function(&mut self, handle: Handle<Function>, arguments: Vec<Option<Interval>>) -> Effort {
         let key = (handle.index(), arguments);
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
         let function = &self.reader.module.functions[handle];
-        // Twice, since the frame has a copy.
+        // Counted twice, since the frame holds a copy.
         let bytes = 2 * key.1.iter().map(bytes_of).sum::<usize>();
         let fuel = &self.reader.fuel;
         if !fuel.remember(size_of_val(&key) + bytes) || !fuel.step(function.expressions.len()) {
@@ -162,7 +162,7 @@ impl<'m> Counter<'_, 'm> {
                 accept.or(self.block(frame, reject))
             }
             Statement::Switch { cases, .. } => {
-                // Only one case is taken, with those that it falls through to.
+                // Only one case is executed, together with the cases that it falls through to.
                 let (mut taken, mut most) = (Effort::default(), Effort::default());
                 for case in cases {
                     taken = self.block(frame, &case.body).and(taken);
@@ -197,7 +197,7 @@ impl<'m> Counter<'_, 'm> {
         }
     }
 
-    /// Effort of all rounds of a loop, which is a fault where their number is not known or too large.
+    /// Returns the effort of all rounds of a loop. Reports a fault if their number is unknown or too large.
     fn whole_loop(
         &mut self,
         frame: &mut Frame<'m>,
@@ -221,7 +221,7 @@ impl<'m> Counter<'_, 'm> {
         let index = bounded.counter.index();
         frame.counters.insert(index, bounded.values);
         let body = self.block(frame, body);
-        // Here the counter is past the values that it has in the body.
+        // In the continuing block the counter may exceed the values that it has in the body.
         frame.counters.remove(&index);
         let round = body.and(self.block(frame, continuing));
         let all = round.times(bounded.rounds);
@@ -241,7 +241,7 @@ impl<'m> Counter<'_, 'm> {
         all
     }
 
-    /// Reports a fault at the loop, or at the call that leads to it where it is in a library.
+    /// Reports a fault at the loop, or, if the loop is in a library, at the call that leads to it.
     fn refuse(&mut self, frame: &Frame<'_>, span: Span, message: String, advice: &str) {
         let fault = match (self.call_site, self.linked.library_at(span), &frame.function.name) {
             (Some(call_site), Some(library), Some(name)) => {
@@ -260,7 +260,7 @@ impl<'m> Counter<'_, 'm> {
     }
 }
 
-/// Memory of what is known of an argument.
+/// Returns the memory taken by the interval of an argument.
 fn bytes_of(argument: &Option<Interval>) -> usize {
     let params = argument.as_ref().map_or(0, |interval| interval.params.len());
     // A node of a tree map holds up to eleven values.

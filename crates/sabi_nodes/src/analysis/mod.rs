@@ -33,9 +33,9 @@ pub(crate) struct Findings {
     pub(crate) cost: Cost,
     /// Most operations of all functions for a texel.
     pub(crate) work: u64,
-    /// For each output, in order.
+    /// Channels of each output, in order of the outputs.
     pub(crate) output_channels: Vec<Vec<ChannelWrite>>,
-    /// For each pass, in order.
+    /// Channels of each pass, in order of the passes.
     pub(crate) pass_channels: Vec<Vec<ChannelWrite>>,
     /// Indices of the parameters that rays depend on.
     pub(crate) params_of_rays: Vec<usize>,
@@ -48,7 +48,7 @@ struct Root<'a> {
     /// Its declaration in the node's text.
     item: &'a Item,
     handle: Handle<Function>,
-    /// Number of calls for a texel: the largest number of rays for functions of a ray.
+    /// Number of calls for a texel: 1, or the largest number of rays for functions that run once for a ray.
     calls: u64,
 }
 
@@ -83,7 +83,7 @@ pub(crate) fn analyze(
         faults.sort_by_key(|fault| (fault.line, fault.column));
         return Err(faults);
     }
-    // The kernel has a loop over the rays.
+    // The kernel loops over the rays.
     params_that_bound_loops.extend(counts);
     let costs = Costs::new(linked, module, types);
     let all: Vec<Handle<Function>> = roots.iter().map(|root| root.handle).collect();
@@ -106,7 +106,7 @@ pub(crate) fn analyze(
     })
 }
 
-/// All functions that a kernel calls: the outputs, shared functions, the passes and the function `ray`.
+/// Returns all functions that a kernel calls: outputs, shared functions, passes and the function `ray`.
 fn roots<'a>(scan: &'a Scan, module: &Module, params: &[Param], ports: &Ports) -> Vec<Root<'a>> {
     let range_of_rays = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.ty.range);
     let rays = range_of_rays.map_or(1, |[_, most]| most as u64);

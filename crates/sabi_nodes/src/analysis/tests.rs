@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use crate::kind::Kind;
 use crate::{Libraries, Library, SourceFile, read_kind};
 
-/// Reads a node with these declarations; the kind, or the first message.
+/// Reads a node with these declarations. Returns the kind, or the first message.
 fn read(text: &str) -> Result<Kind, String> {
     let core = Library::builtin_files().1.text("core").unwrap().to_owned();
     let libraries = Libraries([("core".to_owned(), core)].into());
     read_with(&libraries, &format!("\n{text}"))
 }
 
-/// The same with libraries; the text begins where the header may go on.
+/// Reads a node like [`read`], with libraries. The text starts inside the header, which it may continue.
 fn read_with(libraries: &Libraries, text: &str) -> Result<Kind, String> {
     let file = SourceFile {
         path: PathBuf::from("test/node.wgsl"),
@@ -79,7 +79,7 @@ fn the_cost_expands_calls() {
 }
 
 #[test]
-fn operations_cost_what_compiling_them_takes() {
+fn the_cost_of_operations_follows_their_compile_time() {
     let cost = |expression: &str| {
         let text = format!("/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; return {expression}; }}");
         read(&text).unwrap().cost.all
@@ -90,10 +90,10 @@ fn operations_cost_what_compiling_them_takes() {
         ("pow(x, x)", 15),
         ("atan2(x, x)", 39),
         ("sin(x)", 11),
-        // A number of four, and the one that is taken from it.
+        // Four additions, two vectors, and the selection of a component.
         ("(vec4f(x) + vec4f(x)).x", 6),
         ("pow(vec4f(x), vec4f(x)).x", 66),
-        // Two conversions and an addition of zeros more.
+        // The division counts 32, and each of the three conversions 1.
         ("f32(u32(x) / u32(x))", 34),
     ] {
         assert_eq!(cost(expression), added + more, "{expression}");
@@ -124,7 +124,7 @@ fn code_that_compiles_for_long_is_refused_in_every_function_that_a_kernel_calls(
     for text in [output(700), pass(700)] {
         read(&text).unwrap();
     }
-    // Branches and stores are code, too, and so are elements that a driver has to choose.
+    // Branches, stores and selections of elements count as code, too.
     let branches = |count: usize| {
         let ifs = "if b { v = x; }\n".repeat(count);
         format!(
@@ -147,7 +147,7 @@ fn code_that_compiles_for_long_is_refused_in_every_function_that_a_kernel_calls(
 }
 
 #[test]
-fn a_text_just_below_the_depth_limit_is_read() {
+fn a_text_just_below_the_depth_limit_is_accepted() {
     for text in [
         format!(
             "/// M.\nfn mask(at: Surface) -> f32 {{ return {}at.uv.x; }}",

@@ -1,4 +1,4 @@
-//! Checks that outputs depend on all parameters and inputs.
+//! Checks that the outputs depend on all parameters and inputs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,9 +14,9 @@ use crate::scan::Scan;
 /// Use of an argument by a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Use {
-    /// These members only; may be empty.
+    /// Only these members; may be empty.
     Members(BTreeSet<u32>),
-    /// All of it, or in a way that the analysis does not follow.
+    /// The whole argument, or a use that the analysis cannot follow.
     Whole,
 }
 
@@ -33,9 +33,9 @@ impl Use {
     }
 }
 
-/// Checks that a root reads every member of `Params`, and each function all its inputs.
+/// Checks that every member of `Params` is read by a root, and every input by its function.
 ///
-/// `planned`: parameters that decide the number of runs, the width of texels or the number of rays.
+/// `planned`: parameters that decide the number of runs, the width of texels or the number of rays; these count as read.
 pub(super) fn check(
     linked: &LinkedModule,
     scan: &Scan,
@@ -75,7 +75,7 @@ pub(super) fn check(
     faults
 }
 
-/// Indices of the parameters that a function reads; `count` is their number.
+/// Returns the indices of the parameters that a function reads. `count` is the total number of parameters.
 pub(super) fn params_of(module: &Module, root: Handle<Function>, count: usize) -> Vec<usize> {
     let params = params_type(module).map(|(handle, _)| handle);
     let function = &module.functions[root];
@@ -91,7 +91,7 @@ pub(super) fn params_of(module: &Module, root: Handle<Function>, count: usize) -
     }
 }
 
-/// Use of the arguments of each function.
+/// Returns how each function uses its arguments.
 fn all_uses(module: &Module) -> Vec<Vec<Use>> {
     // naga lists callees before their callers.
     let mut uses: Vec<Vec<Use>> = Vec::with_capacity(module.functions.len());
@@ -102,7 +102,7 @@ fn all_uses(module: &Module) -> Vec<Vec<Use>> {
     uses
 }
 
-/// Use of the arguments of a function, given those of its callees.
+/// Returns how a function uses its arguments, given how its callees use theirs.
 fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> Vec<Use> {
     let mut stores_of: BTreeMap<usize, Vec<Store>> = BTreeMap::new();
     for store in stores(function, &function.body) {
@@ -130,7 +130,7 @@ fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> 
             marker.mark(*pointer);
             marker.mark(*value);
         }
-        // Writes through a pointer are not followed.
+        // Writes through a pointer cannot be traced.
         Statement::Call { arguments, .. } => {
             let is_pointer = |argument: &Handle<Expression>| is_pointer(module, function, *argument);
             if arguments.iter().any(is_pointer) {
@@ -160,11 +160,11 @@ fn is_pointer(module: &Module, function: &Function, expression: Handle<Expressio
 /// Marks the expressions that a result depends on.
 struct LiveMarker<'m> {
     function: &'m Function,
-    /// Assignments by variable; those of a variable that is read are taken out.
+    /// Assignments by variable. The assignments of a variable are removed when it is read.
     stores: BTreeMap<usize, Vec<Store>>,
     calls: Calls,
     callees: &'m [Vec<Use>],
-    /// Arguments that are arguments of a callee as well: function, its argument, and the own one.
+    /// Arguments that are passed on to a callee: the callee, the callee's argument, and this function's argument.
     passed_on: BTreeSet<(usize, usize, u32)>,
     live: Vec<bool>,
     uses: Vec<Use>,
@@ -207,9 +207,9 @@ impl LiveMarker<'_> {
         }
     }
 
-    /// Marks the values of a variable that is read.
+    /// Marks the values that were stored in a variable that is read.
     fn read_local(&mut self, local: Handle<LocalVariable>) {
-        // Its values are marked once.
+        // The entry is removed, so that its values are marked only once.
         for store in self.stores.remove(&local.index()).unwrap_or_default() {
             self.mark(store.pointer);
             if let Some(value) = store.value {

@@ -6,7 +6,7 @@ use naga::{
     Block, Expression, Function, Handle, ImageQuery, Literal, LocalVariable, Module, SampleLevel, Span, Statement,
 };
 
-/// All expressions of a function with their places.
+/// Returns all expressions of a function with their places in the text.
 pub(crate) fn expressions_with_spans(function: &Function) -> impl Iterator<Item = (&Expression, Span)> {
     function
         .expressions
@@ -14,7 +14,7 @@ pub(crate) fn expressions_with_spans(function: &Function) -> impl Iterator<Item 
         .map(|(handle, expression)| (expression, function.expressions.get_span(handle)))
 }
 
-/// Calls `see` for every statement, nested ones too.
+/// Calls `see` for every statement, including nested ones.
 pub(crate) fn visit<'m>(block: &'m Block, see: &mut impl FnMut(&'m Statement, Span)) {
     for (statement, span) in block.span_iter() {
         see(statement, *span);
@@ -87,7 +87,7 @@ pub(crate) fn children(expression: &Expression, see: &mut impl FnMut(Handle<Expr
         Expression::Math {
             arg, arg1, arg2, arg3, ..
         } => all(&[Some(*arg), *arg1, *arg2, *arg3]),
-        // Leaves, and expressions that the rules refuse.
+        // Literals and other leaves, and expressions that the rules refuse.
         _ => {}
     }
 }
@@ -104,7 +104,7 @@ fn level_parts(level: &SampleLevel) -> [Option<Handle<Expression>>; 2] {
 #[derive(Clone, Debug)]
 pub(crate) struct Store {
     pub(crate) local: Handle<LocalVariable>,
-    /// Indices from the variable to the part; `None` where an index is computed.
+    /// Indices that lead from the variable to the part; `None` where an index is computed at run time.
     pub(crate) path: Vec<Option<u32>>,
     /// The pointer to that part.
     pub(crate) pointer: Handle<Expression>,
@@ -114,7 +114,7 @@ pub(crate) struct Store {
     pub(crate) conditions: Vec<(Handle<Expression>, bool)>,
 }
 
-/// Variable of a pointer, and the path to the part.
+/// Returns the variable that a pointer points into, and the path to the part.
 pub(crate) fn target(
     function: &Function,
     mut pointer: Handle<Expression>,
@@ -188,8 +188,8 @@ fn gather_stores(
     }
 }
 
-/// Conditions that all hold when `condition` does. naga turns `a && b` into an unnamed variable that is `b` under
-/// `if a` and false otherwise.
+/// Returns conditions that all hold if `condition` holds. naga turns `a && b` into an unnamed variable that is `b` inside
+/// `if a`, and false otherwise.
 pub(crate) fn conjuncts(
     function: &Function,
     stores: &[Store],
@@ -199,7 +199,7 @@ pub(crate) fn conjuncts(
     let mut open = vec![condition];
     while let Some(condition) = open.pop() {
         match and_parts(function, stores, condition) {
-            // A chain of `&&` is no longer than the text; the limit guards against changes of naga.
+            // A chain of `&&` is no longer than the text. The limit only guards against changes in naga.
             Some(parts) if found.len() + open.len() < 256 => open.extend(parts),
             _ => found.push(condition),
         }
@@ -234,7 +234,7 @@ fn and_parts(function: &Function, stores: &[Store], condition: Handle<Expression
 /// Function and arguments of calls, by the index of their `CallResult`.
 pub(crate) type Calls = BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)>;
 
-/// The call that gives each `CallResult`.
+/// Maps each `CallResult` to the call that produces it.
 pub(crate) fn calls(block: &Block) -> Calls {
     let mut calls = BTreeMap::new();
     visit(block, &mut |statement, _| {
@@ -253,7 +253,7 @@ pub(crate) fn calls(block: &Block) -> Calls {
 /// A returned value, and the conditions around it with the side taken.
 pub(crate) type Returned = (Handle<Expression>, Vec<(Handle<Expression>, bool)>);
 
-/// All values that a function returns.
+/// Lists all values that a function returns.
 pub(crate) fn returns(block: &Block) -> Vec<Returned> {
     let mut found = Vec::new();
     gather_returns(block, &mut Vec::new(), &mut found);

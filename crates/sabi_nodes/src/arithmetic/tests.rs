@@ -10,7 +10,7 @@ const WITH_UNITS: Syntax = Syntax {
     is_in_name: char::is_alphabetic,
 };
 
-/// The structure with parentheses around everything.
+/// Formats the structure with parentheses around every operation.
 fn shown(expression: &Expression) -> String {
     match expression {
         Expression::Number(number) => number.to_string(),
@@ -49,7 +49,7 @@ fn powers_bind_tighter_than_signs_products_and_sums() {
 }
 
 #[test]
-fn a_unit_is_that_of_the_product_in_front_of_it() {
+fn a_unit_applies_to_the_whole_product_in_front_of_it() {
     for (text, structure) in [
         ("1/2 cm", "((1 Divide 2) [cm])"),
         ("2 cm*3", "((2 [cm]) Multiply 3)"),
@@ -64,7 +64,7 @@ fn a_unit_is_that_of_the_product_in_front_of_it() {
 }
 
 #[test]
-fn a_mistake_has_a_place_and_a_kind() {
+fn a_syntax_error_has_a_place_and_a_kind() {
     let token = str::to_owned;
     for (text, at, kind) in [
         ("1 +", 4, SyntaxErrorKind::UnexpectedEnd),
@@ -84,7 +84,7 @@ fn a_mistake_has_a_place_and_a_kind() {
 }
 
 #[test]
-fn neither_depth_nor_length_takes_the_stack() {
+fn long_or_deeply_nested_texts_do_not_exhaust_the_stack() {
     for text in ["(", "-", "1^", "sin("].map(|part| part.repeat(100_000)) {
         let kind = Expression::read(&text, 0, PLAIN).map_err(|mistake| mistake.kind);
         assert_eq!(kind, Err(SyntaxErrorKind::TooDeep));

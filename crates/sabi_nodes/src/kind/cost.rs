@@ -1,11 +1,12 @@
 //! Cost of compiling a node.
 
-/// Estimated time to compile a piece of code, in additions of two numbers: calls are written out, and loops count once.
+/// Estimated time to compile a piece of code, in units of an addition of two numbers. Calls are counted as if they were
+/// inlined, and the body of a loop counts once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// All code.
     pub all: u32,
-    /// The code outside of loops, which drivers optimize as a whole: the time for it grows faster than its length.
+    /// The code outside of loops. Drivers optimize it as a whole, so the time for it grows faster than its length.
     pub straight: u32,
 }
 

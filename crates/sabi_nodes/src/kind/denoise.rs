@@ -1,16 +1,16 @@
-//! Ways to take the grain out of means over rays.
+//! Methods to remove noise from means over rays.
 
-/// Neighbors of a place whose means over rays are alike.
+/// Selects the neighbors of a place that are averaged to denoise a mean over rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Denoise {
-    /// Those whose triangles face alike: for what changes at every edge of the model.
+    /// Neighbors on triangles with similar directions: for values that change at every edge of the model.
     Triangles,
-    /// Those whose shading faces alike: for what an edge with smooth shading does not show in.
+    /// Neighbors with similar shading normals: for values in which smoothly shaded edges are not visible.
     Shading,
 }
 
 impl Denoise {
-    /// Expression of the normal that tells it, at a place.
+    /// Returns the WGSL expression of the normal that is compared.
     pub(crate) fn normal(self) -> &'static str {
         match self {
             Denoise::Triangles => "at.face_normal",

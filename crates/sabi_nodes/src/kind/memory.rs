@@ -1,4 +1,4 @@
-//! Memory of parameters: shapes, and values as components.
+//! Memory layout of parameters, and their values as components.
 
 /// Memory shape of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Memory {
         }
     }
 
-    /// Number of entries of a value in a file: components of a vector, or the largest number of stops or points.
+    /// Returns the number of entries of a value in a file: components of a vector, or the maximum number of stops or points.
     pub(super) fn entries(self) -> usize {
         match self {
             Memory::Points(most) => most as usize,
@@ -48,10 +48,11 @@ impl Memory {
     }
 }
 
-/// A parameter's value as components: numbers in artist's units, colors linear.
+/// A parameter's value as components: numbers in the units of artists, colors linear.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParamValue {
-    /// Between 1 and 4 floats, or `4 × N` for stops (`r g b position`, unused positions 2) and curves (`x y slope used`).
+    /// Either 1 to 4 numbers, or `4 × N` for gradient stops (`r g b position`, with position 2 for unused stops) and curves
+    /// (`x y slope used`).
     Floats(Vec<f32>),
     /// A whole number: `u32`, toggle or choice index.
     Unsigned(u32),

@@ -11,18 +11,18 @@ pub struct Param {
     pub label: String,
     /// The doc comment without its annotations.
     pub doc: String,
-    /// Values it takes, and how they are written.
+    /// Values that the parameter takes, and how they are written.
     pub ty: ParamType,
     /// Byte offset in `struct Params`, from naga.
     pub offset: u32,
     /// [`ParamType::default`] as components.
     pub default: ParamValue,
-    /// True if a loop's bound depends on it, so that the linked kernel clamps it to its range.
+    /// True if the bound of a loop depends on the parameter, so that the linked kernel clamps it to its range.
     pub bounds_a_loop: bool,
-    /// True if it is one number that is read for each place and never for the whole surface at once, so that a mask can multiply
-    /// it there.
+    /// True if the parameter is a single number that is only read for individual places, never for the whole surface at
+    /// once, so that a mask can multiply it.
     pub takes_mask: bool,
-    /// `@absolute`: a length that is a share of the model where the lengths of a graph are shares of each piece.
+    /// `@absolute`: the length is always a share of the model, even in a graph whose lengths are shares of each piece.
     pub is_absolute: bool,
     /// Earlier names (`@was`).
     pub formerly: Vec<String>,

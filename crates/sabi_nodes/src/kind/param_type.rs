@@ -1,8 +1,7 @@
 //! Types of parameters: the values that they take, and how these are read, written and described.
 //!
-//! A graph file is read without its kinds, so its values are checked by [`ParamType::read`] when the graph is planned. The
-//! window checks typed and pasted texts by [`ParamType::parse`], and keeps numbers that are dragged within
-//! [`ParamType::limits`].
+//! A graph file is read without knowledge of its kinds, so its values are checked by [`ParamType::read`] when the graph is planned. The
+//! editor checks typed and pasted texts by [`ParamType::parse`], and keeps numbers that are dragged within [`ParamType::limits`].
 
 #[cfg(test)]
 mod tests;
@@ -17,20 +16,20 @@ use crate::color::typed_color;
 /// Type of a parameter's values, shared by the planner, the catalog, the command line and the editor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParamType {
-    /// Meaning to an artist.
+    /// Meaning of the parameter to an artist.
     pub role: Role,
     /// Shape in memory.
     pub memory: Memory,
-    /// Lowest and highest number taken, artist's units.
+    /// Lowest and highest accepted number, in the units of artists.
     pub range: Option<[f64; 2]>,
-    /// Ends of the slider, artist's units.
+    /// Ends of the slider, in the units of artists.
     pub soft: Option<[f64; 2]>,
-    /// Value until it is set, as a graph file holds it.
+    /// Value until the parameter is set, as stored in graph files.
     pub default: Value,
 }
 
 impl ParamType {
-    /// A type without range whose default has these components.
+    /// Creates a type without a range. Its default has these components.
     pub fn new(role: Role, memory: Memory, default: &ParamValue) -> ParamType {
         ParamType {
             default: write(&role, default),
@@ -41,7 +40,7 @@ impl ParamType {
         }
     }
 
-    /// Number of components; for a curve or a gradient the largest number of points.
+    /// Returns the number of components, or the maximum number of points of a curve or gradient.
     pub fn components(&self) -> usize {
         self.memory.entries()
     }
@@ -51,13 +50,13 @@ impl ParamType {
         self.memory.is_whole()
     }
 
-    /// Lowest and highest number accepted, artist's units: the range, or all numbers of an unsigned type.
+    /// Returns the lowest and the highest accepted number, in the units of artists: the range, or all numbers of an unsigned type.
     pub fn limits(&self) -> Option<[f64; 2]> {
         let unsigned = (self.memory == Memory::U32).then_some([0.0, f64::from(u32::MAX)]);
         self.range.or(unsigned)
     }
 
-    /// Accepted number nearest to `number`: whole where only whole numbers are accepted, and within the limits.
+    /// Returns the accepted number nearest to `number`: within the limits, and whole if only whole numbers are accepted.
     pub fn nearest(&self, number: f64) -> f64 {
         let number = if self.is_whole() { number.round() } else { number };
         match self.limits() {
@@ -66,12 +65,12 @@ impl ParamType {
         }
     }
 
-    /// Returns true if files hold its values as texts.
+    /// Returns true if files store the values as texts.
     pub fn is_text(&self) -> bool {
         matches!(self.role, Role::Text | Role::File | Role::Choice(_) | Role::Color)
     }
 
-    /// Ends of the slider: the soft ones, or the range, or a span that suits the default.
+    /// Returns the ends of the slider: the soft ends, or the range, or an interval that suits the default.
     pub fn slider(&self) -> [f64; 2] {
         self.soft.or(self.range).unwrap_or_else(|| {
             // Only single numbers have a slider.
@@ -80,12 +79,12 @@ impl ParamType {
         })
     }
 
-    /// A value as an artist sees it; `None` where its form is wrong. Ranges are not checked.
+    /// Returns a value as artists see it; `None` if it does not have the right form. Ranges are not checked.
     pub fn written<'v>(&self, value: &'v Value) -> Option<Written<'v>> {
         Written::read(&self.role, self.memory, value)
     }
 
-    /// Reads a value of a graph file. The error is [`ParamType::expectation`].
+    /// Reads a value of a graph file. The error is the text of [`ParamType::expectation`].
     pub fn read(&self, value: &Value) -> Result<ParamValue, String> {
         let read = self
             .written(value)
@@ -99,8 +98,8 @@ impl ParamType {
         self.read(value).is_ok()
     }
 
-    /// Reads a value as people type it: `on`, `0, 1, 0`, `6b3a1e`, a word of a choice, lists as JSON. The error is
-    /// [`ParamType::expectation`].
+    /// Reads a value as users type it: `on`, `0, 1, 0`, `6b3a1e`, a word of a choice, lists as JSON. The error is the text
+    /// of [`ParamType::expectation`].
     pub fn parse(&self, text: &str) -> Result<Value, String> {
         let text = text.trim();
         let value = match self.role {
@@ -146,12 +145,12 @@ impl ParamType {
         }
     }
 
-    /// Returns true if all numbers of a value lie in the range; for a curve only the coordinates count.
+    /// Returns true if all numbers of a value lie in the range. For a curve, only the coordinates of the points are checked.
     pub(crate) fn is_in_range(&self, value: &ParamValue) -> bool {
         let Some([low, high]) = self.range else { return true };
         let is_inside = |number: f64| (low..=high).contains(&number);
         match value {
-            // Compared as floats: 0.3 of a file is the same float as the end of a range to 0.3.
+            // Numbers are compared as `f32`, so that 0.3 in a file equals the end of a range to 0.3.
             ParamValue::Floats(numbers) => {
                 let range = low as f32..=high as f32;
                 let is_curve = self.role == Role::Curve;
@@ -170,7 +169,7 @@ fn write(role: &Role, value: &ParamValue) -> Value {
     match (role, value) {
         (Role::Choice(words), ParamValue::Unsigned(index)) => match words.get(*index as usize) {
             Some(word) => Written::Text(word).to_value(),
-            // No kind has such a default; the index itself shows it.
+            // No kind has such a default; writing the index makes the mistake visible.
             None => Value::Number(f64::from(*index)),
         },
         (Role::Toggle, ParamValue::Unsigned(on)) => Value::Bool(*on != 0),
@@ -207,9 +206,9 @@ fn numbers(floats: &[f32]) -> Written<'static> {
     Written::Numbers(floats.iter().copied().map(shortest_decimal).collect())
 }
 
-/// The number that a float's shortest decimal text stands for, so that 0.1 is shown as 0.1.
+/// Returns the number of a float's shortest decimal text, so that 0.1 is shown as 0.1.
 pub(crate) fn shortest_decimal(float: f32) -> f64 {
-    canonical_number(f64::from(float)).unwrap_or(f64::from(float)) // Only infinities have no canonical form.
+    canonical_number(f64::from(float)).unwrap_or(f64::from(float)) // Only infinities and NaN have no canonical form.
 }
 
 fn toggle(text: &str) -> Option<bool> {

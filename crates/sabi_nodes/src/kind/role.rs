@@ -1,6 +1,6 @@
 //! Roles of parameters.
 
-/// Meaning of a parameter to an artist, which decides how its values are written.
+/// Meaning of a parameter to an artist. It decides how values are written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Role {
     /// A number or a vector of numbers.
@@ -11,33 +11,33 @@ pub enum Role {
     Choice(Vec<String>),
     /// `@color`: `vec3f` linear; `"#rrggbb"` (sRGB) in files.
     Color,
-    /// `@length`: working units. With `@absolute` beside it the length is never a share of a piece.
+    /// `@length`: in working units. With `@absolute`, the length is never a share of a piece.
     Length,
     /// `@angle`: degrees in files, radians in WGSL.
     Angle,
-    /// `@seed`: a whole number; WGSL receives it hashed with the seeds of the document and the groups around.
+    /// `@seed`: a whole number. WGSL receives it hashed with the seeds of the document and of the enclosing groups.
     Seed,
-    /// Gradient stops: `[[position, "#rrggbb"], …]` in files; linear RGB with the position in `w` in WGSL, where unused
+    /// Gradient stops: `[[position, "#rrggbb"], …]` in files. WGSL receives linear RGB with the position in `w`; unused
     /// stops have position 2.
     Stops,
-    /// `@curve`: `[[x, y], …]` in files; in WGSL x, y, slope and 1 if the point is used. See [`crate::curve_points`].
+    /// `@curve`: `[[x, y], …]` in files. WGSL receives x, y, slope, and 1 if the point is used. See [`crate::curve_points`].
     Curve,
-    /// A text, only for sources.
+    /// A text; only for sources.
     Text,
-    /// The path of a file, relative to the file in which the node was written; only for sources.
+    /// The path of a file, relative to the file that contains the node; only for sources.
     File,
-    /// `@extent low along` or `@extent high along`: not an artist's parameter; filled with the lowest or highest
-    /// `dot(vertex, normalize(along))` over the model's vertices, `along` being another parameter.
+    /// `@extent low along` or `@extent high along`: not set by artists, but filled with the lowest or highest `dot(vertex,
+    /// normalize(along))` over the model's vertices, where `along` is another parameter.
     Extent {
         /// Name of the parameter that holds the direction.
         along: String,
-        /// `high` rather than `low`.
+        /// True for `high`, false for `low`.
         high: bool,
     },
 }
 
 impl Role {
-    /// Word for the values it takes, as `sabi nodes` shows it.
+    /// Returns a word for the values, as shown by `sabi nodes`.
     pub fn name(&self) -> &'static str {
         match self {
             Role::Plain | Role::Extent { .. } => "number",
@@ -54,7 +54,7 @@ impl Role {
         }
     }
 
-    /// Words of a choice.
+    /// Returns the words of a choice.
     pub fn choices(&self) -> Option<&[String]> {
         match self {
             Role::Choice(words) => Some(words),

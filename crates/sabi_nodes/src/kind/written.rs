@@ -1,4 +1,4 @@
-//! Values of parameters as graph files hold them and artists see them.
+//! Values of parameters as stored in graph files and as seen by artists.
 
 use sabi_color::linear_from_srgb8;
 use sabi_graph::Value;
@@ -7,13 +7,13 @@ use super::{Memory, ParamValue, Role};
 use crate::color::{color_code, color_srgb8};
 use crate::curve::curve_points;
 
-/// Position of a gradient stop that is not used.
+/// Position of an unused gradient stop.
 pub(crate) const UNUSED_STOP: f32 = 2.0;
 
 /// A parameter's value as an artist sees it: angles in degrees, colors in sRGB.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Written<'v> {
-    /// As many as the parameter has components.
+    /// Numbers, one for each component of the parameter.
     Numbers(Vec<f64>),
     /// On or off.
     Toggle(bool),
@@ -23,7 +23,7 @@ pub enum Written<'v> {
     Color([u8; 3]),
     /// Gradient stops in ascending order.
     Stops(Vec<WrittenStop>),
-    /// Points of a curve by ascending x; two at one x are a step.
+    /// Points of a curve by ascending x. Two points with the same x form a step.
     Points(Vec<[f64; 2]>),
 }
 
@@ -37,7 +37,7 @@ pub struct WrittenStop {
 }
 
 impl<'v> Written<'v> {
-    /// Reads a value for a parameter; `None` where its form is wrong. Ranges are not checked.
+    /// Reads a value of a parameter; `None` if it does not have the right form. Ranges are not checked.
     pub(super) fn read(role: &Role, memory: Memory, value: &'v Value) -> Option<Written<'v>> {
         match role {
             Role::Toggle => value.as_bool().map(Written::Toggle),
@@ -54,7 +54,7 @@ impl<'v> Written<'v> {
         }
     }
 
-    /// Components of this value in a parameter's memory; `None` for numbers that do not fit there.
+    /// Returns the components of this value in the memory of a parameter; `None` for numbers that do not fit there.
     pub(super) fn components(&self, role: &Role, memory: Memory) -> Option<ParamValue> {
         Some(match (self, role, memory) {
             (Written::Toggle(on), ..) => ParamValue::Unsigned(u32::from(*on)),
@@ -79,7 +79,7 @@ impl<'v> Written<'v> {
         })
     }
 
-    /// This value as a graph file holds it.
+    /// Returns this value as stored in graph files.
     pub fn to_value(&self) -> Value {
         match self {
             Written::Numbers(numbers) => match numbers.as_slice() {
@@ -144,10 +144,10 @@ fn stop_components(stops: &[WrittenStop], room: usize) -> Vec<f32> {
     components.into_flattened()
 }
 
-/// The only one of these numbers, where a 32-bit whole number can hold it.
+/// Returns the number in a list of one number, if a 32-bit whole number can hold it.
 fn single_whole<T: TryFrom<i64>>(numbers: &[f64]) -> Option<T> {
     match numbers {
-        // Whole numbers of 32 bits are exact in an f64.
+        // An `f64` holds all whole numbers of 32 bits exactly.
         [number] if number.fract() == 0.0 && number.abs() <= f64::from(u32::MAX) => T::try_from(*number as i64).ok(),
         _ => None,
     }

@@ -1,5 +1,5 @@
-//! Kinds of a library. Those that come with the program are read when they are first needed: a graph has a few of them, and reading all
-//! takes longer than a short command.
+//! Kinds of a library. Built-in kinds are read when they are first needed: a graph uses few of them, and reading all of
+//! them takes longer than a short command.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, OnceLock};
@@ -16,7 +16,7 @@ pub(super) enum Entry {
     BuiltIn(&'static BuiltIn),
 }
 
-/// Kind that comes with the program.
+/// Kind that is part of the program.
 #[derive(Debug)]
 pub(super) struct BuiltIn {
     pub(super) id: &'static str,
@@ -24,12 +24,12 @@ pub(super) struct BuiltIn {
     text: &'static str,
     /// True if it had other ids earlier.
     has_former_ids: bool,
-    /// None for a faulty file.
+    /// The kind once it was read; `None` inside for a faulty file.
     kind: OnceLock<Option<Kind>>,
 }
 
 impl BuiltIn {
-    /// All of them.
+    /// Returns all built-in kinds.
     pub(super) fn all() -> &'static [BuiltIn] {
         static ALL: LazyLock<Vec<BuiltIn>> = LazyLock::new(|| {
             let unread = |(path, id, text)| BuiltIn::unread(path, id, text);
@@ -85,7 +85,7 @@ impl Entry {
         }
     }
 
-    /// The kind, if it had this id earlier (`@was`).
+    /// Returns the kind, if it had this id earlier (`@was`).
     pub(super) fn formerly(&self, id: &str) -> Option<&Kind> {
         let kind = match self {
             Entry::BuiltIn(kind) if !kind.has_former_ids => return None,
@@ -103,7 +103,7 @@ mod tests {
     const TEXT: &str = "//! Half\n//! Halves a mask.\n\n/// The half.\n/// @input source The mask.\nfn mask(at: Surface, source: f32) -> f32 {\n    return 0.5 * source;\n}\n";
 
     #[test]
-    fn a_kind_that_comes_with_the_program_is_read_when_it_is_asked_for() {
+    fn a_built_in_kind_is_read_when_it_is_first_used() {
         let text = |text: String| -> &'static str { text.leak() };
         let plain = text(TEXT.to_owned());
         let renamed = text(TEXT.replace("mask.\n\n", "mask.\n//! @was adjust/third\n\n"));
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn all_kinds_that_come_with_the_program_are_read_once() {
+    fn each_built_in_kind_is_read_only_once() {
         let library = Library::builtin();
         assert!(library.kind("no/node").is_none());
         let first = library.kind("noise/simplex").expect("one of them");

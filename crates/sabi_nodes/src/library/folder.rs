@@ -12,17 +12,17 @@ use crate::fault::Fault;
 use crate::shader_files::shared_path;
 use crate::source_file::{FILE_LIMIT_BYTES, SourceFile};
 
-/// Most files and folders of a node folder, all its categories together.
+/// Maximum number of files and folders in a node folder, counting all its categories.
 const FOLDER_LIMIT: usize = 4096;
-/// Most bytes of the files of a node folder together.
+/// Maximum total size of the files in a node folder, in bytes.
 const TOTAL_LIMIT_BYTES: usize = 32 << 20;
 
 impl Library {
-    /// Reads a user's node folder, in sorted order, and gives the faults of the files that are left out. Reading it again
-    /// updates changed nodes, keeps the last good version of faulty ones, and drops nodes without a file.
+    /// Reads a user's node folder in sorted order and returns the faults of files that are left out. Reading it again
+    /// updates changed nodes, keeps the last valid version of faulty ones, and removes nodes whose file is gone.
     ///
-    /// A node of the folder never replaces one from another file. Nothing outside of the trusted paths is read: a folder from elsewhere
-    /// may hold links to any file, and a fault shows the text of its file.
+    /// A node of the folder never replaces a node from another file. Nothing outside of the trusted paths is read: a folder
+    /// from an unknown source may contain links to any file, and faults quote lines of the file.
     pub fn load_folder(&mut self, folder: &Path, trusted: &TrustedPaths) -> Vec<Fault> {
         let mut faults = Vec::new();
         self.kinds
@@ -97,7 +97,7 @@ impl Library {
                 format!("There is a node `{id}` already, and this one is not read."),
                 "Give the file another name.",
             )),
-            // The nodes of a changed library were read again with it.
+            // If only a library changed, its nodes were read again together with it.
             Some(known) if known.text() == text => {}
             _ => {
                 if let Err(mut found) = self.replace(SourceFile { path, id, text }) {
@@ -108,9 +108,9 @@ impl Library {
     }
 }
 
-/// Lists the files of a node folder that [`Library::load_folder`] reads, as far as they may be opened.
+/// Lists the files that [`Library::load_folder`] would read from a node folder, as far as they may be opened.
 pub fn files_of_folder(folder: &Path, trusted: &TrustedPaths) -> Vec<PathBuf> {
-    let mut unread = Vec::new(); // Loading the folder tells of these.
+    let mut unread = Vec::new(); // Files that cannot be read are reported when the folder is loaded.
     let mut reading = FolderReading::new(trusted);
     let categories = reading.entries(folder, true, &mut unread).into_iter();
     let folders: Vec<PathBuf> = categories
@@ -125,14 +125,14 @@ pub fn files_of_folder(folder: &Path, trusted: &TrustedPaths) -> Vec<PathBuf> {
     files
 }
 
-/// Reading of one node folder, whose limits hold for all its categories together.
+/// State while a node folder is read. The limits apply to all its categories together.
 struct FolderReading<'t> {
     trusted: &'t TrustedPaths,
-    /// Files and folders that may still be listed.
+    /// Number of files and folders that may still be listed.
     left: usize,
-    /// Bytes that may still be read.
+    /// Number of bytes that may still be read.
     left_bytes: usize,
-    /// True once something was left out for a limit.
+    /// True once something was left out because of a limit.
     is_over: bool,
 }
 
@@ -146,7 +146,7 @@ impl FolderReading<'_> {
         }
     }
 
-    /// Entries of a folder, sorted by name.
+    /// Returns the entries of a folder, sorted by name.
     fn entries(&mut self, folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<DirEntry> {
         match self.trusted.check_found(folder) {
             Ok(_) => {}
@@ -184,7 +184,7 @@ impl FolderReading<'_> {
         files
     }
 
-    /// Name and text of a file, unless it may not be opened, is too large or not text.
+    /// Returns name and text of a file. Reports a fault if the file may not be opened, is too large or is not text.
     fn read(&mut self, file: &Path, faults: &mut Vec<Fault>) -> Option<(String, String)> {
         let name = file.file_stem()?.to_string_lossy().into_owned();
         if self.left_bytes == 0 {
@@ -209,7 +209,7 @@ impl FolderReading<'_> {
     }
 }
 
-/// Fault of a file or folder that is not read.
+/// Returns the fault of a file or folder that is not read.
 fn unread_fault(path: &Path, what: &str, unread: &Unread) -> Fault {
     let (message, advice) = match unread {
         Unread::Missing => (format!("The {what} cannot be read: it does not exist."), ""),

@@ -1,4 +1,4 @@
-//! The library of kinds: built in, from a user's folder, reloaded while they are edited.
+//! The library of kinds: built-in kinds, and kinds from a user's folder, which are read again when they change.
 
 mod entry;
 mod folder;
@@ -24,12 +24,12 @@ use crate::words::nearest;
 pub struct Library {
     kinds: BTreeMap<String, Entry>,
     libraries: Libraries,
-    /// Paths of the libraries from folders, to distinguish a changed file from a second file of the same name.
+    /// Paths of the libraries that come from folders, to distinguish a changed file from a second file with the same name.
     library_paths: BTreeMap<String, PathBuf>,
 }
 
 impl Library {
-    /// Reads all of some files at once, as tests and tools do. Faulty ones are left out, and their faults are returned.
+    /// Reads all of these files at once, for tests and tools. Faulty ones are left out, and their faults are returned.
     pub fn load(files: Vec<SourceFile>, libraries: Libraries) -> (Library, Vec<Fault>) {
         let mut faults = Vec::new();
         let mut library = Library {
@@ -46,8 +46,7 @@ impl Library {
         (library, faults)
     }
 
-    /// Returns the kinds that come with the program, each of which is read once in a process, when it is first needed. None of them is
-    /// faulty, which a test checks.
+    /// Returns the built-in kinds. Each is read once in a process, when it is first needed. A test checks that they have no faults.
     pub fn builtin() -> Library {
         let kinds = BuiltIn::all().iter();
         Library {
@@ -57,7 +56,7 @@ impl Library {
         }
     }
 
-    /// The texts of the kinds that come with the program, and of their libraries.
+    /// Returns the texts of the built-in kinds and of their libraries.
     pub fn builtin_files() -> (Vec<SourceFile>, Libraries) {
         let files = node_files().map(|(path, id, text)| SourceFile {
             path,
@@ -67,7 +66,7 @@ impl Library {
         (files.collect(), Libraries::builtin().clone())
     }
 
-    /// The kind with this id, present or earlier (`@was`).
+    /// Returns the kind with this current or earlier (`@was`) id.
     pub fn kind(&self, id: &str) -> Option<&Kind> {
         let present = self.kinds.get(id).and_then(Entry::kind);
         present.or_else(|| self.kinds.values().find_map(|entry| entry.formerly(id)))
@@ -83,30 +82,29 @@ impl Library {
         &self.libraries
     }
 
-    /// The file of a library from a user's folder; none for one that comes with the program.
+    /// Returns the file of a library from a user's folder; `None` for a built-in library.
     pub fn library_path(&self, name: &str) -> Option<&Path> {
         self.library_paths.get(name).map(PathBuf::as_path)
     }
 
-    /// The id nearest to one that does not exist, for "did you mean".
+    /// Returns the existing id nearest to an unknown one, for "did you mean".
     pub fn nearest(&self, id: &str) -> Option<&str> {
         let known = || self.kinds.keys().map(String::as_str);
         nearest(id, known()).or_else(|| {
-            // `simplex` and `noises/simplex` mean the kind of that name.
+            // Both `simplex` and `noises/simplex` match the kind with that name.
             let name = id.rsplit('/').next()?;
             known().find(|known| known.rsplit('/').next() == Some(name))
         })
     }
 
-    /// Reads a new or changed file. A faulty one changes nothing: the last good version stays.
+    /// Reads a new or changed file. If the file is faulty, nothing changes: the last valid version stays.
     pub fn replace(&mut self, file: SourceFile) -> Result<(), Vec<Fault>> {
         let kind = read_kind(&file, &self.libraries)?;
         self.insert(kind);
         Ok(())
     }
 
-    /// Takes a new or changed library text and reads the kinds that use it again. When one of them becomes faulty,
-    /// everything stays as it was.
+    /// Takes a new or changed text of a library and reads the kinds that use it again. If one of them becomes faulty, nothing changes.
     pub fn replace_library(&mut self, name: &str, text: String) -> Result<(), Vec<Fault>> {
         let mut libraries = self.libraries.clone();
         libraries.0.insert(name.to_owned(), text);
@@ -139,12 +137,12 @@ impl Library {
         self.kinds.insert(kind.id.clone(), Entry::Read(Arc::new(kind)));
     }
 
-    /// Removes the kinds of a folder that is gone.
+    /// Removes the kinds of a folder that no longer exists.
     pub fn remove_folder(&mut self, folder: &Path) {
         self.kinds.retain(|_, kind| !kind.path().starts_with(folder));
     }
 
-    /// Removes the libraries that do not compile, so that each is reported once and not by every node that uses it.
+    /// Removes libraries that do not compile, so that each is reported once and not again by every node that uses it.
     fn drop_faulty_libraries(&mut self, faults: &mut Vec<Fault>) {
         let checked: Vec<(String, Fault)> = self
             .libraries

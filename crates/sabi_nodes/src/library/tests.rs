@@ -27,7 +27,7 @@ fn libraries(others: &[(&str, &str)]) -> Libraries {
 }
 
 #[test]
-fn one_broken_file_does_not_take_the_rest() {
+fn a_faulty_file_does_not_affect_the_other_files() {
     let files = vec![file("test/bad", BAD), file("test/good", GOOD)];
     let (library, faults) = Library::load(files, libraries(&[("wave", WAVE)]));
     assert_eq!(
@@ -39,7 +39,7 @@ fn one_broken_file_does_not_take_the_rest() {
 }
 
 #[test]
-fn a_kind_is_found_by_its_former_id_and_by_nearness() {
+fn a_kind_is_found_by_its_former_id_and_a_similar_id_is_suggested() {
     let (library, _) = Library::load(vec![file("test/good", GOOD)], libraries(&[("wave", WAVE)]));
     assert_eq!(library.kind("test/former").unwrap().id, "test/good");
     assert!(library.kind("test/other").is_none());
@@ -49,7 +49,7 @@ fn a_kind_is_found_by_its_former_id_and_by_nearness() {
 }
 
 #[test]
-fn a_reload_keeps_the_last_good_version() {
+fn a_reload_keeps_the_last_valid_version_of_a_faulty_file() {
     let (mut library, _) = Library::load(vec![file("test/good", GOOD)], libraries(&[("wave", WAVE)]));
     let before = library.kind("test/good").unwrap().clone();
     assert!(library.replace(file("test/good", BAD)).is_err());
@@ -65,7 +65,7 @@ fn a_reload_keeps_the_last_good_version() {
 }
 
 #[test]
-fn a_changed_library_is_taken_only_when_its_nodes_still_work() {
+fn a_changed_library_is_accepted_only_if_its_nodes_remain_valid() {
     let (mut library, _) = Library::load(vec![file("test/good", GOOD)], libraries(&[("wave", WAVE)]));
     let broken = library
         .replace_library("wave", "fn wave(x: f32) -> f32 { return y; }".to_owned())
@@ -83,7 +83,7 @@ fn a_changed_library_is_taken_only_when_its_nodes_still_work() {
 }
 
 #[test]
-fn libraries_bring_the_libraries_they_use_once() {
+fn libraries_of_libraries_are_linked_only_once() {
     let texts = [
         ("a", "//! @use b c\nfn a() -> f32 { return b() + c(); }\n"),
         ("b", "//! @use c\nfn b() -> f32 { return c(); }\n"),
@@ -96,7 +96,7 @@ fn libraries_bring_the_libraries_they_use_once() {
 }
 
 #[test]
-fn a_faulty_library_is_told_once() {
+fn a_faulty_library_is_reported_once() {
     let files = vec![file("test/good", GOOD)];
     let (library, faults) = Library::load(files, libraries(&[("wave", "fn wave( {")]));
     assert_eq!(library.kinds().count(), 0);
@@ -106,7 +106,7 @@ fn a_faulty_library_is_told_once() {
 }
 
 #[test]
-fn an_id_is_a_folder_and_a_name() {
+fn an_id_consists_of_a_folder_and_a_name() {
     for id in [
         "good",
         "Test/good",
@@ -169,7 +169,7 @@ fn a_users_folder_adds_nodes_and_libraries() {
 
 #[cfg(unix)]
 #[test]
-fn links_among_node_files_lead_nowhere_else() {
+fn links_in_a_node_folder_lead_to_no_file_outside_of_trusted_paths() {
     use std::os::unix::fs::symlink;
 
     let folder = tempfile::tempdir().unwrap();
@@ -226,7 +226,7 @@ fn links_among_node_files_lead_nowhere_else() {
         "a link within the folder of the graph"
     );
     assert_eq!(files_of_folder(&nodes, &trusted), [nodes.join("mine/good.wgsl")]);
-    // A folder that is a link itself is a part of what the graph brings as well.
+    // The node folder itself can be a link that was delivered with the graph. Its target is not trusted either.
     let linked = at("graph/linked");
     symlink(at("elsewhere"), &linked).unwrap();
     let faults = library.load_folder(&linked, &trusted);
@@ -235,14 +235,14 @@ fn links_among_node_files_lead_nowhere_else() {
     };
     assert_eq!(fault.path, linked);
     assert!(files_of_folder(&linked, &trusted).is_empty() && library.kind("theirs/good").is_none());
-    // It is read once the place is trusted.
+    // The file is read once its place is trusted.
     let trusted = trusted.with_path(&at("elsewhere"));
     assert_eq!(library.load_folder(&linked, &trusted), []);
     assert!(library.kind("theirs/good").is_some());
 }
 
 #[test]
-fn the_limits_of_a_node_folder_hold_for_all_its_categories_together() {
+fn the_limits_of_a_node_folder_apply_to_all_categories_together() {
     let folder = tempfile::tempdir().unwrap();
     for category in 0..3 {
         let category = folder.path().join(format!("c{category}"));
@@ -256,14 +256,14 @@ fn the_limits_of_a_node_folder_hold_for_all_its_categories_together() {
 }
 
 #[test]
-fn a_folder_that_is_not_there_is_told() {
+fn a_missing_folder_is_reported() {
     let mut library = Library::default();
     let faults = library.load_folder(std::path::Path::new("no/such/folder"), &TrustedPaths::default());
     assert!(faults[0].message.contains("cannot be read"));
 }
 
 #[test]
-fn a_hostile_file_names_its_line_and_does_not_take_the_rest() {
+fn a_hostile_file_is_reported_with_its_line_and_the_others_are_read() {
     let node = |text: String| format!("//! Own\n//! A test.\n\n{text}");
     let mask = |value: &str| format!("/// M.\nfn mask(at: Surface) -> f32 {{ return {value}; }}\n");
     let chain = |first: &str, count: u32, next: &dyn Fn(u32) -> String| {
@@ -324,7 +324,7 @@ fn a_hostile_file_names_its_line_and_does_not_take_the_rest() {
 }
 
 #[test]
-fn a_file_just_below_the_limits_is_read_on_the_stack_of_a_thread() {
+fn a_file_just_below_the_limits_is_read_within_the_stack_of_a_thread() {
     let chain = |first: &str, count: u32, next: &dyn Fn(u32) -> String| {
         let text = format!("{first}\n{}", (1..count).map(next).collect::<String>());
         format!("//! Own\n//! A test.\n\n{text}/// M.\nfn mask(at: Surface) -> f32 {{ return last(at.uv.x); }}\n")

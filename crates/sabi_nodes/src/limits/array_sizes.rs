@@ -1,4 +1,5 @@
-//! The number of elements of each array in a text, from the text alone: naga writes an array out where it computes with one.
+//! The number of elements of each array in a text, read from the text alone. It is limited because naga writes an array out
+//! when it computes with it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,35 +8,35 @@ use super::outline::Outline;
 use crate::arithmetic::{Expression, Operator, Syntax};
 use crate::scan::tokens::{Token, TokenKind};
 
-/// Most elements of an array: 16 KiB of the smallest values.
+/// Maximum number of elements of an array: 16 KiB of the smallest values.
 pub(super) const ELEMENTS_LIMIT: u64 = 4096;
 
-/// Largest value on the way to a size, far below the numbers that wrap around.
+/// Maximum intermediate value when a size is computed, far below the numbers at which arithmetic wraps around.
 const VALUE_LIMIT: f64 = (1_u64 << 31) as f64;
-/// Most words and signs of a size or of a constant in it.
+/// Maximum number of words and signs of a size, or of a constant in it.
 const TERMS_LIMIT: usize = 256;
-/// Most constants that name each other in a chain.
+/// Maximum length of a chain of constants that refer to each other.
 const CHAIN_LIMIT: u32 = 32;
 
-/// Numbers and names, as the sizes of arrays have them.
+/// Syntax of sizes: numbers and names.
 const SYNTAX: Syntax = Syntax {
     has_units: false,
     is_in_name: |letter| letter.is_alphanumeric() || letter == '_',
 };
 
-/// Fault of the size of an array, with its bytes in the text.
+/// Fault in the size of an array, with its byte range in the text.
 pub(super) enum SizeFault {
     Unknown(Range<usize>),
     TooLarge(Range<usize>, u64),
 }
 
-/// Sizes of arrays by the declaration that they are in.
+/// Sizes of arrays, by the declaration that contains them.
 pub(super) struct ArraySizes {
     of_declaration: BTreeMap<usize, u64>,
 }
 
 impl ArraySizes {
-    /// Reads the sizes of all arrays of an outline.
+    /// Reads the sizes of all arrays in an outline.
     pub(super) fn read(text: &str, tokens: &[Token], outline: &Outline<'_>) -> Result<ArraySizes, SizeFault> {
         let mut reader = Reader::new(text, tokens, outline);
         let mut of_declaration: BTreeMap<usize, u64> = BTreeMap::new();
@@ -60,17 +61,17 @@ impl ArraySizes {
         Ok(ArraySizes { of_declaration })
     }
 
-    /// Elements of all arrays that a declaration names.
+    /// Returns the total number of elements of the arrays in a declaration.
     pub(super) fn elements(&self, declaration: usize) -> u64 {
         self.of_declaration.get(&declaration).copied().unwrap_or(0)
     }
 }
 
-/// Computes with the whole numbers of a text.
+/// Evaluates constant expressions of whole numbers.
 struct Reader<'t, 'a> {
     text: &'t str,
     tokens: &'a [Token],
-    /// Values of constants by their names; none where several have the same name.
+    /// Values of constants by name; `None` if several have the same name.
     constants: BTreeMap<&'t str, Option<Range<usize>>>,
     known: BTreeMap<String, Option<f64>>,
 }
@@ -95,7 +96,7 @@ impl<'t, 'a> Reader<'t, 'a> {
         }
     }
 
-    /// Value of an expression; none where it is not known, or no number that every step to it can hold.
+    /// Returns the value of an expression; `None` if it is unknown or if an intermediate value exceeds the limit.
     fn value(&mut self, tokens: Range<usize>, chain: u32) -> Option<f64> {
         let tokens = self.tokens.get(tokens).filter(|tokens| tokens.len() <= TERMS_LIMIT)?;
         let words = tokens.iter().map(|token| {
@@ -149,7 +150,7 @@ fn computed(left: f64, operator: Operator, right: f64) -> f64 {
         Operator::Add => left + right,
         Operator::Subtract => left - right,
         Operator::Multiply => left * right,
-        // A division by zero is no number that `within` takes.
+        // A division by zero gives a number that `within` refuses.
         Operator::Divide => (left / right).trunc(),
         Operator::Remainder => left % right,
     }
@@ -159,7 +160,7 @@ fn within(value: f64) -> Option<f64> {
     (0.0..=VALUE_LIMIT).contains(&value).then_some(value)
 }
 
-/// A whole number as WGSL writes it, with its suffix.
+/// Returns a whole number written in WGSL, with or without a suffix.
 fn whole_number(word: &str) -> Option<u64> {
     let digits = word.strip_suffix(['u', 'i']).unwrap_or(word);
     match digits.strip_prefix("0x").or(digits.strip_prefix("0X")) {

@@ -1,36 +1,36 @@
-//! Depth and length of declarations together with those that they name.
+//! Depth and length of declarations, including the declarations that they refer to.
 
 use std::collections::BTreeMap;
 
 use super::array_sizes::ArraySizes;
 use super::outline::{Declaration, Outline};
 
-/// Declarations with all that they name.
+/// Declarations, expanded with everything that they refer to.
 pub(super) struct Expansion {
     nodes: Vec<Node>,
     expanded: Vec<Expanded>,
-    /// Words and signs of all declarations.
+    /// Total number of words and signs of all declarations.
     pub(super) total: u64,
     /// Longest declaration.
     pub(super) largest: usize,
 }
 
-/// Depth and length of a declaration with those of others that it names.
+/// Depth and length of a declaration including the declarations that it refers to.
 #[derive(Clone, Copy, Debug, Default)]
 struct Expanded {
     depth: usize,
     length: u64,
 }
 
-/// All declarations of one name. Those inside of functions count as one with others of their name: which of them a word
-/// means does not matter for a limit.
+/// All declarations with one name. Declarations inside of functions count as one with others of the same name: which one a
+/// word refers to does not matter for a limit.
 #[derive(Debug)]
 struct Node {
-    /// The first of them.
+    /// The first of these declarations.
     declaration: usize,
     is_function: bool,
     own: Expanded,
-    /// Other nodes that it names, each with the depth at which it does.
+    /// Other nodes that it refers to, each with the depth of the reference.
     names: Vec<(usize, usize)>,
 }
 
@@ -49,7 +49,7 @@ impl Expansion {
         }
     }
 
-    /// A declaration that leads deeper than a limit although none that it names does, and its depth.
+    /// Returns a declaration that is deeper than a limit although nothing that it refers to is, with its depth.
     pub(super) fn first_deeper_than(&self, limit: usize) -> Option<(usize, usize)> {
         let is_deep = |node: usize| self.expanded[node].depth > limit;
         let deep = || (0..self.nodes.len()).filter(|node| is_deep(*node));
@@ -99,12 +99,13 @@ fn named<'a>(
     words.filter_map(|word| Some((*by_name.get(word.name)?, word.depth)))
 }
 
-/// Adds to each node what it names; a node that names itself through others, which naga refuses, counts once.
+/// Expands each node with the nodes that it refers to. A node that refers to itself through others, which naga refuses, counts once.
 fn expand(nodes: &[Node]) -> Vec<Expanded> {
     let mut expanded: Vec<Option<Expanded>> = vec![None; nodes.len()];
     let mut is_open = vec![false; nodes.len()];
     for root in 0..nodes.len() {
-        // The nodes on the way, each with the number of its names that are done; the stack of the thread is not used.
+        // The current path of nodes, each with the number of its references that are done. The path replaces recursion,
+        // which could exhaust the stack.
         let mut way = vec![(root, 0)];
         while let Some((node, next)) = way.last_mut() {
             if expanded[*node].is_some() {
@@ -123,7 +124,7 @@ fn expand(nodes: &[Node]) -> Vec<Expanded> {
             way.pop();
         }
     }
-    // Every node was a root.
+    // Every node was expanded as a root.
     expanded.into_iter().map(Option::unwrap_or_default).collect()
 }
 
@@ -133,7 +134,7 @@ fn with_names(nodes: &[Node], node: usize, expanded: &[Option<Expanded>]) -> Exp
     for (named, depth) in names {
         let Some(inner) = expanded[*named] else { continue };
         all.depth = all.depth.max(depth + inner.depth);
-        // A function is called where it stands, and not copied.
+        // A function is called, not copied to the place of the call.
         if !nodes[*named].is_function {
             all.length = all.length.saturating_add(inner.length);
         }

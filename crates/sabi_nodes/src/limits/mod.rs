@@ -1,8 +1,8 @@
-//! Limits that the text of a module has to keep before the compiler sees it: how deep it nests, how many elements its
-//! arrays have, and how much it becomes with all constants expanded.
+//! Limits that the text of a module must meet before it is given to the compiler: how deeply it nests, how many elements
+//! its arrays have, and how large it becomes with all constants expanded.
 //!
-//! naga follows brackets, operators and names by recursion, and copies a constant to each place that names it. None of
-//! that has a limit there, so that a small file could exhaust stack or memory while it is only read.
+//! naga follows brackets, operators and names by recursion, and copies a constant to each place that refers to it. naga
+//! limits none of this, so a small file could exhaust the stack or the memory while it is only read.
 
 mod array_sizes;
 mod expansion;
@@ -19,12 +19,12 @@ use array_sizes::{ArraySizes, SizeFault};
 use expansion::Expansion;
 use outline::Outline;
 
-/// Most blocks, brackets and operators inside each other in one declaration.
+/// Maximum nesting of blocks, brackets and operators in one declaration.
 pub(crate) const DEPTH_LIMIT: usize = 256;
-/// Most of them inside each other where those of the functions, constants and types that a declaration names are counted with it.
+/// Maximum nesting if the nesting of the functions, constants and types that a declaration refers to is added.
 const CHAIN_LIMIT: usize = 512;
-/// Most words and signs of a module, where each name of a constant counts as all that the constant is made of, and an
-/// array as its elements.
+/// Maximum number of words and signs of a module, where a reference to a constant counts as the whole text of the constant,
+/// and an array counts as its elements.
 const EXPANDED_LIMIT: u64 = 1 << 20;
 
 /// Returns the first fault of a module that is too deep or too large for the compiler.

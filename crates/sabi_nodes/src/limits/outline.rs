@@ -1,42 +1,42 @@
-//! Declarations of a text with the names that they use, and how deep each of them nests.
+//! Declarations of a text, with the names that they use and how deeply they nest.
 //!
-//! Follows brackets, template lists, statements and operators as the compiler does, so that the depth counted here is at
-//! least that of its syntax tree. Text that is no WGSL is read up to the place where naga refuses it.
+//! Brackets, template lists, statements and operators are followed as in the compiler, so that the depth counted here is at
+//! least the depth of the compiler's syntax tree. A text that is not WGSL is read up to the place where naga refuses it.
 
 use std::ops::Range;
 
 use super::DEPTH_LIMIT;
 use crate::scan::tokens::{Token, TokenKind};
 
-/// Keywords that begin a declaration of a module.
+/// Keywords that start a declaration of a module.
 const DECLARING: [&str; 7] = ["fn", "struct", "const", "alias", "override", "var", "const_assert"];
 
 /// A function, constant, type or variable of a module, or a constant inside a function.
 #[derive(Debug)]
 pub(super) struct Declaration<'t> {
-    /// Empty for what has no name.
+    /// Name; empty for a declaration without a name.
     pub(super) name: &'t str,
     pub(super) name_range: Range<usize>,
     pub(super) is_function: bool,
-    /// Deepest place in it.
+    /// Maximum nesting in the declaration.
     pub(super) depth: usize,
-    /// Words and signs in it.
+    /// Number of words and signs in the declaration.
     pub(super) length: u64,
-    /// All words in it.
+    /// All words in the declaration.
     pub(super) named: Vec<Named<'t>>,
-    /// Tokens behind `=`; none for what has no value.
+    /// Tokens after `=`; `None` for a declaration without a value.
     pub(super) value: Option<Range<usize>>,
 }
 
-/// A word in a declaration, which may be the name of another one.
+/// A word in a declaration, which may be the name of another declaration.
 #[derive(Debug)]
 pub(super) struct Named<'t> {
     pub(super) name: &'t str,
-    /// Depth at which it stands.
+    /// Nesting depth of the word.
     pub(super) depth: usize,
 }
 
-/// The number of elements that an array type names.
+/// The expression for the number of elements in an array type.
 #[derive(Debug)]
 pub(super) struct ArraySize {
     pub(super) declaration: usize,
@@ -51,7 +51,7 @@ pub(super) struct Outline<'t> {
 }
 
 impl<'t> Outline<'t> {
-    /// Reads words and signs; the error is the first place that nests deeper than [`DEPTH_LIMIT`].
+    /// Reads words and signs. The error is the first place that is nested more than [`DEPTH_LIMIT`] deep.
     pub(super) fn read(text: &'t str, tokens: &[Token]) -> Result<Outline<'t>, Range<usize>> {
         let mut walker = Walker::new(text, tokens);
         while let Some(token) = walker.tokens.get(walker.at).cloned() {
@@ -72,7 +72,7 @@ enum Bracket {
     Block,
     Round,
     Square,
-    /// `<` that may open a template list.
+    /// A `<` that may start a template list.
     Angle,
 }
 
@@ -80,9 +80,9 @@ enum Bracket {
 #[derive(Debug)]
 struct Open {
     bracket: Bracket,
-    /// Operators of the present expression.
+    /// Operators of the current expression.
     operators: usize,
-    /// Branches of the present statement behind its first one, of which each is inside the one before.
+    /// Branches of the current `if` statement after the first. Each counts as nested in the one before it.
     branches: usize,
     /// True for the template list of `array`.
     is_array: bool,
@@ -98,7 +98,7 @@ struct Walker<'t, 'a> {
     /// Open brackets and operators together.
     depth: usize,
     outline: Outline<'t>,
-    /// Function around the constant that is being read, and the brackets that are open around that constant.
+    /// While a constant inside a function is read: the function, and the number of brackets open around the constant.
     outer: Option<(usize, usize)>,
     expects_name: bool,
 }
@@ -116,12 +116,12 @@ impl<'t, 'a> Walker<'t, 'a> {
             expects_name: false,
         };
         walker.push(Bracket::File);
-        // Text in front of the first declaration.
+        // The text before the first declaration.
         walker.declare(0..0, false);
         walker
     }
 
-    /// Follows the token at the present place, and those that belong to the same operator. `false` where naga refuses it.
+    /// Follows the token at the current place, and the tokens that form one operator with it. Returns false if naga refuses it.
     fn token(&mut self, token: &Token) -> bool {
         let is_read = match token.kind {
             TokenKind::Word => {
@@ -176,7 +176,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         });
     }
 
-    /// Follows a sign; `false` where naga refuses it.
+    /// Follows a sign. Returns false if naga refuses it.
     fn sign(&mut self, sign: char) -> bool {
         match sign {
             '(' => self.push(Bracket::Round),
@@ -214,7 +214,7 @@ impl<'t, 'a> Walker<'t, 'a> {
                 self.at += 1;
                 self.operator();
             }
-            // Assignments such as `+=` end a chain of operators, as `=` does.
+            // Assignments such as `+=` end a chain of operators, like `=`.
             '+' | '-' | '*' | '/' | '%' | '&' | '|' | '^' if self.is_next('=') => {}
             '!' if self.is_next('=') => {
                 self.at += 1;
@@ -231,7 +231,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         if sign == '>' && is_template {
             self.end_template();
         } else if self.is_next(sign) || self.is_next('=') {
-            // Shifts, comparisons, and `<<=`, whose last sign is read as an assignment.
+            // Shifts, comparisons, and `<<=`, whose last sign is then read as an assignment.
             self.at += 1;
             self.operator();
         } else if sign == '<' && self.word_before().is_some() {
@@ -261,7 +261,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         }
     }
 
-    /// Returns true directly inside a declaration of a constant, and in no bracket of it.
+    /// Returns true directly inside the declaration of a constant, outside of any bracket in it.
     fn is_in_value(&self) -> bool {
         self.open.len() == self.outer.map_or(1, |(_, open)| open)
     }
@@ -277,7 +277,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         }
     }
 
-    /// Ends the value of a constant, and gives the function around it its turn again.
+    /// Ends the value of a constant, and continues the enclosing function.
     fn end_value(&mut self) {
         if !self.is_in_value() {
             return;
@@ -295,7 +295,7 @@ impl<'t, 'a> Walker<'t, 'a> {
             let function = &self.outline.declarations[outer];
             let is_function = function.is_function;
             let (name, name_range) = (function.name, function.name_range.clone());
-            // The rest of a function is one more declaration of its name.
+            // The rest of the function is recorded as another declaration with its name.
             self.declare(name_range, is_function);
             if let Some(rest) = self.outline.declarations.last_mut() {
                 rest.name = name;
@@ -327,7 +327,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         }
     }
 
-    /// Closes a bracket; `false` if another one is open.
+    /// Closes a bracket. Returns false if another bracket is open.
     fn close(&mut self, bracket: Bracket) -> bool {
         self.no_templates();
         if self.open.last().is_none_or(|open| open.bracket != bracket) {
@@ -337,7 +337,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         true
     }
 
-    /// Reads every `<` that is still open as the operator that it was.
+    /// Reinterprets every `<` that is still open as a comparison operator.
     fn no_templates(&mut self) {
         while self.open.last().is_some_and(|open| open.bracket == Bracket::Angle) {
             let operators = self.pop().map_or(0, |open| open.operators);
@@ -365,7 +365,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         }
     }
 
-    /// Ends the statement that a block belongs to, unless it goes on with `else`.
+    /// Ends the statement that a block belongs to, unless an `else` follows.
     fn end_block(&mut self) {
         let next = self.tokens.get(self.at + 1);
         let goes_on = next.is_some_and(|next| self.text.get(next.range.clone()) == Some("else"));
@@ -379,7 +379,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         }
     }
 
-    /// Returns true if this sign follows without a blank.
+    /// Returns true if this sign follows without a blank in between.
     fn is_next(&self, sign: char) -> bool {
         let [Some(token), Some(next)] = [self.tokens.get(self.at), self.tokens.get(self.at + 1)] else {
             return false;
@@ -387,7 +387,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         next.kind == TokenKind::Sign(sign) && next.range.start == token.range.end
     }
 
-    /// The name or keyword in front of this place.
+    /// Returns the name or keyword before the current place.
     fn word_before(&self) -> Option<&'t str> {
         let before = self.tokens.get(self.at.checked_sub(1)?)?;
         let word = self.text.get(before.range.clone())?;

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::*;
 
-/// Message and line of the fault of a text, if it has one.
+/// Returns line and message of the fault of a text, if it has one.
 fn fault(text: &str) -> Option<(u32, String)> {
     let mut linked = LinkedModule::default();
     linked.push_node(Path::new("a.wgsl"), text);
@@ -45,7 +45,7 @@ fn what_is_inside_of_each_other_is_counted() {
 }
 
 #[test]
-fn what_follows_each_other_is_no_depth() {
+fn consecutive_statements_do_not_count_as_depth() {
     for text in [
         "fn f(a: f32) -> f32 { return a; }\n".repeat(2_000),
         "fn f() {};\n".repeat(2_000),
@@ -77,7 +77,7 @@ fn a_chain_of_functions_is_as_deep_as_all_of_them_together() {
 }
 
 #[test]
-fn a_chain_of_constants_or_types_is_as_deep_as_all_of_them_together() {
+fn the_depths_of_constants_or_types_in_a_chain_are_added() {
     let chain =
         |first: &str, next: fn(usize) -> String| format!("{first}\n{}", (1..2_000).map(next).collect::<String>());
     for text in [
@@ -91,7 +91,7 @@ fn a_chain_of_constants_or_types_is_as_deep_as_all_of_them_together() {
 }
 
 #[test]
-fn names_that_lead_in_a_circle_are_left_to_the_compiler() {
+fn circular_names_are_left_to_the_compiler() {
     is_taken("fn a() { b(); }\nfn b() { a(); }\nconst c = c;\n");
 }
 
@@ -129,7 +129,7 @@ fn sizes_of_arrays_are_computed() {
 }
 
 #[test]
-fn constants_that_double_each_other_are_counted_as_often_as_they_are_written() {
+fn constants_that_double_each_other_are_counted_at_their_expanded_size() {
     for first in ["", "fn f() {"] {
         let doubled: String = (1..26)
             .map(|i| format!("const a{i} = array(a{0}, a{0});\n", i - 1))

@@ -7,23 +7,23 @@ use crate::kind::{InputDefault, Kind};
 /// Alignment of a struct in the block.
 const STRUCT_ALIGN: u32 = 16;
 
-/// Byte layout of a kernel's parameter block; WGSL's rules for the uniform address space.
+/// Byte layout of a kernel's parameter block, by WGSL's rules for the uniform address space.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockLayout {
     /// Size in bytes, at least 16.
     pub size: u32,
-    /// Offset of the four flag words; they come first, if the kernel has switches.
+    /// Offset of the four flag words, which come first; `None` for a kernel without switches.
     pub flags: Option<u32>,
-    /// One for each block of the calls.
+    /// Layout for each block of the calls.
     pub calls: Vec<CallLayout>,
 }
 
 /// Offsets of one node's values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CallLayout {
-    /// Offset of `struct Params`; none when the kind has no parameters.
+    /// Offset of `struct Params`; `None` if the kind has no parameters.
     pub params: Option<u32>,
-    /// Offset of each knob in the block, by index of the kind's input; none for inputs that are no knobs.
+    /// Offset of each knob in the block, by index of the input; `None` for inputs without a knob.
     pub knobs: Vec<Option<u32>>,
 }
 
@@ -49,7 +49,7 @@ impl BlockLayout {
     }
 }
 
-/// Members of a kind's knob struct: input name, WGSL type.
+/// Lists the members of the knob struct of a kind: input name and WGSL type.
 pub(super) fn knob_members(kind: &Kind) -> Vec<(&str, &'static str)> {
     let knobs = kind
         .inputs

@@ -19,17 +19,17 @@ pub enum LinkError {
     /// A shared file cannot be linked.
     #[error("{0}")]
     Shared(#[from] Fault),
-    /// The planner left out what a call or a store needs.
+    /// The planner left out something that a call or a store needs.
     #[error("the plan lacks {missing} for {reader}; this is a defect of Sabi")]
     Incomplete {
-        /// The function or the result that needs it.
+        /// The function or result that needs the missing part.
         reader: String,
-        /// The part that is not there.
+        /// The missing part.
         missing: Missing,
     },
 }
 
-/// A part of a kernel's plan that is not there.
+/// A missing part of a kernel's plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Missing {
     /// The source of an input.
@@ -42,7 +42,7 @@ pub enum Missing {
     Normals,
     /// A stored result, by its number among the loads.
     Load(usize),
-    /// Any call.
+    /// Calls: there are none.
     Call,
 }
 

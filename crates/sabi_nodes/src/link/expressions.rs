@@ -13,7 +13,7 @@ use super::{
 };
 use crate::kind::{Argument, Channel, InputDefault, Kind, Shape};
 
-/// Name of a plane in generated code.
+/// Returns the name of a plane in generated code.
 pub(super) fn plane_name(plane: Plane) -> &'static str {
     match plane {
         Plane::Mask => "mask",
@@ -31,15 +31,15 @@ pub(super) fn plane_name(plane: Plane) -> &'static str {
     }
 }
 
-/// Name of the variable that holds the mean of a pass over rays.
+/// Returns the name of the variable that holds the mean of a pass over rays.
 pub(super) fn mean_name(pass: usize) -> String {
     format!("mean_{pass}")
 }
 
-/// Names of the local variables that are declared so far in the body of an entry point.
+/// Names of the local variables declared so far in the body of an entry point.
 pub(super) type Locals = BTreeSet<String>;
 
-/// A call whose arguments are written.
+/// The call whose arguments are being written.
 pub(super) struct Caller<'a> {
     /// Number of the call.
     pub(super) index: usize,
@@ -81,7 +81,7 @@ impl Caller<'_> {
         Ok(written.join(", "))
     }
 
-    /// Writes a local variable that holds the result of a shared function, once for all calls of the node, and returns its name.
+    /// Writes a local variable that holds the result of a shared function, once for all calls of the node. Returns its name.
     fn write_shared(&self, out: &mut String, locals: &mut Locals, index: usize) -> Result<String, LinkError> {
         let Some(shared) = self.kind().shared.get(index) else {
             return Err(LinkError::UnknownFunction(self.kind().id.clone(), index.to_string()));
@@ -95,7 +95,7 @@ impl Caller<'_> {
         Ok(name)
     }
 
-    /// Length that limits the rays of a node; endless where no parameter does.
+    /// Returns the length that limits the rays of a node; unlimited if no parameter limits them.
     fn reach_of_rays(&self) -> String {
         let kind = self.kind();
         let reach = kind.rays.as_ref().and_then(|rays| rays.reach);
@@ -105,8 +105,7 @@ impl Caller<'_> {
         )
     }
 
-    /// Writes a local variable that holds the stored mean of a pass over rays, once for all calls of the node, and returns its
-    /// name.
+    /// Writes a local variable that holds the stored mean of a pass over rays, once for all calls of the node. Returns its name.
     fn write_mean(&self, out: &mut String, locals: &mut Locals, pass: usize) -> Result<String, LinkError> {
         let texture = self.pass(pass)?;
         let is_number = self.kind().passes[pass].function.ty == PortType::Mask;
@@ -129,7 +128,7 @@ impl Caller<'_> {
         self.callee.kind
     }
 
-    /// Expressions of the masks that multiply parameters, by the index of the parameter.
+    /// Returns the expressions of the masks that multiply parameters, by index of the parameter.
     pub(super) fn param_masks(&self) -> Result<Vec<(usize, String)>, LinkError> {
         let masks = self.call.param_masks.iter();
         masks.map(|(param, mask)| Ok((*param, self.value(*mask)?))).collect()
@@ -159,7 +158,7 @@ impl Caller<'_> {
         Ok(format!("load_{load}_{}", plane_name(*plane)))
     }
 
-    /// The stored result of a pass: a texture, or for a survey the value that holds for the whole surface or the group.
+    /// Returns the stored result of a pass: a texture, or for a survey the value for the whole surface or for the group.
     fn pass(&self, pass: usize) -> Result<String, LinkError> {
         let Some(load) = self.call.passes.get(pass).copied().flatten() else {
             let name = self.kind().passes.get(pass).map(|pass| pass.function.name.clone());
@@ -174,7 +173,7 @@ impl Caller<'_> {
         })
     }
 
-    /// The texel that holds the values of the survey's group at a place.
+    /// Returns the texel that holds the values of the survey for the group of a place.
     fn group(&self) -> String {
         let Some(param) = self
             .kind()
@@ -206,7 +205,7 @@ impl Caller<'_> {
         }
     }
 
-    /// The value of an input with nothing connected to it.
+    /// Returns the value of an input to which nothing is connected.
     fn default_of(&self, input: usize) -> Result<String, LinkError> {
         let Some(port) = self.kind().inputs.get(input) else {
             return Err(self.lacks_input(input));
@@ -219,10 +218,11 @@ impl Caller<'_> {
         })
     }
 
-    /// Writes a local variable that the block's flags fill at run time, once for all calls of the node, and returns its name.
+    /// Writes a local variable whose value depends on the flags of the block at run time, once for all calls of the node.
+    /// Returns its name.
     ///
-    /// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. The others have a bit for each
-    /// channel of each material input, see [`channel_bits`].
+    /// Flag word 0 has two bits for each input: 0 default, 1 unchanged, 2 gray to color, 3 luminance. The other words have
+    /// a bit for each channel of each material input, see [`channel_bits`].
     fn write_switch(
         &self,
         out: &mut String,
@@ -276,13 +276,13 @@ fn load_expression(load: usize, stored: &Stored) -> String {
     }
 }
 
-/// A stored material; channels that take no storage are those of the plain material.
+/// Returns the expression of a stored material. Channels that are not stored are those of the plain material.
 fn material_expression(load: usize, channels: &[Channel]) -> String {
     let present = channels.iter().fold(0, |bits, channel| bits | 1_u32 << *channel as u32);
     material_of_planes(load, &format!("{present}u"), channels)
 }
 
-/// A material of those of its planes that are bound; `present` tells at run time which of them hold values.
+/// Returns the expression of a material made from the bound planes. `present` tells at run time which planes hold values.
 fn material_of_planes(load: usize, present: &str, bound: &[Channel]) -> String {
     let plane = |channel: &Channel| match bound.contains(channel) {
         true => texel_expression(load, Plane::Material(*channel)),

@@ -11,20 +11,20 @@ use crate::shader_files::{Libraries, shared_path};
 pub struct ModuleSpec {
     /// Name in messages and debuggers.
     pub label: &'static str,
-    /// Files by their names in `@use`; what they use comes with them.
+    /// Files by their names in `@use`. The files that they use are added.
     pub files: Vec<&'static str>,
     /// Declarations that the files expect from the host.
     pub given: Vec<Given>,
 }
 
 impl ModuleSpec {
-    /// Links the files with those libraries that come with the program.
+    /// Links the files with the built-in libraries that they use.
     pub fn link(&self) -> Result<LinkedModule, Fault> {
         link_files(&self.files, &self.given, Libraries::builtin())
     }
 }
 
-/// Links shared files, and what they use, into one module.
+/// Links shared files, and the files that they use, into one module.
 pub(crate) fn link_files(files: &[&str], given: &[Given], libraries: &Libraries) -> Result<LinkedModule, Fault> {
     let mut uses = Uses::new(libraries);
     for name in files {
@@ -46,7 +46,7 @@ mod tests {
     use crate::link::{Access, Format, Given};
     use crate::shader_files::shader_names;
 
-    /// Links files with just what they want.
+    /// Links files with exactly the declarations that they require.
     fn linked(files: &[&str]) -> Result<LinkedModule, Fault> {
         let group = Given::group("SURFACE_GROUP", 3);
         let field = Given::storage("StoredField", Format::R32Float, Access::ReadWrite);
@@ -84,10 +84,10 @@ mod tests {
     }
 
     #[test]
-    fn every_file_says_all_that_it_uses() {
+    fn every_shared_file_names_everything_that_it_uses() {
         let names = Libraries::builtin().names().chain(shader_names());
         for name in names {
-            // Those that compute ghosts leave it open where texels are read and written.
+            // Files that compute ghosts do not fix where texels are read and written, so another file has to define it.
             let files = match name {
                 "surface/fill_plain" | "surface/fill_coupled" => vec![name, "surface/access_in_place"],
                 _ => vec![name],
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_does_not_exist_is_told_where_it_is_used() {
+    fn a_missing_file_is_reported_where_it_is_used() {
         let libraries = with_library("own", "//! Own.\n//! @use hash nosie\n");
         let fault = link_files(&["own"], &[], &libraries).unwrap_err();
         assert_eq!(
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn files_that_use_each_other_are_linked_once_each() {
+    fn files_that_use_each_other_are_each_linked_once() {
         let mut libraries = with_library(
             "one",
             "//! @use two\nconst ONE: u32 = 1u;\nconst THREE: u32 = TWO + ONE;\n",
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_file_wants_has_to_be_given_and_nothing_else() {
+    fn exactly_the_required_declarations_must_be_given() {
         let group = Given::group("SURFACE_GROUP", 2);
         let fault = link_files(&["atlas"], &[], Libraries::builtin()).unwrap_err();
         assert_eq!(fault.message, "Nothing gives `SURFACE_GROUP` to this file.");

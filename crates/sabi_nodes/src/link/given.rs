@@ -1,19 +1,19 @@
-//! Declarations that the host makes when it links a module: bind groups, storage formats, constants.
+//! Declarations that the host provides when it links a module: bind groups, storage formats, constants.
 
 use std::fmt;
 
 use super::Format;
 
-/// Bind group of the surface in every kernel, required by `lib/atlas.wgsl`.
+/// Bind group of the surface in every kernel; required by `lib/atlas.wgsl`.
 pub(crate) const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
 
-/// Flag of kernels that run on points spread over the surface, required by `lib/surface.wgsl`. A constant of the text, since
-/// software adapters run both sides of a branch whose condition is a value.
+/// Flag of kernels that run on points spread over the surface; required by `lib/surface.wgsl`. It is a constant in the
+/// text, since software adapters execute both sides of a branch whose condition is known only at run time.
 pub(crate) const fn on_points(holds: bool) -> Given {
     Given::flag("ON_POINTS", holds)
 }
 
-/// A declaration that a file asks for with `@given`.
+/// A declaration that a file requests with `@given`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Given {
     /// Name that the file uses.
@@ -38,7 +38,7 @@ pub enum Access {
 }
 
 impl Given {
-    /// A condition that is known when the module is compiled.
+    /// Declares a condition that is known when the module is compiled.
     pub const fn flag(name: &'static str, holds: bool) -> Given {
         Given {
             name,
@@ -46,7 +46,7 @@ impl Given {
         }
     }
 
-    /// A number that is known when the module is compiled.
+    /// Declares a number that is known when the module is compiled.
     pub const fn number(name: &'static str, number: u32) -> Given {
         Given {
             name,
@@ -54,12 +54,12 @@ impl Given {
         }
     }
 
-    /// Number of a bind group: `@group(NAME)`.
+    /// Declares the number of a bind group: `@group(NAME)`.
     pub const fn group(name: &'static str, number: u32) -> Given {
         Given::number(name, number)
     }
 
-    /// Type of a storage texture with several pages.
+    /// Declares the type of a storage texture with several pages.
     pub const fn storage(name: &'static str, format: Format, access: Access) -> Given {
         Given {
             name,

@@ -14,13 +14,13 @@ use super::{Binding, Domain, Format, KernelSpec, SURVEY_GROUPS};
 use crate::kind::Kind;
 use crate::shader_files::{CORE, Libraries};
 
-/// File that reconstructs a place on the surface from the atlas.
+/// File that reconstructs a surface point from the atlas.
 const PLACE: &str = "surface/place";
 /// Library that reads stored results on the surface.
 const SURFACE: &str = "surface";
 /// File that computes the starts of rays.
 const SHOOT: &str = "surface/shoot";
-/// File that takes the grain out of means over rays.
+/// File that denoises means over rays.
 const DENOISE: &str = "surface/denoise";
 
 /// Text of a kernel, and the layouts and bindings that the host has to provide.
@@ -28,21 +28,20 @@ const DENOISE: &str = "surface/denoise";
 pub struct Kernel {
     /// WGSL with the entry point `main`, of workgroup size 8 × 8.
     pub module: LinkedModule,
-    /// Places of parameters in the block.
+    /// Offsets of parameters in the block.
     pub layout: BlockLayout,
-    /// Number of texture bindings that are read, after binding 0 of group 1.
+    /// Number of texture bindings that are read. They follow binding 0 of group 1.
     pub reads: usize,
-    /// Storage formats of the bindings that are written, after those.
+    /// Storage formats of the bindings that are written. They follow the bindings that are read.
     pub writes: Vec<Format>,
-    /// True if the kernel shoots rays. The entry point `shoot` then writes the rays of a range of tiles to a buffer:
-    /// tile by tile, within a tile texel by texel, and for each texel ray by ray. `main` reads the rays again, along
-    /// with their hits from a second buffer. Both buffers are bound after the textures. Rows are as `Ray` and `RayHit`
-    /// in `lib/rays.wgsl`.
+    /// True if the kernel shoots rays. The entry point `shoot` then writes the rays of a range of tiles to a buffer, sorted
+    /// by tile, texel and ray. `main` reads the rays again, along with their hits from a second buffer. Both buffers are
+    /// bound after the textures. Rows have the layouts of `Ray` and `RayHit` in `lib/rays.wgsl`.
     pub rays: bool,
 }
 
-/// Turns a spec into WGSL: the nodes' texts, the entry points, and the shared files that they use. `kind_of` finds a kind by
-/// its id.
+/// Converts a spec to WGSL: the texts of the nodes, the entry points, and the shared files that they use. `kind_of` returns
+/// a kind by its id.
 pub fn link<'k>(
     spec: &KernelSpec,
     kind_of: impl Fn(&str) -> Option<&'k Kind>,

@@ -1,5 +1,5 @@
-//! WGSL declarations repeated in Rust: structs that are uploaded, constants and workgroup sizes. A test compares each
-//! with the reflection of all modules that have it.
+//! WGSL declarations that are repeated in Rust: uploaded structs, constants and workgroup sizes. A test compares each with
+//! all shader modules that contain it.
 
 use std::fmt::Debug;
 
@@ -15,7 +15,7 @@ pub struct Mirror {
     pub rust: String,
     /// WGSL file by its name in `@use`.
     pub file: &'static str,
-    /// Name in WGSL: of a struct, a constant or an entry point.
+    /// Name in WGSL of the struct, constant or entry point.
     pub wgsl: String,
     /// Declaration in Rust.
     pub value: MirrorValue,
@@ -26,7 +26,7 @@ pub struct Mirror {
 pub enum MirrorValue {
     /// Struct that is uploaded.
     Struct {
-        /// Bytes.
+        /// Size in bytes.
         size: usize,
         /// Members in order.
         members: Vec<MirrorMember>,
@@ -35,7 +35,7 @@ pub enum MirrorValue {
     Vertex(Vec<MirrorMember>),
     /// Components of a constant.
     Constant(Vec<f64>),
-    /// Override that pipelines set by its name.
+    /// Override that pipelines set by name.
     Override,
     /// Size of a workgroup.
     Workgroup([u32; 3]),
@@ -48,18 +48,18 @@ pub struct MirrorMember {
     pub name: &'static str,
     /// Bytes from the start of the struct.
     pub offset: usize,
-    /// Bytes.
+    /// Size in bytes.
     pub size: usize,
 }
 
-/// A struct that declares which WGSL struct it mirrors; made by [`crate::wgsl_struct`].
+/// A struct that repeats a WGSL struct; implemented by [`crate::wgsl_struct`].
 pub trait MirrorsWgsl {
-    /// Layout of the struct, and the name of the one that it mirrors.
+    /// Returns the layout of the struct, and the name of the WGSL struct.
     fn mirror() -> Mirror;
 }
 
 impl Mirror {
-    /// A constant that is declared in both languages.
+    /// Describes a constant that is declared in both languages.
     pub fn constant(
         rust: &str,
         file: &'static str,
@@ -74,7 +74,7 @@ impl Mirror {
         }
     }
 
-    /// An override that pipelines set.
+    /// Describes an override that pipelines set.
     pub fn switch(rust: &str, file: &'static str, wgsl: &str) -> Mirror {
         Mirror {
             rust: rust.to_owned(),
@@ -84,7 +84,7 @@ impl Mirror {
         }
     }
 
-    /// The workgroup size of an entry point.
+    /// Describes the workgroup size of an entry point.
     pub fn workgroup(rust: &str, file: &'static str, wgsl: &str, size: [u32; 3]) -> Mirror {
         Mirror {
             rust: rust.to_owned(),
@@ -94,7 +94,7 @@ impl Mirror {
         }
     }
 
-    /// Differences from a module that has the file, each as a sentence.
+    /// Lists differences from a module that contains the file, each as a sentence.
     pub fn differences(&self, module: &Reflection) -> Vec<String> {
         let Mirror { rust, file, wgsl, .. } = self;
         let found = match &self.value {
@@ -126,7 +126,8 @@ fn difference<T: Debug + PartialEq>(ours: &T, theirs: &T) -> Vec<String> {
     }
 }
 
-/// Differences in size, names, offsets and sizes of members. Padding is left out: the offsets of the others show it.
+/// Lists differences in size, and in names, offsets and sizes of members. Padding is not compared, since the offsets of the
+/// other members depend on it.
 fn struct_differences(size: usize, members: &[MirrorMember], layout: &StructLayout) -> Vec<String> {
     let ours = members.iter().map(|member| (member.name, member.offset, member.size));
     let theirs = layout
@@ -142,7 +143,7 @@ fn struct_differences(size: usize, members: &[MirrorMember], layout: &StructLayo
     differences
 }
 
-/// Differences in names, locations and sizes of vertex attributes.
+/// Lists differences in names, locations and sizes of vertex attributes.
 fn vertex_differences(members: &[MirrorMember], layout: &StructLayout) -> Vec<String> {
     let ours = (0..).zip(members);
     let ours = ours.map(|(location, member)| (member.name, Some(location), member.size));
@@ -153,15 +154,15 @@ fn vertex_differences(members: &[MirrorMember], layout: &StructLayout) -> Vec<St
     difference(&ours.collect::<Vec<_>>(), &theirs.collect::<Vec<_>>())
 }
 
-/// Declares a struct that is uploaded, and the WGSL struct that it mirrors:
+/// Declares an uploaded struct together with the WGSL struct that it repeats:
 ///
 /// ```ignore
 /// wgsl_struct! {
-///     "surface/share" Share:
-///     /// Constants of one pass.
-///     struct Constants {
-///         group_count: u32,
-///     }
+/// "surface/share" Share:
+/// /// Constants of one pass.
+/// struct Constants {
+/// group_count: u32,
+/// }
 /// }
 /// ```
 ///
@@ -235,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_from_the_shader_is_told_by_name() {
+    fn differences_from_the_shader_are_reported_by_name() {
         let mut module = LinkedModule::default();
         module.push_generated("const STEPS: u32 = 4u + 4u; struct Pair { first: vec3f, second: f32, pad: u32 }\n");
         let reflection = module.reflect().unwrap_or_else(|fault| panic!("{fault}"));

@@ -1,9 +1,8 @@
 //! Linking: several WGSL files become one module.
 //!
-//! Files say in their headers what they use (`uses.rs`); a [`LinkedModule`] maps its text to files and lines. Two kinds
-//! of modules are linked: those of Sabi's own files, by a [`ModuleSpec`], and kernels of nodes, by a [`KernelSpec`] that
-//! says what is called in which order and what is read from and written to storage. Names of different nodes are kept
-//! apart by a prefix.
+//! The header of a file names the files that it uses (`uses.rs`). A [`LinkedModule`] maps its text to files and lines. Two kinds of
+//! modules are linked: modules of Sabi's own files, by a [`ModuleSpec`], and kernels of nodes, by a [`KernelSpec`], which lists the calls
+//! in order and the storage that is read and written. A prefix keeps the names of different nodes apart.
 
 mod block;
 mod error;
@@ -33,16 +32,16 @@ pub use mirror::{Mirror, MirrorMember, MirrorValue, MirrorsWgsl};
 pub use module::LinkedModule;
 pub use reflect::{MemberLayout, Reflection, StructLayout};
 
-/// Names of the three flag words of a switched kernel that describe channels, in order.
+/// Names of the three flag words of a switched kernel that describe material channels, in order.
 const CHANNEL_WORDS: [&str; 3] = ["y", "z", "w"];
-/// Material inputs whose channels one of these words describes.
+/// Number of material inputs whose channels fit into one of these words.
 const MATERIALS_A_WORD: usize = u32::BITS as usize / Channel::ALL.len();
 
-// Every input has two bits in the first word, and a material input one for each channel in one of the others.
+// Each input has two bits in the first word, and each material input has a bit for each channel in one of the other words.
 const _: () = assert!(INPUT_LIMIT <= 16 && MATERIAL_INPUT_LIMIT <= CHANNEL_WORDS.len() * MATERIALS_A_WORD);
 
-/// Place of the channel bits of a material input in the flags of a switched kernel: the word, 1 to 3, and the shift. `before` is
-/// the number of material inputs of the node before this one.
+/// Returns where the flags of a switched kernel hold the channel bits of a material input: the word, 1 to 3, and the shift.
+/// `before` is the number of material inputs of the node before this one.
 pub fn channel_bits(before: usize) -> (usize, usize) {
     (
         1 + before / MATERIALS_A_WORD,
@@ -50,39 +49,39 @@ pub fn channel_bits(before: usize) -> (usize, usize) {
     )
 }
 
-/// Work of one kernel, as plain data. Two equal specs give the same text.
+/// Work of one kernel, as plain data. Equal specs give equal texts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KernelSpec {
-    /// Calls in order; a call may read results of earlier ones.
+    /// Calls in order. A call may read results of earlier calls.
     pub calls: Vec<Call>,
     /// Stored results that are read.
     pub loads: Vec<Stored>,
     /// Results that are stored, with their formats.
     pub stores: Vec<Store>,
-    /// Texels that the calls are evaluated at.
+    /// Texels for which the calls are evaluated.
     pub domain: Domain,
     /// True if these texels are points spread over the surface.
     pub on_points: bool,
 }
 
-/// Texels that a kernel is evaluated at.
+/// Texels for which a kernel is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Domain {
-    /// All texels, ghosts included: point nodes.
+    /// All texels including ghosts: for point nodes.
     AllTexels,
-    /// Owned texels; ghosts are filled from them afterwards: fields.
+    /// Owned texels. Ghosts are filled from them afterwards: for fields.
     OwnedTexels,
-    /// Owned texels, where the calls are means over rays. All calls are of one node that shoots rays. The text then has
-    /// two entry points, see [`Kernel::rays`].
+    /// Owned texels; the calls are means over rays. All calls belong to one node that shoots rays. The text then has two
+    /// entry points, see [`Kernel::rays`].
     OwnedTexelsByRays,
-    /// The texel at the origin, by one invocation: what holds for the whole surface.
+    /// The texel at the origin, by one invocation: for values of the whole surface.
     Once,
-    /// A texel for each of [`SURVEY_GROUPS`]: what holds for a part, a piece or a chart.
+    /// A texel for each of [`SURVEY_GROUPS`]: for values of a part, a piece or a chart.
     Groups,
 }
 
-/// Most groups of a survey. Where a model has more parts, pieces or charts, those whose numbers differ by a multiple of it
-/// are measured together.
+/// Maximum number of groups of a survey. If a model has more parts, pieces or charts, those whose numbers differ by a
+/// multiple of this are measured together.
 pub const SURVEY_GROUPS: u32 = 1024;
 
 /// Evaluation of one function of a node.
@@ -92,43 +91,43 @@ pub struct Call {
     pub kind: String,
     /// Name of the function: an output or a pass.
     pub function: String,
-    /// One for each input of the kind, in its order.
+    /// Source of each input of the kind, in the order of its inputs.
     pub inputs: Vec<Binding>,
-    /// One for each pass of the kind: the load that holds its result, where the function reads it.
+    /// For each pass of the kind, the load that holds its result, if the function reads it.
     pub passes: Vec<Option<usize>>,
-    /// Load that holds the table of a survey, where the function reads one.
+    /// Load that holds the table of a survey, if the function reads one.
     pub survey: Option<usize>,
-    /// Load that holds the [`Operand::Normal`] of its kind, where the function reads means over rays that are denoised.
+    /// Load that holds the [`Operand::Normal`] of the kind, if the function reads denoised means over rays.
     pub normals: Option<usize>,
-    /// Masks that multiply parameters at each place, by index in the parameters of the kind.
+    /// Masks that multiply parameters at each place, by index of the parameter.
     pub param_masks: Vec<(usize, Operand)>,
-    /// Parameter block of this call: calls of the same node share one.
+    /// Number of the parameter block. Calls of the same node share a block.
     pub block: usize,
-    /// True if lengths among its parameters are shares of the piece that a place belongs to.
+    /// True if lengths among the parameters are shares of the piece that contains the place.
     pub by_piece: bool,
 }
 
 /// Source of an input's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Binding {
-    /// Nothing is connected: the knob, the default expression or the plain material.
+    /// Nothing is connected: the knob, the default expression or the plain material is used.
     Default,
     /// A value at this texel.
     Value(Operand),
     /// A stored result, passed on as a texture.
     Field(usize),
-    /// Decided when the kernel runs, by the flags of the block: default, load, or load with conversion.
+    /// Decided by the flags of the block when the kernel runs: default, load, or converted load.
     Switch(usize),
 }
 
-/// A value at a texel, converted on its way.
+/// A value at a texel, with a conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operand {
     /// Result of an earlier call.
     Call(usize, Convert),
     /// A stored result.
     Load(usize, Convert),
-    /// Normal at the texel by which neighbors are told alike.
+    /// Normal at the texel, with which similar neighbors are found.
     Normal(Denoise),
 }
 
@@ -159,12 +158,12 @@ impl Convert {
 pub struct Stored {
     /// Type of the value.
     pub ty: PortType,
-    /// Channels of a material that take storage, in storage order; empty for other types.
+    /// Channels of a material that are stored, in storage order; empty for other types.
     pub channels: Vec<Channel>,
 }
 
 impl Stored {
-    /// Textures that hold it, in binding order.
+    /// Returns the textures that hold the value, in binding order.
     pub fn planes(&self) -> Vec<Plane> {
         match self.ty {
             PortType::Mask => vec![Plane::Mask],
@@ -178,7 +177,7 @@ impl Stored {
 /// One stored result of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Store {
-    /// Result of a call, or a load that is converted.
+    /// Result of a call, or a converted load.
     pub value: Operand,
     /// Layout of the value in storage.
     pub stored: Stored,
@@ -186,7 +185,7 @@ pub struct Store {
     pub formats: Vec<Format>,
 }
 
-/// Part of a value that one texture holds.
+/// Part of a value that is stored in one texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Plane {
     /// One number.
@@ -231,8 +230,8 @@ impl Format {
 }
 
 impl Plane {
-    /// Storage format. Masks take 32 bits: a threshold would show the steps of a half float, and fused and single passes
-    /// would no longer agree.
+    /// Returns the storage format. Masks take 32 bits: with half floats, thresholds would show steps, and fused and
+    /// separate passes would give different results.
     pub fn format(self) -> Format {
         match self {
             Plane::Mask | Plane::Material(Channel::Height) => Format::R32Float,

@@ -8,25 +8,25 @@ use naga::Span;
 use crate::fault::Fault;
 use crate::shader_files::shared_path;
 
-/// Path under which messages name text that the linker wrote itself.
+/// Path under which messages refer to text that the linker wrote.
 const GENERATED: &str = "generated.wgsl";
 
-/// Libraries that may read textures and declare what a kernel binds.
+/// Libraries that may read textures and declare the bindings of a kernel.
 const PRIVILEGED: [&str; 3] = ["core", "atlas", "surface"];
 
 /// WGSL text linked from several files, with its source map.
 ///
-/// A file's lines keep their order and number, so a place in the text is a line of one file.
+/// The lines of a file stay whole and in order, so each line of the text comes from one line of one file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LinkedModule {
     wgsl: String,
     parts: Vec<Part>,
 }
 
-/// Stretch of the text that comes from one file.
+/// Part of the text that comes from one file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Part {
-    /// Bytes of the whole text.
+    /// Byte range in the whole text.
     range: Range<usize>,
     path: PathBuf,
     origin: Origin,
@@ -35,11 +35,11 @@ struct Part {
 /// Kind of file that a part comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Origin {
-    /// A node's own file.
+    /// The file of a node.
     Node,
     /// A shared file, by its name in `@use`.
     Shared(String),
-    /// No file: the linker wrote it.
+    /// Text that the linker wrote.
     Generated,
 }
 
@@ -57,7 +57,7 @@ impl LinkedModule {
         })
     }
 
-    /// File and line (counted from 1) that a line of the text comes from; `None` behind its end.
+    /// Returns the file and line (counted from 1) that a line of the text comes from; `None` after the end.
     pub fn source_of_line(&self, line: usize) -> Option<(&Path, usize)> {
         let start = match line.checked_sub(2) {
             None => 0,
@@ -106,7 +106,7 @@ impl LinkedModule {
         Some((part, range.start - part.range.start..range.end - part.range.start))
     }
 
-    /// A fault at a place of the text; one of the whole first file when the place is not known.
+    /// Creates a fault at a place in the text. If the place is unknown, the fault concerns the first file as a whole.
     pub(crate) fn fault(&self, span: Span, message: impl Into<String>, advice: impl Into<String>) -> Fault {
         match self.part(span) {
             Some((part, range)) => Fault::at(&part.path, &self.wgsl[part.range.clone()], range, message, advice),
@@ -124,7 +124,7 @@ impl LinkedModule {
         self.part(span).is_some_and(|(part, _)| part.origin == Origin::Node)
     }
 
-    /// The shared file that the place is in.
+    /// Returns the shared file that contains the place.
     pub(crate) fn library_at(&self, span: Span) -> Option<&str> {
         match &self.part(span)?.0.origin {
             Origin::Shared(name) => Some(name),
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_of_the_text_is_a_line_of_one_file() {
+    fn each_line_of_the_text_comes_from_a_line_of_one_file() {
         let module = two_files();
         let sources: Vec<_> = (1..=4).map(|line| module.source_of_line(line)).collect();
         let expected = [

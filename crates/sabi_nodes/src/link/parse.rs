@@ -1,4 +1,4 @@
-//! Parsing and validation of linked modules; an error of naga becomes a fault at a place in a file.
+//! Parsing and validation of linked modules. An error of naga becomes a fault at a place in a file.
 
 use std::error::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,15 +11,16 @@ use super::module::LinkedModule;
 use crate::fault::{Fault, INVALID};
 
 impl LinkedModule {
-    /// Parses and validates the text, with all capabilities a device may have. The error names file and line.
+    /// Parses and validates the text, with all capabilities that a device can have. The error names file and line.
     pub fn check(&self) -> Result<(), Fault> {
         compile(self, Capabilities::all()).map(|_| ())
     }
 }
 
-/// Parses and validates; gives the types of all expressions, too. The fault has naga's own message, which `explain.rs` replaces where it knows a clearer one.
+/// Parses and validates, and also returns the types of all expressions. The fault has naga's message, which `explain.rs`
+/// replaces if it has a clearer one.
 pub(crate) fn compile(linked: &LinkedModule, capabilities: Capabilities) -> Result<(Module, ModuleInfo), Fault> {
-    // naga may panic on malformed text, which must not end the program.
+    // naga may panic on malformed text. That must not end the program.
     let compiled = catch_unwind(AssertUnwindSafe(|| parse_and_validate(linked, capabilities)));
     compiled.unwrap_or_else(|_| {
         Err(Fault::of_file(
@@ -36,7 +37,7 @@ fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Resu
         capabilities,
     });
     let module = frontend.parse(linked.wgsl()).map_err(|error| {
-        // Of several labels, the one in the node's text is at the place that its author can change.
+        // Of several labels, take the one in the node's text: its author can change that place.
         let mine = error.labels().find(|(span, _)| linked.is_in_node(*span));
         let (span, label) = mine.or_else(|| error.labels().next()).unwrap_or((Span::UNDEFINED, ""));
         let label = if error.message().contains(label) { "" } else { label };
@@ -79,7 +80,7 @@ mod tests {
     use super::LinkedModule;
 
     #[test]
-    fn what_the_compiler_refuses_is_told_by_file_and_line() {
+    fn compiler_errors_are_reported_with_file_and_line() {
         let mut module = LinkedModule::default();
         module.push_node(Path::new("nodes/a.wgsl"), "// a\nconst A = B;");
         module.push_shared("noise", "const B = C;\n");

@@ -10,7 +10,7 @@ use super::expressions::{Caller, Locals, mean_name, write_store};
 use super::sources::Callee;
 use crate::kind::{Argument, Output, Rays};
 
-/// Writes the bindings of rays and hits, from `binding` on, and both entry points.
+/// Writes the bindings of rays and hits, starting at `binding`, and both entry points.
 pub(super) fn write(
     out: &mut String,
     spec: &KernelSpec,
@@ -92,11 +92,11 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
     Ok(())
 }
 
-/// Functions of a kernel that are averaged over rays, and functions of these means.
+/// Functions of a kernel that are averaged over rays, and functions that read these averages.
 struct Averaged<'k> {
-    /// Name of the variable, function, and the call whose inputs it takes.
+    /// Name of the variable, the function, and the call whose inputs the function takes.
     functions: Vec<(String, &'k Output, usize)>,
-    /// Calls that take means of passes.
+    /// Calls that read averages of passes.
     of_means: Vec<(usize, &'k Output)>,
 }
 
@@ -135,7 +135,7 @@ fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: 
         "    let count = {};",
         callee.bounded_param(caller.call.block, rays.count)
     );
-    // Texels without a place on the surface still have rows: they get rays of no length.
+    // Texels without a surface point have rows too: their rays have length 0.
     out.push_str(
         "    if owner == EMPTY || (owner & GHOST_BIT) != 0u {\n        \
          for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = stored_ray(no_ray(), 0u); }\n        \

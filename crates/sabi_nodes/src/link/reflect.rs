@@ -1,4 +1,4 @@
-//! Structs, constants and workgroup sizes of a linked module, as the shader compiler sees them.
+//! Structs, constants and workgroup sizes of a linked module, as read by the shader compiler.
 
 use std::collections::BTreeMap;
 
@@ -9,23 +9,23 @@ use super::LinkedModule;
 use super::parse::compile;
 use crate::fault::Fault;
 
-/// Layouts and values that the host has to agree with.
+/// Layouts and values that the Rust code must match.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reflection {
     /// Structs by name.
     pub structs: BTreeMap<String, StructLayout>,
-    /// Components of constants by name; those that are no numbers are left out.
+    /// Components of constants by name. Constants that are not numbers are left out.
     pub constants: BTreeMap<String, Vec<f64>>,
     /// Workgroup sizes of compute entry points by name.
     pub workgroups: BTreeMap<String, [u32; 3]>,
-    /// Names of overrides with their default values, where those are numbers.
+    /// Names of overrides with their default values, if those are numbers.
     pub overrides: BTreeMap<String, Option<f64>>,
 }
 
 /// Memory layout of a struct.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StructLayout {
-    /// Bytes, padding at the end included.
+    /// Size in bytes, including padding at the end.
     pub size: u32,
     /// Members in order.
     pub members: Vec<MemberLayout>,
@@ -38,14 +38,14 @@ pub struct MemberLayout {
     pub name: String,
     /// Bytes from the start of the struct.
     pub offset: u32,
-    /// Bytes, without padding behind it.
+    /// Size in bytes, without padding after it.
     pub size: u32,
-    /// Number of the vertex attribute or of the interpolated value, where it is one.
+    /// Location of the vertex attribute or interpolated value, if the member is one.
     pub location: Option<u32>,
 }
 
 impl LinkedModule {
-    /// Compiles the module and reads its layouts and constants.
+    /// Compiles the module and returns its layouts and constants.
     pub fn reflect(&self) -> Result<Reflection, Fault> {
         let (module, _) = compile(self, Capabilities::all())?;
         let mut reflection = Reflection::default();
@@ -102,7 +102,7 @@ fn layout_of(module: &Module, ty: &Type) -> Option<StructLayout> {
     })
 }
 
-/// Appends the components of a constant expression; `None` where one is no number.
+/// Appends the components of a constant expression; `None` if a component is not a number.
 fn read_numbers(module: &Module, expression: Handle<Expression>, numbers: &mut Vec<f64>) -> Option<()> {
     match &module.global_expressions[expression] {
         Expression::Literal(literal) => numbers.push(match *literal {

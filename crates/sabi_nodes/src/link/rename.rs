@@ -1,8 +1,8 @@
-//! Prefixes names, so that those of several node files differ in one module.
+//! Prefixes names, so that the names of several node files differ in one module.
 
 use std::collections::BTreeSet;
 
-/// A token of WGSL, as far as renaming needs it.
+/// A token of WGSL, in the detail needed for renaming.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Token<'a> {
     Word(&'a str),
@@ -11,10 +11,10 @@ enum Token<'a> {
     Space(&'a str),
 }
 
-/// Prefixes every name that the text declares at module scope. Line numbers stay; comments are removed.
+/// Prefixes every name that the text declares at module scope. Line numbers stay the same; comments are removed.
 ///
-/// Members of structs (declared or reached by `.`) and attributes keep their names. A local variable that has the
-/// name of a declared item is renamed along with it, which changes nothing.
+/// Members of structs (declared or accessed by `.`) and attributes keep their names. A local variable with the name of a
+/// declared item is renamed along with it, which has no effect on the program.
 pub(super) fn with_prefix(text: &str, prefix: &str) -> String {
     let tokens = tokens(text);
     let declared = declared(&tokens);
@@ -72,7 +72,7 @@ impl MemberScan {
     }
 }
 
-/// Names that the text declares at module scope.
+/// Returns the names that the text declares at module scope.
 fn declared<'a>(tokens: &[Token<'a>]) -> BTreeSet<&'a str> {
     let mut names = BTreeSet::new();
     let mut depth = 0_i32;
@@ -103,7 +103,7 @@ fn tokens(text: &str) -> Vec<Token<'_>> {
         if rest.starts_with("/*") {
             let (comment, after) = rest.split_at(block_comment_length(rest));
             tokens.push(Token::Space(" "));
-            // Line numbers stay those of the file.
+            // Keep line breaks, so that line numbers stay the same as in the file.
             tokens.extend(comment.matches('\n').map(Token::Space));
             rest = after;
             continue;
@@ -134,7 +134,7 @@ fn run_length(text: &str, belongs: impl Fn(char) -> bool) -> usize {
     text.find(|c| !belongs(c)).unwrap_or(text.len())
 }
 
-/// Length in bytes of the block comment at the start; block comments nest.
+/// Returns the length in bytes of the block comment at the start of the text. Block comments nest.
 fn block_comment_length(text: &str) -> usize {
     let mut depth = 0;
     let mut at = 0;
@@ -160,7 +160,7 @@ mod tests {
     use super::with_prefix;
 
     #[test]
-    fn only_names_of_module_scope_are_prefixed() {
+    fn only_names_declared_at_module_scope_are_prefixed() {
         let cases = [
             (
                 "fn mask() -> f32 { return helper(1.0); } fn helper(x: f32) -> f32 { return x; }",

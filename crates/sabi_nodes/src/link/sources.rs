@@ -10,23 +10,23 @@ use super::module::LinkedModule;
 use super::rename::with_prefix;
 use crate::kind::{Kind, Memory, Output, Param, Role};
 
-/// A kind that a kernel calls, with its number among all of them.
+/// A kind that a kernel calls, with its number among all kinds of the kernel.
 ///
-/// A kind's own names get a prefix that begins with its number, and generated ones begin with `gen_`, so that no two
-/// kinds, nor a kind and the generated code, share a name.
+/// Names of a kind get a prefix that starts with this number, and generated names start with `gen_`. So two kinds, or a
+/// kind and generated code, never have the same name.
 #[derive(Clone, Copy)]
 pub(super) struct Callee<'a> {
     pub(super) kind: &'a Kind,
     number: usize,
 }
 
-/// A parameter times a mask between 0 and 1, within the range of the parameter.
+/// Returns the expression of a parameter multiplied by a mask between 0 and 1, clamped to the range of the parameter.
 fn masked(param: &Param, value: &str, mask: &str) -> String {
     let Some(range) = param.ty.range else {
         return format!("{value} * clamp({mask}, 0.0, 1.0)");
     };
     match param.ty.role {
-        // The shader has no range in working units; a length that may not be 0 keeps a thousandth.
+        // The range is not known in working units here. A length whose minimum is above 0 keeps at least a thousandth of its value.
         Role::Length => {
             let least = if range[0] > 0.0 { 1e-3 } else { 0.0 };
             format!("{value} * clamp({mask}, {least:?}, 1.0)")
@@ -50,7 +50,7 @@ pub(super) fn callees<'a>(kinds: &[&'a Kind]) -> Vec<Callee<'a>> {
 }
 
 impl<'a> Callee<'a> {
-    /// The output or pass of that name.
+    /// Returns the output or pass with this name.
     pub(super) fn function(&self, name: &str) -> Result<&'a Output, LinkError> {
         let passes = self.kind.passes.iter().map(|pass| &pass.function);
         let found = self
@@ -73,14 +73,14 @@ impl<'a> Callee<'a> {
         format!("n{}_{readable}__", self.number)
     }
 
-    /// Name of the generated function that keeps parameters inside their loops' ranges.
+    /// Returns the name of the generated function that clamps parameters that bound loops to their ranges.
     fn bounded(&self) -> String {
         format!("gen_bounded_{}", self.number)
     }
 
-    /// Writes the parameters of a call's block to a variable: those that bound loops clamped to their ranges, lengths in
-    /// working units, and those with a mask multiplied by it. `at` names the place; `masks` are expressions by the index of
-    /// their parameters.
+    /// Writes the parameters of a call's block to a variable. Parameters that bound loops are clamped to their ranges,
+    /// lengths are converted to working units, and parameters with a mask are multiplied by it. `at` is the name of the
+    /// surface point; `masks` are expressions by index of the parameter.
     pub(super) fn write_bounded_params(&self, out: &mut String, call: &Call, at: &str, masks: &[(usize, String)]) {
         if self.kind.params_size == 0 {
             return;
@@ -103,7 +103,7 @@ impl<'a> Callee<'a> {
         }
     }
 
-    /// Parameter of a block, clamped to its range, as an expression that needs no place.
+    /// Returns the expression of a parameter of a block, clamped to its range. It does not depend on a surface point.
     pub(super) fn bounded_param(&self, block: usize, param: usize) -> String {
         format!(
             "{}(block.params_{block}, 1.0).{}",
@@ -118,7 +118,7 @@ impl<'a> Callee<'a> {
     }
 }
 
-/// Appends the nodes' texts to the module, and writes to `out` what is generated for each.
+/// Appends the texts of the nodes to the module, and writes generated code for each to `out`.
 pub(super) fn write_sources(module: &mut LinkedModule, out: &mut String, blocks: &BTreeMap<usize, Callee<'_>>) {
     let mut written = BTreeSet::new();
     for callee in blocks.values() {
@@ -138,8 +138,8 @@ pub(super) fn write_sources(module: &mut LinkedModule, out: &mut String, blocks:
     }
 }
 
-/// Writes a function that keeps loop-bounding parameters inside their range, whatever the buffer holds, and multiplies
-/// lengths by their unit.
+/// Writes a function that clamps parameters that bound loops to their ranges, whatever values the buffer holds, and
+/// multiplies lengths by their unit.
 fn write_bounding_function(out: &mut String, callee: Callee<'_>) {
     if callee.kind.params_size == 0 {
         return;
@@ -166,7 +166,7 @@ fn write_bounding_function(out: &mut String, callee: Callee<'_>) {
     out.push_str("    return bounded;\n}\n");
 }
 
-/// Writes the struct of all blocks' values and its binding.
+/// Writes the struct with the values of all blocks, and its binding.
 pub(super) fn write_block(out: &mut String, blocks: &BTreeMap<usize, Callee<'_>>, switches: bool) {
     out.push_str("struct Block {\n");
     let empty = out.len();

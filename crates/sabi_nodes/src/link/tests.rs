@@ -1,4 +1,4 @@
-//! Kernels as text that naga takes.
+//! Tests that linked kernels are text that naga accepts.
 
 use sabi_graph::PortType;
 
@@ -88,7 +88,7 @@ fn a_parameter_that_bounds_a_loop_is_clamped_on_the_device() {
 }
 
 #[test]
-fn a_field_takes_a_texture_and_leaves_ghosts_alone() {
+fn a_field_reads_a_texture_and_does_not_write_ghosts() {
     let spec = KernelSpec {
         calls: vec![call("filter/smooth", "mask", vec![Binding::Field(0)], 0)],
         loads: vec![mask()],
@@ -107,7 +107,7 @@ fn a_field_takes_a_texture_and_leaves_ghosts_alone() {
 }
 
 #[test]
-fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
+fn every_result_of_every_kind_links_alone_with_all_inputs_switched() {
     let library = Library::builtin();
     let points = || library.kinds().filter(|kind| kind.shape == crate::kind::Shape::Point);
     let mut seen = 0;
@@ -148,7 +148,7 @@ fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
 }
 
 #[test]
-fn a_kind_that_shoots_rays_links_with_all_its_results_and_a_kernel_that_shoots() {
+fn a_kind_that_shoots_rays_links_with_all_results_and_an_entry_point_for_rays() {
     let library = Library::builtin();
     let kinds: Vec<_> = library.kinds().filter(|kind| kind.rays.is_some()).collect();
     assert!(kinds.len() >= 6);
@@ -186,7 +186,7 @@ fn a_kind_that_shoots_rays_links_with_all_its_results_and_a_kernel_that_shoots()
 }
 
 #[test]
-fn the_block_lies_where_naga_puts_it() {
+fn the_parameter_block_has_the_layout_that_naga_computes() {
     let library = Library::builtin();
     for kind in library.kinds().filter(|kind| kind.rays.is_none()) {
         let Some(output) = kind.outputs.first() else { continue };
@@ -245,7 +245,7 @@ fn the_block_lies_where_naga_puts_it() {
 }
 
 #[test]
-fn names_of_an_artist_never_meet_those_of_another_file_or_generated_ones() {
+fn names_in_node_files_never_clash_with_other_files_or_generated_code() {
     let text = |label: &str| {
         format!(
             "//! {label}\n//! Returns its size.\n\nstruct Knobs {{ x: f32 }}\nstruct Params {{\n    /// How much.\n    /// \
@@ -277,7 +277,7 @@ fn names_of_an_artist_never_meet_those_of_another_file_or_generated_ones() {
 }
 
 #[test]
-fn a_load_can_be_stored_as_another_type() {
+fn a_loaded_result_can_be_stored_as_another_type() {
     let color = Stored {
         ty: PortType::Color,
         channels: Vec::new(),
@@ -296,7 +296,7 @@ fn a_load_can_be_stored_as_another_type() {
     assert!(linked(&spec).module.wgsl().contains("let s0 = luminance("));
 }
 
-/// Message of the error that a kernel with one call gives.
+/// Returns the message of the error for a kernel with one call.
 fn refused(call: Call, loads: Vec<Stored>) -> String {
     let spec = KernelSpec {
         calls: vec![call],
@@ -309,7 +309,7 @@ fn refused(call: Call, loads: Vec<Stored>) -> String {
 }
 
 #[test]
-fn what_the_plan_left_out_is_an_error_that_names_the_node_and_no_zero() {
+fn a_missing_part_of_a_plan_is_an_error_that_names_the_node() {
     let cases = [
         (
             call("adjust/coverage", "threshold", Vec::new(), 0),
@@ -359,7 +359,7 @@ fn a_kernel_of_rays_without_a_call_is_an_error() {
 }
 
 #[test]
-fn a_shared_function_is_called_once_for_each_node_whatever_the_number_of_its_outputs() {
+fn a_shared_function_is_called_once_per_node_for_all_outputs() {
     let stamp = |function, block| call("scatter/stamp", function, vec![Binding::Default; 3], block);
     let spec = KernelSpec {
         calls: vec![stamp("mask", 0), stamp("height", 0), stamp("id", 0), stamp("mask", 1)],
@@ -376,7 +376,7 @@ fn a_shared_function_is_called_once_for_each_node_whatever_the_number_of_its_out
 }
 
 #[test]
-fn switched_inputs_of_a_shared_function_are_declared_once_for_all_outputs_of_a_node() {
+fn switched_inputs_of_a_shared_function_are_declared_once_per_node() {
     let vector = || Stored {
         ty: PortType::Vector,
         channels: Vec::new(),

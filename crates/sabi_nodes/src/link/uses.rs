@@ -1,8 +1,8 @@
-//! Resolves the `@use` annotations of files to all files that a module needs.
+//! Finds all files that a module needs, by the `@use` annotations of its files.
 //!
-//! A header names other files with `//! @use noise surface/place` and declarations of the host with
-//! `//! @given SURFACE_GROUP`. A name without a folder is a file of `lib/`; nodes and libraries may use no others.
-//! Files that use each other are linked once each: the order of declarations does not matter to WGSL.
+//! A header names other files with `//! @use noise surface/place`, and declarations of the host with `//! @given
+//! SURFACE_GROUP`. A name without a folder is a file of `lib/`; nodes and libraries may use only those. Files that use each
+//! other are each linked once: the order of declarations does not matter in WGSL.
 
 use std::collections::BTreeSet;
 
@@ -21,11 +21,11 @@ pub(crate) const ATLAS: &str = "atlas";
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Required {
     name: String,
-    /// Error of a host that does not give it.
+    /// Fault that is reported if the host does not provide it.
     missing: Fault,
 }
 
-/// Closure of the files that a module needs.
+/// The files that a module needs, directly or indirectly.
 pub(crate) struct Uses<'a> {
     libraries: &'a Libraries,
     seen: BTreeSet<String>,
@@ -46,7 +46,7 @@ impl<'a> Uses<'a> {
         }
     }
 
-    /// Adds a shared file with all it uses; `false` when there is none of that name.
+    /// Adds a shared file with all files that it uses. Returns false if there is no file with this name.
     pub(crate) fn add(&mut self, name: &str) -> bool {
         let Some(file) = shared_text(name, self.libraries) else {
             return false;
@@ -69,12 +69,12 @@ impl<'a> Uses<'a> {
                 "The program that links the file has to give it.",
             ),
         }));
-        // Each level of this recursion is one more file in `seen`.
+        // Each level of this recursion adds a file to `seen`, so it ends.
         self.follow(text, &header.uses, name.contains('/'));
         true
     }
 
-    /// Adds what a file names with `@use`; `may_use_all` is false for nodes and libraries, which use libraries alone.
+    /// Adds the files that a file names with `@use`. `may_use_all` is false for nodes and libraries, which may use only libraries.
     pub(crate) fn follow(&mut self, text: Text<'_>, uses: &[Word], may_use_all: bool) {
         for word in uses {
             if self.faults.len() >= FAULTS_SHOWN {
@@ -103,8 +103,8 @@ impl<'a> Uses<'a> {
         text.fault(word.range.clone(), message, advice)
     }
 
-    /// Appends all files, then what they are given. A declaration that is required and not given is a fault,
-    /// as is one that is given and not required.
+    /// Appends all files, and then the given declarations. A declaration that is required but not given is a fault, and so
+    /// is one that is given but not required.
     pub(crate) fn append(self, module: &mut LinkedModule, given: &[Given]) -> Result<(), Fault> {
         if let Some(fault) = self.faults.into_iter().next() {
             return Err(fault);
@@ -142,7 +142,7 @@ pub(crate) struct SharedHeader {
 }
 
 impl SharedHeader {
-    /// Reads `@use` and `@given`, the only annotations that a shared file may have.
+    /// Reads `@use` and `@given`, the only annotations that are allowed in a shared file.
     pub(crate) fn read(text: Text<'_>, faults: &mut Vec<Fault>) -> SharedHeader {
         let mut header = SharedHeader {
             uses: Vec::new(),

@@ -23,7 +23,7 @@ impl ParamReader<'_> {
         Some(true)
     }
 
-    /// Reads the default. Seeds and extents of the model need none.
+    /// Reads the default. Seeds and extents of the model need no default.
     pub(super) fn default(&mut self, memory: Memory, role: &Role) -> Option<ParamValue> {
         let Some(annotation) = self.comment.get("default").cloned() else {
             match role {
@@ -92,7 +92,7 @@ impl ParamReader<'_> {
         color.map(|color| ParamValue::Floats(color.to_vec()))
     }
 
-    /// Reads pairs of `position #rrggbb`, positions ascending in 0..1.
+    /// Reads pairs of `position #rrggbb`, with ascending positions in 0..1.
     fn stops(&mut self, annotation: &Annotation, count: usize) -> Option<ParamValue> {
         let mut values = Vec::with_capacity(4 * count);
         let mut last = 0.0;
@@ -126,7 +126,7 @@ impl ParamReader<'_> {
         Some(ParamValue::Floats(values))
     }
 
-    /// Reads pairs of `x y`, x ascending.
+    /// Reads pairs of `x y`, with ascending x.
     fn curve(&mut self, annotation: &Annotation, count: usize) -> Option<ParamValue> {
         let numbers: Option<Vec<f32>> = annotation.words.iter().map(number).collect();
         let Some(points) = numbers.as_deref().and_then(|numbers| ascending_points(numbers, count)) else {
@@ -170,7 +170,7 @@ impl ParamReader<'_> {
     }
 }
 
-/// The numbers as 1 to `most` points by ascending x; `None` where they are none.
+/// Returns the numbers as 1 to `most` points with ascending x; `None` if they are not such points.
 fn ascending_points(numbers: &[f32], most: usize) -> Option<&[[f32; 2]]> {
     let (points, rest) = numbers.as_chunks::<2>();
     let is_sorted = points.is_sorted_by(|left, right| left[0] <= right[0]);

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use crate::kind::{Memory, Param, ParamValue, Role};
 use crate::{Libraries, Library, SourceFile, read_kind};
 
-/// Reads a node with this `struct Params`, all of whose members it uses; params or the first message.
+/// Reads a node with these members of `struct Params`; `uses` uses them all. Returns the parameters or the first message.
 fn read(members: &str, uses: &str) -> Result<Vec<Param>, String> {
     let text = format!(
         "//! Test\n//! A test.\n\nstruct Params {{\n{members}\n}}\n\n/// The mask.\nfn mask(params: Params) -> f32 {{\n    return f32({uses});\n}}\n"
@@ -25,7 +25,7 @@ fn one(member: &str, uses: &str) -> Result<Param, String> {
 }
 
 #[test]
-fn types_and_offsets_come_from_the_code() {
+fn types_and_offsets_are_read_from_the_code() {
     let params = read(
         "/// A.\n/// @default 1\na: f32,\n/// B.\n/// @default 1 2 3\nb: vec3f,\n/// C.\n/// @default -3\nc: i32,\n/// D.\n/// @default 7\nd: u32,\n/// E.\n/// @default 1 2\ne: vec2f,\n/// F.\n/// @default 1 2 3 4\nf: vec4f,",
         "params.a + params.b.x + f32(params.c) + f32(params.d) + params.e.x + params.f.w",
@@ -116,7 +116,7 @@ fn colors_are_stored_linear() {
 }
 
 #[test]
-fn unused_stops_lie_behind_the_end() {
+fn unused_stops_have_a_position_behind_the_end() {
     let param = one(
         "/// @default 0 #000000 0.5 #ffffff\na: array<vec4f, 3>,",
         "params.a[1].x",
@@ -144,7 +144,7 @@ fn a_curve_has_points_with_slopes() {
 }
 
 #[test]
-fn the_extent_of_the_model_names_a_direction() {
+fn the_extent_of_the_model_is_taken_along_the_direction_of_a_parameter() {
     let params = read(
         "/// Way.\n/// @default 0 1 0\nalong: vec3f,\n/// End.\n/// @extent high along\nhigh: f32,",
         "params.along.x + params.high",
@@ -171,7 +171,7 @@ fn annotations_in_backticks_are_text() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused() {
+fn annotations_that_do_not_suit_the_type_are_refused() {
     for (member, part) in [
         ("/// @default 0\nA: f32,", "cannot be the name"),
         ("/// @default 0\na: vec2<u32>,", "cannot be the type"),

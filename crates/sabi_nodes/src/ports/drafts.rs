@@ -1,4 +1,4 @@
-//! Reads the comments of documented functions, and what their results are.
+//! Reads the comments of documented functions and the types of their results.
 
 use naga::Function;
 use sabi_graph::PortType;

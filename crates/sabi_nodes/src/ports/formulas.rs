@@ -5,7 +5,7 @@ use crate::formula::{Formula, Operation};
 use crate::kind::{Memory, Param};
 use crate::words::{list, nearest};
 
-/// Most numbers, names and functions of a formula.
+/// Maximum number of numbers, names and functions in a formula.
 const TERM_LIMIT: usize = 64;
 
 /// Functions by name, with the number of their arguments.
@@ -18,7 +18,7 @@ const FUNCTIONS: [(&str, Operation, usize); 6] = [
     ("max", Operation::Max, 2),
 ];
 
-/// Reads a formula. The error is a message and advice.
+/// Reads a formula. The error consists of message and advice.
 pub(super) fn read_formula(text: &str, params: &[Param]) -> Result<Formula, (String, String)> {
     let is_allowed = |letter: char| is_in_name(letter) || letter.is_whitespace() || "+-*/(),".contains(letter);
     if let Some(letter) = text.chars().find(|letter| !is_allowed(*letter)) {
@@ -66,7 +66,7 @@ fn missing_sign(sign: &str) -> (String, String) {
     (format!("The formula lacks a `{sign}`."), advice.to_owned())
 }
 
-/// Gives names and functions their meaning.
+/// Resolves the names and functions of an expression.
 fn resolve(expression: &Expression, params: &[Param]) -> Result<Formula, (String, String)> {
     match expression {
         Expression::Number(number) => Ok(Formula::Number(*number)),
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn products_bind_tighter_than_sums_and_both_go_from_left_to_right() {
+    fn products_bind_tighter_than_sums_and_both_are_evaluated_from_left_to_right() {
         assert_eq!(value("1 + 2 * 3 - 4 / 2 - 1"), 4.0);
         assert_eq!(value("(1 + 2) * 3"), 9.0);
         assert_eq!(value("ceil(3 / texel + 0.1)"), 7.0);

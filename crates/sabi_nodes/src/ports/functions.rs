@@ -11,10 +11,10 @@ use crate::kind::{Denoise, Finds, Memory, Param, Role};
 use crate::scan::Item;
 use crate::words::nearest;
 
-/// Most repetitions of a function.
+/// Maximum number of repetitions of a function.
 const REPEAT_LIMIT: u32 = 4096;
 
-/// Names of annotations of the function itself, without that of its type.
+/// Names of the annotations of a function, except the annotations of its type.
 const OF_FUNCTIONS: [&str; 12] = [
     "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach", "turn",
 ];
@@ -23,7 +23,7 @@ const OF_FUNCTIONS: [&str; 12] = [
 #[derive(Clone, Debug, Default)]
 pub(super) struct FunctionAnnotations {
     pub(super) doc: String,
-    /// Place of `@vector` when the result is one.
+    /// Place of `@vector`, if the result is a vector.
     pub(super) vector: Option<Range<usize>>,
     /// Place of `@shared`.
     pub(super) shared: Option<Range<usize>>,
@@ -31,23 +31,23 @@ pub(super) struct FunctionAnnotations {
     pub(super) repeat: Option<(Formula, Range<usize>)>,
     pub(super) texel: Option<(Formula, Range<usize>)>,
     pub(super) points: Option<(Formula, Range<usize>)>,
-    /// Index of the parameter that counts rays.
+    /// Index of the parameter with the number of rays.
     pub(super) rays: Option<(usize, Range<usize>)>,
     pub(super) finds: Finds,
     /// Index of the parameter that limits rays.
     pub(super) reach: Option<(usize, Range<usize>)>,
-    /// Index of the angle by half of which the surface has to turn for a hit to count.
+    /// Index of the angle; a hit counts only if the surface turns by more than half of it.
     pub(super) turn: Option<(usize, Range<usize>)>,
-    /// Name of the input that is surveyed, and of the parameter that chooses its groups.
+    /// Name of the surveyed input, and of the parameter that chooses its groups.
     pub(super) surveys: Option<(String, Range<usize>)>,
-    /// Name of the input that a pass is for.
+    /// Name of the input that a pass exists for.
     pub(super) with: Option<(String, Range<usize>)>,
-    /// Way to denoise a mean over rays.
+    /// Method to denoise a mean over rays.
     pub(super) denoise: Option<(Denoise, Range<usize>)>,
 }
 
 impl FunctionAnnotations {
-    /// Returns true if nothing is said about a pass, a ray, a survey, or the type of a port.
+    /// Returns true if no annotation concerns a pass, a ray, a survey, or the type of a port.
     pub(super) fn is_free(&self) -> bool {
         self.pass.is_none()
             && self.repeat.is_none()
@@ -184,7 +184,7 @@ fn formula(
     accepted(text, annotation, read_formula(&annotation.joined(), params), faults)
 }
 
-/// Value of an annotation with its range, or a fault of this message and advice there.
+/// Returns the value of an annotation with its range. Reports a fault with this message and advice if there is none.
 fn accepted<T>(
     text: Text<'_>,
     annotation: &Annotation,
@@ -255,7 +255,7 @@ fn turn(
     accepted(text, annotation, index, faults)
 }
 
-/// Index of the number of a role that an annotation names.
+/// Returns the index of the parameter with this role that an annotation names, if it is a single number.
 fn param_of_role(annotation: &Annotation, params: &[Param], role: Role) -> Option<usize> {
     let written = annotation.joined();
     let name = written.strip_prefix("params.")?;
@@ -292,7 +292,8 @@ fn denoise(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> 
     accepted(text, annotation, read, faults)
 }
 
-/// Index of the parameter that says `what`, by its name; or message and advice.
+/// Returns the index of the parameter with this name, which must be able to count; `what` describes the count. The error
+/// consists of message and advice.
 fn count_param(annotation: &str, name: &str, params: &[Param], what: &str) -> Result<usize, (String, String)> {
     let Some(index) = params.iter().position(|param| param.name == name) else {
         let advice = match nearest(name, params.iter().map(|param| param.name.as_str())) {

@@ -14,7 +14,7 @@ use crate::names::{is_plain_name, label_of};
 use crate::scan::Member;
 use crate::words::nearest;
 
-/// An annotation `@input name …` and those behind it.
+/// An annotation `@input name …`, and the annotations after it.
 #[derive(Clone, Debug)]
 pub(super) struct InputAnnotations {
     pub(super) name: String,
@@ -29,7 +29,7 @@ pub(super) struct InputAnnotations {
 }
 
 impl InputAnnotations {
-    /// Starts with the annotation `@input name text`.
+    /// Creates the annotations of an input from `@input name text`.
     pub(super) fn begin(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> Option<InputAnnotations> {
         let Some((name, words)) = annotation.words.split_first() else {
             faults.push(text.fault(
@@ -59,7 +59,7 @@ impl InputAnnotations {
         })
     }
 
-    /// Adds an annotation behind `@input`.
+    /// Adds an annotation that follows `@input`.
     pub(super) fn add(&mut self, text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) {
         let range = annotation.whole();
         let twice = match annotation.name.as_str() {
@@ -106,7 +106,7 @@ impl InputAnnotations {
     }
 }
 
-/// Reads an argument that is an input.
+/// Reads an argument that is an input port.
 pub(super) fn read_input(
     reader: &mut PortReader<'_>,
     draft: &Draft<'_>,
@@ -221,7 +221,7 @@ fn input_type(
     Some((Reads::Value, port))
 }
 
-/// Checks that the input of a stored result has no default.
+/// Checks that an input that reads a stored result has no default.
 fn field_default(reader: &mut PortReader<'_>, annotations: &InputAnnotations) -> Option<InputDefault> {
     let range = annotations
         .default
@@ -287,7 +287,7 @@ fn value_default(reader: &mut PortReader<'_>, ty: PortType, annotations: &InputA
     knob.map(InputDefault::Knob)
 }
 
-/// Reads a default such as `at.position`: a member of the place, of the type of the input.
+/// Reads a default such as `at.position`: a member of the surface point that has the type of the input.
 fn expression(
     reader: &mut PortReader<'_>,
     ty: PortType,
@@ -306,7 +306,7 @@ fn expression(
     None
 }
 
-/// Number of floats that `at.member` or `at.member.xyz` has.
+/// Returns the number of floats in `at.member` or `at.member.xyz`.
 fn member_of_place(module: &Module, path: &str) -> Option<usize> {
     let mut parts = path.split('.').skip(1);
     let name = parts.next()?;

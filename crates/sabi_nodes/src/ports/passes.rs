@@ -8,7 +8,7 @@ use crate::kind::{Argument, Input, InputDefault, Reads};
 use crate::scan::Member;
 
 impl<'a> PortReader<'a> {
-    /// Checks that numbers are unique, and lists passes for the arguments that name them.
+    /// Checks that the numbers of passes are unique, and records the passes for arguments that refer to them.
     pub(super) fn check_passes(&mut self, drafts: &[Draft<'a>]) {
         for draft in drafts {
             let Some((number, range)) = draft.annotations.pass.clone() else {
@@ -24,7 +24,7 @@ impl<'a> PortReader<'a> {
         self.pass_numbers.sort_by_key(|(number, ..)| *number);
     }
 
-    /// Reads an argument with the name of a pass, which receives its stored result.
+    /// Reads an argument that has the name of a pass and receives its stored result.
     pub(super) fn pass_argument(
         &mut self,
         draft: &Draft<'a>,
@@ -61,7 +61,7 @@ impl<'a> PortReader<'a> {
         Some(Argument::Pass(index))
     }
 
-    /// Finds the inputs that passes are for.
+    /// Finds the inputs that passes exist for.
     pub(super) fn find_inputs_of_passes(&mut self, drafts: &[Draft<'a>], ports: &mut Ports) {
         for draft in drafts {
             let Some((name, range)) = draft.annotations.with.clone() else {
@@ -85,7 +85,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    /// Checks that a repeated function has a first field argument of its own type, for its last result.
+    /// Checks that the first field argument of a repeated function has the type of its result, since it receives the previous result.
     pub(super) fn check_repeat(&mut self, draft: &Draft<'a>, arguments: &[Argument]) {
         let Some((_, range)) = draft.annotations.repeat.clone() else {
             return;

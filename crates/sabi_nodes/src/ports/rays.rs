@@ -39,7 +39,7 @@ impl<'a> PortReader<'a> {
             reach: draft.annotations.reach.as_ref().map(|(reach, _)| *reach),
             turn: draft.annotations.turn.as_ref().map(|(turn, _)| *turn),
             texel: draft.annotations.texel.as_ref().map(|(texel, _)| texel.clone()),
-            // Filled by the analysis of the functions.
+            // Set later, by the analysis of the functions.
             reads: Vec::new(),
         })
     }
@@ -54,7 +54,7 @@ impl<'a> PortReader<'a> {
         None
     }
 
-    /// Reads an argument that receives the mean of a pass, or its value for the whole surface.
+    /// Reads an argument that receives the mean of a pass over rays, or its value for the whole surface.
     pub(super) fn mean_argument(&mut self, member: &Member, is_its_type: bool, pass: usize) -> Option<Argument> {
         if is_its_type {
             return Some(Argument::Pass(pass));
@@ -70,7 +70,7 @@ impl<'a> PortReader<'a> {
         None
     }
 
-    /// Checks that all results of a node that shoots rays depend on rays or on means of passes, and that it reads no textures.
+    /// Checks that all results of a node that shoots rays depend on rays or on means of passes, and that the node reads no textures.
     pub(super) fn check_rays(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
         if !self.faults.is_empty() {
             return;
@@ -94,7 +94,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    /// Checks that only means over rays are denoised, and all in the same way.
+    /// Checks that only means over rays are denoised, and all by the same method.
     fn check_denoised(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
         let mut first = None;
         for draft in drafts {
@@ -114,7 +114,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    /// Message and advice for a function with wrong arguments of rays.
+    /// Returns message and advice for a function whose arguments about rays are wrong.
     fn misused_rays(&self, output: &Output, is_pass: bool) -> Option<(String, &'static str)> {
         let name = &output.name;
         let rays = output.arguments.iter().any(Argument::is_of_ray);

@@ -1,4 +1,4 @@
-//! Reads shared functions: what outputs have in common at a place is evaluated once.
+//! Reads shared functions. They compute values that several outputs need, once for each place.
 
 use naga::{Function, Handle, Type};
 
@@ -44,7 +44,7 @@ impl<'a> PortReader<'a> {
         })
     }
 
-    /// Lists shared functions for the arguments that name them.
+    /// Records the shared functions for arguments that refer to them.
     pub(super) fn find_shared(&mut self, drafts: &[Draft<'a>]) {
         let shared = drafts.iter().filter(|draft| draft.gives == Gives::Shared);
         let typed = shared.filter_map(|draft| {
@@ -64,7 +64,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    /// Reads an argument with the name of a shared function, which receives its result.
+    /// Reads an argument that has the name of a shared function and receives its result.
     pub(super) fn shared_argument(
         &mut self,
         draft: &Draft<'a>,
@@ -90,7 +90,7 @@ impl<'a> PortReader<'a> {
         Some(Argument::Shared(index))
     }
 
-    /// Checks that a node with shared functions takes values alone, and that outputs take all of them.
+    /// Checks that a node with shared functions only takes values, not stored results, and that its outputs take all shared functions.
     pub(super) fn check_shared(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
         if !self.faults.is_empty() {
             return;

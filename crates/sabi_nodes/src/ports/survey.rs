@@ -14,7 +14,7 @@ pub(super) fn takes_survey(draft: &Draft<'_>) -> bool {
 }
 
 impl<'a> PortReader<'a> {
-    /// Finds the surveyed input. It must be required, and all passes read the survey and no values of a place.
+    /// Finds the surveyed input. It must be required, and all passes must read the survey and no values of single places.
     pub(super) fn surveyed_input(&mut self, drafts: &[Draft<'a>], ports: &Ports) -> Option<(usize, Option<usize>)> {
         let declared = drafts.iter().find_map(|draft| draft.annotations.surveys.clone());
         if !self.faults.is_empty() {
@@ -79,7 +79,7 @@ impl<'a> PortReader<'a> {
         None
     }
 
-    /// Checks that all passes and no other functions read the survey, and nothing else.
+    /// Checks that all passes read the survey and nothing else, and that no other function reads it.
     fn check_survey_readers(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
         let passes = ports.passes.iter().map(|pass| (&pass.function, true));
         for (function, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {

@@ -41,7 +41,7 @@ fn the_header_is_read() {
 }
 
 #[test]
-fn types_say_what_a_port_carries() {
+fn the_types_of_functions_and_arguments_give_the_port_types() {
     let kind = read(
         "/// Mask.\n/// @input a One. @input b Two. @input c Three. @vector @input d Four.\n\
          fn mask(a: f32, b: vec3f, c: vec3f, d: Material) -> f32 { return a + b.x + c.x + d.alpha; }\n\
@@ -65,7 +65,7 @@ fn types_say_what_a_port_carries() {
 }
 
 #[test]
-fn inputs_have_neutral_defaults_unless_told() {
+fn inputs_have_neutral_defaults_unless_an_annotation_gives_one() {
     let kind = read(
         "/// Mask.\n/// @input a One. @input b Two. @input c Three.\n/// @vector @input d Four.\n\
          /// @input e Five, which is\n/// long. @optional @default 0.25 @label High five\n\
@@ -101,7 +101,7 @@ fn inputs_have_neutral_defaults_unless_told() {
 }
 
 #[test]
-fn a_texture_is_a_field_of_the_type_of_the_result() {
+fn a_texture_argument_is_a_field_with_the_type_of_the_result() {
     let kind = read(
         "/// Color.\n/// @input source What. @input by How. @type vector\n\
          fn color(at: Surface, source: texture_2d_array<f32>, by: texture_2d_array<f32>) -> vec3f { return here(source, at).xyz + here(by, at).xyz; }\n",
@@ -127,14 +127,14 @@ fn a_texture_is_a_field_of_the_type_of_the_result() {
 }
 
 #[test]
-fn passes_are_read_by_their_names() {
+fn later_functions_read_passes_by_name() {
     let kind = read(
         "struct Params {\n/// How often.\n/// @range 1 8 @default 2\nsteps: u32,\n}\n\
          /// Mask.\nfn mask(at: Surface, wide: texture_2d_array<f32>, narrow: texture_2d_array<f32>) -> f32 { return here(wide, at).x + here(narrow, at).x; }\n\
          /// Wide.\n/// @pass 2 @repeat params.steps\nfn wide(at: Surface, narrow: texture_2d_array<f32>) -> f32 { return here(narrow, at).x; }\n\
          /// Narrow.\n/// @pass 1\n/// @input source What. @type color @repeat 3\nfn narrow(at: Surface, source: texture_2d_array<f32>, params: Params) -> f32 { return here(source, at).x; }\n",
     );
-    // A repeated function's first texture has the type of its result.
+    // The first texture of a repeated function must have the type of its result.
     assert!(kind.unwrap_err().contains("holds a color"));
     let kind = read(
         "struct Params {\n/// How often.\n/// @range 1 8 @default 2\nsteps: u32,\n}\n\
@@ -159,7 +159,7 @@ fn passes_are_read_by_their_names() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused() {
+fn annotations_and_arguments_that_contradict_each_other_are_refused() {
     let mask = |docs: &str, sig: &str, body: &str| {
         read(&format!(
             "/// Mask.\n{docs}\nfn mask({sig}) -> f32 {{ return {body}; }}\n"
@@ -220,7 +220,7 @@ fn what_does_not_fit_is_refused() {
 }
 
 #[test]
-fn the_value_that_a_wire_starts_is_one_that_a_parameter_takes() {
+fn the_initial_value_of_a_wire_must_be_accepted_by_the_parameter() {
     for starts in ["@starts height 1", "@starts gain"] {
         let source = format!("/// Mask.\n/// @input a One. {starts}\nfn mask(a: f32) -> f32 {{ return a; }}\n");
         let message = read(&source).unwrap_err();
@@ -243,7 +243,7 @@ fn a_node_of_passes_alone_has_no_output() {
 }
 
 #[test]
-fn outputs_take_the_result_of_a_shared_function_by_its_name() {
+fn outputs_receive_the_result_of_a_shared_function_by_its_name() {
     let kind = read(
         "struct Found { near: f32, id: f32 }\n\
          /// What is near.\n/// @shared\n/// @input position Where. @vector @optional @default at.position\n\
@@ -263,7 +263,7 @@ fn outputs_take_the_result_of_a_shared_function_by_its_name() {
 }
 
 #[test]
-fn a_mean_over_rays_can_be_denoised_and_nothing_else() {
+fn only_a_mean_over_rays_can_be_denoised() {
     let node = |rays: &str, pass: &str| {
         read(&format!(
             "struct Params {{\n    /// Rays.\n    /// @range 1 64 @default 4\n    rays: u32,\n}}\n\

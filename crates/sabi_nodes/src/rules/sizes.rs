@@ -1,4 +1,4 @@
-//! Limits on the memory of values: every texel that is evaluated at the same time has a copy of them.
+//! Limits on the memory of values: every texel that is evaluated at the same time has a copy of each value.
 
 use naga::{Expression, Function, Handle, Module, Span, Type, TypeInner};
 
@@ -6,7 +6,7 @@ use crate::analysis::walk::expressions_with_spans;
 use crate::fault::Fault;
 use crate::link::LinkedModule;
 
-/// Most bytes of a value, and of all variables of a function: more is far beyond what registers hold.
+/// Maximum number of bytes of a value, and of all variables of a function. More is far beyond what registers hold.
 const LIMIT_BYTES: u32 = 16 * 1024;
 
 const ADVICE: &str = "Compute less at a time; every texel has a copy of it.";
@@ -52,7 +52,7 @@ fn large_in_function(module: &Module, span: Span, function: &Function, large: &m
             large.push((span, format!("The variable {}", quoted(local.name.as_deref()))));
         }
     }
-    // All other expressions give a part of a value that is made here, or that is checked above.
+    // All other expressions select a part of a value that is created here, or that is checked above.
     let is_large = |expression: &Expression| match expression {
         Expression::Compose { ty, .. } | Expression::ZeroValue(ty) => size(module, *ty) > LIMIT_BYTES,
         _ => false,
@@ -64,7 +64,7 @@ fn large_in_function(module: &Module, span: Span, function: &Function, large: &m
     }
 }
 
-/// Bytes of a value of a type, or of the value that a pointer leads to.
+/// Returns the size in bytes of a value of a type, or of the value that a pointer points to.
 fn size(module: &Module, ty: Handle<Type>) -> u32 {
     let inner = match &module.types[ty].inner {
         TypeInner::Pointer { base, .. } => &module.types[*base].inner,

@@ -6,7 +6,7 @@ use super::tokens::{Token, TokenKind};
 use super::{DocLine, Item, ItemKind, Member, doc_line};
 use crate::fault::{FAULTS_SHOWN, Fault, Text};
 
-/// Reads declarations, and returns whether it reached the end. It stops where the text is no WGSL, which naga reports.
+/// Reads declarations, and returns whether the end was reached. Reading stops at text that is not WGSL, which naga reports.
 pub(super) fn read_items(text: Text<'_>, tokens: &[Token], faults: &mut Vec<Fault>) -> (Vec<Item>, bool) {
     let mut reader = Reader {
         text,
@@ -31,7 +31,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The next declaration; `Some(None)` for a lone semicolon, `None` at the end.
+    /// Reads the next declaration; `Some(None)` for a lone semicolon, `None` at the end.
     fn item(&mut self) -> Option<Option<Item>> {
         let docs = self.docs();
         let Some(token) = self.code("a declaration") else {
@@ -54,7 +54,7 @@ impl Reader<'_> {
             ItemKind::Struct => "a struct",
             ItemKind::Other => "a declaration",
         };
-        // `const_assert`, directives and `var<…>` have no name behind the keyword.
+        // `const_assert`, directives and `var<…>` have no name after the keyword.
         let token = self.code(place)?;
         let name_range = if token.kind == TokenKind::Word {
             token.range
@@ -92,7 +92,7 @@ impl Reader<'_> {
         }))
     }
 
-    /// Members or arguments up to the closing bracket.
+    /// Reads the members or arguments up to the closing bracket.
     fn members(&mut self, close: char) -> Option<Vec<Member>> {
         let mut members = Vec::new();
         loop {
@@ -117,7 +117,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Doc comments that stand directly here; plain comments end them, as they do for naga.
+    /// Reads the doc comments at the current place. A plain comment ends them, as in naga.
     fn docs(&mut self) -> Vec<DocLine> {
         let mut docs = Vec::new();
         while let Some(token) = self.tokens.get(self.at) {
@@ -130,7 +130,7 @@ impl Reader<'_> {
         docs
     }
 
-    /// The next token that is code; a doc comment before it documents nothing, which is a fault.
+    /// Returns the next token that is code. A doc comment before it documents nothing, which is a fault.
     fn code(&mut self, place: &str) -> Option<Token> {
         let mut is_reported = false;
         loop {
@@ -138,7 +138,7 @@ impl Reader<'_> {
             self.at += 1;
             match token.kind {
                 TokenKind::Word | TokenKind::Sign(_) => return Some(token),
-                // Those behind code or below a plain comment are reported by `misplaced_comments`.
+                // Doc comments after code or below a plain comment are reported by `misplaced_comments`.
                 TokenKind::Doc if !token.after_code && !is_reported && !self.is_below_plain() => {
                     is_reported = true;
                     let message = format!("A doc comment inside {place} describes nothing.");
@@ -149,7 +149,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns true if the last token read is a doc line below a plain comment.
+    /// Returns true if the token read last is a doc line below a plain comment.
     fn is_below_plain(&self) -> bool {
         self.tokens[..self.at.saturating_sub(1)]
             .iter()
@@ -179,7 +179,7 @@ impl Reader<'_> {
         (self.code("a declaration")?.kind == TokenKind::Sign(sign)).then_some(())
     }
 
-    /// Skips `@word(…)` and gives the word that follows them.
+    /// Skips `@word(…)`, and returns the next word.
     fn skip_attributes(&mut self, mut token: Token) -> Option<Range<usize>> {
         while token.kind == TokenKind::Sign('@') {
             self.code("an attribute")?;
@@ -192,7 +192,7 @@ impl Reader<'_> {
         (token.kind == TokenKind::Word).then_some(token.range)
     }
 
-    /// Skips balanced code up to and with one of the signs.
+    /// Skips balanced code up to and including one of the signs.
     fn skip_until(&mut self, signs: &[char], place: &str) -> Option<char> {
         let mut depth = 0;
         loop {

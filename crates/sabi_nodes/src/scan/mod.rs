@@ -1,5 +1,5 @@
-//! Reads header, doc comments and names from the text itself, with their places, and refuses doc comments that naga
-//! would not attach to the declarations below them.
+//! Reads header, doc comments and names from the text, with their places. Refuses doc comments that naga would not attach
+//! to the declarations below them.
 
 mod items;
 #[cfg(test)]
@@ -50,7 +50,7 @@ pub(crate) struct Item {
     pub(crate) members: Vec<Member>,
 }
 
-/// Result of a scan.
+/// Result of scanning a text.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scan {
     /// The `//!` lines.
@@ -62,7 +62,7 @@ pub(crate) struct Scan {
 }
 
 impl Scan {
-    /// `struct Params`, when there is one.
+    /// Returns `struct Params`, if there is one.
     pub(crate) fn params(&self) -> Option<&Item> {
         self.items
             .iter()
@@ -99,9 +99,9 @@ pub(crate) fn scan(text: Text<'_>) -> Result<Scan, Vec<Fault>> {
     }
 }
 
-/// The header lines of a text that is not otherwise scanned (a library).
+/// Returns the header lines of a text that is not scanned further, such as a library.
 pub(crate) fn header_lines(text: Text<'_>) -> Vec<DocLine> {
-    // Only what may hold the header is scanned: kernels are linked at every use.
+    // Only the lines that may contain the header are scanned, since libraries are linked often.
     let is_header = |line: &&str| line.trim_start().starts_with("//!") || line.trim().is_empty();
     let length = text
         .text
@@ -129,7 +129,7 @@ fn doc_line(text: Text<'_>, token: &Token) -> DocLine {
     }
 }
 
-/// Finds doc comments that naga drops or attaches to another declaration.
+/// Finds doc comments that naga drops, or attaches to another declaration.
 fn misplaced_comments(text: Text<'_>, tokens: &[Token]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut in_header = true;
@@ -168,7 +168,7 @@ fn misplaced_comments(text: Text<'_>, tokens: &[Token]) -> Vec<Fault> {
             break;
         }
         if let Some((message, advice)) = fault {
-            // A block of lost lines is one fault, at its first line.
+            // Consecutive misplaced lines are one fault, at the first line.
             let continues = previous.is_some_and(|previous| previous.kind == token.kind) && !token.after_code;
             if !continues {
                 faults.push(text.fault(token.range.clone(), message, advice));

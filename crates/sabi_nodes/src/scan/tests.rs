@@ -34,7 +34,7 @@ fn declarations_are_found_with_names_members_and_comments() {
 }
 
 #[test]
-fn types_are_found_in_the_text() {
+fn types_are_read_from_the_text() {
     let text = "struct Params { a: array<vec4f, 4>, b : f32 }";
     let scan = scanned(text).unwrap();
     let types: Vec<&str> = scan.items[0]
@@ -46,40 +46,40 @@ fn types_are_found_in_the_text() {
 }
 
 #[test]
-fn a_plain_comment_before_a_doc_comment_is_a_trap() {
+fn a_plain_comment_before_a_doc_comment_is_refused() {
     let (line, column, message) = first_fault("//! A\n\n// plain\n/// doc\nfn f() {}\n");
     assert_eq!((line, column), (4, 1));
     assert!(message.contains("lost"), "{message}");
-    // Behind code it has the same effect.
+    // A plain comment after code has the same effect.
     assert_eq!(
         first_fault("struct P {\n    a: f32, // plain\n    /// doc\n    b: f32,\n}").0,
         3
     );
     assert_eq!(first_fault("fn f() {} // plain\n/// doc\nfn g() {}").0, 2);
-    // A block comment too.
+    // A block comment is refused, too.
     assert_eq!(first_fault("/* plain */\n/// doc\nfn g() {}").0, 2);
 }
 
 #[test]
-fn a_plain_comment_below_a_doc_comment_is_no_trap() {
+fn a_plain_comment_below_a_doc_comment_is_allowed() {
     let scan = scanned("/// doc\n// plain\nfn f() {}\n").unwrap();
     assert_eq!(scan.items[0].docs.len(), 1);
 }
 
 #[test]
-fn a_lost_block_of_lines_is_told_once() {
+fn consecutive_misplaced_lines_are_reported_once() {
     let faults = scanned("// plain\n/// a\n/// b\n/// c\nfn f() {}").unwrap_err();
     assert_eq!(faults.len(), 1);
 }
 
 #[test]
-fn a_trailing_doc_comment_is_a_trap() {
+fn a_doc_comment_after_code_is_refused() {
     assert_eq!(first_fault("struct P {\n    a: f32, /// doc\n}").0, 2);
     assert_eq!(first_fault("struct P { /// doc\n    a: f32,\n}").0, 1);
 }
 
 #[test]
-fn doc_comments_that_describe_nothing_are_told() {
+fn doc_comments_that_document_nothing_are_reported() {
     for text in [
         "fn f() {\n    /// doc\n}",
         "fn f(\n    /// doc\n    a: f32) {}",
@@ -131,13 +131,13 @@ fn no_text_makes_the_scanner_panic() {
 }
 
 #[test]
-fn of_many_faults_some_are_told() {
+fn of_many_faults_only_some_are_reported() {
     assert_eq!(scanned(&"fn f() {} /// x\n".repeat(2_000)).unwrap_err().len(), 64);
     assert_eq!(scanned(&"fn f() {\n/// x\n;\n}\n".repeat(2_000)).unwrap_err().len(), 64);
 }
 
 #[test]
-fn a_number_is_one_word_with_its_point_its_exponent_and_its_suffix() {
+fn a_number_with_point_exponent_and_suffix_is_one_word() {
     for (text, words) in [
         ("1.5e-3f+x", &["1.5e-3f", "+", "x"][..]),
         (".5.x", &[".5", ".", "x"]),

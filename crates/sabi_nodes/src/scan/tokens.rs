@@ -1,5 +1,5 @@
-//! Splits WGSL text into the tokens that the scanner needs: naga keeps neither the places of doc comments nor plain
-//! comments.
+//! Splits WGSL text into the tokens that the scanner needs. naga cannot be used for this: it keeps neither the places of
+//! doc comments nor plain comments.
 
 use std::ops::Range;
 
@@ -29,12 +29,12 @@ pub(crate) struct Token {
     pub(crate) after_code: bool,
 }
 
-/// WGSL's line breaks: what ends a `//` comment.
+/// Returns true for a line break in WGSL, which ends a `//` comment.
 fn is_line_break(c: char) -> bool {
     matches!(c, '\u{000a}'..='\u{000d}' | '\u{0085}' | '\u{2028}' | '\u{2029}')
 }
 
-/// All tokens in order. Never fails: text that is no WGSL becomes signs, which naga refuses.
+/// Splits a text into tokens, in order. This never fails: text that is not WGSL becomes signs, which naga refuses later.
 pub(crate) fn tokens(text: &str) -> Vec<Token> {
     let mut tokens: Vec<Token> = Vec::new();
     let mut at = 0;
@@ -87,7 +87,7 @@ fn starts_number(text: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// Length in bytes of the number that `text` starts with: one point and one exponent belong to it, and a suffix.
+/// Returns the length in bytes of the number at the start of `text`, including one point, one exponent and a suffix.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let is_hex = matches!(bytes, [b'0', b'x' | b'X', ..]);
@@ -112,7 +112,7 @@ fn number_length(text: &str) -> usize {
     skip(at, |byte| byte.is_ascii_alphanumeric() || *byte == b'_')
 }
 
-/// Length in bytes of the (nested) block comment that `text` starts with.
+/// Returns the length in bytes of the (nested) block comment at the start of `text`.
 fn block_comment_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let mut depth = 0;

@@ -1,4 +1,4 @@
-//! Hands that know no plan: each does one thing after another to a document.
+//! Random actions on a document.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,13 +8,13 @@ use super::dice::Dice;
 use crate::command::{LayerCommand, NodeSource, PanelCommand, perform};
 use crate::dropped_layers::DroppedOn;
 
-/// A document, and hands that know no plan.
+/// A document, and a source of random actions on it.
 pub(super) struct Hands {
     pub(super) document: OpenDocument,
     pub(super) dice: Dice,
     pub(super) clipboard: String,
     pub(super) kinds: Vec<String>,
-    /// Text that was told as kept or saved last, and those after it that may be on the disk, too.
+    /// Texts that may be on the disk: the one last reported as saved or kept, and those after it.
     pub(super) safe: Vec<String>,
 }
 
@@ -123,7 +123,7 @@ impl Hands {
         }
     }
 
-    /// Does one thing.
+    /// Performs one random action.
     pub(super) fn act(&mut self, folder: &Path) {
         match self.dice.below(25) {
             0..=4 => {
@@ -169,7 +169,7 @@ impl Hands {
         }
     }
 
-    /// Drops a layer on the model or on a node, or rolls random values.
+    /// Drops a layer on the model or on a node, or sets random values.
     fn drop_or_roll(&mut self) {
         let (kind, group, node) = (self.kind(), self.group(), self.id());
         let source = match self.dice.one_in(2) {

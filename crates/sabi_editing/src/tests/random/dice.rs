@@ -1,10 +1,10 @@
-//! Chance that falls the same way every time.
+//! Random numbers that are the same in every run.
 
 use std::collections::BTreeMap;
 
 use sabi_graph::Value;
 
-/// SplitMix64, Steele, Lea and Flood 2014.
+/// Generator of random numbers (SplitMix64, Steele, Lea and Flood 2014).
 pub(super) struct Dice(pub(super) u64);
 
 impl Dice {
@@ -40,7 +40,7 @@ impl Dice {
         }
     }
 
-    /// Values that fit somewhere, and some that fit nowhere.
+    /// Returns values that some parameters accept, and some that no parameter accepts.
     pub(super) fn value(&mut self) -> Option<Value> {
         let text = [
             "", "multiply", "normal", "none", "#ff8000", "../a.png", "a b.png", "v", "\u{7}", "🙂",

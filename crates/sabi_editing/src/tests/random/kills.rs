@@ -1,5 +1,5 @@
-//! Random edits of a program that is killed at random moments: what is found then is whole, and nothing is lost that was told as
-//! kept or saved.
+//! Random edits in a program that is killed at random moments. Afterwards the files must be complete, and everything that
+//! was reported as saved or kept must be there.
 
 use std::path::{Path, PathBuf};
 
@@ -9,36 +9,37 @@ use super::super::*;
 use super::actions::Hands;
 use super::dice::Dice;
 
-/// Random edits in all, and in how many graphs.
+/// Total number of random edits, and number of graphs that they are spread over.
 const EDITS: usize = 10_000;
 const GRAPHS: usize = 25;
-/// Steps of the disk after which the program is killed at the latest.
+/// Maximum number of disk operations before the program is killed.
 const MOST_STEPS: usize = 60;
-/// Fewest kills that the edits must have met.
+/// Minimum number of kills in a run, so that the test tests something.
 const FEWEST_KILLS: usize = 40;
 
 impl Hands {
-    /// Saves the graph to some file, or keeps a copy of it. Notes what must be found after a kill.
+    /// Saves the graph to some file, or keeps a recovery copy. Notes what must be found after a kill.
     pub(super) fn keep(&mut self, folder: &Path) {
         let file = ["a.sabi", "deep/a.sabi", "deep/er/b.sabi"][self.dice.below(3)];
         self.safe.push(self.document.session.text().to_owned());
         let kept = match self.dice.below(4) {
             0 => self.document.save_as(&folder.join(file)),
-            // Without a file there is nothing to save to, which it says.
+            // Without a file, saving must return an error.
             1 if self.document.session.file().is_none() => return assert!(self.document.save().is_err()),
             1 => self.document.save(),
             _ => self.document.session.keep(&[]).map(drop),
         };
         match kept {
             Ok(()) => self.safe = vec![self.document.session.text().to_owned()],
-            // The save of a killed program came after the copy that was recovered; a person is asked, and agrees.
+            // The file is newer than the recovered copy, since the program was killed after saving. The editor would ask
+            // whether to replace the file; the answer here is yes.
             Err(error) if error.remedies.contains(&Remedy::ReplaceFile) => self.document.session.keep_document(),
             Err(error) => assert!(self.document.session.disk().has_ended(), "{error}"),
         }
     }
 }
 
-/// Opens what the program left: the copy of unsaved work, or the graph's file where that is what was saved last.
+/// Opens the files that the killed program left: the copy of unsaved work, or the graph's file if that was saved last.
 fn reopened(kept: &Path, file: Option<&PathBuf>, safe: &[String]) -> Session {
     if let Some(recovery) = recoveries(kept).pop() {
         let mut session = Session::recover(recovery).expect("a copy that is whole");
@@ -58,7 +59,7 @@ fn reopened(kept: &Path, file: Option<&PathBuf>, safe: &[String]) -> Session {
     session
 }
 
-/// Edits a graph in a folder, where the program is killed again and again. Returns the number of kills.
+/// Edits a graph in a folder while the program is killed repeatedly. Returns the number of kills.
 fn edited_with_kills(graph: usize, folder: &Path) -> usize {
     let kept = folder.join("kept");
     let mut session = Session::new(Some(&kept));
@@ -80,7 +81,7 @@ fn edited_with_kills(graph: usize, folder: &Path) -> usize {
         }
         kills += usize::from(disk.has_ended());
         let file = hands.document.session.file().map(Path::to_owned);
-        // A killed program runs no destructor that writes.
+        // A killed program runs no destructor, so nothing may be written here.
         hands.document = document_with(Session::new(None), 0);
         session = reopened(&kept, file.as_ref(), &hands.safe);
         hands.safe = vec![session.text().to_owned()];
@@ -89,7 +90,7 @@ fn edited_with_kills(graph: usize, folder: &Path) -> usize {
 }
 
 #[test]
-fn ten_thousand_random_edits_with_kills_in_between_lose_nothing_that_was_told_as_saved() {
+fn random_edits_with_kills_lose_nothing_that_was_reported_as_saved() {
     let kills = (0..GRAPHS).map(|graph| {
         let folder = tempfile::tempdir().expect("a temporary folder");
         std::fs::create_dir_all(folder.path().join("deep/er")).expect("a writable folder");

@@ -7,7 +7,7 @@ use super::{Frame, Reader};
 use crate::analysis::walk::is_zero;
 
 impl<'m> Reader<'m> {
-    /// Conditions for the result of a function with one or two arguments.
+    /// Returns the conditions for the result of a function with one or two arguments.
     pub(super) fn math(
         &mut self,
         (fun, arg, other): (MathFunction, Handle<Expression>, Option<Handle<Expression>>),
@@ -18,7 +18,7 @@ impl<'m> Reader<'m> {
         let zero_is_plain = self.is_zero_when_plain(member);
         let is_zero = |expression| is_zero(self.module, frame.function, expression, depth);
         match (fun, other) {
-            // The upper bound of a clamp is above its lower one.
+            // The upper bound of a clamp is above the lower bound, so only the lower one can be zero.
             (MathFunction::Clamp, Some(low)) if zero_is_plain && is_zero(low) => self.value(frame, arg, member, depth),
             (MathFunction::Sign, _) if zero_is_plain => self.value(frame, arg, member, depth),
             (MathFunction::Dot, Some(other)) if zero_is_plain => both(

@@ -1,4 +1,4 @@
-//! Toggles that conditions depend on, and parameters that values are zero without.
+//! Conditions for setting a channel: toggles that must be on, and values that must not be zero.
 
 use std::collections::BTreeSet;
 
@@ -17,15 +17,15 @@ pub(super) enum Need {
     Input(usize),
 }
 
-/// `None`: not set. `Some(needs)`: may be set when all of these are on.
+/// Condition for setting a member. `None`: it is never set. `Some(needs)`: it may be set if all of these are on.
 pub(super) type Write = Option<BTreeSet<Need>>;
 
-/// Always set.
+/// Returns the condition of a member that is always set.
 pub(super) fn always() -> Write {
     Some(BTreeSet::new())
 }
 
-/// Set when either of the two is.
+/// Returns the condition of a member that is set if one of two conditions holds.
 pub(super) fn either(a: Write, b: Write) -> Write {
     match (a, b) {
         (Some(a), Some(b)) => Some(a.intersection(&b).copied().collect()),
@@ -33,7 +33,7 @@ pub(super) fn either(a: Write, b: Write) -> Write {
     }
 }
 
-/// Those of the needs that do not follow from others of them, each once.
+/// Returns the minimal sets of needs, each once: a set that contains another one is left out.
 pub(super) fn without_stronger(all: &[BTreeSet<Need>]) -> impl Iterator<Item = BTreeSet<Need>> {
     let weakest = move |(at, needs): (usize, &BTreeSet<Need>)| {
         let mut others = all.iter().enumerate().filter(|(other, _)| *other != at);
@@ -43,7 +43,7 @@ pub(super) fn without_stronger(all: &[BTreeSet<Need>]) -> impl Iterator<Item = B
     all.iter().enumerate().filter_map(weakest)
 }
 
-/// Set when both are, as a product.
+/// Returns the condition of a member that is set only if both conditions hold, such as a product.
 pub(super) fn both(a: Write, b: Write) -> Write {
     a.zip(b).map(|(a, b)| a.union(&b).copied().collect())
 }
@@ -51,14 +51,14 @@ pub(super) fn both(a: Write, b: Write) -> Write {
 /// Conditions for the members of `Material` that a function sets.
 pub(super) type Writes = Vec<Write>;
 
-/// Adds other writes, which in addition need some toggles.
+/// Adds the conditions of other writes, which additionally need some toggles.
 pub(super) fn join(writes: &mut Writes, others: Writes, toggles: &BTreeSet<Need>) {
     for (write, other) in writes.iter_mut().zip(others) {
         *write = either(write.take(), other.map(|other| &other | toggles));
     }
 }
 
-/// The [`ChannelWrite`] of a channel with its conditions.
+/// Returns the [`ChannelWrite`] of a channel with its conditions.
 pub(super) fn channel_write(channel: Channel, needs: BTreeSet<Need>) -> ChannelWrite {
     let param = |need: &Need| match need {
         Need::Param(index) => Some(*index),
@@ -76,7 +76,7 @@ pub(super) fn channel_write(channel: Channel, needs: BTreeSet<Need>) -> ChannelW
 }
 
 impl<'m> Reader<'m> {
-    /// Toggles that are on when the conditions have these values.
+    /// Returns the toggles that must be on for the conditions to have these values.
     pub(super) fn toggles(&self, frame: &Frame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<Need> {
         let mut found = BTreeSet::new();
         for &(condition, taken) in conditions {
@@ -90,14 +90,14 @@ impl<'m> Reader<'m> {
         found
     }
 
-    /// Toggle that is on when `condition` is `taken`.
+    /// Returns the toggle that must be on for `condition` to have the value `taken`.
     fn toggle(&self, frame: &Frame<'m>, condition: Handle<Expression>, taken: bool) -> Option<Need> {
         let (op, left, right) = match frame.function.expressions[condition] {
             Expression::Unary {
                 op: UnaryOperator::LogicalNot,
                 expr,
             } => {
-                // One level only: deeper nesting is unusual, and its depth is not limited.
+                // Only one level of nesting is followed: deeper nesting is unusual, and its depth is not limited.
                 return match frame.function.expressions[expr] {
                     Expression::Unary { .. } => None,
                     _ => self.toggle(frame, expr, !taken),
@@ -136,7 +136,7 @@ impl<'m> Reader<'m> {
         (self.params.get(index)?.ty.role == Role::Toggle).then_some(Need::Param(index))
     }
 
-    /// The parameter that an expression reads.
+    /// Returns the parameter that an expression reads.
     fn param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<usize> {
         let Expression::AccessIndex { base, index } = frame.function.expressions[expression] else {
             return None;
@@ -148,7 +148,7 @@ impl<'m> Reader<'m> {
         (Some(ty) == self.params_type).then_some(index as usize)
     }
 
-    /// The parameter or input that an expression reads as a number.
+    /// Returns the parameter or input that an expression reads as a number.
     pub(super) fn need(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
         if let Some(index) = self.param(frame, expression) {
             let is_number = matches!(self.params.get(index)?.ty.memory, Memory::F32 | Memory::Vec3);

@@ -1,7 +1,7 @@
 use super::read;
 use crate::kind::Channel;
 
-/// Channels that a material with this body sets, with the toggles (0 `one`, 1 `two`) that must be on.
+/// Returns the channels that a material function with this body sets, each with the toggles (0 `one`, 1 `two`) that must be on.
 fn channels(body: &str) -> Vec<(Channel, Vec<usize>)> {
     let text = format!(
         "struct Params {{\n/// O.\n/// @toggle @default on\none: u32,\n/// T.\n/// @toggle @default on\ntwo: u32,\n/// M.\n/// @choice a b @default a\nmode: u32,\n}}\n\
@@ -44,7 +44,7 @@ fn a_copied_material_sets_nothing() {
 }
 
 #[test]
-fn what_is_stored_is_set() {
+fn a_stored_channel_counts_as_set() {
     let all = |channel| vec![(channel, vec![])];
     for (body, expected) in [
         (
@@ -140,7 +140,7 @@ fn toggles_around_a_store_are_found() {
 }
 
 #[test]
-fn conditions_that_no_toggle_alone_decides_do_not_count() {
+fn conditions_other_than_single_toggles_being_on_are_ignored() {
     for body in [
         "var r = base; if params.one != 0u { r.height = t; } if params.two != 0u { r.height = t; } return r;",
         "var r = base; if params.one != 0u || params.two != 0u { r.height = t; } return r;",
@@ -154,7 +154,7 @@ fn conditions_that_no_toggle_alone_decides_do_not_count() {
 }
 
 #[test]
-fn a_number_that_may_be_zero_is_what_a_channel_needs() {
+fn a_channel_needs_the_numbers_that_may_be_zero() {
     let needs = |body: &str| {
         let text = format!(
             "struct Params {{\n/// D.\n/// @default 0\ndepth: f32,\n/// W.\n/// @default 0 0 0\nway: vec3f,\n}}\n\
@@ -192,12 +192,12 @@ fn a_number_that_may_be_zero_is_what_a_channel_needs() {
             &[1],
             &[],
         ),
-        // The weaker need of two members of one channel.
+        // Two members belong to one channel; the channel needs only what both need.
         ("r.coat = t; r.coat_roughness = params.depth * t;", &[], &["t"]),
-        // Either of two sets it, and so neither is needed.
+        // The channel is set if either of the two numbers is not zero, so neither is needed.
         ("r.height = t + params.depth;", &[], &[]),
         ("r.height = t + 1.0;", &[], &[]),
-        // Roughness is not zero in the plain material: zero counts.
+        // The plain material's roughness is not zero, so setting it to zero is a change.
         ("r.roughness = t;", &[], &[]),
     ] {
         assert_eq!(
@@ -209,14 +209,14 @@ fn a_number_that_may_be_zero_is_what_a_channel_needs() {
 }
 
 #[test]
-fn what_is_not_understood_is_always_set() {
+fn code_that_the_analysis_cannot_follow_counts_as_always_set() {
     let body = "var list = array<Material, 2>(base, other); return list[u32(t)];";
     let set: Vec<Channel> = channels(body).into_iter().map(|(channel, _)| channel).collect();
     assert_eq!(set, Channel::ALL);
 }
 
 #[test]
-fn members_of_one_channel_that_need_different_numbers_set_it_each() {
+fn members_of_one_channel_with_different_needs_each_set_it() {
     let text = "struct Params {\n/// S.\n/// @color @default #000000\nspread: vec3f,\n/// T.\n/// @default 0\nthrough: f32,\n}\n\
                 /// Material.\n/// @input base One.\nfn material(base: Material, params: Params) -> Material {\n\
                 var r = base; r.subsurface = params.spread; r.transmission = params.through; return r; }\n";

@@ -1,7 +1,7 @@
 use super::{read, read_with};
 use crate::Library;
 
-/// Reads a mask with this body; `params` has `steps` 1..16, `signed` -4..4 and `free` without a range.
+/// Reads a mask function with this body. `params` has `steps` 1..16, `signed` -4..4 and `free` without a range.
 fn mask(body: &str) -> Result<crate::kind::Kind, String> {
     read(&format!(
         "struct Params {{\n/// S.\n/// @range 1 16 @default 4\nsteps: u32,\n/// T.\n/// @range -4 4 @default 0\nsigned: i32,\n\
@@ -9,7 +9,7 @@ fn mask(body: &str) -> Result<crate::kind::Kind, String> {
     ))
 }
 
-/// A mask whose body is `loops` around `sum += 1.0`, closed as often as it opens.
+/// Reads a mask whose body is `sum += 1.0` inside `loops`; a closing brace is added for each opening one.
 fn looped(loops: &str) -> Result<Vec<String>, String> {
     let opened = loops.matches('{').count() - loops.matches('}').count();
     let text = format!(
@@ -25,7 +25,7 @@ fn looped(loops: &str) -> Result<Vec<String>, String> {
 }
 
 #[test]
-fn bounds_that_can_be_seen_are_found() {
+fn bounds_that_follow_from_the_code_are_found() {
     for (loops, bounding) in [
         ("for (var i = 0; i < 8; i++) {", &[][..]),
         ("for (var i = 0u; i <= 8u; i += 2u) {", &[]),
@@ -67,7 +67,7 @@ fn bounds_that_can_be_seen_are_found() {
 }
 
 #[test]
-fn bounds_that_cannot_be_seen_are_refused() {
+fn loops_without_a_provable_bound_are_refused() {
     for loops in [
         "loop { if sum > 4.0 { break; }",
         "while sum < 4.0 {",
@@ -101,7 +101,7 @@ fn bounds_that_cannot_be_seen_are_refused() {
 }
 
 #[test]
-fn nested_and_called_bounds_multiply() {
+fn bounds_of_nested_loops_and_calls_are_multiplied() {
     let text = |count: u32| {
         format!(
             "fn inner(n: u32) -> f32 {{ var sum = 0.0; for (var i = 0u; i < n; i++) {{ sum += 1.0; }} return sum; }}\n\
@@ -114,7 +114,7 @@ fn nested_and_called_bounds_multiply() {
 }
 
 #[test]
-fn a_loop_in_a_helper_is_bounded_by_what_it_is_called_with() {
+fn a_loop_in_a_helper_function_is_bounded_by_the_arguments_of_the_call() {
     let text = |argument: &str| {
         format!(
             "fn inner(n: u32) -> f32 {{ var sum = 0.0; for (var i = 0u; i < n; i++) {{ sum += 1.0; }} return sum; }}\n\
@@ -147,13 +147,13 @@ fn a_tree_of_calls_cannot_grow_without_limit() {
 }
 
 #[test]
-fn a_function_that_is_never_called_may_do_as_it_likes() {
+fn loops_of_a_function_that_is_never_called_are_not_checked() {
     let text = "fn idle() -> f32 { var x = 0.0; loop { x += 1.0; if x > 4.0 { break; } } return x; }\n/// M.\nfn mask(at: Surface) -> f32 { return at.uv.x; }\n";
     assert!(read(text).is_ok());
 }
 
 #[test]
-fn what_is_asked_of_each_ray_counts_as_often_as_there_are_rays() {
+fn code_that_runs_for_each_ray_is_counted_for_each_ray() {
     let node = |in_ray: u32, of_ray: u32, of_mean: u32| {
         let looped = |rounds: u32| format!("var sum = 0.0; for (var i = 0u; i < {rounds}u; i++) {{ sum += 0.1; }}");
         let text = format!(
@@ -179,7 +179,7 @@ fn what_is_asked_of_each_ray_counts_as_often_as_there_are_rays() {
 }
 
 #[test]
-fn a_loop_behind_the_rounds_of_another_one_is_checked_too() {
+fn a_loop_in_the_continuing_block_of_another_loop_is_checked() {
     let text = |inner: &str| {
         format!(
             "fn put(x: f32) -> f32 {{ {inner} return x; }}\n\
@@ -214,7 +214,7 @@ fn the_work_counts_what_is_done_in_each_round() {
 }
 
 #[test]
-fn of_many_loops_without_a_bound_some_are_told() {
+fn of_many_loops_without_a_bound_only_some_are_reported() {
     let loops = "loop { if x > 4.0 { break; } }\n".repeat(2_000);
     let text = format!(
         "//! Test\n//! A test.\n\n/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; {loops} return x; }}\n"

@@ -58,7 +58,7 @@ fn json(text: &str) -> Value {
 }
 
 #[test]
-fn a_default_is_written_as_a_file_holds_it_and_reads_back_as_itself() {
+fn a_default_is_written_in_file_form_and_read_back_unchanged() {
     for (ty, written) in [
         (number(None), "0.5"),
         (ty(Role::Length, Memory::F32, ParamValue::Floats(vec![0.1])), "0.1"),
@@ -81,7 +81,7 @@ fn a_default_is_written_as_a_file_holds_it_and_reads_back_as_itself() {
 fn a_value_outside_of_the_range_is_refused_with_the_range() {
     let ty = number(Some([0.0, 0.3]));
     assert_eq!(ty.read(&json("0.3")), Ok(ParamValue::Floats(vec![0.3])));
-    // A product of lengths is the same float.
+    // The product equals 0.3 as an `f32`.
     assert!(ty.takes(&Value::Number(0.1 * 3.0)));
     assert_eq!(ty.read(&json("0.31")), Err("a number from 0 to 0.3".to_owned()));
     assert!(curve().takes(&json("[[0, -1], [1, 1]]")));
@@ -121,7 +121,7 @@ fn a_value_of_the_wrong_form_is_refused() {
 }
 
 #[test]
-fn a_text_is_read_as_what_the_parameter_takes() {
+fn typed_texts_are_read_according_to_the_type_of_the_parameter() {
     for (ty, typed, value) in [
         (number(None), " 0.25 ", "0.25"),
         (whole(Memory::I32, None), "-7", "-7"),
@@ -153,7 +153,7 @@ fn a_text_is_read_as_what_the_parameter_takes() {
 }
 
 #[test]
-fn an_expectation_follows_takes() {
+fn an_expectation_can_follow_the_word_takes() {
     for (ty, words) in [
         (number(None), "a number"),
         (number(Some([0.0, 1.0])), "a number from 0 to 1"),
@@ -179,7 +179,7 @@ fn an_expectation_follows_takes() {
 }
 
 #[test]
-fn a_slider_spans_the_soft_ends_or_the_range_or_what_suits_the_default() {
+fn a_slider_uses_the_soft_ends_or_the_range_or_an_interval_around_the_default() {
     let ty = number(Some([0.0, 4.0]));
     assert_eq!(number(None).slider(), [0.0, 1.0]);
     assert_eq!(ty.slider(), [0.0, 4.0]);
