@@ -1,7 +1,5 @@
 //! Tests of paths that files name.
 
-use std::fs;
-
 use super::*;
 
 fn base(folder: &str) -> PathBase {
@@ -46,6 +44,34 @@ fn a_file_of_a_model_is_looked_for_in_three_places() {
     if cfg!(unix) {
         assert_eq!(places("C:\\t\\a.png"), ["/w/C:\\t\\a.png", "/w/C:/t/a.png", "/w/a.png"]);
     }
+}
+
+#[test]
+fn a_file_of_a_model_may_be_named_in_another_case_of_letters() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = PathBase::of_folder(folder.path());
+    fs::create_dir(folder.path().join("Textures")).unwrap();
+    for name in ["Textures/Wood.PNG", "Textures/wood.jpg", "b.png", "B.PNG"] {
+        fs::write(folder.path().join(name), b"1").unwrap();
+    }
+    let found = |written: &str| model.place_in_other_case(written).map(|(text, _)| text);
+    for (written, expected) in [
+        ("textures/wood.png", Some("Textures/Wood.PNG")),
+        ("./TEXTURES/WOOD.JPG", Some("Textures/wood.jpg")),
+        ("Textures/oak.png", None),
+        ("../textures/wood.png", None),
+        ("/textures/wood.png", None),
+        ("", None),
+    ] {
+        let found = found(written);
+        assert!(
+            found.as_deref().map(str::to_lowercase) == expected.map(str::to_lowercase),
+            "{written}: {found:?}"
+        );
+    }
+    let (text, place) = model.place_in_other_case("textures/wood.png").unwrap();
+    assert_eq!(place, folder.path().join(&text));
+    assert_eq!(fs::read(place).unwrap(), b"1");
 }
 
 #[test]
