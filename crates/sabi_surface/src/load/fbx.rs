@@ -21,6 +21,7 @@ use super::LoadOptions;
 use super::assembly::{self, Assembly};
 use super::error::{Fault, damaged};
 use super::gltf::Resolve;
+use super::parts::Groups;
 use super::polygon::Budget;
 use super::skin_rest::{JointBudget, Rest};
 use super::text::with_line_feeds;
@@ -46,7 +47,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     };
     let scene = opened(&text)?;
     note_omissions(&scene, &mut warnings);
-    let shown = nodes::shown(&scene, &mut warnings);
+    let mut groups = Groups::default();
+    let shown = nodes::shown(&scene, &mut groups, &mut warnings);
     let mut looks = Looks::new(&scene, &shown, super::stem(name));
     let materials: Vec<ModelMaterial> = scene
         .materials
@@ -58,6 +60,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         pictures: looks.pictures,
         ..Assembly::default()
     };
+        groups,
     let mut places = BTreeMap::new();
     let mut sources: Vec<Source> = Vec::new();
     let mut joints = JointBudget::default();

@@ -26,6 +26,7 @@ use super::error::Fault;
 use super::faces::NONE;
 use super::far::brought_near;
 use super::normals::Missing;
+use super::parts::{Groups, NamedPart};
 use super::polygon::Budget;
 use super::size::check_size;
 use super::submesh::Submesh;
@@ -113,7 +114,15 @@ fn choose_parts(
 ) -> Result<Vec<FilePart>, Fault> {
     let used: BTreeSet<u32> = statements.faces.faces.iter().map(|face| face.part).collect();
     let names: Vec<String> = used.iter().map(|part| part_name(statements, *part, file)).collect();
-    let parts = options.parts.of_file(names.iter().map(String::as_str), warnings)?;
+    let mut groups = Groups::default();
+    for object in &statements.objects {
+        groups.add(object, None, false);
+    }
+    let named = used.iter().zip(&names).map(|(part, name)| NamedPart {
+        name,
+        group: statements.object_of.get(part).copied(),
+    });
+    let parts = options.parts.of_file(named, &groups, warnings)?;
     let taken = used.into_iter().zip(&parts).filter(|(_, part)| part.left_out.is_none());
     let taken: BTreeSet<u32> = taken.map(|(part, _)| part).collect();
     statements.faces.faces.retain(|face| taken.contains(&face.part));

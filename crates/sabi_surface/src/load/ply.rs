@@ -105,6 +105,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         materials: (0..assembly.materials.len() as u32).collect(),
     });
     assembly.into_model(name, resolve, options, warnings)
+        group: None,
 }
 
 /// Values of a vertex by the lists of [`VERTEX`].

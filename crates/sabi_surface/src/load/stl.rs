@@ -64,6 +64,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
             file_from_mesh: DMat4::IDENTITY,
             materials: Vec::new(),
         });
+            group: None,
         assembly.meshes.push(vec![submesh]);
     }
     assembly.into_model(name, resolve, options, warnings)

@@ -23,6 +23,10 @@ pub(super) struct Statements {
     pub(super) materials: Vec<String>,
     /// Names that `o` and `g` give, and the empty one for faces before any.
     pub(super) parts: Vec<String>,
+    /// Names of the objects, which `o` gives.
+    pub(super) objects: Vec<String>,
+    /// For each group, the place of the object that it is in.
+    pub(super) object_of: BTreeMap<u32, usize>,
     /// Arguments of each `mtllib`.
     pub(super) libraries: Vec<String>,
     colors: Colors,
@@ -140,11 +144,15 @@ impl Statements {
                 state.object += 1;
                 state.part = self.parts.len() as u32;
                 self.parts.push(part_name(named(rest)));
+                self.objects.push(part_name(named(rest)));
             }
             "g" => {
                 let name = part_name(named(rest));
                 let key = (state.object, name.clone());
                 state.part = numbered(key, &name, &mut state.parts, &mut self.parts);
+                if let Some(object) = self.objects.len().checked_sub(1) {
+                    self.object_of.insert(state.part, object);
+                }
             }
             "s" => {
                 let (group, _) = split_word(rest);
