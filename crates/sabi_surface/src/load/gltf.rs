@@ -14,6 +14,7 @@ mod skin;
 mod source;
 mod storage;
 mod texture_use;
+mod tidy;
 mod unpacked;
 mod uv_decoding;
 
@@ -29,6 +30,7 @@ use self::material::Materials;
 use self::primitive::LoadedPrimitive;
 use self::scene::{Instance, Scene};
 use self::source::Source;
+pub use self::tidy::gltf_json;
 pub use self::unpacked::UnpackedVertices;
 pub(super) use self::unpacked::unpack;
 use self::uv_decoding::UvDecodings;
