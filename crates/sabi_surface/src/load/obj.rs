@@ -77,6 +77,14 @@ pub(super) fn read(
     for names in &statements.libraries {
         library.read(names, resolve, &mut warnings);
     }
+    let used = statements.faces.faces.iter().map(|face| face.material);
+    let used: BTreeSet<u32> = used.collect();
+    let mut used = used
+        .into_iter()
+        .map(|slot| statements.materials[slot as usize].as_str());
+    if used.any(|name| !name.is_empty() && library.place(name).is_none()) {
+        library.read_beside(&model.stem, resolve, &mut warnings);
+    }
     let slots = number_materials(&statements, &mut library, &mut placed, &mut model, &mut warnings);
     model.without_uvs = without_uvs.iter().filter_map(|slot| slots.get(slot).copied()).collect();
     number_parts(&statements, name, &mut placed, &mut model);
