@@ -86,7 +86,7 @@ impl ImportOptions {
     pub(crate) fn saved(&self) -> SavedReading {
         SavedReading {
             parts: self.parts.clone(),
-            turn_faces: self.turn_faces,
+            turn_faces: self.turn_faces.then_some(true),
         }
     }
 
@@ -94,7 +94,7 @@ impl ImportOptions {
     pub(crate) fn with_saved(self, SavedReading { parts, turn_faces }: SavedReading) -> ImportOptions {
         ImportOptions {
             parts,
-            turn_faces,
+            turn_faces: turn_faces == Some(true),
             ..self
         }
     }

@@ -3,6 +3,7 @@
 //! In a file both `/` and `\` separate folders, whatever system wrote it. Relative paths refer to the folder of the file
 //! that contains them.
 
+use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
@@ -74,8 +75,32 @@ impl PathBase {
         })
     }
 
-    /// Returns the text by which a file of this base refers to `target`, which need not exist. The text is a relative path
-    /// if both share more than the root. Both paths are absolute.
+    /// Returns the place below the folder of this base to which a path leads in another case of letters, with the path in that case;
+    /// `None` where there is none, or where it leads above the folder. Systems that tell no cases apart write any.
+    pub fn place_in_other_case(&self, written: &str) -> Option<(String, PathBuf)> {
+        let (mut text, mut place) = (String::new(), self.folder.clone());
+        for part in Path::new(written).components() {
+            let name = match part {
+                Component::CurDir => continue,
+                Component::Normal(name) => name.to_str()?,
+                Component::Prefix(_) | Component::RootDir | Component::ParentDir => return None,
+            };
+            let exact = place.join(name);
+            let name = match exact.exists() {
+                true => name.to_owned(),
+                false => name_in_other_case(&place, name)?,
+            };
+            if !text.is_empty() {
+                text.push('/');
+            }
+            text.push_str(&name);
+            place.push(name);
+        }
+        (!text.is_empty()).then_some((text, place))
+    }
+
+    /// Writes an existing or future file's path for a file of this base: relative where both share more than the root.
+    /// Both paths are absolute.
     ///
     /// # Errors
     /// A part of the path is not Unicode.
@@ -143,6 +168,23 @@ pub fn without_detours(path: &Path) -> PathBuf {
         }
     }
     direct
+}
+
+/// Most entries of a folder among which a name in another case is looked for.
+const MOST_ENTRIES: usize = 4096;
+
+/// Returns the entry of a folder that has a name in another case of letters, of several the first by the alphabet.
+fn name_in_other_case(folder: &Path, name: &str) -> Option<String> {
+    // The base of a file without a folder is the current one.
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let lower = name.to_lowercase();
+    let entries = fs::read_dir(folder).ok()?.take(MOST_ENTRIES).flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    names.filter(|other| other.to_lowercase() == lower).min()
 }
 
 fn with_forward_slashes(written: &str) -> String {

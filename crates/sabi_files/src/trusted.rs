@@ -84,7 +84,11 @@ impl TrustedPaths {
     /// # Errors
     /// As those of [`TrustedPaths::find_of_model`], or the file cannot be read or has more than `limit` bytes.
     pub fn read_of_model(&self, base: &PathBase, written: &str, limit: u64) -> Result<(Vec<u8>, PathBuf), Unread> {
-        let (file, place) = self.find_of_model(base, written)?;
+        let found = match self.find_of_model(base, written) {
+            Err(Unread::Missing) => self.find_of_model_in_other_case(base, written),
+            found => found,
+        };
+        let (file, place) = found?;
         Ok((read_plain(&file, limit)?, place))
     }
 
@@ -108,8 +112,20 @@ impl TrustedPaths {
         Err(refused)
     }
 
-    /// Reads the file to which a file of this base refers as `written`, if it may be opened, has at most `limit` bytes and
-    /// is neither a pipe nor a device.
+    /// Finds a file that is in none of the places where a model of this base names it, in the first of these where there is one whose
+    /// name has another case of letters. Folders are listed for that.
+    ///
+    /// # Errors
+    /// As those of [`TrustedPaths::find_of_model`].
+    pub fn find_of_model_in_other_case(&self, base: &PathBase, written: &str) -> Result<(PathBuf, PathBuf), Unread> {
+        let mut places = base.places(written).into_iter();
+        let found = places.find_map(|(text, _)| base.place_in_other_case(&text));
+        let (text, place) = found.ok_or(Unread::Missing)?;
+        Ok((self.check_at(base, &text, &place)?, place))
+    }
+
+    /// Reads a file that a file of this base names as `written`, if it may be opened, has at most `limit` bytes and is no pipe or
+    /// device.
     ///
     /// # Errors
     /// See [`Unread`].

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 pub enum Uri<'a> {
     /// Bytes that the URI contains.
     Data(Vec<u8>),
-    /// Path relative to the file, percent-decoded.
+    /// Path relative to the file, percent-decoded. Of a `file:` address, which is one of another computer, the last part.
     Beside(Cow<'a, str>),
     /// Embedded data that is damaged, with the reason.
     Damaged(String),
@@ -26,7 +26,13 @@ impl<'a> Uri<'a> {
             return data(rest);
         }
         let scheme = uri.split_once([':', '/', '\\', '?']).map_or(uri, |(scheme, _)| scheme);
-        // A single letter is a drive, not a scheme.
+        let is_file = scheme.eq_ignore_ascii_case("file") && uri[scheme.len()..].starts_with(':');
+        let uri = match uri.rsplit_once(['/', '\\', ':']) {
+            Some((_, name)) if is_file => name,
+            _ => uri,
+        };
+        let scheme = if is_file { "" } else { scheme };
+        // One letter is a drive, not a scheme.
         if scheme.len() > 1 && uri[scheme.len()..].starts_with(':') && scheme.bytes().all(is_scheme_byte) {
             return Uri::Unusable(format!("`{scheme}:` addresses are not fetched"));
         }
@@ -169,6 +175,8 @@ mod tests {
             ("100%.bin", beside("100%.bin")),
             ("a/b.bin", beside("a/b.bin")),
             ("C:\\a.bin", beside("C:\\a.bin")),
+            ("file:///C:/My%20work/a%20b.bin", beside("a b.bin")),
+            ("FILE:\\\\C:\\a.bin", beside("a.bin")),
             (
                 "https://example.org/a.bin",
                 unusable("`https:` addresses are not fetched"),

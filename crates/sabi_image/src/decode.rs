@@ -123,21 +123,65 @@ impl Format {
 }
 
 /// Signatures of common files that are not supported, so that the message can name them.
-const FOREIGN: [(&[u8], &str); 10] = [
-    (b"GIF8", "a GIF picture"),
-    (b"II*\0", "a TIFF picture"),
-    (b"MM\0*", "a TIFF picture"),
-    (b"8BPS", "a Photoshop document"),
-    (b"DDS ", "a DDS texture"),
-    (b"\xabKTX", "a KTX texture of version 1"),
-    (b"\0\0\x01\0", "an icon"),
-    (b"%PDF", "a PDF document"),
-    (b"<svg", "an SVG drawing"),
+const FOREIGN: [(usize, &[u8], &str); 32] = [
+    (0, b"GIF8", "a GIF picture"),
+    (0, b"II*\0", "a TIFF picture"),
+    (0, b"MM\0*", "a TIFF picture"),
+    (0, b"II+\0", "a BigTIFF picture"),
+    (0, b"MM\0+", "a BigTIFF picture"),
+    (0, b"8BPS", "a Photoshop document"),
+    (0, b"DDS ", "a DDS texture"),
+    (0, b"\xabKTX", "a KTX texture of version 1"),
+    (0, b"\0\0\x01\0", "an icon"),
+    (0, b"%PDF", "a PDF document"),
+    (0, b"<svg", "an SVG drawing"),
+    (4, b"ftypavif", "an AVIF picture"),
+    (4, b"ftypheic", "an HEIC picture"),
+    (4, b"ftypmif1", "an HEIF picture"),
+    (0, b"\0\0\0\x0cjP  ", "a JPEG 2000 picture"),
+    (0, b"\xff\x4f\xff\x51", "a JPEG 2000 picture"),
+    (0, b"\0\0\0\x0cJXL ", "a JPEG XL picture"),
+    (0, b"\xff\x0a", "a JPEG XL picture"),
+    (0, b"gimp xcf", "a GIMP document"),
+    (0, b"qoif", "a QOI picture"),
+    (0, b"SDPX", "a DPX picture"),
+    (0, b"XPDS", "a DPX picture"),
+    (0, b"\x01\xda", "an SGI picture"),
+    (0, b"\x0a\x05\x01", "a PCX picture"),
+    (0, b"P5\n", "a PGM picture"),
+    (0, b"P6\n", "a PPM picture"),
+    (0, b"PF\n", "a PFM picture"),
+    (0, b"Pf\n", "a PFM picture"),
+    (0, b"PK\x03\x04", "an archive (zip)"),
+    (0, b"<!DOCTYPE", "a web page"),
+    (0, b"<html", "a web page"),
     (
+        0,
         b"version https://git-lfs",
         "a Git LFS pointer instead of the file itself",
     ),
 ];
+/// Bytes of a drawing in XML among which its root is looked for.
+const ROOT_WITHIN: usize = 1024;
+
+/// Returns the kind of a file that is not read, with its article; none for an unknown one.
+fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
+    let start = &bytes[..bytes.len().min(ROOT_WITHIN)];
+    if start.starts_with(b"<?xml") && start.windows(4).any(|root| root == b"<svg") {
+        return Some("an SVG drawing");
+    }
+    if bytes.starts_with(b"BA") && bytes.get(14..16) == Some(b"BM") {
+        return Some("an array of OS/2 bitmaps");
+    }
+    let mut marks = FOREIGN.iter();
+    let found = marks.find(|(at, mark, _)| bytes.get(*at..).is_some_and(|rest| rest.starts_with(mark)));
+    found.map(|(_, _, kind)| *kind)
+}
+
+/// Returns true for bytes that may be a TGA: its kinds of color map and of pixels have few values (Truevision TGA 2.0, C.2).
+fn is_tga(bytes: &[u8]) -> bool {
+    matches!(bytes, [_, 0 | 1, 1..=3 | 9..=11, ..])
+}
 
 fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
     if bytes.is_empty() {
@@ -153,11 +197,11 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
         _ if is_webp => Format::Other(ImageFormat::WebP),
         [b'B', b'M', ..] if bytes.len() >= 26 => Format::Other(ImageFormat::Bmp),
         _ => {
-            let foreign = FOREIGN.iter().find(|(mark, _)| bytes.starts_with(mark));
-            if foreign.is_none() && name.to_ascii_lowercase().ends_with(".tga") {
+            // A mark of two bytes may be the beginning of a TGA, which has none.
+            if name.to_ascii_lowercase().ends_with(".tga") && is_tga(bytes) {
                 return Ok(Format::Other(ImageFormat::Tga));
             }
-            let kind = foreign.map_or("no picture of a known kind", |(_, kind)| kind);
+            let kind = foreign_kind(bytes).unwrap_or("no picture of a known kind");
             return Err(ImageError::Unsupported {
                 name: name.into(),
                 kind: kind.into(),
@@ -331,6 +375,10 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     let decoder = open_other(name, bytes, format)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(|error| explain_other(name, format, error))?;
     let (width, height) = (picture.width(), picture.height());
+    let picture = match format {
+        ImageFormat::Tga if has_idle_alpha(bytes, &picture) => DynamicImage::ImageRgb8(picture.into_rgb8()),
+        _ => picture,
+    };
     let channels = picture.color().channel_count();
     let pixels = samples_of(picture).map_err(|feature| ImageError::Feature {
         name: name.into(),
@@ -346,7 +394,18 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     })
 }
 
-/// Returns the samples unchanged, or the name of their type if it is not supported.
+/// Returns true for a TGA whose fourth byte is no alpha: its descriptor says that there are no such bits, and all of them are 0. Many
+/// programs write alpha and say that there is none.
+fn has_idle_alpha(bytes: &[u8], picture: &DynamicImage) -> bool {
+    const DESCRIPTOR: usize = 17;
+    let says_none = bytes.get(DESCRIPTOR).is_some_and(|descriptor| descriptor & 0x0f == 0);
+    match picture {
+        DynamicImage::ImageRgba8(samples) => says_none && samples.pixels().all(|pixel| pixel.0[3] == 0),
+        _ => false,
+    }
+}
+
+/// Returns the samples unchanged, or the name of their kind where it is not read.
 fn samples_of(picture: DynamicImage) -> Result<Pixels, String> {
     Ok(match picture {
         DynamicImage::ImageLuma8(samples) => Pixels::U8(samples.into_raw()),

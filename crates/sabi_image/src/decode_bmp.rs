@@ -12,7 +12,7 @@ const INFO_HEADER_BYTES: u32 = 40;
 /// Size of the header whose last four numbers are bit masks for red, green, blue and alpha.
 const MASKS_HEADER_BYTES: u32 = 56;
 /// Size of the header of OS/2 2.x, whose fields from the compression on have other meanings.
-const OS2_HEADER_BYTES: u32 = 64;
+const OS2_HEADER_BYTES: [std::ops::RangeInclusive<u32>; 2] = [16..=39, 57..=64];
 
 /// Values of the compression field.
 const PLAIN: u32 = 0;
@@ -26,9 +26,6 @@ const BIT_MASKS_WITH_ALPHA: u32 = 6;
 /// # Errors
 /// The file is valid but of a kind that is not supported. Damage is reported later by the decoder.
 pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, ImageError> {
-    let Some(header) = Header::read(bytes) else {
-        return Ok(Cow::Borrowed(bytes));
-    };
     let unread = |feature: String| {
         Err(ImageError::Feature {
             name: name.into(),
@@ -36,8 +33,15 @@ pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, Im
             feature,
         })
     };
+    let size = bytes.get(FILE_HEADER_BYTES..FILE_HEADER_BYTES + 4);
+    let size = size.and_then(|size| size.try_into().ok()).map(u32::from_le_bytes);
+    if size.is_some_and(|size| OS2_HEADER_BYTES.iter().any(|sizes| sizes.contains(&size))) {
+        return unread("it has the header of OS/2 2.x, which is not read".to_owned());
+    }
+    let Some(header) = Header::read(bytes) else {
+        return Ok(Cow::Borrowed(bytes));
+    };
     match header.compression {
-        _ if header.size == OS2_HEADER_BYTES => unread("it has the header of OS/2 2.x, which is not read".to_owned()),
         PLAIN | BIT_MASKS if header.bits == 64 => unread("it has 64 bits a pixel, which are not read".to_owned()),
         PLAIN | BIT_MASKS => Ok(Cow::Borrowed(bytes)),
         RUNS_OF_8_BITS | RUNS_OF_4_BITS => header.without_runs(name, bytes),
@@ -271,11 +275,14 @@ mod tests {
             );
         }
         let mut os2 = file([1, 1], 24, 0, &[0; 24], &[0; 4]);
-        os2[14] = 64;
-        let error = decode("a.bmp", &os2).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "a.bmp cannot be used: it has the header of OS/2 2.x, which is not read; save it again as a plain BMP file"
-        );
+        for size in [16, 64] {
+            os2[14] = size;
+            let error = decode("a.bmp", &os2).unwrap_err();
+            assert_eq!(
+                error.to_string(),
+                "a.bmp cannot be used: it has the header of OS/2 2.x, which is not read; save it again as a plain BMP file",
+                "{size}"
+            );
+        }
     }
 }

@@ -46,7 +46,7 @@ use self::beside::FilesBeside;
 pub use self::error::{Fault, LoadError};
 pub use self::format::ENDINGS;
 use self::format::{Format, format_of, refused_format};
-pub use self::gltf::UnpackedVertices;
+pub use self::gltf::{UnpackedVertices, gltf_json};
 pub use self::listed::listed;
 pub use self::parts::PartChoice;
 use self::repeating::repeating;

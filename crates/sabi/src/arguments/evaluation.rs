@@ -26,8 +26,8 @@ pub(crate) struct MapArguments {
 /// Options for reading a model that a graph may have for its own.
 #[derive(Debug, Args)]
 pub(crate) struct ReadingArguments {
-    /// Only these parts of the model, by their names, whatever these mean; * stands for any text and ? for one letter, so '*' for all
-    /// of them. Without it, collision hulls and coarser levels of detail are left out by their names
+    /// Only these parts of the model, by their names or those of nodes above them, whatever these mean; * stands for any text and ?
+    /// for one letter, so '*' for all of them. Without it, collision hulls and coarser levels of detail are left out by their names
     #[arg(long, value_name = "NAMES", value_delimiter = ',', help_heading = "Model")]
     parts: Vec<String>,
     /// Leave these parts of the model out, by their names; * and ? as for --parts
@@ -36,6 +36,9 @@ pub(crate) struct ReadingArguments {
     /// Turn faces that are inside out: against the faces around them, or inward on a closed body
     #[arg(long, help_heading = "Model")]
     turn_faces: bool,
+    /// Leave faces that are inside out as they are, even if the graph turns those of its model
+    #[arg(long, conflicts_with = "turn_faces", help_heading = "Model")]
+    no_turn_faces: bool,
 }
 
 impl ReadingArguments {
@@ -46,7 +49,11 @@ impl ReadingArguments {
                 parts: self.parts.clone(),
                 without: self.without.clone(),
             },
-            turn_faces: self.turn_faces,
+            turn_faces: match (self.turn_faces, self.no_turn_faces) {
+                (true, _) => Some(true),
+                (false, true) => Some(false),
+                (false, false) => None,
+            },
         }
     }
 }

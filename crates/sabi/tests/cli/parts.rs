@@ -225,3 +225,34 @@ fn faces_that_are_inside_out_are_counted_and_turned() {
     let told = bake("good.obj", &[]).stderr;
     assert!(!told.contains("inside out"), "{told}");
 }
+
+#[test]
+fn the_command_line_decides_whether_faces_of_a_graphs_own_model_are_turned() {
+    software_adapter();
+    let place = with_models();
+    let preview = r#""preview": { "mesh": "cube.obj", "turn_faces": true },"#;
+    let turning = graph(CLOUDS).replacen("\"nodes\"", &format!("{preview}\n  \"nodes\""), 1);
+    place.write("turning.sabi", turning);
+    let turned = |report: &[u8]| {
+        let report: Json = serde_json::from_slice(report).unwrap();
+        report["mesh"]["turned_faces"].clone()
+    };
+    for (more, expected) in [(&[][..], 4), (&["--turn-faces"], 4), (&["--no-turn-faces"], 0)] {
+        let more = [more, &["--size", "16", "--force", "--report", "first.json"]].concat();
+        place.bake("turning.sabi", "cube.obj", &more).good();
+        assert_eq!(turned(&place.read("first.json")), expected, "{more:?}");
+        // What a report says is done again, whatever the graph says.
+        let again = [
+            "bake",
+            "--from",
+            "first.json",
+            "-o",
+            "again",
+            "--report",
+            "again.json",
+            "--force",
+        ];
+        place.sabi(&again).good();
+        assert_eq!(turned(&place.read("again.json")), expected, "{more:?}");
+    }
+}

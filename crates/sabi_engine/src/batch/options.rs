@@ -128,7 +128,7 @@ const OPTIONS: [ItemOption; 22] = [
         Some(())
     }),
     option("turn_faces", "true or false", |request, value| {
-        request.evaluator.model.reading.turn_faces = value.as_bool()?;
+        request.evaluator.model.reading.turn_faces = Some(value.as_bool()?);
         Some(())
     }),
     option("udim", "'auto', 'on' or 'off'", |request, value| {

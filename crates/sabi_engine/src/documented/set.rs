@@ -35,7 +35,7 @@ fn recipe() -> Recipe {
             smooth_degrees: None,
             parts: vec![text()],
             without: vec![text()],
-            turn_faces: true,
+            turn_faces: Some(true),
             overlap: Overlap::Auto,
             udim: Udim::Auto,
         },

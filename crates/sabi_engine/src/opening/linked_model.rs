@@ -198,7 +198,7 @@ impl LinkedModel {
             scene: options.scene,
             smooth_degrees: options.smooth_degrees,
             parts: options.reading.parts.clone(),
-            turns_faces: options.reading.turn_faces,
+            turns_faces: options.reading.turns_faces(),
             memory_bytes: options.memory_bytes,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();

@@ -30,7 +30,9 @@ impl LinkedModel {
     fn parts_left_out(&self) -> Option<Warning> {
         let parts = self.model.file_parts.iter();
         let by_name = parts.filter(|part| matches!(part.left_out, Some(LeftOut::Hull | LeftOut::CoarserLevel)));
-        let names: BTreeSet<&str> = by_name.map(|part| part.name.as_str()).collect();
+        let names: BTreeSet<&str> = by_name
+            .map(|part| part.of_group.as_deref().unwrap_or(&part.name))
+            .collect();
         let (are, their) = match names.len() {
             0 => return None,
             1 => (

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, Uri, read_plain, without_detours};
-use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, PartChoice, load_bytes};
+use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, PartChoice, gltf_json, load_bytes};
 
 use super::entries::{is_picture, is_usual_ending};
 use crate::error::{EngineError, ErrorKind};
@@ -211,7 +211,7 @@ fn uris(bytes: &[u8]) -> Vec<String> {
         }
         None => Some(bytes),
     };
-    let Some(Ok(document)) = json.map(serde_json::from_slice::<serde_json::Value>) else {
+    let Some(Ok(document)) = json.map(gltf_json) else {
         return Vec::new();
     };
     let lists = ["buffers", "images"]

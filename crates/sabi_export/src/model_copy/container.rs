@@ -1,5 +1,6 @@
 //! Container of a glTF document: a JSON file, or a GLB file with a binary chunk.
 
+use sabi_surface::load::gltf_json;
 use serde_json::{Value as Json, json};
 
 /// Granularity of cuts, a multiple of every element size of glTF, so that the bytes after a cut stay aligned.
@@ -19,11 +20,6 @@ pub(super) struct Container {
     binary: Option<Vec<u8>>,
     /// Chunks of other kinds, headers included.
     others: Vec<u8>,
-}
-
-fn without_mark(bytes: &[u8]) -> &[u8] {
-    // The byte order mark is optional.
-    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// The `u32` at a place.
@@ -68,7 +64,7 @@ impl Container {
                 at += 8 + size;
             }
         }
-        let document: Json = serde_json::from_slice(without_mark(text)).map_err(|error| error.to_string())?;
+        let document = gltf_json(text).map_err(|error| error.to_string())?;
         if !document.is_object() {
             return Err("its JSON is not an object".to_owned());
         }

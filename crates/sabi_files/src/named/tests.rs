@@ -1,7 +1,5 @@
 //! Tests of paths written in files.
 
-use std::fs;
-
 use super::*;
 
 fn base(folder: &str) -> PathBase {
@@ -49,7 +47,35 @@ fn a_file_of_a_model_is_searched_in_three_places() {
 }
 
 #[test]
-fn a_path_is_written_relative_if_both_share_more_than_the_root() {
+fn a_file_of_a_model_may_be_named_in_another_case_of_letters() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = PathBase::of_folder(folder.path());
+    fs::create_dir(folder.path().join("Textures")).unwrap();
+    for name in ["Textures/Wood.PNG", "Textures/wood.jpg", "b.png", "B.PNG"] {
+        fs::write(folder.path().join(name), b"1").unwrap();
+    }
+    let found = |written: &str| model.place_in_other_case(written).map(|(text, _)| text);
+    for (written, expected) in [
+        ("textures/wood.png", Some("Textures/Wood.PNG")),
+        ("./TEXTURES/WOOD.JPG", Some("Textures/wood.jpg")),
+        ("Textures/oak.png", None),
+        ("../textures/wood.png", None),
+        ("/textures/wood.png", None),
+        ("", None),
+    ] {
+        let found = found(written);
+        assert!(
+            found.as_deref().map(str::to_lowercase) == expected.map(str::to_lowercase),
+            "{written}: {found:?}"
+        );
+    }
+    let (text, place) = model.place_in_other_case("textures/wood.png").unwrap();
+    assert_eq!(place, folder.path().join(&text));
+    assert_eq!(fs::read(place).unwrap(), b"1");
+}
+
+#[test]
+fn a_path_is_written_relative_to_the_folder_where_both_share_more_than_the_root() {
     for (target, folder, written) in [
         ("/w/a.png", "/w", "a.png"),
         ("/w/b/a.png", "/w/c/d", "../../b/a.png"),

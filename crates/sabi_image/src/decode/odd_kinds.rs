@@ -138,7 +138,22 @@ fn cmyk_and_progressive_jpegs_are_read_as_rgb() {
 }
 
 #[test]
-fn a_wrong_file_extension_does_not_matter() {
+fn the_fourth_byte_of_a_tga_is_alpha_unless_it_is_none_and_says_so() {
+    // Two pixels from the top left: blue, green, red and a fourth byte, of which so many bits are alpha.
+    let file = |bits: u8, alphas: [u8; 2]| {
+        let mut file = vec![0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 32, 0x20 | bits];
+        file.extend([30, 20, 10, alphas[0], 60, 50, 40, alphas[1]]);
+        let picture = decode("a.tga", &file).unwrap();
+        (picture.channels, picture.pixels)
+    };
+    let opaque = (3, Pixels::U8(vec![10, 20, 30, 40, 50, 60]));
+    assert_eq!(file(0, [0, 0]), opaque);
+    assert_eq!(file(0, [0, 9]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 9])));
+    assert_eq!(file(8, [0, 0]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 0])));
+}
+
+#[test]
+fn the_ending_of_the_name_may_lie() {
     let rows: [&[u8]; 2] = [&[1, 2], &[3, 4]];
     let picture = decode("a.jpg", &png_file(0, 8, rows, false, &[])).unwrap();
     assert_eq!(picture.pixels, Pixels::U8(vec![1, 2, 3, 4]));

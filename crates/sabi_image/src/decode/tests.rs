@@ -190,6 +190,22 @@ fn errors_are_clear_sentences() {
          that file"
     );
     assert!(says("a.png", b"hello").starts_with("a.png is no picture of a known kind"));
+    for (bytes, kind) in [
+        (&b"\0\0\0\x20ftypavif"[..], "an AVIF picture"),
+        (b"\0\0\0\x18ftypheic", "an HEIC picture"),
+        (b"\xff\x0a", "a JPEG XL picture"),
+        (b"II+\0", "a BigTIFF picture"),
+        (b"P6\n1 1\n255\n", "a PPM picture"),
+        (b"<?xml version='1.0'?>\n<svg/>", "an SVG drawing"),
+        (b"<!DOCTYPE html>", "a web page"),
+        (b"BA\0\0\0\0\0\0\0\0\0\0\0\0BM", "an array of OS/2 bitmaps"),
+    ] {
+        let told = says("a.png", bytes);
+        assert!(
+            told.starts_with(&format!("a.png is {kind}, which Sabi does not read")),
+            "{told}"
+        );
+    }
     let options = crate::PngOptions {
         channels: 1,
         bits: 8,

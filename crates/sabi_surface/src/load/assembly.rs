@@ -9,6 +9,7 @@ use super::blur::warn_of_placing;
 use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
 use super::gltf::Resolve;
+use super::parts::{Groups, NamedPart};
 use super::pictures::Pictures;
 use super::size::check_size;
 use super::submesh::Submesh;
@@ -25,6 +26,8 @@ pub(super) struct Instance {
     /// Its place in [`Assembly::meshes`].
     pub(super) mesh: usize,
     pub(super) name: String,
+    /// The node above it, in [`Assembly::groups`].
+    pub(super) group: Option<usize>,
     pub(super) file_from_mesh: DMat4,
     /// Material of the file for each number in [`Submesh::materials`]; others have none.
     pub(super) materials: Vec<u32>,
@@ -39,6 +42,8 @@ pub(super) struct Assembly {
     pub(super) uv_sets: BTreeSet<u32>,
     /// In the file's order.
     pub(super) instances: Vec<Instance>,
+    /// Nodes above them.
+    pub(super) groups: Groups,
     /// In the file's order.
     pub(super) materials: Vec<ModelMaterial>,
     pub(super) pictures: Pictures,
@@ -86,8 +91,11 @@ impl Assembly {
         options: &LoadOptions,
         mut warnings: Warnings,
     ) -> Result<Model, Fault> {
-        let names = self.instances.iter().map(|instance| instance.name.as_str());
-        let file_parts = options.parts.of_file(names, &mut warnings)?;
+        let named = self.instances.iter().map(|instance| NamedPart {
+            name: &instance.name,
+            group: instance.group,
+        });
+        let file_parts = options.parts.of_file(named, &self.groups, &mut warnings)?;
         let mut is_taken = file_parts.iter().map(|part| part.left_out.is_none());
         self.instances.retain(|_| is_taken.next() == Some(true));
         let has = |what: fn(&Submesh) -> bool| self.placements(|submesh, _| what(submesh)).any(|has| has);

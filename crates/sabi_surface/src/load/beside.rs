@@ -12,6 +12,9 @@ use super::{MAX_FILE_BYTES, reason, reason_beside};
 /// Most paths of missing files, and most refusals, that are recorded.
 const MOST_RECORDED: usize = 256;
 
+/// Most missing files that are looked for in another case of letters.
+const MOST_LISTINGS: usize = 1000;
+
 /// Reader of the files that a model names.
 pub(super) struct FilesBeside<'t> {
     base: PathBase,
@@ -26,6 +29,8 @@ pub(super) struct FilesBeside<'t> {
     known: BTreeMap<PathBuf, Arc<[u8]>>,
     /// Bytes that all files may have together, and those that are left of them.
     memory: [u64; 2],
+    /// Missing files that are still looked for in another case of letters.
+    listings: usize,
     /// Bytes that were needed for the last file that did not fit, with its reason.
     too_large: Option<(u64, String)>,
 }
@@ -50,6 +55,7 @@ impl<'t> FilesBeside<'t> {
             refused: Vec::new(),
             known: BTreeMap::new(),
             memory: [memory_bytes, memory_bytes - bytes.len() as u64],
+            listings: MOST_LISTINGS,
             too_large: None,
         };
         Ok((bytes, beside))
@@ -82,7 +88,15 @@ impl<'t> FilesBeside<'t> {
     }
 
     fn find(&mut self, written: &str) -> Result<Arc<[u8]>, Unread> {
-        let (file, place) = self.trusted.find_of_model(&self.base, written)?;
+        let found = match self.trusted.find_of_model(&self.base, written) {
+            // Folders are listed for each, which is slow for very many.
+            Err(Unread::Missing) if self.listings > 0 => {
+                self.listings -= 1;
+                self.trusted.find_of_model_in_other_case(&self.base, written)
+            }
+            found => found,
+        };
+        let (file, place) = found?;
         if let Some(known) = self.known.get(&file) {
             return Ok(known.clone());
         }

@@ -43,7 +43,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     if document.first("library_animations").is_some() {
         warnings.add("Animations are left out: the scene is taken as it stands without them.");
     }
-    let shown = scene::shown(&document, &mut warnings)?;
+    let mut assembly = Assembly::default();
+    let shown = scene::shown(&document, &mut assembly.groups, &mut warnings)?;
     let mut places = HashMap::new();
     let mut geometries: Vec<Geometry> = Vec::new();
     for shown in &shown {
@@ -56,13 +57,13 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let triangles = shown.iter().map(|shown| claims[places[&shown.mesh.id()]]);
     assembly::check_triangles(triangles, options.memory_bytes)?;
     let mut looks = Looks::new(&document);
-    let mut assembly = Assembly::default();
     for shown in shown {
         let mesh = places[&shown.mesh.id()];
         let materials = looks.bound(&shown, &geometries[mesh]);
         assembly.instances.push(Instance {
             mesh,
             name: shown.name,
+            group: shown.group,
             file_from_mesh: document.file_from_scene * shown.scene_from_mesh,
             materials,
         });

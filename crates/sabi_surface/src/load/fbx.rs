@@ -21,6 +21,7 @@ use super::LoadOptions;
 use super::assembly::{self, Assembly};
 use super::error::{Fault, damaged};
 use super::gltf::Resolve;
+use super::parts::Groups;
 use super::polygon::Budget;
 use super::skin_rest::{JointBudget, Rest};
 use super::text::with_line_feeds;
@@ -44,9 +45,13 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     } else {
         Cow::Borrowed(bytes)
     };
+    if writes_commas(&text) {
+        return Err(Fault::Format(COMMAS.into()));
+    }
     let scene = opened(&text)?;
     note_omissions(&scene, &mut warnings);
-    let shown = nodes::shown(&scene, &mut warnings);
+    let mut groups = Groups::default();
+    let shown = nodes::shown(&scene, &mut groups, &mut warnings);
     let mut looks = Looks::new(&scene, &shown, super::stem(name));
     let materials: Vec<ModelMaterial> = scene
         .materials
@@ -55,6 +60,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         .collect();
     let mut assembly = Assembly {
         materials,
+        groups,
         pictures: looks.pictures,
         ..Assembly::default()
     };
@@ -84,6 +90,38 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         assembly.meshes.push(vec![submesh]);
     }
     assembly.into_model(name, resolve, options, warnings)
+}
+
+/// Sentence about numbers such as `0,5`. FBX separates the numbers of a list with commas, so that such a list cannot be read.
+const COMMAS: &str = "it writes numbers with decimal commas, such as `0,5`, which cannot be told apart from the commas between \
+                      numbers; export it with decimal points (set the program or the system to English), or as binary FBX";
+
+/// Lists of fractions in a text.
+const FRACTIONS: [&str; 4] = ["Vertices", "Normals", "UV", "Colors"];
+
+/// Returns true if a list of fractions in a text has more of them than it says, and none with a decimal point.
+fn writes_commas(text: &[u8]) -> bool {
+    // Binary files have their lists elsewhere.
+    if !text.starts_with(b";") {
+        return false;
+    }
+    let text = String::from_utf8_lossy(text);
+    let mut promised = None;
+    for line in text.lines() {
+        let (key, rest) = line.split_once(':').unwrap_or(("", line)); // A list may go on over several lines.
+        if let Some(count) = rest.trim().strip_prefix('*') {
+            let digits = count.trim_end_matches(|letter: char| !letter.is_ascii_digit());
+            let count = digits.parse::<usize>().ok();
+            promised = count.filter(|_| FRACTIONS.contains(&key.trim()));
+        } else if key.trim() == "a"
+            && let Some(promised) = promised.take()
+            && !rest.contains('.')
+            && rest.split(',').filter(|number| !number.trim().is_empty()).count() > promised
+        {
+            return true;
+        }
+    }
+    false
 }
 
 /// A mesh that any node shows.

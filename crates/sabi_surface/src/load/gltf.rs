@@ -14,6 +14,7 @@ mod skin;
 mod source;
 mod storage;
 mod texture_use;
+mod tidy;
 mod unpacked;
 mod uv_decoding;
 
@@ -27,8 +28,9 @@ use self::buffers::Buffers;
 use self::document::Document;
 use self::material::Materials;
 use self::primitive::LoadedPrimitive;
-use self::scene::Instance;
+use self::scene::{Instance, Scene};
 use self::source::Source;
+pub use self::tidy::gltf_json;
 pub use self::unpacked::UnpackedVertices;
 pub(super) use self::unpacked::unpack;
 use self::uv_decoding::UvDecodings;
@@ -36,6 +38,7 @@ use super::arealess::LeftOutAreas;
 use super::blur::warn_of_placing;
 use super::error::{Fault, damaged, missing_uv_set};
 use super::far::brought_near;
+use super::parts::NamedPart;
 use super::size::check_size;
 use super::turning::Turning;
 use super::warnings::{TRIANGLES, Warnings, counted};
@@ -59,9 +62,12 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         scene: options.scene,
         smooth_degrees: options.smooth_degrees,
     };
-    let mut instances = scene::instances(&source, &mut warnings)?;
-    let names = instances.iter().map(|instance| instance.name.as_str());
-    let file_parts = options.parts.of_file(names, &mut warnings)?;
+    let Scene { mut instances, groups } = scene::read(&source, &mut warnings)?;
+    let named = instances.iter().map(|instance| NamedPart {
+        name: &instance.name,
+        group: instance.group,
+    });
+    let file_parts = options.parts.of_file(named, &groups, &mut warnings)?;
     let mut is_taken = file_parts.iter().map(|part| part.left_out.is_none());
     instances.retain(|_| is_taken.next() == Some(true));
     check_sizes(&source, &instances, options.memory_bytes)?;

@@ -5,10 +5,17 @@ use super::warnings::Warnings;
 /// Sentence about numbers such as `0,5`, which programs write that follow the language of their user.
 const COMMAS: &str = "The file writes numbers with decimal commas, such as `0,5`; they are read as decimal points.";
 
-/// Reads a number: a decimal comma is one, too, with a warning. Words for what is no number, such as `1.#IND` and `-nan(ind)`,
-/// are NaN; others are none.
+/// Reads a number, behind which a comma may separate it from the next: a decimal comma is one, too, with a warning, and so are
+/// exponents of Fortran, `1.0D-3`. Words for what is no number, such as `1.#IND` and `-nan(ind)`, are NaN; others are none.
 pub(super) fn number(word: &str, warnings: &mut Warnings) -> Option<f64> {
+    let word = word.strip_suffix(',').unwrap_or(word);
     if let Ok(number) = word.parse() {
+        return Some(number);
+    }
+    if let Some((digits, exponent)) = word.split_once(['D', 'd'])
+        && digits.bytes().any(|letter| letter.is_ascii_digit())
+        && let Ok(number) = format!("{digits}e{exponent}").parse()
+    {
         return Some(number);
     }
     let unsigned = word.trim_start_matches(['-', '+']);
@@ -36,6 +43,11 @@ mod tests {
             ("0,010000", Some(0.01), true),
             ("-,5", Some(-0.5), true),
             ("1,5e2", Some(150.0), true),
+            ("1.5D+02", Some(150.0), false),
+            ("-2d-1", Some(-0.2), false),
+            ("d1", None, false),
+            ("1.5,", Some(1.5), false),
+            ("1,5,", Some(1.5), true),
             ("1,234.5", None, false),
             ("1,2,3", None, false),
             ("0.5x", None, false),

@@ -26,6 +26,7 @@ use super::error::Fault;
 use super::faces::NONE;
 use super::far::brought_near;
 use super::normals::Missing;
+use super::parts::{Groups, NamedPart};
 use super::polygon::Budget;
 use super::size::check_size;
 use super::submesh::Submesh;
@@ -76,6 +77,14 @@ pub(super) fn read(
     for names in &statements.libraries {
         library.read(names, resolve, &mut warnings);
     }
+    let used = statements.faces.faces.iter().map(|face| face.material);
+    let used: BTreeSet<u32> = used.collect();
+    let mut used = used
+        .into_iter()
+        .map(|slot| statements.materials[slot as usize].as_str());
+    if used.any(|name| !name.is_empty() && library.place(name).is_none()) {
+        library.read_beside(&model.stem, resolve, &mut warnings);
+    }
     let slots = number_materials(&statements, &mut library, &mut placed, &mut model, &mut warnings);
     model.without_uvs = without_uvs.iter().filter_map(|slot| slots.get(slot).copied()).collect();
     number_parts(&statements, name, &mut placed, &mut model);
@@ -113,7 +122,15 @@ fn choose_parts(
 ) -> Result<Vec<FilePart>, Fault> {
     let used: BTreeSet<u32> = statements.faces.faces.iter().map(|face| face.part).collect();
     let names: Vec<String> = used.iter().map(|part| part_name(statements, *part, file)).collect();
-    let parts = options.parts.of_file(names.iter().map(String::as_str), warnings)?;
+    let mut groups = Groups::default();
+    for object in &statements.objects {
+        groups.add(object, None, false);
+    }
+    let named = used.iter().zip(&names).map(|(part, name)| NamedPart {
+        name,
+        group: statements.object_of.get(part).copied(),
+    });
+    let parts = options.parts.of_file(named, &groups, warnings)?;
     let taken = used.into_iter().zip(&parts).filter(|(_, part)| part.left_out.is_none());
     let taken: BTreeSet<u32> = taken.map(|(part, _)| part).collect();
     statements.faces.faces.retain(|face| taken.contains(&face.part));

@@ -1,10 +1,15 @@
 //! Choice of the parts of a file that count. Collision hulls and coarser levels of detail lie in the same place as what is seen,
 //! and are told by the names that engines give a meaning.
 
-use std::collections::{BTreeMap, BTreeSet};
+mod groups;
+mod meaning;
+
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
+pub(super) use self::groups::{Groups, NamedPart};
+use self::meaning::{Meaning, by_names};
 use super::error::Fault;
 use super::warnings::Warnings;
 use crate::model::{FilePart, LeftOut};
@@ -38,39 +43,45 @@ impl PartChoice {
         *self == PartChoice::default()
     }
 
-    /// Returns the parts of a file by their names, each with whether it is taken.
+    /// Returns the parts of a file by their names and those of the `groups` above them, each with whether it is taken.
     ///
     /// # Errors
-    /// A name that is no part's, or a choice that leaves none.
+    /// A name that is neither a part's nor a group's, or a choice that leaves none.
     pub(super) fn of_file<'n>(
         &self,
-        names: impl Iterator<Item = &'n str>,
+        parts: impl Iterator<Item = NamedPart<'n>>,
+        groups: &Groups,
         warnings: &mut Warnings,
     ) -> Result<Vec<FilePart>, Fault> {
-        let names: Vec<&str> = names.collect();
-        self.check_names(&names, warnings)?;
-        let is_any = |patterns: &[String], name: &str| patterns.iter().any(|pattern| matches(pattern, name));
-        let by_names = by_names(&names);
-        let part = |(name, by_name): (&&str, Option<LeftOut>)| {
-            let is_chosen = self.parts.is_empty() || is_any(&self.parts, name);
-            let is_out = !is_chosen || is_any(&self.without, name);
+        let parts: Vec<NamedPart> = parts.collect();
+        let choosable = Choosable::new(&parts, groups);
+        self.check_names(&choosable, warnings)?;
+        let [chosen, excluded] = [&self.parts, &self.without].map(|patterns| choosable.named(patterns));
+        let is_all = self.parts.is_empty();
+        let choices = chosen.into_iter().zip(excluded);
+        let part = |((part, by_name), (is_chosen, is_excluded)): ((&NamedPart, Option<Meaning>), (bool, bool))| {
+            let is_out = !is_all && !is_chosen || is_excluded;
+            let is_usual = by_name.is_none();
+            let by_name = by_name.filter(|_| is_all && !is_out);
             let by_choice = is_out.then_some(LeftOut::Chosen);
             FilePart {
-                name: (*name).to_owned(),
-                left_out: by_choice.or(by_name.filter(|_| self.parts.is_empty())),
-                is_usual: by_name.is_none(),
+                name: part.name.to_owned(),
+                left_out: by_choice.or(by_name.as_ref().map(|meaning| meaning.left_out)),
+                of_group: by_name.and_then(|meaning| meaning.of_group),
+                is_usual,
             }
         };
-        let parts: Vec<FilePart> = names.iter().zip(by_names).map(part).collect();
+        let named = parts.iter().zip(by_names(&parts, groups));
+        let parts: Vec<FilePart> = named.zip(choices).map(part).collect();
         if !parts.is_empty() && parts.iter().all(|part| part.left_out.is_some()) {
             return Err(Fault::NoPart);
         }
         Ok(parts)
     }
 
-    /// Refuses names that are no part's. A pattern of parts that are left out may fit none.
-    fn check_names(&self, names: &[&str], warnings: &mut Warnings) -> Result<(), Fault> {
-        let is_used = |pattern: &str| names.iter().any(|name| matches(pattern, name));
+    /// Refuses names that nothing has. A pattern of parts that are left out may fit none.
+    fn check_names(&self, choosable: &Choosable, warnings: &mut Warnings) -> Result<(), Fault> {
+        let is_used = |pattern: &str| choosable.has(pattern);
         let (patterns, plain): (Vec<&String>, Vec<&String>) = self.without.iter().partition(|name| is_pattern(name));
         let mut unknown: Vec<String> = Vec::new();
         for name in self.parts.iter().chain(plain).filter(|name| !is_used(name)) {
@@ -79,7 +90,7 @@ impl PartChoice {
             }
         }
         if !unknown.is_empty() {
-            let there: BTreeSet<String> = names.iter().map(|name| (*name).to_owned()).collect();
+            let there: BTreeSet<String> = choosable.parts.iter().map(|part| part.name.to_owned()).collect();
             return Err(Fault::NoSuchPart {
                 unknown,
                 there: there.into_iter().collect(),
@@ -89,6 +100,52 @@ impl PartChoice {
             warnings.add(format!("No part fits `{pattern}`, so it leaves none out."));
         }
         Ok(())
+    }
+}
+
+/// Parts of a file and the nodes above them, as a choice may name them.
+struct Choosable<'c> {
+    parts: &'c [NamedPart<'c>],
+    groups: &'c Groups,
+    /// Parts below each node.
+    counts: Vec<usize>,
+}
+
+impl<'c> Choosable<'c> {
+    fn new(parts: &'c [NamedPart<'c>], groups: &'c Groups) -> Choosable<'c> {
+        Choosable {
+            counts: groups.counts(parts),
+            parts,
+            groups,
+        }
+    }
+
+    /// Returns true if a pattern stands for a node: for one that is no part itself and has parts below it. That of a
+    /// whole file is meant only where its full name is given.
+    fn is_group(&self, pattern: &str, number: usize) -> bool {
+        let group = &self.groups.all()[number];
+        let count = self.counts[number];
+        let is_apart = count > 0 && (count < self.parts.len() || !is_pattern(pattern));
+        !group.is_part && is_apart && matches(pattern, &group.name)
+    }
+
+    /// Returns true if a pattern stands for anything.
+    fn has(&self, pattern: &str) -> bool {
+        let is_part = self.parts.iter().any(|part| matches(pattern, part.name));
+        is_part || (0..self.counts.len()).any(|number| self.is_group(pattern, number))
+    }
+
+    /// Returns for each part whether one of the patterns stands for it or for a node above it.
+    fn named(&self, patterns: &[String]) -> Vec<bool> {
+        let of_groups = self.groups.inherited(|number, _| {
+            let is_named = patterns.iter().any(|pattern| self.is_group(pattern, number));
+            is_named.then_some(())
+        });
+        let is_named = |part: &NamedPart| {
+            let is_below = part.group.is_some_and(|group| of_groups[group].is_some());
+            is_below || patterns.iter().any(|pattern| matches(pattern, part.name))
+        };
+        self.parts.iter().map(is_named).collect()
     }
 }
 
@@ -120,150 +177,9 @@ fn matches(pattern: &str, name: &str) -> bool {
     pattern[at..].iter().all(|letter| *letter == '*')
 }
 
-/// Returns what leaves each part out by its name. Where that would be all, none is.
-fn by_names(names: &[&str]) -> Vec<Option<LeftOut>> {
-    let plain: Vec<&str> = names.iter().map(|name| without_number(name)).collect();
-    let known: BTreeSet<String> = plain.iter().map(|name| name.to_lowercase()).collect();
-    let is_hull: Vec<bool> = plain.iter().map(|name| is_hull(name, &known)).collect();
-    let levels: Vec<Option<(String, u32)>> = plain.iter().map(|name| level(name)).collect();
-    let mut finest: BTreeMap<&str, u32> = BTreeMap::new();
-    let seen = levels.iter().zip(&is_hull).filter(|(_, is_hull)| !**is_hull);
-    for (of, level) in seen.filter_map(|(level, _)| level.as_ref()) {
-        // A part of the bare name is finer than all levels.
-        let level = if known.contains(of) { 0 } else { *level };
-        let least = finest.entry(of).or_insert(level);
-        *least = level.min(*least);
-    }
-    let left_out = |(is_hull, level): (&bool, &Option<(String, u32)>)| {
-        let is_coarser = |(of, level): &(String, u32)| finest.get(of.as_str()).is_some_and(|finest| level > finest);
-        match (is_hull, level) {
-            (true, _) => Some(LeftOut::Hull),
-            (false, Some(level)) if is_coarser(level) => Some(LeftOut::CoarserLevel),
-            _ => None,
-        }
-    };
-    let found: Vec<Option<LeftOut>> = is_hull.iter().zip(&levels).map(left_out).collect();
-    if found.iter().all(Option::is_some) {
-        return vec![None; names.len()];
-    }
-    found
-}
-
-/// Name without the number that programs append to a name that is taken: `.001`.
-fn without_number(name: &str) -> &str {
-    match name.rsplit_once('.') {
-        Some((before, digits)) if digits.len() == 3 && digits.bytes().all(|digit| digit.is_ascii_digit()) => before,
-        _ => name,
-    }
-}
-
-/// Prefixes of collision hulls of Unreal, lower case.
-const HULL_PREFIXES: [&str; 4] = ["ucx_", "ubx_", "usp_", "ucp_"];
-/// Endings of what Godot and Unity use and do not draw, lower case.
-const HULL_ENDINGS: [&str; 6] = ["colonly", "convcolonly", "occonly", "navmesh", "collider", "collision"];
-/// Endings by which Godot derives a hull from a part that it draws, unless there is a part of the bare name.
-const DRAWN_HULL_ENDINGS: [&str; 2] = ["col", "convcol"];
-/// Letters before these endings.
-const BEFORE_ENDING: [char; 5] = ['-', '_', '$', '.', ' '];
-
-/// Returns true if a part is a collision hull by its name; `known` are the names of all parts, lower case.
-fn is_hull(name: &str, known: &BTreeSet<String>) -> bool {
-    let name = name.to_lowercase();
-    if HULL_PREFIXES.iter().any(|prefix| name.starts_with(prefix)) {
-        return true;
-    }
-    // Godot looks past numbers at the end.
-    let name = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    let Some((bare, ending)) = name.rsplit_once(BEFORE_ENDING) else {
-        return false;
-    };
-    HULL_ENDINGS.contains(&ending) || DRAWN_HULL_ENDINGS.contains(&ending) && known.contains(bare)
-}
-
-/// Level of detail that a name says, `Rock_LOD1`, with the rest of the name in lower case; none for other names.
-fn level(name: &str) -> Option<(String, u32)> {
-    let name = name.to_lowercase();
-    let is_apart = |letter: Option<char>| letter.is_none_or(|letter| BEFORE_ENDING.contains(&letter));
-    let (at, digits) = name.rmatch_indices("lod").find_map(|(at, word)| {
-        let after = &name[at + word.len()..];
-        let digits = after.len() - after.trim_start_matches(|letter: char| letter.is_ascii_digit()).len();
-        let is_word = is_apart(name[..at].chars().next_back()) && is_apart(after[digits..].chars().next());
-        (digits > 0 && is_word).then_some((at, digits))
-    })?;
-    let end = at + "lod".len() + digits;
-    let level = name[end - digits..end].parse().ok()?;
-    let before = name[..at].strip_suffix(BEFORE_ENDING).unwrap_or(&name[..at]);
-    Some((format!("{before}{}", &name[end..]), level))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn left_out(names: &[&str]) -> Vec<String> {
-        let parts = PartChoice::default().of_file(names.iter().copied(), &mut Warnings::default());
-        let parts = parts.expect("no name is asked for");
-        let out = parts.into_iter().filter(|part| part.left_out.is_some());
-        out.map(|part| part.name).collect()
-    }
-
-    #[test]
-    fn the_finest_level_of_each_name_stays() {
-        let cases: [(&[&str], &[&str]); 10] = [
-            (&["Rock_LOD0", "Rock_LOD1", "Rock_LOD2"], &["Rock_LOD1", "Rock_LOD2"]),
-            (&["Rock_LOD1", "Rock_LOD2", "Tree"], &["Rock_LOD2"]),
-            (&["Rock", "Rock_LOD1", "rock_lod2"], &["Rock_LOD1", "rock_lod2"]),
-            (&["Rock_LOD1", "Tree"], &[]),
-            (&["a-lod0", "a-lod10", "b LOD1", "b.LOD2"], &["a-lod10", "b.LOD2"]),
-            (&["LOD0", "LOD1"], &["LOD1"]),
-            (
-                &["Oak_LOD0_Leaves", "Oak_LOD1_Leaves", "Oak_LOD1_Trunk"],
-                &["Oak_LOD1_Leaves"],
-            ),
-            (&["Rock_LOD0", "Rock_LOD1.001", "Rock_LOD0.001"], &["Rock_LOD1.001"]),
-            (&["Explode1", "Explode2", "Melody_LODge1"], &[]),
-            (&["x_LOD99999999999", "x_LOD1"], &[]),
-        ];
-        for (names, expected) in cases {
-            assert_eq!(left_out(names), expected, "{names:?}");
-        }
-    }
-
-    #[test]
-    fn hulls_of_engines_are_no_parts_of_what_is_seen() {
-        let cases: [(&[&str], &[&str]); 6] = [
-            (
-                &["Rock", "UCX_Rock_00", "ubx_Rock", "USP_Rock", "UCP_Rock.001"],
-                &["UCX_Rock_00", "ubx_Rock", "USP_Rock", "UCP_Rock.001"],
-            ),
-            (
-                &[
-                    "Wall",
-                    "Wall-colonly",
-                    "Wall-convcolonly2",
-                    "Floor_navmesh",
-                    "Wall$occonly",
-                ],
-                &["Wall-colonly", "Wall-convcolonly2", "Floor_navmesh", "Wall$occonly"],
-            ),
-            (
-                &["Door", "Door_collider", "Door.Collision"],
-                &["Door_collider", "Door.Collision"],
-            ),
-            // Godot draws `Door-col`, and makes a hull of it besides.
-            (&["Door-col", "Frame"], &[]),
-            (&["Door-col", "Door"], &["Door-col"]),
-            (&["ship_hull", "Protocol", "Collider", "UCXRock", "color"], &[]),
-        ];
-        for (names, expected) in cases {
-            assert_eq!(left_out(names), expected, "{names:?}");
-        }
-        assert_eq!(
-            left_out(&["UCX_a", "UCX_b"]),
-            [""; 0],
-            "hulls alone are what there is to see"
-        );
-    }
 
     #[test]
     fn names_may_have_letters_that_stand_for_others() {
@@ -295,7 +211,8 @@ mod tests {
                 parts: list(parts),
                 without: list(without),
             };
-            let parts = choice.of_file(names.iter().copied(), &mut Warnings::default())?;
+            let parts = names.iter().map(|name| NamedPart { name, group: None });
+            let parts = choice.of_file(parts, &Groups::default(), &mut Warnings::default())?;
             let taken = parts.into_iter().filter(|part| part.left_out.is_none());
             Ok(taken.map(|part| part.name).collect::<Vec<String>>())
         };
@@ -320,6 +237,51 @@ mod tests {
                 unknown: vec!["Rok".into(), "Stone*".into(), "Mos".into()],
                 there,
             })
+        );
+    }
+
+    #[test]
+    fn a_node_is_chosen_with_all_parts_below_it() {
+        let mut groups = Groups::default();
+        let root = groups.add("Scene", None, false);
+        let wheels = groups.add("Wheels", Some(root), false);
+        let front = groups.add("Wheels_Front", Some(wheels), false);
+        groups.add("Lamps", Some(root), false);
+        let body = groups.add("Body", Some(root), true);
+        let parts = [("Body", root), ("rim", wheels), ("tire", front), ("Badge", body)];
+        let taken = |parts_of: &[&str], without: &[&str]| {
+            let list = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+            let choice = PartChoice {
+                parts: list(parts_of),
+                without: list(without),
+            };
+            let parts = parts.iter().map(|(name, group)| NamedPart {
+                name,
+                group: Some(*group),
+            });
+            let mut warnings = Warnings::default();
+            let parts = choice.of_file(parts, &groups, &mut warnings)?;
+            let taken = parts.into_iter().filter(|part| part.left_out.is_none());
+            Ok(taken.map(|part| part.name).collect::<Vec<String>>().join(" "))
+        };
+        assert_eq!(taken(&["Wheels"], &[]), Ok("rim tire".to_owned()));
+        assert_eq!(taken(&["Wheels"], &["*_Front"]), Ok("rim".to_owned()));
+        assert_eq!(taken(&[], &["Wheels_*"]), Ok("Body rim Badge".to_owned()));
+        assert_eq!(
+            taken(&[], &["Body"]),
+            Ok("rim tire Badge".to_owned()),
+            "a part is itself alone"
+        );
+        assert_eq!(taken(&["Scene"], &["tire"]), Ok("Body rim Badge".to_owned()));
+        assert_eq!(
+            taken(&[], &["S*"]),
+            Ok("Body rim tire Badge".to_owned()),
+            "a star means no whole file"
+        );
+        let unknown = taken(&["Lamps"], &[]).unwrap_err();
+        assert!(
+            matches!(unknown, Fault::NoSuchPart { .. }),
+            "nothing is below it: {unknown}"
         );
     }
 }

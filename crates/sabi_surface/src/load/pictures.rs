@@ -94,12 +94,19 @@ fn is_relative(path: &str) -> bool {
     !path.starts_with(['/', '\\']) && !has_drive && !path.contains("://")
 }
 
+/// Word in a path that stands for the number of a UV tile.
+const TILES: &str = "<UDIM>";
+
 fn bytes(place: Place, resolve: &mut Resolve) -> Result<Arc<[u8]>, String> {
     let paths = match place {
         Place::Inside(bytes) => return Ok(bytes),
         Place::Beside(paths) => paths,
     };
     let mut first_reason = None;
+    // Programs write the word as it is.
+    if paths.iter().any(|path| path.to_ascii_uppercase().contains(TILES)) {
+        first_reason = Some("it stands for a picture of each UV tile (UDIM), and one for all is read".to_owned());
+    }
     for path in paths {
         match resolve(&path) {
             Ok(bytes) => return Ok(bytes),

@@ -1,6 +1,7 @@
 //! PLY, as text and binary of both byte orders: vertices, faces, normals, texture coordinates, colors.
 //!
-//! Colors that are integers are taken as sRGB, as the programs that write them mean them; those that are floats as linear.
+//! Colors that are integers are taken as sRGB, as the programs that write them mean them; those that are floats as linear. They
+//! belong to vertices or, where these have none, to faces.
 //! Texture coordinates belong to vertices (`s t` or `u v`) or to the corners of faces (`texcoord`), and are turned to glTF's
 //! convention (v grows downward). Pictures are those of the comments `TextureFile`, which `texnumber` of a face counts.
 //! Normals that the file leaves out are smooth up to a crease of 80°. The format has no units and no axis that points up.
@@ -32,7 +33,7 @@ use crate::model::{Model, ModelMaterial, TextureRef};
 pub(super) const MARKS: [&[u8]; 3] = [b"ply\n", b"ply\r", b"ply "];
 
 /// Names of the properties of a vertex that are read, in the order of [`Vertex`]; of each list the first that is there.
-const VERTEX: [&[&str]; 12] = [
+const VERTEX: [&[&str]; 8] = [
     &["x"],
     &["y"],
     &["z"],
@@ -41,6 +42,9 @@ const VERTEX: [&[&str]; 12] = [
     &["nz", "normal_z"],
     &["s", "u", "texture_u", "texture_s"],
     &["t", "v", "texture_v", "texture_t"],
+];
+/// Names of the channels of a color; of each list the first that is there.
+const COLOR: [&[&str]; 4] = [
     &["red", "r", "diffuse_red"],
     &["green", "g", "diffuse_green"],
     &["blue", "b", "diffuse_blue"],
@@ -101,6 +105,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     assembly.instances.push(Instance {
         mesh: 0,
         name: super::stem(name),
+        group: None,
         file_from_mesh: DMat4::IDENTITY,
         materials: (0..assembly.materials.len() as u32).collect(),
     });
@@ -118,10 +123,17 @@ struct Reader<'h, 'w> {
     vertices: u64,
     /// True if faces have texture coordinates of their own, which replace those of vertices.
     corners_have_uvs: bool,
+    /// True if faces have colors and vertices have none.
+    faces_have_colors: bool,
 }
 
 impl Reader<'_, '_> {
     fn new<'h, 'w>(header: &'h Header, warnings: &'w mut Warnings) -> Reader<'h, 'w> {
+        let colors_of = |name: &str| {
+            header
+                .element(name)
+                .is_some_and(|element| Colors::of(element).are_there())
+        };
         Reader {
             header,
             warnings,
@@ -130,6 +142,7 @@ impl Reader<'_, '_> {
             corners_have_uvs: header
                 .element("face")
                 .is_some_and(|face| face.place("texcoord").is_some()),
+            faces_have_colors: colors_of("face") && !colors_of("vertex"),
         }
     }
 
@@ -141,15 +154,12 @@ impl Reader<'_, '_> {
             match element.name.as_str() {
                 "vertex" => self.read_vertices(element, &mut body)?,
                 "face" => self.read_faces(element, &mut body)?,
-                "tristrips" => {
-                    self.warnings
-                        .add("Strips of triangles are left out; export the model with faces.");
-                    body.skip(element)?;
-                }
+                "tristrips" => self.read_strips(element, &mut body)?,
                 _ => body.skip(element)?,
             }
         }
         self.warnings.absorb(body.warnings);
+        self.share_attributes();
         Ok(self.faces)
     }
 
@@ -159,10 +169,9 @@ impl Reader<'_, '_> {
         if !has(0..3) {
             return damaged("its vertices have no `x`, `y` and `z`");
         }
-        let [with_normals, with_uvs, with_colors] = [has(3..6), has(6..8) && !self.corners_have_uvs, has(8..11)];
-        let kinds: Vec<Kind> = element.properties.iter().map(|property| property.kind).collect();
-        let kind_of = |channel: usize| places[channel].and_then(|place| kinds.get(place)).copied();
-        let color_kinds = [8, 9, 10, 11].map(kind_of);
+        let [with_normals, with_uvs] = [has(3..6), has(6..8) && !self.corners_have_uvs];
+        let kind_of = |channel: usize| places[channel].and_then(|place| Some(element.properties.get(place)?.kind));
+        let colors = Colors::of(element);
         // Text holds as many digits as it has, whatever type it names.
         self.faces.is_single =
             self.header.encoding != Encoding::Text && (0..3).all(|axis| kind_of(axis) == Some(Kind::F32));
@@ -176,17 +185,14 @@ impl Reader<'_, '_> {
             let [x, y, z, ..] = places.map(number);
             self.faces.positions.push([x, y, z]);
             let vertex: Vertex = places.map(number).map(|number| number as f32);
-            let [_, _, _, nx, ny, nz, s, t, ..] = vertex;
+            let [_, _, _, nx, ny, nz, s, t] = vertex;
             if with_normals {
                 self.faces.normals.values.push([nx, ny, nz]);
             }
             if with_uvs {
                 self.faces.uvs.values.push([s, 1.0 - t]);
             }
-            if with_colors {
-                let color = [8, 9, 10, 11].map(|channel| vertex[channel]);
-                self.faces.colors.values.push(linear_color(color, color_kinds));
-            }
+            self.faces.colors.values.extend(colors.of_row(&row));
         }
         Ok(())
     }
@@ -196,6 +202,7 @@ impl Reader<'_, '_> {
             return damaged("its faces have no `vertex_indices`");
         };
         let [texcoord, texnumber] = ["texcoord", "texnumber"].map(|name| element.place(name));
+        let colors = Colors::of(element).filter(self.faces_have_colors);
         let lone_texture = !self.header.pictures.is_empty();
         let mut row = Vec::new();
         let mut triangles = 0u64;
@@ -226,19 +233,67 @@ impl Reader<'_, '_> {
             };
             let uvs = texcoord.and_then(|place| row.get(place));
             self.push_uvs(uvs, corners.len());
+            if let Some(color) = colors.of_row(&row) {
+                self.faces
+                    .colors
+                    .corners
+                    .extend(std::iter::repeat_n(face as u32, corners.len()));
+                self.faces.colors.values.resize(face as usize, [1.0; 4]);
+                self.faces.colors.values.push(color);
+            }
             self.faces.close(corners.len(), texture, Smoothing::ByAngle);
         }
-        self.share_attributes();
+        Ok(())
+    }
+
+    /// Reads strips of triangles; a negative number ends one, and another begins behind it.
+    fn read_strips(&mut self, element: &Element, body: &mut Body) -> Result<(), Fault> {
+        let Some(indices) = INDICES.iter().find_map(|name| element.place(name)) else {
+            return damaged("its strips have no `vertex_indices`");
+        };
+        let mut row = Vec::new();
+        let mut triangles = 0u64;
+        for _ in 0..element.count {
+            body.row(element, &mut row)?;
+            let Some(Value::List(corners)) = row.get(indices) else {
+                return damaged("the `vertex_indices` of its strips are no list");
+            };
+            triangles += corners.len() as u64;
+            if triangles > MAX_TRIANGLES {
+                return Err(Fault::TooLarge(triangles));
+            }
+            for strip in corners.split(|corner| *corner < 0.0) {
+                if let Some(beyond) = strip.iter().find(|corner| !(**corner < self.vertices as f64)) {
+                    return damaged(format!("a strip names vertex {beyond} of {}", self.vertices));
+                }
+                for (number, triangle) in strip.windows(3).enumerate() {
+                    let [first, second, third] = [0, 1, 2].map(|corner| triangle[corner] as u32);
+                    // Strips join by triangles that are lines.
+                    if first == second || second == third || third == first {
+                        continue;
+                    }
+                    let turned = match number.is_multiple_of(2) {
+                        true => [first, second, third],
+                        false => [second, first, third],
+                    };
+                    self.faces.corners.extend(turned);
+                    self.push_uvs(None, 3);
+                    self.faces.close(3, NONE, Smoothing::ByAngle);
+                }
+            }
+        }
         Ok(())
     }
 
     /// Adds the texture coordinates of a face's corners, where faces have them.
     fn push_uvs(&mut self, uvs: Option<&Value>, count: usize) {
+        if !self.corners_have_uvs {
+            return;
+        }
         let uvs = match uvs {
-            Some(Value::List(uvs)) => uvs,
-            _ => return,
+            Some(Value::List(uvs)) => uvs.as_chunks::<2>().0,
+            _ => &[],
         };
-        let uvs = uvs.as_chunks::<2>().0;
         for corner in 0..count {
             let number = match uvs.get(corner) {
                 Some([u, v]) => {
@@ -265,7 +320,11 @@ impl Reader<'_, '_> {
             ..
         } = &mut self.faces;
         normals.corners = corners.clone();
-        colors.corners = corners.clone();
+        // Strips have no colors of their own.
+        match self.faces_have_colors {
+            true => colors.corners.resize(corners.len(), NONE),
+            false => colors.corners = corners.clone(),
+        }
         if self.corners_have_uvs {
             *uvs = std::mem::take(uvs).joined();
         } else {
@@ -274,16 +333,44 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Decodes a color of a vertex to linear RGBA; without alpha it is opaque.
-fn linear_color(color: [f32; 4], kinds: [Option<Kind>; 4]) -> [f32; 4] {
-    let share = |channel: usize| {
-        let most = kinds[channel].and_then(Kind::largest_code);
-        most.map_or(color[channel], |most| color[channel] / most)
-    };
-    let light = |channel: usize| match kinds[channel].and_then(Kind::largest_code) {
-        Some(_) => linear_from_srgb(share(channel).clamp(0.0, 1.0)),
-        None => share(channel),
-    };
-    let alpha = kinds[3].map_or(1.0, |_| share(3));
-    [light(0), light(1), light(2), alpha]
+/// Places of the channels of a color among the properties of an element, with their types.
+struct Colors([Option<(usize, Kind)>; 4]);
+
+impl Colors {
+    fn of(element: &Element) -> Colors {
+        Colors(COLOR.map(|names| {
+            let place = names.iter().find_map(|name| element.place(name))?;
+            Some((place, element.properties.get(place)?.kind))
+        }))
+    }
+
+    /// The colors if they are wanted, else none.
+    fn filter(self, are_wanted: bool) -> Colors {
+        if are_wanted { self } else { Colors([None; 4]) }
+    }
+
+    /// Returns true if there is red, green and blue.
+    fn are_there(&self) -> bool {
+        self.0[..3].iter().all(Option::is_some)
+    }
+
+    /// Decodes the color of a row to linear RGBA, which is opaque without alpha.
+    fn of_row(&self, row: &[Value]) -> Option<[f32; 4]> {
+        let [Some(red), Some(green), Some(blue), alpha] = self.0 else {
+            return None;
+        };
+        let share = |(place, kind): (usize, Kind)| {
+            let value = match row.get(place) {
+                Some(Value::Number(number)) => *number as f32,
+                // A list is no channel.
+                Some(Value::List(_)) | None => 0.0,
+            };
+            kind.largest_code().map_or(value, |most| value / most)
+        };
+        let light = |channel: (usize, Kind)| match channel.1.largest_code() {
+            Some(_) => linear_from_srgb(share(channel).clamp(0.0, 1.0)),
+            None => share(channel),
+        };
+        Some([light(red), light(green), light(blue), alpha.map_or(1.0, share)])
+    }
 }

@@ -28,6 +28,9 @@ const HEADER_BYTES: usize = 84;
 /// Bytes of a binary facet: a normal, three corners, two bytes of any meaning.
 const FACET_BYTES: usize = 50;
 
+/// Word in the header of files whose facets have colors.
+const COLORED: &[u8] = b"COLOR=";
+
 /// Bytes among which the first line of a text is looked for.
 const START_BYTES: usize = 4096;
 /// Beginnings of lines of remarks, which programs write although the format has none.
@@ -61,6 +64,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
             } else {
                 solid.name
             },
+            group: None,
             file_from_mesh: DMat4::IDENTITY,
             materials: Vec::new(),
         });
@@ -151,6 +155,9 @@ fn read_binary(bytes: &[u8], memory_bytes: u64, warnings: &mut Warnings) -> Resu
         }
     };
     check_size(facets.len() as u64, 1, memory_bytes)?;
+    if bytes[..HEADER_BYTES].windows(COLORED.len()).any(|word| word == COLORED) {
+        warnings.add("The colors of facets, which some programs add to the format, are left out.");
+    }
     if facets.len() as u64 != claim {
         warnings.add(format!(
             "The file says that it has {claim} facets, and has {}; these are read.",

@@ -7,6 +7,8 @@ pub struct FilePart {
     pub name: String,
     /// Reason that it is no part of the model; none for one that is.
     pub left_out: Option<LeftOut>,
+    /// Name of the node above it by whose meaning it is left out; none where that is no reason.
+    pub of_group: Option<String>,
     /// True if it is taken where no parts are chosen: what its name means does not leave it out.
     pub is_usual: bool,
 }
@@ -14,9 +16,9 @@ pub struct FilePart {
 /// Reason that a part of a file is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeftOut {
-    /// Its name says that it is a collision hull.
+    /// Its name, or that of a node above it, says that it is a collision hull.
     Hull,
-    /// Its name says that it is a coarser level of detail of another part.
+    /// Its name, or that of a node above it, says that it is a coarser level of detail of another part.
     CoarserLevel,
     /// The choice of parts does not have it.
     Chosen,

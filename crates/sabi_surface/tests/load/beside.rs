@@ -211,3 +211,18 @@ fn skins_that_claim_too_many_matrices_are_not_read() {
                 is stored.";
     assert!(warnings.iter().any(|warning| warning == told), "{warnings:?}");
 }
+
+#[test]
+fn files_are_found_in_another_case_of_letters() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("Data")).unwrap();
+    let (text, bytes) = spelled(&["DATA\\leaf.BIN".to_owned()]);
+    fs::write(folder.path().join("Data/Leaf.bin"), &bytes).unwrap();
+    let model = load(&written(folder.path(), &text), &LoadOptions::default()).unwrap();
+    assert_eq!(model.mesh.triangles.len(), 1);
+    // An address of another computer leads to its last part beside the model.
+    let (text, bytes) = spelled(&["file:///C:/Users/me/my%20leaf.bin".to_owned()]);
+    fs::write(folder.path().join("my leaf.bin"), &bytes).unwrap();
+    let model = load(&written(folder.path(), &text), &LoadOptions::default()).unwrap();
+    assert_eq!(model.mesh.triangles.len(), 1);
+}

@@ -148,6 +148,15 @@ fn units_and_axes_of_the_file_are_followed() {
 }
 
 #[test]
+fn rows_without_a_stride_have_one_number_for_each_parameter() {
+    let text = file("", "", FACE, NODE);
+    let params = r#"count="4"><param name="X"/><param name="Y"/><param name="Z"/></accessor>"#;
+    let bare = text.replacen(r#"count="4" stride="3"/>"#, params, 1);
+    assert_ne!(bare, text);
+    assert_eq!(read(&bare).mesh, read(&text).mesh);
+}
+
+#[test]
 fn transforms_and_instances_of_nodes_are_followed() {
     let nodes = r##"<node id="one" name="one"><translate>0 0 1</translate><rotate>0 0 1 90</rotate><scale>2 1 1</scale>
         <instance_geometry url="#shape"/></node>

@@ -318,3 +318,21 @@ fn too_many_instances_are_refused_before_they_are_placed() {
         "test.fbx: it has 50329398 triangles, and at most 50000000 are handled; reduce it or split it"
     );
 }
+
+#[test]
+fn decimal_commas_of_a_text_are_told() {
+    let text = "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\nObjects:  {\n\tGeometry: 1, \"Geometry::\", \"Mesh\" {\n\
+                \t\tVertices: *9 {\n\t\t\ta: 0,0,0,1,5,0,0,0,2,5,0\n\t\t}\n\t\tPolygonVertexIndex: *3 {\n\t\t\ta: 0,1,-3\n\t\t}\n\t}\n}\n";
+    let read = |text: &str| {
+        let mut nothing = crate::builder::nothing;
+        load_bytes("test.fbx", text.as_bytes(), &mut nothing, &LoadOptions::default()).map(|_| ())
+    };
+    let told = read(text).unwrap_err().to_string();
+    assert!(
+        told.contains("it writes numbers with decimal commas, such as `0,5`"),
+        "{told}"
+    );
+    let whole = read(&text.replace("0,0,0,1,5,0,0,0,2,5,0", "0,0,0,1,0,0,0,2,0"));
+    let told = whole.map_or_else(|error| error.to_string(), |()| String::new());
+    assert!(!told.contains("commas"), "{told}");
+}

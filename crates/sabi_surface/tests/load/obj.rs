@@ -41,6 +41,9 @@ fn faces_read_the_same_however_they_are_written() {
         format!("f 1 2 3 4\n{SQUARE}"),
         format!("# a remark\n\n  \t{SQUARE}\tf  1\t2 3 4  \nunknown statement\n"),
         format!("\u{feff}{SQUARE}f 1 2 3 4"),
+        format!("{SQUARE}f 1/0/0 2/0/0 3/0/0 4/0/0\n"),
+        format!("{SQUARE}f 1// 2// 3// 4//\n"),
+        format!("{SQUARE}f 1, 2, 3, 4\n"),
     ] {
         assert_eq!(read(&text).unwrap().mesh, plain.mesh, "{text:?}");
     }

@@ -213,3 +213,40 @@ fn remarks_behind_the_names_of_materials_are_none_of_them() {
         assert!(model.warnings.is_empty());
     }
 }
+
+#[test]
+fn a_library_of_the_models_own_name_has_what_no_other_has() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a\nf 1 2 3\n";
+    let taken = "Materials are in no library that the file names and that could be read; those of thing.mtl beside it are taken.";
+    for (head, told) in [
+        ("", true),
+        ("mtllib renamed.mtl\n", true),
+        ("mtllib \"my own.mtl\"\n", false),
+        ("mtllib thing.mtl\n", false),
+    ] {
+        let mut beside = |path: &str| match path {
+            "thing.mtl" | "my own.mtl" => Ok(b"newmtl a\nKd 1 0 0\n".to_vec()),
+            _ => Err("there is no such file".to_string()),
+        };
+        let text = format!("{head}{square}");
+        let model = load_bytes("thing.obj", text.as_bytes(), &mut beside, &LoadOptions::default()).unwrap();
+        assert_eq!(model.materials[0].base_color_factor, [1.0, 0.0, 0.0, 1.0], "{head}");
+        assert_eq!(
+            model.warnings.iter().any(|warning| warning == taken),
+            told,
+            "{:?}",
+            model.warnings
+        );
+    }
+}
+
+#[test]
+fn a_picture_of_each_tile_is_told() {
+    let model = read("newmtl a\nmap_Kd paint.<UDIM>.png");
+    assert_eq!(
+        model.warnings,
+        [
+            "The picture paint.<UDIM>.png cannot be read: it stands for a picture of each UV tile (UDIM), and one for all is read."
+        ]
+    );
+}

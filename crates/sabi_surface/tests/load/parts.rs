@@ -115,3 +115,81 @@ fn a_name_that_no_part_has_is_refused() {
     let model = rock().load_with(&choosing(&[], &["Stone*"])).unwrap();
     assert_eq!(model.warnings, ["No part fits `Stone*`, so it leaves none out."]);
 }
+
+/// Rocks of two levels and a hull, each mesh below a node of that name, all below one for the whole file.
+fn grouped() -> Gltf {
+    let mut file = Gltf::new();
+    let mut groups = Vec::new();
+    for (group, size) in [("LOD0", 1.0), ("LOD1", 1.0), ("collision", 1000.0)] {
+        let positions = file.floats("VEC3", &[0.0, 0.0, 0.0, size, 0.0, 0.0, 0.0, size, 0.0]);
+        let primitive = json!({ "attributes": { "POSITION": positions } });
+        let mesh = file.push("meshes", json!({ "primitives": [primitive] }));
+        let rock = file.push("nodes", json!({ "name": "rock", "mesh": mesh }));
+        groups.push(file.push("nodes", json!({ "name": group, "children": [rock] })));
+    }
+    file.push("nodes", json!({ "name": "Scene", "children": groups }));
+    file
+}
+
+#[test]
+fn names_of_nodes_above_parts_say_what_the_parts_are() {
+    let model = grouped().model();
+    assert_eq!(model.parts, ["rock"]);
+    let parts = model.file_parts.iter();
+    let of_groups = parts.map(|part| (part.left_out, part.of_group.as_deref()));
+    assert_eq!(
+        of_groups.collect::<Vec<_>>(),
+        [
+            (None, None),
+            (Some(LeftOut::CoarserLevel), Some("LOD1")),
+            (Some(LeftOut::Hull), Some("collision"))
+        ]
+    );
+    let triangles = |parts: &[&str], without: &[&str]| {
+        let model = grouped().load_with(&choosing(parts, without));
+        model.map(|model| model.mesh.triangles.len())
+    };
+    assert_eq!(triangles(&["LOD1"], &[]), Ok(1));
+    assert_eq!(triangles(&["*"], &["coll*"]), Ok(2));
+    assert_eq!(triangles(&["Scene"], &[]), Ok(3));
+    assert!(triangles(&[], &["Cameras"]).is_err());
+}
+
+#[test]
+fn names_of_nodes_above_parts_count_in_every_format_with_nodes() {
+    let mut fbx = Fbx::square();
+    for (id, name, above) in [(3, "Board_LOD1", None), (4, "plank", Some(3))] {
+        fbx.place(id, name, &[]);
+        if let Some(above) = above {
+            fbx.connect(id, above, None);
+        }
+    }
+    fbx.connect(1, 4, None);
+    let node =
+        |name: &str| format!(r##"<node name="{name}"><node name="board"><instance_geometry url="#m"/></node></node>"##);
+    let dae = format!(
+        r##"<COLLADA><asset/><library_geometries><geometry id="m"><mesh><source id="p"><float_array>0 0 0 1 0 0 0 1 0</float_array>
+        <technique_common><accessor stride="3"/></technique_common></source><vertices id="v"><input semantic="POSITION"
+        source="#p"/></vertices><triangles><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>
+        </library_geometries><library_visual_scenes><visual_scene>{}{}</visual_scene></library_visual_scenes></COLLADA>"##,
+        node("LOD0"),
+        node("LOD1")
+    );
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\no LOD0\ng board\nf 1 2 3\no LOD1\ng board\nf 1 2 3\n";
+    for (name, bytes) in [
+        ("a.fbx", fbx.binary()),
+        ("a.dae", dae.into_bytes()),
+        ("a.obj", obj.as_bytes().to_vec()),
+    ] {
+        let left_out = |options: &LoadOptions| {
+            let model = load_bytes(name, &bytes, &mut nothing, options).unwrap();
+            promises::check(&model);
+            let parts = model.file_parts.into_iter().filter(|part| part.left_out.is_some());
+            parts.map(|part| part.name).collect::<Vec<String>>()
+        };
+        let coarse = left_out(&choosing(&[], &[]));
+        assert_eq!(coarse, [if name == "a.fbx" { "plank" } else { "board" }], "{name}");
+        let level = if name == "a.fbx" { "Board_LOD1" } else { "LOD1" };
+        assert_eq!(left_out(&choosing(&["*"], &[level])).len(), 1, "{name}");
+    }
+}

@@ -261,3 +261,34 @@ fn counts_without_properties_and_further_uv_sets_are_refused() {
         "thing.ply: it has no UV set 1; PLY files have set 0 alone"
     );
 }
+
+#[test]
+fn strips_of_triangles_are_read_with_their_ends() {
+    let strips = |rows: &[&str]| {
+        let face = "property list int int vertex_indices\n";
+        let corners = ["0 0 0", "1 0 0", "0 1 0", "1 1 0"];
+        read(&file(XYZ, &corners, face, rows).replace("element face", "element tristrips")).unwrap()
+    };
+    for rows in [
+        &["4 0 1 2 3"][..],
+        &["8 0 1 2 -1 1 3 2 -1"],
+        &["3 0 1 2", "3 1 3 2"],
+        &["7 0 1 2 2 1 1 3"],
+    ] {
+        let mesh = strips(rows).mesh;
+        let normals = mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]);
+        assert!(normals, "{rows:?}: {:?}", mesh.normals);
+        let expected = if rows == ["7 0 1 2 2 1 1 3"] { 1 } else { 2 };
+        assert_eq!(mesh.triangles.len(), expected, "{rows:?}");
+    }
+}
+
+#[test]
+fn colors_of_faces_are_read_where_vertices_have_none() {
+    let face = format!("{CORNERS}property uchar red\nproperty uchar green\nproperty uchar blue\n");
+    let faces = ["3 0 1 2 255 0 0", "3 0 2 3 0 0 255"];
+    let mesh = read(&file(XYZ, &SQUARE, &face, &faces)).unwrap().mesh;
+    let colors = |triangle: usize| mesh.triangles[triangle].map(|vertex| mesh.colors[vertex as usize]);
+    assert_eq!(colors(0), [[1.0, 0.0, 0.0, 1.0]; 3]);
+    assert_eq!(colors(1), [[0.0, 0.0, 1.0, 1.0]; 3]);
+}

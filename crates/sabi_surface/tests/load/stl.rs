@@ -196,3 +196,12 @@ fn each_fault_has_its_sentence() {
         assert_eq!(said("a.stl", &bytes), format!("a.stl: {sentence}"));
     }
 }
+
+#[test]
+fn colors_of_facets_are_told() {
+    let model = read(&binary("COLOR=rgba"));
+    assert_eq!(
+        model.warnings,
+        ["The colors of facets, which some programs add to the format, are left out."]
+    );
+}

@@ -1,7 +1,6 @@
 //! Recipes of bakes: all that the maps depend on, besides the program, the adapter and the content of the files.
 
 use std::fmt::Display;
-use std::ops::Not;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -100,9 +99,9 @@ pub struct ModelRecipe {
     /// Names of the parts that are left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
-    /// True to turn faces that are inside out.
-    #[serde(default, skip_serializing_if = "Not::not")]
-    pub turn_faces: bool,
+    /// True to turn faces that are inside out, false to leave them even if the graph says otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn_faces: Option<bool>,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
     /// Treatment of UVs in several tiles.

@@ -13,8 +13,8 @@ use crate::opening::document::OpenGraph;
 pub struct SavedReading {
     /// Parts that count.
     pub parts: PartChoice,
-    /// True to turn faces that are inside out.
-    pub turn_faces: bool,
+    /// True to turn faces that are inside out, false to leave them even if a graph says otherwise; none where nothing is said.
+    pub turn_faces: Option<bool>,
 }
 
 impl SavedReading {
@@ -25,7 +25,7 @@ impl SavedReading {
                 parts: preview.parts.clone(),
                 without: preview.without.clone(),
             },
-            turn_faces: preview.turn_faces,
+            turn_faces: preview.turn_faces.then_some(true),
         }
     }
 
@@ -33,7 +33,7 @@ impl SavedReading {
     pub fn put_into(&self, preview: &mut Preview) {
         preview.parts = self.parts.parts.clone();
         preview.without = self.parts.without.clone();
-        preview.turn_faces = self.turn_faces;
+        preview.turn_faces = self.turns_faces();
     }
 
     /// Returns what is asked for, and otherwise what a preview says.
@@ -44,8 +44,13 @@ impl SavedReading {
                 true => saved.parts,
                 false => self.parts.clone(),
             },
-            turn_faces: self.turn_faces || saved.turn_faces,
+            turn_faces: self.turn_faces.or(saved.turn_faces),
         }
+    }
+
+    /// Returns true if faces that are inside out are turned.
+    pub(crate) fn turns_faces(&self) -> bool {
+        self.turn_faces == Some(true)
     }
 }
 

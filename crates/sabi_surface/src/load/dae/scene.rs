@@ -8,6 +8,7 @@ use roxmltree::{Node, NodeId};
 use super::document::{Document, child, children, numbers};
 use super::skin::{Joints, Skins};
 use crate::load::error::{Fault, damaged};
+use crate::load::parts::Groups;
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
@@ -23,21 +24,37 @@ pub(super) struct Shown<'d> {
     /// The `instance_geometry` or `instance_controller`.
     pub(super) instance: Node<'d, 'd>,
     pub(super) name: String,
+    /// The node above the one that shows it.
+    pub(super) group: Option<usize>,
     pub(super) scene_from_mesh: DMat4,
 }
 
-/// The meshes of the scene, in the order of its nodes.
-pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Result<Vec<Shown<'d>>, Fault> {
+/// A node of the scene, as often as it is used.
+#[derive(Clone, Copy)]
+struct Visit<'d> {
+    node: Node<'d, 'd>,
+    /// The node above it.
+    group: Option<usize>,
+    /// Of the node above it before the visit, of itself behind it.
+    placed: DMat4,
+}
+
+/// The meshes of the scene in the order of its nodes, and the nodes above them.
+pub(super) fn shown<'d>(
+    document: &Document<'d>,
+    groups: &mut Groups,
+    warnings: &mut Warnings,
+) -> Result<Vec<Shown<'d>>, Fault> {
     let mut joints = Joints::default();
-    let mut visited = Vec::new();
+    let mut visited: Vec<Visit> = Vec::new();
     // An explicit stack, since a chain of nodes may be as long as the file.
-    let mut stack: Vec<(Node, DMat4)> = Vec::new();
+    let mut stack: Vec<Visit> = Vec::new();
     if let Some(scene) = scene(document) {
-        push_nodes(children(scene, "node"), DMat4::IDENTITY, &mut stack);
+        push_nodes(children(scene, "node"), None, DMat4::IDENTITY, &mut stack);
     }
     let mut transforms: HashMap<NodeId, DMat4> = HashMap::new();
     let mut elements = 0;
-    while let Some((node, scene_from_parent)) = stack.pop() {
+    while let Some(Visit { node, group, placed }) = stack.pop() {
         elements += elements_of(node);
         if visited.len() + stack.len() >= MOST_NODES {
             return damaged(format!(
@@ -50,36 +67,40 @@ pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Res
             ));
         }
         let own = transforms.entry(node.id());
-        let placed = scene_from_parent * *own.or_insert_with(|| parent_from_node(node, warnings));
+        let placed = placed * *own.or_insert_with(|| parent_from_node(node, warnings));
         for name in ["id", "sid", "name"]
             .into_iter()
             .filter_map(|name| node.attribute(name))
         {
             joints.add(name, placed);
         }
-        visited.push((node, placed));
+        visited.push(Visit { node, group, placed });
         let below = node.children().filter_map(|below| match below.tag_name().name() {
             "node" => Some(below),
             "instance_node" => document.referenced(below, "url"),
             _ => None,
         });
-        push_nodes(below, placed, &mut stack);
+        let below: Vec<Node> = below.collect();
+        if !below.is_empty() {
+            let names = [node.attribute("name"), node.attribute("id")];
+            let name = names.into_iter().flatten().find(|name| !name.is_empty());
+            let is_part = ["instance_geometry", "instance_controller"]
+                .into_iter()
+                .any(|name| child(node, name).is_some());
+            // Both names are optional.
+            let group = groups.add(name.unwrap_or_default(), group, is_part);
+            push_nodes(below.into_iter(), Some(group), placed, &mut stack);
+        }
     }
     let mut all = Vec::new();
     let mut skins = Skins::default();
-    for (node, placed) in visited {
-        for geometry in children(node, "instance_geometry") {
-            all.extend(instance(document, node, geometry, placed, DMat4::IDENTITY));
+    for visit in visited {
+        for geometry in children(visit.node, "instance_geometry") {
+            let mesh = document.referenced(geometry, "url");
+            all.extend(mesh.and_then(|mesh| shown_mesh(visit, geometry, mesh)));
         }
-        for controller in children(node, "instance_controller") {
-            all.extend(controlled(
-                document,
-                node,
-                controller,
-                placed,
-                (&joints, &mut skins),
-                warnings,
-            ));
+        for controller in children(visit.node, "instance_controller") {
+            all.extend(controlled(document, visit, controller, (&joints, &mut skins), warnings));
         }
     }
     Ok(all)
@@ -104,33 +125,23 @@ fn scene<'d>(document: &Document<'d>) -> Option<Node<'d, 'd>> {
     chosen.or_else(|| child(document.first("library_visual_scenes")?, "visual_scene"))
 }
 
-fn push_nodes<'d>(nodes: impl Iterator<Item = Node<'d, 'd>>, placed: DMat4, stack: &mut Vec<(Node<'d, 'd>, DMat4)>) {
+fn push_nodes<'d>(
+    nodes: impl Iterator<Item = Node<'d, 'd>>,
+    group: Option<usize>,
+    placed: DMat4,
+    stack: &mut Vec<Visit<'d>>,
+) {
     let first = stack.len();
-    stack.extend(nodes.map(|node| (node, placed)));
+    stack.extend(nodes.map(|node| Visit { node, group, placed }));
     // In reverse, so that the stack returns them in order.
     stack[first..].reverse();
 }
 
-fn instance<'d>(
-    document: &Document<'d>,
-    node: Node<'d, 'd>,
-    instance: Node<'d, 'd>,
-    scene_from_node: DMat4,
-    node_from_mesh: DMat4,
-) -> Option<Shown<'d>> {
-    let mesh = document.referenced(instance, "url")?;
-    shown_mesh(node, instance, mesh, scene_from_node * node_from_mesh)
-}
-
-fn shown_mesh<'d>(
-    node: Node<'d, 'd>,
-    instance: Node<'d, 'd>,
-    mesh: Node<'d, 'd>,
-    scene_from_mesh: DMat4,
-) -> Option<Shown<'d>> {
+/// A mesh that an `instance` of the visited node shows.
+fn shown_mesh<'d>(visit: Visit<'d>, instance: Node<'d, 'd>, mesh: Node<'d, 'd>) -> Option<Shown<'d>> {
     let names = [
-        node.attribute("name"),
-        node.attribute("id"),
+        visit.node.attribute("name"),
+        visit.node.attribute("id"),
         mesh.attribute("name"),
         mesh.attribute("id"),
     ];
@@ -139,21 +150,22 @@ fn shown_mesh<'d>(
         mesh,
         instance,
         name: part_name(name.unwrap_or("mesh")),
-        scene_from_mesh,
+        group: visit.group,
+        scene_from_mesh: visit.placed,
     })
 }
 
 /// A mesh with a skin or morph targets, which are left out.
 fn controlled<'d>(
     document: &Document<'d>,
-    node: Node<'d, 'd>,
+    visit: Visit<'d>,
     instance: Node<'d, 'd>,
-    scene_from_node: DMat4,
     (joints, skins): (&Joints<'d>, &mut Skins),
     warnings: &mut Warnings,
 ) -> Option<Shown<'d>> {
     let mut source = document.referenced(instance, "url")?;
-    let mut scene_from_mesh = scene_from_node;
+    let node = visit.node;
+    let mut placed = visit.placed;
     // A skin may have morph targets below it, and these a mesh.
     for _ in 0..2 {
         if let Some(morph) = child(source, "morph") {
@@ -165,12 +177,12 @@ fn controlled<'d>(
             source = document.referenced(morph, "source")?;
         } else if let Some(skin) = child(source, "skin") {
             let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
-            let (rest, bound) = skins.scene_from_bound(document, skin, scene_from_node, joints, warnings);
-            scene_from_mesh = rest.file_from_bound(bound, &part_name(name), warnings);
+            let (rest, bound) = skins.scene_from_bound(document, skin, visit.placed, joints, warnings);
+            placed = rest.file_from_bound(bound, &part_name(name), warnings);
             source = document.referenced(skin, "source")?;
         }
     }
-    shown_mesh(node, instance, source, scene_from_mesh)
+    shown_mesh(Visit { placed, ..visit }, instance, source)
 }
 
 /// COLLADA 1.4, 5.3.2: the transforms of a node apply in their order, the last one to the mesh first.

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use roxmltree::{Node, NodeId};
 
-use super::document::{child, numbers};
+use super::document::{child, children, numbers};
 use super::polygons::{Input, Polygons};
 use crate::load::faces::{Attribute, NONE};
 use crate::load::warnings::Warnings;
@@ -22,13 +22,15 @@ impl Source {
     fn read<'d>(node: Node<'d, 'd>, warnings: &mut Warnings) -> Source {
         let accessor = child(node, "technique_common").and_then(|technique| child(technique, "accessor"));
         let number = |name: &str| accessor.and_then(|accessor| accessor.attribute(name)?.parse().ok());
+        let parameters = accessor.map_or(1, |accessor| children(accessor, "param").count());
         Source {
             numbers: child(node, "float_array")
                 .map(|array| numbers(array, warnings))
                 // A source of names has no numbers.
                 .unwrap_or_default(),
             offset: number("offset").unwrap_or(0),
-            stride: number("stride").unwrap_or(1).max(1),
+            // Without one it is that of the parameters, whatever the format says.
+            stride: number("stride").unwrap_or(parameters).max(1),
         }
     }
 

@@ -24,7 +24,7 @@ impl<'s> Looks<'s> {
     /// `stem` is the name of the model's file without its ending.
     pub(super) fn new(scene: &'s ufbx::Scene, shown: &[Shown<'s>], stem: String) -> Looks<'s> {
         let mut mesh_of = BTreeMap::new();
-        for Shown { node, mesh } in shown {
+        for Shown { node, mesh, .. } in shown {
             for material in &node.materials {
                 mesh_of.entry(material.element.typed_id).or_insert(*mesh);
             }

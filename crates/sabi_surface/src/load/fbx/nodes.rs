@@ -5,6 +5,7 @@ use ufbx::{ElementType, Matrix, Mesh, Node};
 
 use super::Source;
 use crate::load::assembly::Instance;
+use crate::load::parts::Groups;
 use crate::load::skin_rest::{JointBudget, Placement, Rest};
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
@@ -13,14 +14,16 @@ use crate::load::warnings::Warnings;
 pub(super) struct Shown<'s> {
     pub(super) node: &'s Node,
     pub(super) mesh: &'s Mesh,
+    /// The node above it.
+    pub(super) group: Option<usize>,
 }
 
-/// The meshes of the scene, in the order of its nodes.
-pub(super) fn shown<'s>(scene: &'s ufbx::Scene, warnings: &mut Warnings) -> Vec<Shown<'s>> {
+/// The meshes of the scene in the order of its nodes, and the nodes above them.
+pub(super) fn shown<'s>(scene: &'s ufbx::Scene, groups: &mut Groups, warnings: &mut Warnings) -> Vec<Shown<'s>> {
     let mut shown = Vec::new();
     // An explicit stack, since a chain of nodes may be as long as the file.
-    let mut stack: Vec<&Node> = vec![&scene.root_node];
-    while let Some(node) = stack.pop() {
+    let mut stack: Vec<(&Node, Option<usize>)> = vec![(&scene.root_node, None)];
+    while let Some((node, above)) = stack.pop() {
         if !node.visible && !node.is_root {
             if has_mesh(node) {
                 warnings.add("Nodes that the file hides are left out.");
@@ -28,7 +31,11 @@ pub(super) fn shown<'s>(scene: &'s ufbx::Scene, warnings: &mut Warnings) -> Vec<
             continue;
         }
         if let Some(mesh) = node.mesh.as_deref() {
-            shown.push(Shown { node, mesh });
+            shown.push(Shown {
+                node,
+                mesh,
+                group: above,
+            });
         }
         let levels = if node.attrib_type == ElementType::LodGroup {
             1
@@ -39,8 +46,10 @@ pub(super) fn shown<'s>(scene: &'s ufbx::Scene, warnings: &mut Warnings) -> Vec<
             warnings.add("Of several levels of detail only the first is taken.");
         }
         let children: Vec<&Node> = node.children.into_iter().take(levels).collect();
+        let group =
+            (!node.is_root && !children.is_empty()).then(|| groups.add(&node.element.name, above, node.mesh.is_some()));
         // In reverse, so that the stack returns them in order.
-        stack.extend(children.into_iter().rev());
+        stack.extend(children.into_iter().rev().map(|child| (child, group)));
     }
     shown
 }
@@ -81,6 +90,7 @@ impl Shown<'_> {
         Instance {
             mesh: place,
             name,
+            group: self.group,
             file_from_mesh,
             // A node may show its mesh with other materials than the mesh names.
             materials: self

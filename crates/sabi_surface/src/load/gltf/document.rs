@@ -5,6 +5,7 @@ use gltf::json;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
+use super::tidy::gltf_json;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
@@ -77,16 +78,17 @@ impl Document {
         } else {
             (bytes, None)
         };
-        // The byte order mark is optional.
-        let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-        let root: Value = serde_json::from_slice(text)
-            .map_err(|error| Fault::Damaged(format!("its JSON cannot be read ({error})")))?;
+        let root = gltf_json(text).map_err(|error| Fault::Damaged(format!("its JSON cannot be read ({error})")))?;
         let Value::Object(mut root) = root else {
             return damaged("its JSON is not an object");
         };
-        let version = root.get("asset").and_then(|asset| asset.get("version"));
+        // Some programs write the version as a number.
+        let version = match root.get("asset").and_then(|asset| asset.get("version")) {
+            Some(Value::Number(number)) => Some(number.to_string()),
+            version => version.and_then(Value::as_str).map(str::to_owned),
+        };
         match version
-            .and_then(Value::as_str)
+            .as_deref()
             .map(|version| version.split_once('.').map_or(version, |(major, _)| major))
         {
             Some("2") => {}

@@ -8,6 +8,7 @@ use super::skin::Skins;
 use super::source::Source;
 use crate::load::error::{Fault, damaged};
 use crate::load::listed::joined;
+use crate::load::parts::Groups;
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
@@ -20,23 +21,44 @@ pub(super) struct Instance {
     pub(super) node: Option<usize>,
     pub(super) mesh: usize,
     pub(super) name: String,
+    /// The node above it.
+    pub(super) group: Option<usize>,
     pub(super) file_from_mesh: DMat4,
+}
+
+/// The meshes of a scene.
+pub(super) struct Scene {
+    /// In the order of their nodes.
+    pub(super) instances: Vec<Instance>,
+    /// Nodes above them.
+    pub(super) groups: Groups,
+}
+
+/// A node that shows a mesh.
+struct Shown {
+    node: usize,
+    mesh: usize,
+    group: Option<usize>,
+    placed: DMat4,
 }
 
 /// A node to be visited.
 struct Step {
     node: u64,
+    /// The node above it.
+    group: Option<usize>,
     file_from_parent: DMat4,
     is_hidden: bool,
 }
 
-/// The meshes of the file's scene, in the order of its nodes.
-pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<Instance>, Fault> {
+/// Reads the meshes of the file's scene.
+pub(super) fn read(source: &Source, warnings: &mut Warnings) -> Result<Scene, Fault> {
     let document = source.document;
     let mut shown = Vec::new();
+    let mut groups = Groups::default();
     let mut file_from_node: Vec<Option<DMat4>> = vec![None; document.nodes.len()];
     // An explicit stack, since a chain of nodes may be as long as the file.
-    let mut stack: Vec<Step> = below(&roots(source, warnings)?, DMat4::IDENTITY, false).collect();
+    let mut stack: Vec<Step> = below(&roots(source, warnings)?, None, DMat4::IDENTITY, false).collect();
     while let Some(step) = stack.pop() {
         let Some((index, node)) = usize::try_from(step.node)
             .ok()
@@ -56,33 +78,47 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
             if is_hidden {
                 warnings.add("Nodes that the file hides (KHR_node_visibility) are left out.");
             } else {
-                shown.push((index, mesh, placed));
+                shown.push(Shown {
+                    node: index,
+                    mesh,
+                    group: step.group,
+                    placed,
+                });
             }
         }
-        stack.extend(below(&node.children, placed, is_hidden));
+        if !node.children.is_empty() {
+            let name = node.name.as_deref().unwrap_or_default(); // A name is optional in glTF.
+            let group = groups.add(name, step.group, node.mesh.is_some());
+            stack.extend(below(&node.children, Some(group), placed, is_hidden));
+        }
     }
     if shown.is_empty() && !document.meshes.is_empty() {
         warnings.add("The file's scene shows no mesh; all meshes are taken as they are stored.");
-        return Ok((0..document.meshes.len())
-            .map(|mesh| Instance {
-                node: None,
-                mesh,
-                name: name(document, None, mesh),
-                file_from_mesh: DMat4::IDENTITY,
-            })
-            .collect());
+        let instances = (0..document.meshes.len()).map(|mesh| Instance {
+            node: None,
+            mesh,
+            name: name(document, None, mesh),
+            group: None,
+            file_from_mesh: DMat4::IDENTITY,
+        });
+        return Ok(Scene {
+            instances: instances.collect(),
+            groups,
+        });
     }
     let mut skins = Skins::new(source, &file_from_node);
-    Ok(shown
+    let instances = shown
         .into_iter()
-        .map(|(node, mesh, placed)| instance(document, node, mesh, placed, &mut skins, warnings))
-        .collect())
+        .map(|shown| instance(document, shown, &mut skins, warnings))
+        .collect();
+    Ok(Scene { instances, groups })
 }
 
 /// Returns the steps in reverse, so that a stack returns them in order.
-fn below(nodes: &[u64], file_from_parent: DMat4, is_hidden: bool) -> impl Iterator<Item = Step> {
+fn below(nodes: &[u64], group: Option<usize>, file_from_parent: DMat4, is_hidden: bool) -> impl Iterator<Item = Step> {
     nodes.iter().rev().map(move |node| Step {
         node: *node,
+        group,
         file_from_parent,
         is_hidden,
     })
@@ -94,24 +130,18 @@ fn is_hidden(node: &Node) -> bool {
     visible.and_then(Value::as_bool) == Some(false)
 }
 
-fn instance(
-    document: &Document,
-    index: usize,
-    mesh: usize,
-    placed: DMat4,
-    skins: &mut Skins,
-    warnings: &mut Warnings,
-) -> Instance {
-    let node = &document.nodes[index];
-    let name = name(document, node.name.as_deref(), mesh);
+fn instance(document: &Document, shown: Shown, skins: &mut Skins, warnings: &mut Warnings) -> Instance {
+    let node = &document.nodes[shown.node];
+    let name = name(document, node.name.as_deref(), shown.mesh);
     let file_from_mesh = match node.skin {
         Some(skin) => skins.file_from_bound(skin, &name, warnings),
-        None => placed,
+        None => shown.placed,
     };
     Instance {
-        node: Some(index),
-        mesh,
+        node: Some(shown.node),
+        mesh: shown.mesh,
         name,
+        group: shown.group,
         file_from_mesh,
     }
 }

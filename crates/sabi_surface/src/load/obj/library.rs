@@ -66,6 +66,21 @@ impl Library {
         }
     }
 
+    /// Reads the library that has the `stem` of the model's own name, for materials that are in no other: users rename models, and
+    /// programs write them without the name of a library.
+    pub(super) fn read_beside(&mut self, stem: &str, resolve: &mut Resolve, warnings: &mut Warnings) {
+        let name = format!("{stem}.mtl");
+        if self.known.contains(&name) {
+            return;
+        }
+        if let Ok(bytes) = resolve(&name) {
+            warnings.add(format!(
+                "Materials are in no library that the file names and that could be read; those of {name} beside it are taken."
+            ));
+            self.parse(&name, &bytes, warnings);
+        }
+    }
+
     /// Returns whether a library is to be read: it was not looked for before, and there are not too many.
     fn is_next(&mut self, name: &str, warnings: &mut Warnings) -> bool {
         if self.known.contains(name) {

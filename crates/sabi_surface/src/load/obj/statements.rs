@@ -23,6 +23,10 @@ pub(super) struct Statements {
     pub(super) materials: Vec<String>,
     /// Names that `o` and `g` give, and the empty one for faces before any.
     pub(super) parts: Vec<String>,
+    /// Names of the objects, which `o` gives.
+    pub(super) objects: Vec<String>,
+    /// For each group, the place of the object that it is in.
+    pub(super) object_of: BTreeMap<u32, usize>,
     /// Arguments of each `mtllib`.
     pub(super) libraries: Vec<String>,
     colors: Colors,
@@ -140,11 +144,15 @@ impl Statements {
                 state.object += 1;
                 state.part = self.parts.len() as u32;
                 self.parts.push(part_name(named(rest)));
+                self.objects.push(part_name(named(rest)));
             }
             "g" => {
                 let name = part_name(named(rest));
                 let key = (state.object, name.clone());
                 state.part = numbered(key, &name, &mut state.parts, &mut self.parts);
+                if let Some(object) = self.objects.len().checked_sub(1) {
+                    self.object_of.insert(state.part, object);
+                }
             }
             "s" => {
                 let (group, _) = split_word(rest);
@@ -154,13 +162,17 @@ impl Statements {
                 }
             }
             "#MRGB" | "#mrgb" => self.colors.push_mrgb(rest, warnings),
-            "mtllib" if self.libraries.iter().any(|library| library == named(rest)) => {}
+            "mtllib"
+                if self
+                    .libraries
+                    .iter()
+                    .any(|library| library == named(rest).trim_matches('"')) => {}
             "mtllib" if self.libraries.len() == MOST_LIBRARIES => {
                 warnings.add(format!(
                     "The file names more than {MOST_LIBRARIES} material libraries; the others are left out."
                 ));
             }
-            "mtllib" => self.libraries.push(named(rest).to_string()),
+            "mtllib" => self.libraries.push(named(rest).trim_matches('"').to_string()),
             "l" | "p" => warnings.add("Points and lines are left out."),
             "curv" | "curv2" | "surf" => warnings.add("Curves and curved surfaces are left out."),
             "call" | "csh" => warnings.add("Other files and commands that the file calls are left out."),
@@ -192,15 +204,17 @@ impl Statements {
         let first = faces.corners.len();
         let words = rest.split_ascii_whitespace();
         for word in words.take_while(|word| !word.starts_with('#')) {
+            let word = word.strip_suffix(',').unwrap_or(word);
             let mut indices = word.split('/');
+            let position = match indices.next() {
+                None | Some("") => return Err(format!("the corner `{word}` names no vertex")),
+                Some(index) => from_zero(index, faces.positions.len())?,
+            };
             let mut next = |count: usize| match indices.next() {
-                None | Some("") => Ok(NONE),
+                // Some programs write 0 for what a corner does not have.
+                None | Some("" | "0") => Ok(NONE),
                 Some(index) => from_zero(index, count),
             };
-            let position = next(faces.positions.len())?;
-            if position == NONE {
-                return Err(format!("the corner `{word}` names no vertex"));
-            }
             faces.uvs.corners.push(next(faces.uvs.values.len())?);
             faces.normals.corners.push(next(faces.normals.values.len())?);
             faces.corners.push(position);
