@@ -30,9 +30,10 @@ struct Pass {
     finest: f32,
     // The largest coordinate of the model, working units.
     farthest: f32,
+    // Page and first row of what kernels of points write, where that is a band of the atlas.
+    first_page: u32,
+    first_row: u32,
     pad_1: u32,
-    pad_2: u32,
-    pad_3: u32,
 }
 
 struct GhostLink {

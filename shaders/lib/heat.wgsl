@@ -149,18 +149,38 @@ fn heat_finish_share(round: Round, radius: f32) -> f32 {
     return clamp(radius * radius / (round.finest * round.finest), 0.0, 1.0);
 }
 
+/// Stands for a value of 0 on a coarser level: where that has nothing near, a place of the finest level gets 0.
+const HEAT_ZERO: f32 = 1e-30;
+
+/// The value after the last stage, which is never 0.
+fn heat_settled(heat: texture_2d_array<f32>, at: Surface) -> f32 {
+    let value = surface_here(heat, at).x;
+    return select(value, HEAT_ZERO, value == 0.0);
+}
+
+/// A settled value without what stands for 0.
+fn heat_value(settled: f32) -> f32 {
+    return select(settled, 0.0, abs(settled) < 2.0 * HEAT_ZERO);
+}
+
+/// The settled value of a place; its `own` one where the coarser level has nothing near, which is a speck smaller than the radius.
+fn heat_or(settled: texture_2d_array<f32>, at: Surface, own: f32) -> f32 {
+    let value = surface_here(settled, at).x;
+    return select(heat_value(value), own, value == 0.0);
+}
+
 /// Half of the finish, which smooths the corners that interpolation from a coarser level leaves: weights 1 2 1 both ways
-/// around `center`, at full strength a variance of half a texel of the finest.
+/// around `center`, at full strength a variance of half a texel of the finest. `state` holds settled values, or those of the first half.
 fn heat_finish(state: texture_2d_array<f32>, at: Surface, round: Round, radius: f32, center: f32) -> f32 {
     let area = heat_area(surface_metric(at));
     let share = heat_finish_share(round, radius) * min(round.finest * round.finest / area, 1.0);
-    let beside = (surface_neighbor(state, at, vec2i(1, 0)).x - center)
-        + (surface_neighbor(state, at, vec2i(-1, 0)).x - center)
-        + (surface_neighbor(state, at, vec2i(0, 1)).x - center)
-        + (surface_neighbor(state, at, vec2i(0, -1)).x - center);
-    let across = (surface_neighbor(state, at, vec2i(1, 1)).x - center)
-        + (surface_neighbor(state, at, vec2i(-1, 1)).x - center)
-        + (surface_neighbor(state, at, vec2i(1, -1)).x - center)
-        + (surface_neighbor(state, at, vec2i(-1, -1)).x - center);
+    let beside = (heat_value(surface_neighbor(state, at, vec2i(1, 0)).x) - center)
+        + (heat_value(surface_neighbor(state, at, vec2i(-1, 0)).x) - center)
+        + (heat_value(surface_neighbor(state, at, vec2i(0, 1)).x) - center)
+        + (heat_value(surface_neighbor(state, at, vec2i(0, -1)).x) - center);
+    let across = (heat_value(surface_neighbor(state, at, vec2i(1, 1)).x) - center)
+        + (heat_value(surface_neighbor(state, at, vec2i(-1, 1)).x) - center)
+        + (heat_value(surface_neighbor(state, at, vec2i(1, -1)).x) - center)
+        + (heat_value(surface_neighbor(state, at, vec2i(-1, -1)).x) - center);
     return center + share * (0.125 * beside + 0.0625 * across);
 }

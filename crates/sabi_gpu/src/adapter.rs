@@ -174,6 +174,9 @@ pub(crate) fn first_of_choice<T>(
     })
 }
 
+/// Bytes of a block of memory that small textures and buffers share.
+const BLOCK_BYTES: u64 = 8 << 20;
+
 /// Descriptor of a device that [`crate::Gpu::adopt_device`] accepts; an error where the adapter cannot run Sabi.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescriptor<'static>, GpuError> {
     let available = adapter.limits();
@@ -182,6 +185,12 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescript
         None => Ok(wgpu::DeviceDescriptor {
             label: Some("sabi"),
             required_limits: available,
+            // What is larger than a block has memory of its own, which is given back as soon as it is freed. In the blocks of up to
+            // 256 MB that are taken otherwise, what is free between two textures is lost, and a software driver takes it from the
+            // memory of the machine.
+            memory_hints: wgpu::MemoryHints::Manual {
+                suballocated_device_memory_block_size: BLOCK_BYTES..BLOCK_BYTES,
+            },
             ..Default::default()
         }),
     }

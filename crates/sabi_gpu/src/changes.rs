@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
 
 use crate::cache::ResultCache;
-use crate::coverage::{Coverages, is_of_points};
+use crate::coverage::Coverages;
 use crate::needed_steps::{needed_steps, reads, writes};
 use crate::result_key::{ChangedResults, ResultKey};
 use crate::shown_tiles::ShownTiles;
@@ -142,7 +142,7 @@ fn changes(
             (Step::Source(step), Step::Source(old)) => of_source(step, old, of_reads, changed_tiles),
             (Step::Kernel(step), Step::Kernel(old)) if is_same(step, old) => match of_reads {
                 Change::Tiles(tiles) if step.keys == old.keys => Change::Tiles(tiles),
-                Change::Tiles(tiles) if is_of_points(step) && reads_others => Change::Tiles(tiles),
+                Change::Tiles(tiles) if step.is_of_points() && reads_others => Change::Tiles(tiles),
                 _ => Change::All,
             },
             (Step::Move(_) | Step::Survey(_), _) => match of_reads {

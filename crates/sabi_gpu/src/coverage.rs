@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use sabi_nodes::link::Domain;
 use sabi_plan::{KernelStep, Level, Plan, SlotRef, Step};
 
 use crate::needed_steps::{reads, slot_keys, writes};
@@ -94,7 +93,7 @@ fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
         let of_results: Vec<Coverage> = writes(step).iter().filter_map(|slot| needed.remove(slot)).collect();
         let needed_in = of_results.into_iter().max().unwrap_or(Coverage::All);
         let coverage = match step {
-            Step::Kernel(kernel) if is_of_points(kernel) => needed_in,
+            Step::Kernel(kernel) if kernel.is_of_points() => needed_in,
             // The ghosts of what is shown are filled from the texels that they are linked to.
             Step::Kernel(kernel) if casts_from_texels(kernel) || denoises(kernel) => match needed_in {
                 Coverage::Shown => Coverage::Linked,
@@ -120,15 +119,6 @@ fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
     }
     coverages.reverse();
     coverages
-}
-
-/// Returns true if each texel depends on the same texel of the inputs alone.
-pub(crate) fn is_of_points(step: &KernelStep) -> bool {
-    step.spec.domain == Domain::AllTexels
-        && step.level == Level::FINEST
-        && step.feedback.is_none()
-        && step.rays.is_none()
-        && !step.fills_ghosts
 }
 
 /// Returns true if each owned texel depends on means over rays of the texels up to two away, and on the same texel of the inputs.

@@ -80,7 +80,7 @@ pub use rays::{CasterChoice, DeviceHierarchy, Hits, RayScene};
 pub use readback::PlaneData;
 pub use readback::bands::BandData;
 pub use result_key::ResultKey;
-pub use run_options::{DEFAULT_KEEPS_FROM, RunOptions};
+pub use run_options::{DEFAULT_KEEPS_FROM, DEFAULT_WRITES_OVER_FROM, RunOptions};
 pub use run_result::{Run, RunReport, StepTime};
 pub use sabi_nodes::link::{Given, LinkedModule, Mirror, MirrorValue, MirrorsWgsl, ModuleSpec};
 pub use sabi_nodes::wgsl_struct;

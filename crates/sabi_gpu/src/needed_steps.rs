@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_nodes::link::{KernelSpec, Plane};
 use sabi_plan::{KernelStep, Level, Plan, SlotRef, Step};
+use sabi_surface::atlas::TILE;
 
 use crate::result_key::ResultKey;
 
@@ -119,11 +120,57 @@ pub(crate) fn free_after_first_run(kernel: &KernelStep, dead: &BTreeSet<SlotRef>
     (is_read_once && dead.contains(&start)).then_some(start)
 }
 
-/// Most bytes of slots whose values are alive at once in a run of these steps, by the bytes of each slot.
+/// Slots that a kernel of points reads and that are `dead` after it, by the written slots that can take their textures: those of the
+/// same format, each once.
+pub(crate) fn written_over(plan: &Plan, kernel: &KernelStep, dead: &BTreeSet<SlotRef>) -> BTreeMap<SlotRef, SlotRef> {
+    let all_bound = kernel.reads.iter().chain(&kernel.writes).all(Option::is_some);
+    if !kernel.is_of_points() || !all_bound {
+        return BTreeMap::new();
+    }
+    let read: BTreeSet<SlotRef> = kernel.reads.iter().flatten().copied().collect();
+    let mut free: Vec<SlotRef> = read.into_iter().filter(|slot| dead.contains(slot)).collect();
+    let mut over = BTreeMap::new();
+    for slot in kernel.writes.iter().flatten() {
+        if let Some(at) = free.iter().position(|from| plan.slots[*from] == plan.slots[*slot]) {
+            over.insert(*slot, free.remove(at));
+        }
+    }
+    over
+}
+
+/// Most bytes of the bands that a kernel writes before they are copied over what it reads, about.
+const BAND_BYTES: u64 = 32 << 20;
+/// Fewest bands of a page.
+const FEWEST_BANDS: u32 = 8;
+
+/// Rows of a band of which each row has so many bytes: whole tiles.
+pub(crate) fn band_rows([_, height, _]: [u32; 3], row_bytes: u64) -> u32 {
+    let within = BAND_BYTES / row_bytes.max(1);
+    let rows = within.min(u64::from(height.div_ceil(FEWEST_BANDS))) as u32;
+    (rows.max(1).next_multiple_of(TILE)).min(height)
+}
+
+/// Bytes that a kernel spares by writing its results over what it reads last, from a limit on.
+fn spared(
+    (plan, kernel): (&Plan, &KernelStep),
+    dead: &BTreeSet<SlotRef>,
+    from: u64,
+    bytes: impl Fn(SlotRef) -> u64,
+) -> u64 {
+    let over = written_over(plan, kernel, dead);
+    let sum: u64 = over.keys().map(|slot| bytes(*slot)).sum();
+    match sum >= from {
+        true => sum.saturating_sub(BAND_BYTES),
+        false => 0,
+    }
+}
+
+/// Most bytes of slots whose values are alive at once in a run of these steps, by the bytes of each slot. Kernels write over what
+/// they read last from some bytes on.
 pub(crate) fn most_alive(
     plan: &Plan,
-    steps: &[usize],
-    dead: &BTreeMap<usize, BTreeSet<SlotRef>>,
+    (steps, dead): (&[usize], &BTreeMap<usize, BTreeSet<SlotRef>>),
+    writes_over_from: u64,
     bytes: impl Fn(SlotRef) -> u64,
 ) -> u64 {
     let none = BTreeSet::new();
@@ -135,13 +182,13 @@ pub(crate) fn most_alive(
         alive.extend(reads(step).into_iter().chain(writes(step)));
         let sum: u64 = alive.iter().map(|slot| bytes(*slot)).sum();
         let shared = match step {
-            Step::Kernel(kernel) => free_after_first_run(kernel, dead).map(|start| {
-                let second = second_written(kernel);
-                second.map_or(0, |second| bytes(start).min(bytes(second)))
-            }),
-            _ => None,
+            Step::Kernel(kernel) => match free_after_first_run(kernel, dead) {
+                Some(start) => second_written(kernel).map_or(0, |second| bytes(start).min(bytes(second))),
+                None => spared((plan, kernel), dead, writes_over_from, &bytes),
+            },
+            Step::Source(_) | Step::Move(_) | Step::Survey(_) => 0,
         };
-        most = most.max(sum - shared.unwrap_or(0)); // Nothing is shared.
+        most = most.max(sum - shared);
         alive.retain(|slot| !dead.contains(slot));
     }
     most

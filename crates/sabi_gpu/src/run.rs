@@ -4,8 +4,10 @@ mod dispatch;
 mod kept;
 mod rays;
 mod source;
+mod written_over;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
@@ -24,6 +26,7 @@ use crate::levels::Surfaces;
 use crate::needed_steps::{
     dead_after, free_after_first_run, last_of_kernels, most_alive, needed_steps, reads, written_by,
 };
+use crate::pipeline_cache::CompiledKernel;
 use crate::pool::{TexturePool, bytes_of, texture};
 use crate::rays::{HitCache, Hits};
 use crate::run_options::RunOptions;
@@ -354,11 +357,17 @@ impl Runner<'_> {
 
     /// Most bytes of textures that these steps need at once.
     fn most_alive_bytes(&self, steps: &[usize]) -> u64 {
-        most_alive(self.plan, steps, &self.dead_after, |slot| {
+        let bytes = |slot: SlotRef| {
             let extent = self.extent(slot);
             // A level that is missing is reported by the step that runs on it.
             extent.map_or(0, |extent| bytes_of(self.plan.slots[slot].format, extent))
-        })
+        };
+        most_alive(
+            self.plan,
+            (steps, &self.dead_after),
+            self.options.writes_over_from,
+            bytes,
+        )
     }
 
     /// Returns textures to the pool that no step after this one reads.
@@ -390,6 +399,12 @@ impl Runner<'_> {
         let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
         self.report.compile += compiling.elapsed();
         let block = block_buffer(self.gpu, &compiled, step, None);
+        let over = self.slots_written_over(step);
+        if !over.is_empty() {
+            let taken = self.kernel_over(step, (&compiled, &block), &over)?;
+            self.forget_kernel(&compiled);
+            return Ok(Some(taken));
+        }
         let run_count = step.feedback.as_ref().map_or(1, |feedback| feedback.run_count);
         let dead = self.dead_after.get(&self.at);
         let free_after_first = dead.and_then(|dead| free_after_first_run(step, dead));
@@ -419,10 +434,15 @@ impl Runner<'_> {
                 self.release(start);
             }
         }
-        if self.last_of_kernels.contains(&self.at) {
-            self.gpu.pipelines.forget_kernel(&compiled);
-        }
+        self.forget_kernel(&compiled);
         Ok(sum)
+    }
+
+    /// Forgets the kernel of the present step, if no later one has it.
+    fn forget_kernel(&self, compiled: &Arc<CompiledKernel>) {
+        if self.last_of_kernels.contains(&self.at) {
+            self.gpu.pipelines.forget_kernel(compiled);
+        }
     }
 
     fn move_plane(&mut self, step: &MoveStep) -> Result<(), GpuError> {

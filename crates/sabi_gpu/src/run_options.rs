@@ -8,6 +8,9 @@ use crate::shown_tiles::ShownTiles;
 /// Default of [`RunOptions::keeps_from`].
 pub const DEFAULT_KEEPS_FROM: Duration = Duration::from_millis(250);
 
+/// Default of [`RunOptions::writes_over_from`]: two color textures of 2048². Below, the bands take more time than their memory is worth.
+pub const DEFAULT_WRITES_OVER_FROM: u64 = 64 << 20;
+
 /// Options of a run.
 pub struct RunOptions<'a> {
     /// Longest time of one submission: about 25 ms where a window shares the queue, more in a bake.
@@ -30,6 +33,8 @@ pub struct RunOptions<'a> {
     /// Time of computing from which a small result is kept for later runs. A larger one takes longer to write and read, and is
     /// kept if its time is that much longer.
     pub keeps_from: Duration,
+    /// Bytes of textures from which a kernel of points writes them, band by band, over those that it reads for the last time.
+    pub writes_over_from: u64,
     /// Tiles whose results are shown; none if any texel may be read after the run. Where nothing else reads them, results are not
     /// computed in other tiles, which then hold anything.
     pub shown: Option<&'a ShownTiles>,
@@ -48,6 +53,7 @@ impl RunOptions<'_> {
             times_ghosts: false,
             forgets_kernels: false,
             keeps_from: DEFAULT_KEEPS_FROM,
+            writes_over_from: DEFAULT_WRITES_OVER_FROM,
             shown: None,
         }
     }

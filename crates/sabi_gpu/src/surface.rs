@@ -111,6 +111,8 @@ impl GpuSurface {
             area: covered_area(atlas, tables),
             bytes: atlas.owners.len() as u64 * 5,
         };
+        // What was written waits for the next submission otherwise, in memory of its own.
+        gpu.queue.submit([]);
         gpu.wait()?;
         Ok(surface)
     }

@@ -7,6 +7,7 @@ use sabi_nodes::wgsl_struct;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::layer_rows::LayerRows;
 use crate::links::Links;
 use crate::pace::{MARGIN, Pace};
 use crate::shown_tiles::ShownTiles;
@@ -30,7 +31,9 @@ wgsl_struct! {
         texel: f32,
         finest: f32,
         farthest: f32,
-        pad: [u32; 3],
+        first_page: u32,
+        first_row: u32,
+        pad: u32,
     }
 }
 
@@ -44,6 +47,8 @@ pub(crate) struct Slices<'a> {
     group: wgpu::BindGroup,
     /// Index of this repetition and number of repetitions.
     repetition: [u32; 2],
+    /// Page and first row of what is written.
+    origin: [u32; 2],
 }
 
 impl<'a> Slices<'a> {
@@ -97,7 +102,14 @@ impl<'a> Slices<'a> {
             constants,
             group,
             repetition: [0, 1],
+            origin: [0; 2],
         }
+    }
+
+    /// Slices of which kernels of points write a band of the atlas that begins at this row.
+    pub(crate) fn into_band(mut self, band: &LayerRows) -> Slices<'a> {
+        self.origin = [band.layer, band.rows.start];
+        self
     }
 
     /// Slices for one of several repetitions.
@@ -208,7 +220,9 @@ impl<'a> Slices<'a> {
             texel: self.surface.measures.texel as f32,
             finest: self.surface.measures.finest as f32,
             farthest: self.surface.measures.farthest as f32,
-            pad: [0; 3],
+            first_page: self.origin[0],
+            first_row: self.origin[1],
+            pad: 0,
         };
         self.gpu
             .queue

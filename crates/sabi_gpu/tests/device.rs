@@ -288,6 +288,37 @@ fn a_run_holds_no_more_textures_than_are_needed_at_once() {
 }
 
 #[test]
+fn kernels_of_points_write_over_what_they_read_last_and_give_the_same() {
+    let bench = Bench::new(256);
+    let atlas = Atlas::build(&square(), &AtlasOptions::new(256)).unwrap();
+    let unfused = bench.plan(CHAIN, Mode::Bake { fuse: false });
+    for plan in [unfused.clone().with_own_slots(), unfused] {
+        let [beside, over] = [u64::MAX, 0].map(|writes_over_from| {
+            let options = RunOptions {
+                writes_over_from,
+                ..options()
+            };
+            let run = bench.run(&plan, &options, None).unwrap();
+            let plane = bench
+                .gpu
+                .read(&bench.surface, &plan, &run, plan.results[0].slots[0])
+                .unwrap();
+            (run.report.pool.peak_bytes, plane)
+        });
+        let covered = (0..atlas.owners.len()).filter(|texel| atlas.owners[*texel] != sabi_surface::atlas::EMPTY);
+        let differing = covered.filter(|texel| beside.1.texel(*texel) != over.1.texel(*texel));
+        assert_eq!(differing.count(), 0);
+        // A second mask, and a band of one instead.
+        assert!(
+            over.0 + 3 * bench.surface.texels() < beside.0,
+            "{} {}",
+            over.0,
+            beside.0
+        );
+    }
+}
+
+#[test]
 fn kernels_that_are_forgotten_change_no_result_and_are_compiled_again() {
     let bench = Bench::new(64);
     let plan = bench.plan(MIXED, FUSED);

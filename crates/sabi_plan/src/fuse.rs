@@ -1,8 +1,11 @@
 //! Groups nodes into kernels.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
+use sabi_graph::PortType;
 use sabi_nodes::kind::{Cost, Reads, Shape};
+use sabi_nodes::link::Stored;
 
 use crate::request::{Limits, Mode};
 use crate::resolved::{Behavior, Resolved};
@@ -147,17 +150,73 @@ fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec
         region_of.insert(*node, home);
     }
     let place: BTreeMap<usize, usize> = points.iter().enumerate().map(|(at, (node, _))| (*node, at)).collect();
+    let rank: BTreeMap<usize, usize> = large_first(resolved)
+        .into_iter()
+        .enumerate()
+        .map(|(at, node)| (node, at))
+        .collect();
     regions.retain(|region| !region.is_empty());
     regions
         .into_iter()
         .map(|mut region| {
-            region.sort_by_key(|node| place[node]);
+            region.sort_by_key(|node| rank[node]);
             region.into_iter().map(|node| points[place[&node]].clone()).collect()
         })
         .collect()
 }
 
-/// Cuts a region that exceeds the limits of a kernel: the longest prefix that fits, then the rest.
+/// The resolved nodes, inputs before readers and depth first, those first that make the largest values: a region that has to be cut
+/// follows a material through its layers, and the masks of a layer are not stored while the layers below it are made. Of values of
+/// one size, that one is first which needs most values at once (Sethi and Ullman 1970).
+fn large_first(resolved: &Resolved<'_>) -> Vec<usize> {
+    let needs = needed_values(resolved);
+    let fresh_inputs = |node: usize, seen: &BTreeSet<usize>| -> Vec<usize> {
+        let mut inputs = inputs_of(resolved, node);
+        inputs.retain(|(from, _)| !seen.contains(from));
+        inputs.sort_by_key(|value| Reverse((planes(resolved, *value), needs[value.0])));
+        inputs.into_iter().map(|(from, _)| from).collect()
+    };
+    let mut seen = BTreeSet::new();
+    let mut order = Vec::new();
+    // The last ones are read by no other node, or by earlier ones of these alone.
+    for root in resolved.order.iter().rev() {
+        // An explicit stack: graphs may be deeper than the stack of a thread.
+        let mut stack = vec![(*root, false)];
+        while let Some((node, inputs_done)) = stack.pop() {
+            if inputs_done {
+                order.push(node);
+            } else if seen.insert(node) {
+                stack.push((node, true));
+                stack.extend(fresh_inputs(node, &seen).into_iter().rev().map(|from| (from, false)));
+            }
+        }
+    }
+    order
+}
+
+/// Values that a node reads.
+fn inputs_of(resolved: &Resolved<'_>, node: usize) -> Vec<Value> {
+    let inputs = resolved.nodes[node]
+        .iter()
+        .flat_map(|ready| ready.inputs.iter().flatten());
+    inputs.map(|input| (input.node, input.output)).collect()
+}
+
+/// Number of values that are needed at once to evaluate each node, as if no value had two readers.
+fn needed_values(resolved: &Resolved<'_>) -> Vec<usize> {
+    let mut needs = vec![0_usize; resolved.nodes.len()];
+    for node in &resolved.order {
+        let inputs: BTreeSet<usize> = inputs_of(resolved, *node).into_iter().map(|(from, _)| from).collect();
+        let mut of_inputs: Vec<usize> = inputs.into_iter().map(|from| needs[from]).collect();
+        of_inputs.sort_unstable_by_key(|need| Reverse(*need));
+        let most = of_inputs.iter().enumerate().map(|(stored, need)| stored + need).max();
+        needs[*node] = most.unwrap_or(1); // A node without inputs makes its own value.
+    }
+    needs
+}
+
+/// Cuts a region that exceeds the limits of a kernel: of the prefixes that fit and are no shorter than half of the longest one, that
+/// which stores fewest bytes, then the rest.
 fn cut(
     resolved: &Resolved<'_>,
     readers: &Readers,
@@ -167,23 +226,61 @@ fn cut(
     groups: &mut Vec<Group>,
 ) {
     while !region.is_empty() {
-        let mut kernel = Prefix::new(resolved, readers, wanted);
-        let mut longest = 1;
-        for (count, (node, _)) in region.iter().enumerate() {
-            kernel.add(*node);
-            // Cost, work, parameters and loads only grow; the number of stores shrinks when the last reader of a result joins.
-            let is_too_long = !kernel.cost.is_within(limits.cost) || kernel.work > limits.work;
-            let is_too_large = kernel.block_bytes > limits.block_bytes;
-            if is_too_long || is_too_large || kernel.loads > limits.sampled_textures {
-                break;
-            }
-            if kernel.stores <= limits.storage_textures {
-                longest = count + 1;
-            }
-        }
-        let rest = region.split_off(longest);
+        let fitting = fitting_prefixes(Prefix::new(resolved, readers, wanted), &region, limits);
+        let rest = region.split_off(best_length(&fitting, region.len()));
         groups.push(Group::Points(std::mem::replace(&mut region, rest)));
     }
+}
+
+/// Prefix that fits into a kernel.
+struct Fitting {
+    /// Number of its nodes.
+    length: usize,
+    /// Cost of compiling it.
+    cost: Cost,
+    work: u64,
+    /// Bytes of a texel of all that it stores.
+    stored_bytes: u64,
+}
+
+/// Prefixes of a region that fit into a kernel, from the shortest on.
+fn fitting_prefixes(mut kernel: Prefix<'_, '_>, region: &[(usize, Vec<usize>)], limits: &Limits) -> Vec<Fitting> {
+    let mut fitting = Vec::new();
+    for (count, (node, _)) in region.iter().enumerate() {
+        kernel.add(*node);
+        // Cost, work, parameters and loads only grow; the number of stores shrinks when the last reader of a result joins.
+        let is_too_long = !kernel.cost.is_within(limits.cost) || kernel.work > limits.work;
+        let is_too_large = kernel.block_bytes > limits.block_bytes;
+        if is_too_long || is_too_large || kernel.loads > limits.sampled_textures {
+            break;
+        }
+        if kernel.stores <= limits.storage_textures {
+            fitting.push(Fitting {
+                length: count + 1,
+                cost: kernel.cost,
+                work: kernel.work,
+                stored_bytes: kernel.stored_bytes,
+            });
+        }
+    }
+    fitting
+}
+
+/// Number of nodes of the best of the prefixes that fit a region of so many nodes.
+fn best_length(fitting: &[Fitting], all: usize) -> usize {
+    let Some(longest) = fitting.last() else { return 1 };
+    if longest.length == all {
+        return all;
+    }
+    let is_half = |prefix: &&Fitting| {
+        let (cost, most) = (prefix.cost, longest.cost);
+        2 * cost.all >= most.all && 2 * cost.straight >= most.straight && 2 * prefix.work >= longest.work
+    };
+    let best = fitting
+        .iter()
+        .filter(is_half)
+        .min_by_key(|prefix| (prefix.stored_bytes, Reverse(prefix.length)));
+    best.unwrap_or(longest).length
 }
 
 /// Prefix of a region with the cost and the bindings of its kernel.
@@ -200,6 +297,8 @@ struct Prefix<'a, 'k> {
     block_bytes: u64,
     loads: usize,
     stores: usize,
+    /// Bytes of a texel of the stored planes.
+    stored_bytes: u64,
 }
 
 impl<'a, 'k> Prefix<'a, 'k> {
@@ -216,6 +315,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
             block_bytes: 0,
             loads: 0,
             stores: 0,
+            stored_bytes: 0,
         }
     }
 
@@ -238,6 +338,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
                 *left -= 1;
                 if *left == 0 && !self.wanted.contains(&value) {
                     self.stores -= planes(self.resolved, value);
+                    self.stored_bytes -= bytes(self.resolved, value);
                 }
             }
         }
@@ -245,12 +346,16 @@ impl<'a, 'k> Prefix<'a, 'k> {
         for (value, readers) in self.readers.range((node, 0)..(node + 1, 0)) {
             self.outside.insert(*value, readers.len());
             self.stores += planes(self.resolved, *value);
+            self.stored_bytes += bytes(self.resolved, *value);
         }
         let unread = self
             .wanted
             .iter()
             .filter(|value| value.0 == node && !self.readers.contains_key(value));
-        self.stores += unread.map(|value| planes(self.resolved, *value)).sum::<usize>();
+        for value in unread {
+            self.stores += planes(self.resolved, *value);
+            self.stored_bytes += bytes(self.resolved, *value);
+        }
     }
 }
 
@@ -271,9 +376,25 @@ fn node_work(resolved: &Resolved<'_>, node: usize) -> u64 {
 }
 
 /// Number of textures that a result takes.
-fn planes(resolved: &Resolved<'_>, (node, output): Value) -> usize {
-    let channels = resolved.nodes[node]
-        .as_ref()
-        .and_then(|ready| ready.channels.get(output));
-    channels.map_or(1, |channels| channels.len().max(1))
+fn planes(resolved: &Resolved<'_>, value: Value) -> usize {
+    stored(resolved, value).map_or(1, |stored| stored.planes().len().max(1))
+}
+
+/// Bytes of a texel of a result.
+fn bytes(resolved: &Resolved<'_>, value: Value) -> u64 {
+    let planes = stored(resolved, value)
+        .map(|stored| stored.planes())
+        .unwrap_or_default();
+    planes.iter().map(|plane| plane.format().texel_bytes()).sum()
+}
+
+/// A result in storage.
+fn stored(resolved: &Resolved<'_>, (node, output): Value) -> Option<Stored> {
+    let ready = resolved.nodes[node].as_ref()?;
+    let (_, ty) = ready.output(output)?;
+    let channels = match ty {
+        PortType::Material => ready.channels.get(output)?.clone(),
+        PortType::Mask | PortType::Color | PortType::Vector => Vec::new(),
+    };
+    Some(Stored { ty, channels })
 }

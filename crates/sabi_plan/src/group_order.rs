@@ -3,23 +3,21 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_nodes::link::Plane;
-
 use crate::fuse::{Group, Value};
-use crate::level::Level;
-use crate::plan::{SlotExtent, Step};
+use crate::memory_use::{MemoryUse, StoredPlane, is_result, weight, written};
+use crate::plan::Step;
 use crate::request::Mode;
-use crate::resources::{Content, Resource, UnassignedStep};
+use crate::resources::{Content, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
-/// A stored plane on a level.
-type StoredPlane = (Resource, Plane);
+/// Most attempts to find a better order. Each looks at all steps.
+const MOST_ATTEMPTS: usize = 256;
 
 impl StepBuilder<'_, '_> {
     /// Orders groups from inputs to results, depth first, so that results are freed soon. While results are kept, inputs are followed
     /// in their order. Otherwise that is compared with the order of Sethi and Ullman ("The generation of optimal code for arithmetic
     /// expressions", 1970): what needs most memory besides its result comes first, while little else is stored. The order
-    /// that needs less is taken.
+    /// that needs less is taken, and made better where what needs most memory can run earlier.
     pub(crate) fn order(&self, groups: &[Group], built: &[Vec<UnassignedStep>], wanted: &[Value]) -> Vec<usize> {
         let inputs: Vec<Vec<usize>> = groups.iter().map(|group| self.producers_of(group)).collect();
         let as_written = self.depth_first(&inputs, wanted);
@@ -28,9 +26,70 @@ impl StepBuilder<'_, '_> {
         }
         let largest_first = self.depth_first(&largest_first(built, &inputs, &as_written), wanted);
         let orders = [as_written, largest_first];
-        // Of two orders with the same peak the first one is taken.
-        let least = orders.into_iter().min_by_key(|order| self.peak(built, order, wanted));
-        least.unwrap_or_else(|| unreachable!("there are two orders"))
+        // Of two orders that are as good the first one is taken.
+        let least = orders
+            .into_iter()
+            .min_by_key(|order| self.memory_use(built, order, wanted).peak());
+        let least = least.unwrap_or_else(|| unreachable!("there are two orders"));
+        self.better(least, (built, &inputs), wanted)
+    }
+
+    /// Lets the group that needs most memory run earlier, with all that it needs: before one of those whose results are stored
+    /// meanwhile. Goes on as long as that makes the order better.
+    fn better(
+        &self,
+        mut order: Vec<usize>,
+        (built, inputs): (&[Vec<UnassignedStep>], &[Vec<usize>]),
+        wanted: &[Value],
+    ) -> Vec<usize> {
+        let mut known = self.memory_use(built, &order, wanted);
+        let mut attempts = 0;
+        loop {
+            let Some(group) = known
+                .peak_step()
+                .and_then(|step| self.group_of_step(built, &order, step))
+            else {
+                return order;
+            };
+            let needed = with_producers(group, inputs);
+            let makers = self.makers(&known.stored_at_peak);
+            let places = order.iter().take_while(|other| **other != group);
+            let places = places
+                .enumerate()
+                .filter(|(_, other)| makers.contains(*other) && !needed.contains(*other));
+            let tried: Vec<Vec<usize>> = places
+                .take(MOST_ATTEMPTS.saturating_sub(attempts))
+                .map(|(place, _)| moved_to(place, &needed, &order))
+                .collect();
+            attempts += tried.len();
+            let tried = tried
+                .into_iter()
+                .map(|order| (self.memory_use(built, &order, wanted), order));
+            let best = tried.min_by_key(|(of, _)| of.badness());
+            match best.filter(|(of, _)| of.badness() < known.badness()) {
+                Some((of, other)) => (known, order) = (of, other),
+                None => return order,
+            }
+        }
+    }
+
+    /// Groups that make planes.
+    fn makers(&self, planes: &BTreeSet<StoredPlane>) -> BTreeSet<usize> {
+        let maker = |(resource, _): &StoredPlane| {
+            let Content::Result(value) = resource.content else {
+                return None;
+            };
+            self.producer.get(&value).copied()
+        };
+        planes.iter().filter_map(maker).collect()
+    }
+
+    /// The group with a step of an order.
+    fn group_of_step(&self, built: &[Vec<UnassignedStep>], order: &[usize], step: usize) -> Option<usize> {
+        let steps = order
+            .iter()
+            .flat_map(|group| built[*group].iter().map(move |step| (*group, step)));
+        first_moves(steps).nth(step).map(|(group, _)| group)
     }
 
     /// Groups that make what a group reads, in the order of inputs.
@@ -62,18 +121,44 @@ impl StepBuilder<'_, '_> {
         order
     }
 
-    /// Most memory that is in use at once, in the unit of [`weight`], when groups run in an order.
-    fn peak(&self, built: &[Vec<UnassignedStep>], order: &[usize], wanted: &[Value]) -> u64 {
+    /// Memory in use when groups run in an order.
+    fn memory_use(&self, built: &[Vec<UnassignedStep>], order: &[usize], wanted: &[Value]) -> MemoryUse {
         let is_wanted = |plane: &StoredPlane| {
             is_result(plane) && matches!(plane.0.content, Content::Result(value) if wanted.contains(&value))
         };
-        let mut moved = BTreeSet::new();
-        let steps = order.iter().flat_map(|group| &built[*group]);
-        // A plane is moved to a level once.
-        let steps =
-            steps.filter(|step| !matches!(step.step, Step::Move(_)) || written(step).any(|plane| moved.insert(plane)));
-        peak_of(&steps.collect::<Vec<_>>(), is_wanted)
+        let steps = order
+            .iter()
+            .flat_map(|group| built[*group].iter().map(move |step| (*group, step)));
+        let steps: Vec<&UnassignedStep> = first_moves(steps).map(|(_, step)| step).collect();
+        MemoryUse::of(&steps, is_wanted)
     }
+}
+
+/// Steps of groups, without moves of planes that an earlier one has moved to the same level.
+fn first_moves<'b>(
+    steps: impl Iterator<Item = (usize, &'b UnassignedStep)>,
+) -> impl Iterator<Item = (usize, &'b UnassignedStep)> {
+    let mut moved = BTreeSet::new();
+    steps.filter(move |(_, step)| !matches!(step.step, Step::Move(_)) || written(step).any(|plane| moved.insert(plane)))
+}
+
+/// A group and all that it needs.
+fn with_producers(group: usize, inputs: &[Vec<usize>]) -> BTreeSet<usize> {
+    let mut needed = BTreeSet::new();
+    let mut stack = vec![group];
+    while let Some(group) = stack.pop() {
+        if needed.insert(group) {
+            stack.extend(&inputs[group]);
+        }
+    }
+    needed
+}
+
+/// An order with some groups, and all that they need, moved to a place as far as they are behind it.
+fn moved_to(place: usize, groups: &BTreeSet<usize>, order: &[usize]) -> Vec<usize> {
+    let (before, behind) = order.split_at(place);
+    let (first, rest): (Vec<usize>, Vec<usize>) = behind.iter().partition(|group| groups.contains(*group));
+    before.iter().copied().chain(first).chain(rest).collect()
 }
 
 /// For each group those whose results it reads, the one first that needs most memory besides what it leaves behind. `order` has
@@ -96,7 +181,7 @@ fn largest_first(built: &[Vec<UnassignedStep>], inputs: &[Vec<usize>], order: &[
         let mut seen = BTreeSet::from([group]);
         sorted[group].retain(|from| seen.insert(*from));
         sorted[group].sort_by_key(|from| Reverse(needs[*from].saturating_sub(left[from])));
-        let (mut stored, mut need) = (0, peak_of(&steps, is_result));
+        let (mut stored, mut need) = (0, MemoryUse::of(&steps, is_result).peak());
         for from in &sorted[group] {
             need = need.max(stored + needs[*from]);
             stored += left[from];
@@ -104,69 +189,4 @@ fn largest_first(built: &[Vec<UnassignedStep>], inputs: &[Vec<usize>], order: &[
         needs[group] = need;
     }
     sorted
-}
-
-/// Planes that a step writes, without the second texture of a repeated function.
-fn written(step: &UnassignedStep) -> impl Iterator<Item = StoredPlane> {
-    step.writes.iter().flatten().copied()
-}
-
-/// Returns whether a plane belongs to a result of a node, on the level on which others read it.
-fn is_result((resource, _): &StoredPlane) -> bool {
-    matches!(resource.content, Content::Result(_)) && resource.level == Level::FINEST
-}
-
-/// Memory of a plane: that of a number on the finest level is 2²².
-fn weight((resource, plane): &StoredPlane) -> u64 {
-    match resource.extent() {
-        SlotExtent::Level(Level::Texels(number)) => (plane.format().texel_bytes() << 20) >> (2 * number).min(63),
-        // Points and tables are small.
-        SlotExtent::Level(Level::Points(_))
-        | SlotExtent::Survey
-        | SlotExtent::GroupSurvey
-        | SlotExtent::Single
-        | SlotExtent::Groups => 0,
-    }
-}
-
-/// Most memory that is in use at once while steps run. Planes that are read and that none of them writes are stored all the time,
-/// and those that `stays` selects from when they are written.
-fn peak_of(steps: &[&UnassignedStep], stays: impl Fn(&StoredPlane) -> bool) -> u64 {
-    let mut last_use: BTreeMap<StoredPlane, usize> = BTreeMap::new();
-    let mut stored: BTreeSet<StoredPlane> = BTreeSet::new();
-    for (at, step) in steps.iter().enumerate() {
-        let read = step.reads.iter().flatten();
-        stored.extend(read.clone().filter(|plane| !last_use.contains_key(plane)));
-        last_use.extend(
-            read.chain(step.writes.iter().flatten())
-                .chain(&step.scratch)
-                .map(|plane| (*plane, at)),
-        );
-    }
-    let outer = stored.clone();
-    let mut in_use: u64 = stored.iter().map(weight).sum();
-    let mut peak = in_use;
-    for (at, step) in steps.iter().enumerate() {
-        for plane in step.writes.iter().flatten().chain(&step.scratch) {
-            if stored.insert(*plane) {
-                in_use += weight(plane);
-            }
-        }
-        let is_last = |plane: &StoredPlane| last_use.get(plane) == Some(&at) && !outer.contains(plane);
-        peak = peak.max(in_use - start_of(step).filter(is_last).map_or(0, |start| weight(&start)));
-        let used = step.reads.iter().chain(&step.writes).flatten().chain(&step.scratch);
-        for plane in used.filter(|plane| is_last(plane)) {
-            if !stays(plane) && stored.remove(plane) {
-                in_use -= weight(plane);
-            }
-        }
-    }
-    peak
-}
-
-/// The plane whose texture a repeated kernel takes for its second run, if nothing reads it later: what its first run reads.
-fn start_of(step: &UnassignedStep) -> Option<StoredPlane> {
-    let Step::Kernel(kernel) = &step.step else { return None };
-    let start = (*step.reads.get(kernel.feedback.as_ref()?.read)?)?;
-    (step.reads.iter().flatten().filter(|plane| **plane == start).count() == 1).then_some(start)
 }

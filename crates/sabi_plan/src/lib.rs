@@ -54,6 +54,7 @@ mod inputs;
 mod kernel_builder;
 mod keys;
 mod level;
+mod memory_use;
 mod muted;
 mod order;
 mod own_slots;

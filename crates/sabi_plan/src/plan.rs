@@ -230,6 +230,17 @@ pub struct PlannedResult {
     pub key: [u8; 32],
 }
 
+impl KernelStep {
+    /// Returns true if each texel depends on the same texel of what is read alone.
+    pub fn is_of_points(&self) -> bool {
+        self.spec.domain == Domain::AllTexels
+            && self.level == Level::FINEST
+            && self.feedback.is_none()
+            && self.rays.is_none()
+            && !self.fills_ghosts
+    }
+}
+
 impl Plan {
     /// Number of kernel steps.
     pub fn passes(&self) -> usize {

@@ -3,6 +3,7 @@
 mod cuts;
 mod faults;
 mod keys;
+mod memory;
 mod own_slots;
 mod passes;
 mod random;

@@ -45,35 +45,39 @@ fn heat(
     return heat_stage(start, across, along, at, round, params.radius);
 }
 
+/// The blur as one number, which is brought to the finest level.
+/// @pass 5 @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
+fn settled(at: Surface, heat: texture_2d_array<f32>) -> f32 {
+    return heat_settled(heat, at);
+}
+
 /// Half of the finish.
-/// @pass 5
-fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
-    let state = surface_here(heat, at);
-    // 0 where the coarser level has nothing near: a speck smaller than the radius.
-    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
-    return heat_finish(heat, at, round, params.radius, center);
+/// @pass 6
+fn finish(at: Surface, round: Round, params: Params, settled: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
+    let center = heat_or(settled, at, surface_here(source, at).x);
+    return heat_finish(settled, at, round, params.radius, center);
 }
 
 /// How heat flows along u, for a radius of one half; on a level twice as coarse for its size, since smaller radii are only mixed.
-/// @pass 6 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
+/// @pass 7 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn half_across(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_across(at, round, params.space == 1u);
 }
 
 /// How it flows along v.
-/// @pass 7 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
+/// @pass 8 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn half_along(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one half of the radius.
-/// @pass 8 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
+/// @pass 9 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 fn half_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one half of the radius.
-/// @pass 9 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
+/// @pass 10 @with radius_map @vector @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
 /// @repeat max(5.1 * params.radius / 2 / texel, 10.2)
 fn half_heat(
     at: Surface, round: Round, params: Params, half_start: texture_2d_array<f32>, half_across: texture_2d_array<f32>,
@@ -82,36 +86,41 @@ fn half_heat(
     return heat_stage(half_start, half_across, half_along, at, round, params.radius / 2.0);
 }
 
+/// The blur of one half as one number.
+/// @pass 11 @with radius_map @texel params.radius / 2.4 @points (1 - params.space) * params.radius / 3
+fn half_settled(at: Surface, half_heat: texture_2d_array<f32>) -> f32 {
+    return heat_settled(half_heat, at);
+}
+
 /// Half of its finish.
-/// @pass 10 @with radius_map
+/// @pass 12 @with radius_map
 fn half_finish(
-    at: Surface, round: Round, params: Params, half_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
+    at: Surface, round: Round, params: Params, half_settled: texture_2d_array<f32>, source: texture_2d_array<f32>,
 ) -> f32 {
-    let state = surface_here(half_heat, at);
-    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
-    return heat_finish(half_heat, at, round, params.radius / 2.0, center);
+    let center = heat_or(half_settled, at, surface_here(source, at).x);
+    return heat_finish(half_settled, at, round, params.radius / 2.0, center);
 }
 
 /// How heat flows along u, for a radius of one quarter.
-/// @pass 11 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
+/// @pass 13 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 fn quarter_across(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_across(at, round, params.space == 1u);
 }
 
 /// How it flows along v.
-/// @pass 12 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
+/// @pass 14 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 fn quarter_along(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one quarter of the radius.
-/// @pass 13 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
+/// @pass 15 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 fn quarter_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one quarter of the radius.
-/// @pass 14 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
+/// @pass 16 @with radius_map @vector @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
 /// @repeat max(5.1 * params.radius / 4 / texel, 10.2)
 fn quarter_heat(
     at: Surface, round: Round, params: Params, quarter_start: texture_2d_array<f32>, quarter_across: texture_2d_array<f32>,
@@ -120,36 +129,41 @@ fn quarter_heat(
     return heat_stage(quarter_start, quarter_across, quarter_along, at, round, params.radius / 4.0);
 }
 
+/// The blur of one quarter as one number.
+/// @pass 17 @with radius_map @texel params.radius / 4.8 @points (1 - params.space) * params.radius / 6
+fn quarter_settled(at: Surface, quarter_heat: texture_2d_array<f32>) -> f32 {
+    return heat_settled(quarter_heat, at);
+}
+
 /// Half of its finish.
-/// @pass 15 @with radius_map
+/// @pass 18 @with radius_map
 fn quarter_finish(
-    at: Surface, round: Round, params: Params, quarter_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
+    at: Surface, round: Round, params: Params, quarter_settled: texture_2d_array<f32>, source: texture_2d_array<f32>,
 ) -> f32 {
-    let state = surface_here(quarter_heat, at);
-    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
-    return heat_finish(quarter_heat, at, round, params.radius / 4.0, center);
+    let center = heat_or(quarter_settled, at, surface_here(source, at).x);
+    return heat_finish(quarter_settled, at, round, params.radius / 4.0, center);
 }
 
 /// How heat flows along u, for a radius of one eighth.
-/// @pass 16 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
+/// @pass 19 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 fn eighth_across(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_across(at, round, params.space == 1u);
 }
 
 /// How it flows along v.
-/// @pass 17 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
+/// @pass 20 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 fn eighth_along(at: Surface, round: Round, params: Params) -> vec3f {
     return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one eighth of the radius.
-/// @pass 18 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
+/// @pass 21 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 fn eighth_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one eighth of the radius.
-/// @pass 19 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
+/// @pass 22 @with radius_map @vector @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
 /// @repeat max(5.1 * params.radius / 8 / texel, 10.2)
 fn eighth_heat(
     at: Surface, round: Round, params: Params, eighth_start: texture_2d_array<f32>, eighth_across: texture_2d_array<f32>,
@@ -158,14 +172,19 @@ fn eighth_heat(
     return heat_stage(eighth_start, eighth_across, eighth_along, at, round, params.radius / 8.0);
 }
 
+/// The blur of one eighth as one number.
+/// @pass 23 @with radius_map @texel params.radius / 9.6 @points (1 - params.space) * params.radius / 12
+fn eighth_settled(at: Surface, eighth_heat: texture_2d_array<f32>) -> f32 {
+    return heat_settled(eighth_heat, at);
+}
+
 /// Half of its finish.
-/// @pass 20 @with radius_map
+/// @pass 24 @with radius_map
 fn eighth_finish(
-    at: Surface, round: Round, params: Params, eighth_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
+    at: Surface, round: Round, params: Params, eighth_settled: texture_2d_array<f32>, source: texture_2d_array<f32>,
 ) -> f32 {
-    let state = surface_here(eighth_heat, at);
-    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
-    return heat_finish(eighth_heat, at, round, params.radius / 8.0, center);
+    let center = heat_or(eighth_settled, at, surface_here(source, at).x);
+    return heat_finish(eighth_settled, at, round, params.radius / 8.0, center);
 }
 
 // The second half of a finish.

@@ -42,12 +42,17 @@ fn heat(
     return heat_stage(start, across, along, at, round, params.radius);
 }
 
+/// The surroundings as one number, which is brought to the finest level.
+/// @pass 5 @texel params.radius / 2.4 @points params.radius / 3
+fn settled(at: Surface, heat: texture_2d_array<f32>) -> f32 {
+    return heat_settled(heat, at);
+}
+
 /// Half of their finish.
-/// @pass 5
-fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
-    let state = surface_here(heat, at);
-    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
-    return heat_finish(heat, at, round, params.radius, center);
+/// @pass 6
+fn finish(at: Surface, round: Round, params: Params, settled: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
+    let center = heat_or(settled, at, surface_here(source, at).x);
+    return heat_finish(settled, at, round, params.radius, center);
 }
 
 /// The sharpened mask; it may reach below 0 and above 1.

@@ -56,10 +56,16 @@ fn run(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, 
     return select(own, vec3f(above.x, arrives, above.z), arrives > own.y);
 }
 
-/// The streaks, together with the mask they start from.
-fn mask(at: Surface, params: Params, run: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
+/// What has come to a place, as one number, which is brought to the finest level.
+/// @pass 4 @texel params.length / 100
+fn ran(at: Surface, params: Params, run: texture_2d_array<f32>) -> f32 {
     let state = surface_here(run, at);
     let left = 1.0 - (state.x - state.y / max(state.z, 1e-3));
+    return state.x * clamp(left / max(params.fade, 1e-3), 0.0, 1.0);
+}
+
+/// The streaks, together with the mask they start from.
+fn mask(at: Surface, ran: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
     // The mask itself is as fine as the maps.
-    return max(surface_here(source, at).x, state.x * clamp(left / max(params.fade, 1e-3), 0.0, 1.0));
+    return max(surface_here(source, at).x, surface_here(ran, at).x);
 }

@@ -165,10 +165,11 @@ fn net_at(at: Surface, moved: texture_2d_array<f32>, strength: f32, reach: f32, 
         // A crack by itself is right down to texels half as wide as the pieces.
         let seen = carried(2.0 * level.size * finest_stretch(params.stretch), at.texel_size);
         if seen > 0.0 {
-            if params.breaks > 0.0 {
+            // Where there are no cracks, only the pieces are needed.
+            if params.breaks > 0.0 && level.strength > 0.0 {
                 level.slow = normal_share(simplex_noise(frame.place * 0.8, level.key + vec3u(11u)));
             }
-            if params.uneven > 0.0 {
+            if params.uneven > 0.0 && level.strength > 0.0 {
                 level.quick = normal_share(simplex_noise(frame.place * 3.1, level.key + vec3u(23u)));
             }
             frame = add_level(&net, frame, level, at, params);
@@ -268,7 +269,7 @@ fn add_level(net: ptr<function, Net>, frame: PatternFrame, level: Level, at: Sur
     let random = unit_random3(pcg3d(vec3u(nearest.id, 0x7feb352du, 0x846ca68bu)));
     var turned = frame;
     var whole = 1.0;
-    if nearest.others - nearest.distance < 2.0 * reach {
+    if level.strength > 0.0 && nearest.others - nearest.distance < 2.0 * reach {
         let rows = rows_around(frame.place, level.key);
         let limit = nearest.distance + 2.0 * reach;
         for (var index = 0; index < 9; index++) {

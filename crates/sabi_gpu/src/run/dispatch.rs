@@ -29,7 +29,7 @@ impl BoundTextures {
 }
 
 /// Texels of tiles.
-fn texels_of(tiles: u32) -> u64 {
+pub(super) fn texels_of(tiles: u32) -> u64 {
     u64::from(tiles) * u64::from(TILE).pow(2)
 }
 

@@ -309,6 +309,11 @@ pub(super) fn write_store(out: &mut String, index: usize, store: &Store, spec: &
         }
         Operand::Normal(denoise) => denoise.normal().to_owned(),
     };
+    // Kernels of points may write a band of the atlas.
+    let place = match spec.domain {
+        Domain::AllTexels => "written",
+        Domain::Once | Domain::Groups | Domain::OwnedTexels | Domain::OwnedTexelsByRays => "texel",
+    };
     let _ = writeln!(out, "    let s{index} = {value};");
     for plane in store.stored.planes() {
         let value = match plane {
@@ -329,7 +334,7 @@ pub(super) fn write_store(out: &mut String, index: usize, store: &Store, spec: &
         let name = plane_name(plane);
         let _ = writeln!(
             out,
-            "    textureStore(store_{index}_{name}, texel.xy, texel.z, {value});"
+            "    textureStore(store_{index}_{name}, {place}.xy, {place}.z, {value});"
         );
     }
     Ok(())

@@ -174,6 +174,10 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
         }
         write_call(out, &mut locals, &caller)?;
     }
+    if spec.domain == Domain::AllTexels {
+        // What is written may be a band of the atlas.
+        out.push_str("    let written = texel - vec3i(0, i32(dispatch.first_row), i32(dispatch.first_page));\n");
+    }
     for (index, store) in spec.stores.iter().enumerate() {
         write_store(out, index, store, spec)?;
     }

@@ -63,7 +63,7 @@ fn a_pass_that_is_for_an_input_runs_once_something_is_connected_or_set_there() {
     };
     let plain = passes("radius=0.016");
     assert_eq!(passes("radius=0.016 radius_map=1"), plain, "the default");
-    // Five passes for each of three smaller radii.
-    assert_eq!(passes("radius=0.016 radius_map=0.5"), plain + 15);
-    assert_eq!(passes("radius=0.016 radius_map=m"), plain + 16);
+    // Six passes for each of three smaller radii.
+    assert_eq!(passes("radius=0.016 radius_map=0.5"), plain + 18);
+    assert_eq!(passes("radius=0.016 radius_map=m"), plain + 19);
 }

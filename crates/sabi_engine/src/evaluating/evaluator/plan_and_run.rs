@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use sabi_gpu::{DEFAULT_KEEPS_FROM, GpuError, ResultCache, Run, RunOptions};
+use sabi_gpu::{DEFAULT_KEEPS_FROM, DEFAULT_WRITES_OVER_FROM, GpuError, ResultCache, Run, RunOptions};
 use sabi_plan::{Lengths, Mode, Plan, PlanError, Planner, Target};
 
 use super::Evaluator;
@@ -61,7 +61,9 @@ impl Evaluator {
             most_rays: self.rays.most_rays,
             limits: self.gpu.limits(),
         };
-        planner.plan(targets)
+        let planned = planner.plan(targets);
+        tracing::trace!("the plan:\n{}", planned.0);
+        planned
     }
 
     /// Keeps results that take long for later runs, and reads those of earlier ones, in a cache folder with a limit of their
@@ -130,6 +132,7 @@ impl Evaluator {
             times_ghosts: self.times_ghosts,
             forgets_kernels: self.forgets_kernels,
             keeps_from: DEFAULT_KEEPS_FROM,
+            writes_over_from: DEFAULT_WRITES_OVER_FROM,
             shown: self.shown(),
         };
         progress.advance(Phase::Run, 0, plan.steps.len());
