@@ -1,6 +1,8 @@
 //! Reading model files: glTF, FBX, OBJ, COLLADA, PLY and STL become one [`Model`] in one world space.
 //!
-//! The readers check everything that a file claims, return a model with warnings or an error, and never panic.
+//! The readers check everything that a file claims, return a model with warnings or an error, and never panic. They look whether they
+//! were canceled ([`sabi_cancel`]) at least once for every few hundred elements, but not within other crates that do not ask back:
+//! JSON, XML, Draco.
 
 mod arealess;
 mod assembly;
@@ -39,6 +41,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
+use sabi_cancel::look;
 use sabi_files::{PathBase, TrustedPaths, Unread, Uri};
 use serde::{Deserialize, Serialize};
 
@@ -204,6 +207,7 @@ fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &Lo
             Ok(Format::Stl) => stl::read(name, bytes, resolve, options),
             Err(fault) => Err(fault),
         };
+        look();
         model.map(|mut model| {
             model.mesh.repeating = repeating(&model);
             Model { is_smoothed, ..model }

@@ -1,5 +1,6 @@
 //! Charts that overlap in the user's layout, where a map has only one value for all of them.
 
+use sabi_cancel::{Cancel, look};
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
@@ -42,6 +43,7 @@ fn overlap_of_sheet(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: &[usize], 
     let masks = &charts.masks;
     let mut square = Square::new(size);
     for &chart in numbers {
+        look();
         square.claim(&Wrapped::new(&masks[chart], size));
     }
     if square.twice.iter().all(|&word| word == 0) {
@@ -71,6 +73,7 @@ fn overlap_of_sheet(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: &[usize], 
 fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
     let mut candidates = Vec::new();
     'all: for (index, (_, a)) in crowded.iter().enumerate() {
+        look();
         for (other, (_, b)) in crowded.iter().enumerate().skip(index + 1) {
             if a.near(b) {
                 candidates.push((index, other));
@@ -80,8 +83,10 @@ fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
             }
         }
     }
+    let cancel = Cancel::current();
     let shared: Vec<u64> = candidates
         .par_iter()
+        .inspect(|_| cancel.look())
         .map(|&(a, b)| crowded[a].1.shared(&crowded[b].1))
         .collect();
     let listed = candidates.iter().zip(shared).filter(|&(_, shared)| shared > 0);
@@ -96,6 +101,7 @@ fn coinciding(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: impl Iterator<It
     let mut seen = BTreeSet::new();
     let mut stacked = BTreeSet::new();
     for chart in numbers {
+        look();
         let tile = charts.origins[chart]
             .uv_tile
             .map(|tile| i64::from(tile) * i64::from(size) * UNIT);

@@ -1,5 +1,6 @@
 //! Pictures that materials name, as formats other than glTF have them.
 
+use sabi_cancel::look;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -101,6 +102,7 @@ fn bytes(place: Place, resolve: &mut Resolve) -> Result<Arc<[u8]>, String> {
     };
     let mut first_reason = None;
     for path in paths {
+        look();
         match resolve(&path) {
             Ok(bytes) => return Ok(bytes),
             Err(reason) => {
