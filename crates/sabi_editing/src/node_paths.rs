@@ -1,5 +1,8 @@
 //! Nodes by their full ids, as the evaluation uses them: the ids of the instances that contain a node, then its own id.
 
+use std::sync::Arc;
+
+use sabi_engine::catalog::Entry;
 use sabi_graph::{Body, NodeId};
 
 use crate::open_document::OpenDocument;
@@ -47,16 +50,21 @@ pub fn in_shown_graph(document: &OpenDocument, full_id: &str) -> Option<NodeId> 
 
 /// Words behind which an error names a node by its full id in quotation marks.
 const BEFORE_IDS: [&str; 5] = ["node ", "nodes ", "instance ", "asks ", "but "];
+/// Words behind which an error names a parameter or an input of a node in quotation marks.
+const BEFORE_MEMBERS: [&str; 2] = ["parameter ", "input "];
+/// Words between a parameter or an input and the id of its node.
+const OF_NODE: &str = " of node '";
 /// Words before the ids of nodes that feed each other, and what is between these.
 const BEFORE_CIRCLE: &str = "in a circle: ";
 const IN_CIRCLE: &str = " → ";
 
-/// Sentence of an error or a warning in which nodes are named by their titles. Errors name them by their full ids, as graph files
-/// have them, with their kinds in parentheses.
+/// Sentence of an error or a warning in which nodes are named by their titles, and their parameters and ports by their labels.
+/// Errors name them as graph files do: nodes by their full ids, with their kinds in parentheses.
 pub fn with_titles(document: &OpenDocument, sentence: &str) -> String {
     let mut told = String::with_capacity(sentence.len());
     let mut rest = sentence;
     let mut is_list = false;
+    let mut last_node = None;
     while let Some(at) = rest.find(['\'', '"']) {
         let (before, quoted) = rest.split_at(at);
         let (mark, quoted) = quoted.split_at(1);
@@ -68,12 +76,44 @@ pub fn with_titles(document: &OpenDocument, sentence: &str) -> String {
         };
         let follows = is_list && [", ", " and "].contains(&before);
         is_list = (follows || BEFORE_IDS.iter().any(|word| told.ends_with(word))) && exists(document, id);
-        let name = if is_list { title(document, id) } else { id.to_owned() };
+        let name = if is_list {
+            last_node = Some(id);
+            title(document, id)
+        } else {
+            let known = label_in(document, (&told, after), last_node, id);
+            known.unwrap_or_else(|| id.to_owned())
+        };
         told.push_str(&format!("{mark}{name}{mark}"));
         rest = if is_list { without_kind(after) } else { after };
     }
     told.push_str(&with_titles_in_circle(document, rest));
     told
+}
+
+/// Label of what a sentence names in quotation marks, between what was told before and what comes after: a parameter or an input of
+/// the node that follows, or of the last one. `None` for anything else, and for names that the node does not have.
+fn label_in(document: &OpenDocument, (before, after): (&str, &str), last: Option<&str>, name: &str) -> Option<String> {
+    if !BEFORE_MEMBERS.iter().any(|word| before.ends_with(word)) {
+        return None;
+    }
+    let of_node = after.strip_prefix(OF_NODE).and_then(|rest| rest.split_once('\''));
+    let node = of_node.map(|(node, _)| node).or(last)?;
+    let face = face(document, node)?;
+    let knob = face.knob(name).map(|knob| &knob.label);
+    knob.or_else(|| face.input(name).map(|port| &port.label)).cloned()
+}
+
+/// Ports and knobs of a node by its full id; `None` where they are not known, as in groups of other files.
+fn face(document: &OpenDocument, full_id: &str) -> Option<Arc<Entry>> {
+    let (instances, own) = match full_id.rsplit_once('/') {
+        Some((instances, own)) => (Some(instances), own),
+        None => (None, full_id),
+    };
+    let mut body = Body::Main;
+    for step in instances.into_iter().flat_map(|instances| instances.split('/')) {
+        body = Body::Group(document.graph_of(&body)?.node(step)?.group.clone()?);
+    }
+    document.faces().of(&body, own).cloned()
 }
 
 /// Text in which nodes of the shown graph that feed each other are named by their titles.

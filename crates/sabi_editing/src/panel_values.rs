@@ -50,7 +50,7 @@ pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) ->
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Some(format!("there is no exposed parameter '{name}'"));
     };
-    range_fault(exposed.range, value).map(|why| format!("'{name}' {why}"))
+    range_fault(exposed.range, value).map(|why| format!("'{}' {why}", knob_label(document.own_face(), name)))
 }
 
 /// Edits that set a published knob.
@@ -157,7 +157,8 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
         return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     if let Some(why) = default.as_ref().and_then(|value| range_fault(exposed.range, value)) {
-        return document.refuse(format!("'{name}' {why}"));
+        let label = knob_label(document.own_face(), name);
+        return document.refuse(format!("'{label}' {why}"));
     }
     let edit = panel::exposing(document, name, Exposed { default, ..exposed });
     document.edit("Set default", vec![edit])

@@ -43,7 +43,7 @@ fn an_input_feeds_what_takes_it_and_nothing_else() {
     let said = refused(&mut document, |document| {
         ports::publish_input(document, &to("l.source"))
     });
-    assert_eq!(said, "the group's input 'where' leads there already");
+    assert_eq!(said, "the group's input 'Where' leads there already");
     flat(&document);
 }
 

@@ -56,7 +56,7 @@ fn one_published_knob_turns_several_of_the_same_sort() {
     let said = refused(&mut document, |document| {
         panel::expose_also(document, &id("n"), "mode", "size")
     });
-    assert_eq!(said, "'size' holds values of another sort than 'mode'");
+    assert_eq!(said, "'Size' holds values of another sort than 'Mode'");
     step(&mut document, |document| {
         panel::unexpose_knob(document, &id("n"), "size")
     });
