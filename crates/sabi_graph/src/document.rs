@@ -94,6 +94,8 @@ pub struct LibrarySource {
 pub struct Preview {
     /// The model, as a path relative to the graph file.
     pub mesh: Option<String>,
+    /// Folder in which files are looked for that the model names and that are not there, as a path relative to the graph file.
+    pub textures: Option<String>,
     /// Names of the parts of the model that are taken; none for all except hulls and coarser levels of detail.
     pub parts: Vec<String>,
     /// Names of the parts of the model that are left out.

@@ -85,6 +85,8 @@ pub struct LoadOptions {
     pub parts: PartChoice,
     /// True to turn faces that are inside out; see [`crate::orientation`].
     pub turns_faces: bool,
+    /// Folder in which, and below which, files are looked for by their names that the model names and that are not there.
+    pub textures: Option<PathBuf>,
     /// Most bytes of memory for the files of a model together, for what they unpack to, and for its mesh, each. What would take
     /// more is refused before.
     pub memory_bytes: u64,
@@ -100,6 +102,7 @@ impl Default for LoadOptions {
             smooth_degrees: None,
             parts: PartChoice::default(),
             turns_faces: false,
+            textures: None,
             memory_bytes: u64::MAX,
         }
     }
@@ -153,7 +156,7 @@ pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions)
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
-    let (bytes, mut beside) = FilesBeside::of_model(path, trusted, options.memory_bytes).map_err(fault)?;
+    let (bytes, mut beside) = FilesBeside::of_model(path, trusted, options).map_err(fault)?;
     let loaded = load_from(&name, &bytes, &mut |uri| beside.read(uri), options);
     let mut model = loaded.map_err(|error| fault(beside.explained(error)))?;
     model.file_bytes = beside.bytes_read();

@@ -9,7 +9,7 @@ use super::{EvaluationArguments, MapArguments, model_file};
 use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi bake` that shape the maps, which a report has already.
-const SHAPING: [&str; 33] = [
+const SHAPING: [&str; 34] = [
     "graph",
     "mesh",
     "size",
@@ -21,6 +21,7 @@ const SHAPING: [&str; 33] = [
     "parts",
     "without",
     "turn_faces",
+    "textures",
     "overlap",
     "udim",
     "set",

@@ -330,13 +330,16 @@ impl Documents {
         if is_substitute || is_named || evaluation.model.failure.is_some() {
             return;
         }
-        let mesh = match relative_paths::from_own_folder(&self.document, model) {
-            Ok(mesh) => mesh,
+        let reading = evaluation.model.import_options().saved();
+        let mesh = relative_paths::from_own_folder(&self.document, model);
+        let texts = mesh.and_then(|mesh| Ok((mesh, self.textures_text(&reading)?)));
+        let (mesh, textures) = match texts {
+            Ok(texts) => texts,
             Err(refused) => return self.document.notify(refused.to_string()),
         };
         let edit = changed_preview(&self.document, |preview| {
             preview.mesh = Some(mesh);
-            evaluation.model.import_options().saved().put_into(preview);
+            reading.put_into(preview, textures);
         });
         self.document.edit_aside(edit);
     }
