@@ -236,6 +236,42 @@ fn write_grid(file: &Path, side: usize) {
 }
 
 #[test]
+fn the_first_model_can_be_left_for_a_built_in_one_and_read_again_later() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folders = super::folders_in(folder.path());
+    let grid = folder.path().join("grid.obj");
+    write_grid(&grid, 400);
+    let mut window = Window::beginning_on(folder, folders, &grid, |folders| {
+        let file = super::beside(folders).join("graph.sabi");
+        let text = super::graph_text(CLOUDS).replacen("\"size\"", "\"mesh\": \"grid.obj\", \"size\"", 1);
+        fs::write(&file, text).expect("a graph");
+        Session::open(&file, None).expect("a graph that can be read")
+    });
+    window.settle();
+    assert!(window.editor().evaluation.model.is_first(), "it is being read");
+    window.press("Cancel reading the model");
+    window.until("another model", |editor| editor.evaluation.model.loaded().1);
+    assert_ne!(window.editor().evaluation.model.file(), grid);
+    assert!(window.editor().evaluation.model.file().ends_with("meshes/bench.glb"));
+    assert!(
+        window.says("grid was not read; bench is shown"),
+        "{:?}",
+        window.labels()
+    );
+    window.keys(egui::Modifiers::COMMAND, egui::Key::S);
+    window.settle();
+    let saved = fs::read_to_string(window.path("graph.sabi")).expect("the graph");
+    assert!(saved.contains("grid.obj"), "the graph keeps its model: {saved}");
+    window.open(Panel::Problems);
+    assert!(window.says("grid, the model of the graph, was not read; bench stands in for it"));
+    window.press("Read grid again");
+    window.until("the grid", |editor| {
+        editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("grid.obj")
+    });
+    assert!(!window.says("stands in for it"));
+}
+
+#[test]
 fn a_model_that_takes_long_can_be_left_and_the_one_before_stays() {
     let mut window = Window::opened(CLOUDS);
     window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
