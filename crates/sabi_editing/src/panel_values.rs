@@ -174,7 +174,8 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     let range = range.map(|ends| ends.map(|end| canonical_number(end).unwrap_or(end)));
     let outside = set_values(document, name, &exposed).find_map(|(place, value)| {
         let why = range_fault(range, &value)?;
-        Some(format!("{place} would lie outside: '{name}' {why}"))
+        let label = knob_label(document.own_face(), name);
+        Some(format!("{place} would lie outside: '{label}' {why}"))
     });
     if let Some(why) = outside {
         return document.refuse(why);

@@ -20,7 +20,7 @@ fn a_sentence_names_nodes_by_their_titles_without_their_kinds_and_what_they_have
         ),
         (
             "parameter 'octaves' of node 'octaves' (noise/simplex) takes a whole number, not 'image_2'",
-            format!("parameter 'Octaves' of node '{clouds}' takes a whole number, not 'image_2'"),
+            format!("parameter 'Detail' of node '{clouds}' takes a whole number, not 'image_2'"),
         ),
         (
             "input 'in' of node 'image_2' takes a mask, but 'octaves' gives a material; connect a mask",

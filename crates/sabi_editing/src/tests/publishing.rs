@@ -223,15 +223,15 @@ fn a_range_holds_for_everything_that_is_set() {
     };
     assert_eq!(
         said([0.75, 1.0]),
-        "the variant 'v' would lie outside: 'size' takes 0.75 to 1, and this is 0.5"
+        "the variant 'v' would lie outside: 'Size' takes 0.75 to 1, and this is 0.5"
     );
     assert_eq!(
         said([0.0, 0.5]),
-        "the instance 'Dust' would lie outside: 'size' takes 0 to 0.5, and this is 0.75"
+        "the instance 'Dust' would lie outside: 'Size' takes 0 to 0.5, and this is 0.75"
     );
     assert_eq!(
         said([1.0, 0.0]),
-        "the variant 'v' would lie outside: 'size' takes 1 to 0, and this is 0.5"
+        "the variant 'v' would lie outside: 'Size' takes 1 to 0, and this is 0.5"
     );
     step(&mut document, |document| {
         panel_values::set_range(document, "size", Some([0.5, 0.75]))
@@ -239,11 +239,11 @@ fn a_range_holds_for_everything_that_is_set() {
     let said = refused(&mut document, |document| {
         panel_values::set_default(document, "size", number(2.0))
     });
-    assert_eq!(said, "'size' takes 0.5 to 0.75, and this is 2");
+    assert_eq!(said, "'Size' takes 0.5 to 0.75, and this is 2");
     let said = refused(&mut document, |document| {
         panel_values::set(document, "size", &Value::from("much"))
     });
-    assert_eq!(said, "'size' takes numbers from 0.5 to 0.75, and this is none");
+    assert_eq!(said, "'Size' takes numbers from 0.5 to 0.75, and this is none");
     step(&mut document, |document| {
         panel_values::set_range(document, "size", None)
     });

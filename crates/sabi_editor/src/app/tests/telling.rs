@@ -254,7 +254,7 @@ fn the_first_model_can_be_left_for_a_built_in_one_and_read_again_later() {
     assert_ne!(window.editor().evaluation.model.file(), grid);
     assert!(window.editor().evaluation.model.file().ends_with("meshes/bench.glb"));
     assert!(
-        window.says("grid was not read; bench is shown"),
+        window.says("Grid was not read; bench is shown"),
         "{:?}",
         window.labels()
     );
