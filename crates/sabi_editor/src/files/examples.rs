@@ -186,6 +186,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_built_in_model_is_known_by_its_place_among_the_examples() {
+        let folder = Path::new("home").join(EXAMPLES_FOLDER);
+        assert!(models(&folder).all(|model| is_own_model(&model)));
+        for other in ["cube.glb", "examples/cube.glb", "examples/assets/meshes/mine.glb"] {
+            assert!(!is_own_model(Path::new(other)), "{other}");
+        }
+    }
+
+    #[test]
     fn every_example_finds_its_model_where_it_is_unpacked() {
         let folder = tempfile::tempdir().expect("a folder");
         for (at, example) in EXAMPLES.iter().enumerate() {
