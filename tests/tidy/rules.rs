@@ -2,10 +2,11 @@
 
 /// A crate, the crates of ours it may name, and the outside crates that it alone owns. An arrow that is not here is a
 /// design change, not a detail: it changes ARCHITECTURE.md first.
-pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 18] = [
+pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 19] = [
+    ("sabi_cancel", &[], &[]),
     ("sabi_color", &[], &[]),
     ("sabi_curve", &[], &[]),
-    ("sabi_files", &[], &["tempfile", "zip"]),
+    ("sabi_files", &["sabi_cancel"], &["tempfile", "zip"]),
     ("sabi_graph", &[], &["petgraph"]),
     (
         "sabi_nodes",
@@ -15,7 +16,7 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 18] = [
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
     (
         "sabi_surface",
-        &["sabi_color", "sabi_files"],
+        &["sabi_cancel", "sabi_color", "sabi_files"],
         &[
             "draco_core",
             "gltf",
@@ -28,7 +29,7 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 18] = [
     ),
     (
         "sabi_image",
-        &["sabi_color"],
+        &["sabi_cancel", "sabi_color"],
         &["basisu", "exr", "image", "png", "ruzstd"],
     ),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
@@ -42,6 +43,7 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 18] = [
     (
         "sabi_engine",
         &[
+            "sabi_cancel",
             "sabi_color",
             "sabi_curve",
             "sabi_files",

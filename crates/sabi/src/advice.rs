@@ -46,6 +46,7 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
         Remedy::TilesRepeat => &["with --udim off"],
         Remedy::AllParts => &["with --parts '*'"],
         Remedy::TurnFaces => &["with --turn-faces"],
+        Remedy::TextureFolder => &["with --textures"],
         Remedy::MergeOverlaps => &["with --overlap merge"],
         Remedy::WithoutModelCopy => &["by leaving out --model"],
         Remedy::OtherMaterial => &["with --material"],

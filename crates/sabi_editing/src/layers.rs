@@ -9,6 +9,7 @@ use sabi_graph::{Edit, NodeId, OutputRef, PortType, SlotRef, Value};
 use crate::connections::port_in_wire;
 use crate::node_size::NODE_WIDTH;
 use crate::open_document::OpenDocument;
+use crate::ports::input_label;
 use crate::stack::{Layer, Link, Stack, StackEnd, main_input};
 use crate::{connections, new_nodes, node_size, nodes, ports, reconnection, stack, wires};
 
@@ -275,7 +276,8 @@ fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, l
         .and_then(|slot| connections::feeder(document, document.shown(), slot))
     {
         return Some(format!(
-            "the group's input '{name}' would bypass the layer; use the canvas"
+            "the group's input '{}' would bypass the layer; use the canvas",
+            input_label(document, name)
         ));
     }
     let hides = link.from.is_some() && !takes_material;

@@ -1,5 +1,8 @@
 //! Nodes by their full ids, as used in the evaluation: the ids of the enclosing instances, followed by the id of the node.
 
+use std::sync::Arc;
+
+use sabi_engine::catalog::Entry;
 use sabi_graph::{Body, NodeId};
 
 use crate::open_document::OpenDocument;
@@ -46,16 +49,21 @@ pub fn in_shown_graph(document: &OpenDocument, full_id: &str) -> Option<NodeId> 
 
 /// Words after which an error contains the full id of a node in quotation marks.
 const BEFORE_IDS: [&str; 5] = ["node ", "nodes ", "instance ", "asks ", "but "];
+/// Words after which an error contains the name of a parameter or an input of a node in quotation marks.
+const BEFORE_MEMBERS: [&str; 2] = ["parameter ", "input "];
+/// Words between a parameter or an input and the id of its node.
+const OF_NODE: &str = " of node '";
 /// Words before a list of ids of nodes that form a circle, and the text between these ids.
 const BEFORE_CIRCLE: &str = "in a circle: ";
 const IN_CIRCLE: &str = " → ";
 
-/// Replaces the ids of nodes in an error or a warning by their titles. Errors contain full ids, as in graph files, with the
-/// kinds in parentheses.
+/// Replaces the ids of nodes in an error or a warning by their titles, and the names of their parameters and ports by their labels.
+/// Errors contain full ids, as in graph files, with the kinds in parentheses.
 pub fn with_titles(document: &OpenDocument, sentence: &str) -> String {
     let mut told = String::with_capacity(sentence.len());
     let mut rest = sentence;
     let mut is_list = false;
+    let mut last_node = None;
     while let Some(at) = rest.find(['\'', '"']) {
         let (before, quoted) = rest.split_at(at);
         let (mark, quoted) = quoted.split_at(1);
@@ -67,12 +75,44 @@ pub fn with_titles(document: &OpenDocument, sentence: &str) -> String {
         };
         let follows = is_list && [", ", " and "].contains(&before);
         is_list = (follows || BEFORE_IDS.iter().any(|word| told.ends_with(word))) && exists(document, id);
-        let name = if is_list { title(document, id) } else { id.to_owned() };
+        let name = if is_list {
+            last_node = Some(id);
+            title(document, id)
+        } else {
+            let known = label_in(document, &told, after, last_node, id);
+            known.unwrap_or_else(|| id.to_owned())
+        };
         told.push_str(&format!("{mark}{name}{mark}"));
         rest = if is_list { without_kind(after) } else { after };
     }
     told.push_str(&with_titles_in_circle(document, rest));
     told
+}
+
+/// Label of a parameter or an input that a sentence names in quotation marks. `before` and `after` are the texts around the
+/// quotation; the node is the one that follows, or `last`. `None` for anything else, and for names that the node does not have.
+fn label_in(document: &OpenDocument, before: &str, after: &str, last: Option<&str>, name: &str) -> Option<String> {
+    if !BEFORE_MEMBERS.iter().any(|word| before.ends_with(word)) {
+        return None;
+    }
+    let of_node = after.strip_prefix(OF_NODE).and_then(|rest| rest.split_once('\''));
+    let node = of_node.map(|(node, _)| node).or(last)?;
+    let face = face(document, node)?;
+    let knob = face.knob(name).map(|knob| &knob.label);
+    knob.or_else(|| face.input(name).map(|port| &port.label)).cloned()
+}
+
+/// Ports and knobs of a node by its full id. `None` if they are not known, as in groups of other files.
+fn face(document: &OpenDocument, full_id: &str) -> Option<Arc<Entry>> {
+    let (instances, own) = match full_id.rsplit_once('/') {
+        Some((instances, own)) => (Some(instances), own),
+        None => (None, full_id),
+    };
+    let mut body = Body::Main;
+    for step in instances.into_iter().flat_map(|instances| instances.split('/')) {
+        body = Body::Group(document.graph_of(&body)?.node(step)?.group.clone()?);
+    }
+    document.faces().of(&body, own).cloned()
 }
 
 /// Replaces the ids of nodes of the shown graph that form a circle by their titles.

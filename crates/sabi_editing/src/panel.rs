@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_engine::catalog::Knob;
 use sabi_graph::{Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
 
-use crate::names::free_name;
+use crate::names::{free_name, knob_label};
 use crate::open_document::OpenDocument;
 use crate::{instances, shown_variant};
 
@@ -105,7 +105,9 @@ pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &
         like(first) == like(own)
     });
     if !is_alike {
-        return document.refuse(format!("'{name}' holds values of another sort than '{knob}'"));
+        let published = knob_label(document.own_face(), name);
+        let own = own.map_or(knob, |own| &own.label);
+        return document.refuse(format!("'{published}' holds values of another sort than '{own}'"));
     }
     if exposed.to.contains(&slot) {
         return true;

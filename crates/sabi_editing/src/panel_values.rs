@@ -49,7 +49,7 @@ pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) ->
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Some(format!("there is no exposed parameter '{name}'"));
     };
-    range_fault(exposed.range, value).map(|why| format!("'{name}' {why}"))
+    range_fault(exposed.range, value).map(|why| format!("'{}' {why}", knob_label(document.own_face(), name)))
 }
 
 /// Edits that set a published knob.
@@ -156,7 +156,8 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
         return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     if let Some(why) = default.as_ref().and_then(|value| range_fault(exposed.range, value)) {
-        return document.refuse(format!("'{name}' {why}"));
+        let label = knob_label(document.own_face(), name);
+        return document.refuse(format!("'{label}' {why}"));
     }
     let edit = panel::exposing(document, name, Exposed { default, ..exposed });
     document.edit("Set default", vec![edit])
@@ -172,7 +173,8 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     let range = range.map(|ends| ends.map(|end| canonical_number(end).unwrap_or(end)));
     let outside = set_values(document, name, &exposed).find_map(|(place, value)| {
         let why = range_fault(range, &value)?;
-        Some(format!("{place} would lie outside: '{name}' {why}"))
+        let label = knob_label(document.own_face(), name);
+        Some(format!("{place} would lie outside: '{label}' {why}"))
     });
     if let Some(why) = outside {
         return document.refuse(why);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_engine::catalog::Port;
+use sabi_engine::catalog::{Port, label_of};
 use sabi_graph::{Edit, GroupInput, NodeId, OutputRef, PortType, SlotRef};
 
 use crate::connections::PendingWire;
@@ -13,6 +13,18 @@ use crate::{connections, instances};
 /// Inputs of the shown graph.
 pub fn inputs(document: &OpenDocument) -> &BTreeMap<String, GroupInput> {
     instances::ports(document.contents(), document.shown()).0
+}
+
+/// Label of an input of the shown graph.
+pub fn input_label(document: &OpenDocument, name: &str) -> String {
+    let known = document.own_face().and_then(|face| face.input(name));
+    known.map_or_else(|| label_of(name), |port| port.label.clone())
+}
+
+/// Label of an output of the shown graph.
+pub fn output_label(document: &OpenDocument, name: &str) -> String {
+    let known = document.own_face().and_then(|face| face.output(Some(name)));
+    known.map_or_else(|| label_of(name), |port| port.label.clone())
 }
 
 /// Outputs of the shown graph.
@@ -115,7 +127,10 @@ fn check_feed(document: &OpenDocument, input: Option<&GroupInput>, slot: &SlotRe
     };
     let Some(input) = input else {
         return match connections::feeder(document, document.shown(), slot) {
-            Some(name) => Err(format!("the group's input '{name}' leads there already")),
+            Some(name) => Err(format!(
+                "the group's input '{}' leads there already",
+                input_label(document, name)
+            )),
             None => Ok(()),
         };
     };

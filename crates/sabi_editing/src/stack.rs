@@ -4,6 +4,7 @@ use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::{GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
 
 use crate::open_document::OpenDocument;
+use crate::ports::input_label;
 use crate::{connections, instances, ports};
 
 /// Output that a stack leads to.
@@ -203,7 +204,8 @@ fn lowest_reason(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<S
     };
     let feeder = connections::feeder(document, document.shown(), slot)?;
     Some(format!(
-        "'{title}' lies on the group's input '{feeder}'; no layer can come between"
+        "'{title}' lies on the group's input '{}'; no layer can come between",
+        input_label(document, feeder)
     ))
 }
 

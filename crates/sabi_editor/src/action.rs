@@ -208,7 +208,7 @@ pub(crate) enum ModelAction {
     Show(PathBuf),
     /// Read the shown model with other options.
     Read(ImportOptions),
-    /// Read the model no further that takes the place of another one, which stays.
+    /// Read the model no further: the one whose place it takes stays, or a built-in one is shown in place of the first.
     CancelReading,
     /// Remove a model from the strip.
     Remove(PathBuf),

@@ -97,12 +97,12 @@ impl Questions {
 
     /// Asks for a model file, beside the one that is shown.
     pub(crate) fn ask_for_model(&mut self, shown: &Path) {
-        self.ask_path(PathFor::Model, Some(shown), String::new());
+        self.ask_path(PathFor::Model, of_the_artist(shown), String::new());
     }
 
     /// Asks for a model file to show beside the main model.
     pub(crate) fn ask_for_model_beside(&mut self, shown: &Path) {
-        self.ask_path(PathFor::ModelBeside, Some(shown), String::new());
+        self.ask_path(PathFor::ModelBeside, of_the_artist(shown), String::new());
     }
 
     /// Asks for a file for a picture of the model's view, with a free name beside the graph.
@@ -372,6 +372,11 @@ fn free_name(document: &OpenDocument, ending: &str) -> String {
     let mut names = std::iter::once(format!("{stem}.{ending}")).chain(numbered);
     let free = names.find(|name| !folder.join(name).exists());
     free.unwrap_or_default() // There is always one.
+}
+
+/// The shown model, if it is none of the built-in ones: those are in a hidden folder, and a menu offers them.
+fn of_the_artist(shown: &Path) -> Option<&Path> {
+    Some(shown).filter(|shown| !examples::is_own_model(shown))
 }
 
 /// Action for a path that was chosen.

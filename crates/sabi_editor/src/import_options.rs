@@ -2,7 +2,7 @@
 //! the graph, which is tried on many models; the graph keeps those alone that say what of its own model counts.
 
 use std::ops::{Not, RangeInclusive};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sabi_engine::{ModelOptions, Overlap, PartChoice, SavedReading, TrustedPaths, Udim, Up, default_memory_bytes};
 use serde::{Deserialize, Serialize};
@@ -47,6 +47,9 @@ pub(crate) struct ImportOptions {
     /// True to turn faces that are inside out.
     #[serde(skip_serializing_if = "Not::not")]
     pub(crate) turn_faces: bool,
+    /// Folder in which, and below which, files are looked for that the model names and that are not there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) textures: Option<PathBuf>,
 }
 
 impl Default for ImportOptions {
@@ -61,6 +64,7 @@ impl Default for ImportOptions {
             overlap: Overlap::Auto,
             parts: PartChoice::default(),
             turn_faces: false,
+            textures: None,
         }
     }
 }
@@ -87,14 +91,21 @@ impl ImportOptions {
         SavedReading {
             parts: self.parts.clone(),
             turn_faces: self.turn_faces.then_some(true),
+            textures: self.textures.clone(),
         }
     }
 
     /// The options with those that the graph keeps replaced.
-    pub(crate) fn with_saved(self, SavedReading { parts, turn_faces }: SavedReading) -> ImportOptions {
+    pub(crate) fn with_saved(self, saved: SavedReading) -> ImportOptions {
+        let SavedReading {
+            parts,
+            turn_faces,
+            textures,
+        } = saved;
         ImportOptions {
             parts,
             turn_faces: turn_faces == Some(true),
+            textures,
             ..self
         }
     }
@@ -176,11 +187,12 @@ mod tests {
                 without: vec!["Hull".into()],
             },
             turn_faces: true,
+            textures: Some(PathBuf::from("pictures")),
         };
         let text = serde_json::to_string(&odd).expect("text");
         assert_eq!(
             text,
-            r#"{"up":"z","uv":1,"scale":0.01,"smooth":30.0,"scene":2,"udim":"on","overlap":"merge","parts":{"without":["Hull"]},"turn_faces":true}"#
+            r#"{"up":"z","uv":1,"scale":0.01,"smooth":30.0,"scene":2,"udim":"on","overlap":"merge","parts":{"without":["Hull"]},"turn_faces":true,"textures":"pictures"}"#
         );
         assert_eq!(read(&text), Some(odd));
         assert_eq!(read("{}"), Some(ImportOptions::default()));

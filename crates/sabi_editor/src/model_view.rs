@@ -178,6 +178,9 @@ impl ModelView {
             let cancel = outdated::cover_with_cancel(ui, rect, evaluation, subject.theme);
             output.actions.extend(cancel);
         }
+        if picture.is_none() {
+            output.actions.extend(outdated::cancel_first(ui, rect, evaluation));
+        }
         self.paint_beside(ui, &cells, render, picture.as_ref(), subject, &mut output.actions);
         self.last = picture;
         if let Some(fault) = &self.pictures.fault {

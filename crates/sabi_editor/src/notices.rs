@@ -156,7 +156,7 @@ fn failure_row(ui: &mut Ui, theme: &Theme, sentence: &str) -> bool {
 }
 
 /// The sentence with a capital at its beginning: reasons of refusals are written so that they fit behind a colon, too.
-fn with_capital(sentence: &str) -> String {
+pub(crate) fn with_capital(sentence: &str) -> String {
     let mut letters = sentence.chars();
     let first = letters.next().map(char::to_uppercase);
     first.into_iter().flatten().chain(letters).collect()

@@ -1,10 +1,11 @@
-//! Cover over results that are still of the model before.
+//! Cover over results that are still of the model before, and the buttons that cancel the reading of a model.
 
 use egui::{Align2, Button, FontId, Painter, Rect, Ui, Vec2, WidgetInfo, WidgetType, vec2};
 
 use crate::action::{Action, ModelAction};
 use crate::activity_text::activity_text;
 use crate::evaluation::Evaluation;
+use crate::files::examples;
 use crate::paths::file_stem;
 use crate::theme::{Theme, type_size};
 
@@ -19,13 +20,20 @@ const BUTTON: Vec2 = vec2(90.0, 24.0);
 /// Covers a result while the model that it is of is replaced, with a button that keeps the one before.
 pub(crate) fn cover_with_cancel(ui: &mut Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) -> Option<Action> {
     cover(&ui.painter_at(rect), rect, evaluation, theme);
-    if !evaluation.model.is_replacing() {
-        return None;
-    }
+    let button = || cancel(ui, rect, "Keep the model that was there before");
+    evaluation.model.is_replacing().then(button)?
+}
+
+/// Shows a button that cancels the reading of the first model, in place of which a small one is shown.
+pub(crate) fn cancel_first(ui: &mut Ui, rect: Rect, evaluation: &Evaluation) -> Option<Action> {
+    let model = &evaluation.model;
+    let is_left = model.is_first() && !examples::is_own_model(model.file());
+    is_left.then(|| cancel(ui, rect, "Show a small model instead"))?
+}
+
+fn cancel(ui: &mut Ui, rect: Rect, tip: &str) -> Option<Action> {
     let place = Rect::from_center_size(rect.center() + vec2(0.0, BUTTON_BELOW), BUTTON);
-    let button = ui
-        .put(place, Button::new("Cancel"))
-        .on_hover_text("Keep the model that was there before");
+    let button = ui.put(place, Button::new("Cancel")).on_hover_text(tip);
     button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Cancel reading the model"));
     button.clicked().then_some(Action::Model(ModelAction::CancelReading))
 }

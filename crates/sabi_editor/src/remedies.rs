@@ -124,6 +124,8 @@ fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Optio
             | Remedy::RaiseMemory
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
+            // Problems asks for each picture that is missing.
+            | Remedy::TextureFolder
             | Remedy::NameModel,
             _,
         ) => None,

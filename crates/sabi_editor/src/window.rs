@@ -1,6 +1,6 @@
 //! Opens the window on a device that can run Sabi, and again on another one when that is lost.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 
@@ -200,19 +200,7 @@ fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> R
     if let Some(Ok(model)) = model_of(session) {
         return Ok(in_canonical_folder(&model));
     }
-    let folder = folders
-        .examples
-        .clone()
-        .unwrap_or_else(|| std::env::temp_dir().join("sabi"));
-    unpacked(&folder).map(|model| in_canonical_folder(&model))
-}
-
-fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {
-    examples::first_model(folder).map_err(|error| {
-        let why = format!("{} cannot be written: {error}", folder.display());
-        let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
-        refused.with_remedies([Remedy::NameModel])
-    })
+    folders.first_model()
 }
 
 #[cfg(test)]

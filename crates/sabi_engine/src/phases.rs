@@ -3,9 +3,10 @@
 use std::panic::resume_unwind;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use sabi_cancel::{Cancel, Canceled, cancelable};
 use serde::{Serialize, Serializer};
 
 use crate::error::{EngineError, ErrorKind};
@@ -151,8 +152,16 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
 /// Stack of a thread that reads files, as large as that of the first thread of a process.
 const STACK_BYTES: usize = 8 << 20;
 
-/// Runs work that does not look itself at whether it was canceled, such as a reader of another crate, on a thread of its own. Once it
-/// is canceled, the thread is left to itself: what it holds and takes is limited, and nothing waits for it.
+/// Work that was canceled, or for which there is no thread.
+pub(crate) struct Stopped {
+    pub(crate) error: EngineError,
+    /// Thread that ends at the next look of the work; none where none was started.
+    pub(crate) left: Option<JoinHandle<()>>,
+}
+
+/// Runs work that looks by [`sabi_cancel`] alone, or not at all, such as a reader of another crate, on a thread of its own. Once it
+/// is canceled, the thread is left to itself: it ends at the next look, what it holds and takes is limited, and nothing waits for it.
+/// Work within such work stays on its thread.
 ///
 /// # Errors
 /// The work was canceled, or the system has no thread for it.
@@ -160,30 +169,74 @@ pub(crate) fn unless_canceled<T: Send + 'static>(
     progress: &dyn Progress,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, EngineError> {
-    stop_if_canceled(progress)?;
+    if Cancel::current().can_be_made() {
+        stop_if_canceled(progress)?;
+        return Ok(work());
+    }
+    unless_left(progress, work).map_err(|stopped| stopped.error)
+}
+
+/// As [`unless_canceled`], always on a thread of its own; gives that back where it is left.
+pub(crate) fn unless_left<T: Send + 'static>(
+    progress: &dyn Progress,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, Stopped> {
+    let stopped = |error| Stopped { error, left: None };
+    stop_if_canceled(progress).map_err(stopped)?;
     let (give, take) = mpsc::channel();
-    let span = tracing::Span::current();
+    let cancel = Cancel::new();
+    let (span, listened) = (tracing::Span::current(), cancel.clone());
     let started = thread::Builder::new().stack_size(STACK_BYTES).spawn(move || {
-        let done = span.in_scope(work);
-        // The result of work that was canceled is not taken.
-        let _ = give.send(done);
+        if let Ok(done) = cancelable(&listened, || span.in_scope(work)) {
+            // The result of work that was left is not taken.
+            let _ = give.send(done);
+        }
     });
     let thread = started.map_err(|error| {
         let why = format!("the system has no thread for reading files: {error}; close other programs");
-        EngineError::new(ErrorKind::OutOfMemory, why)
+        stopped(EngineError::new(ErrorKind::OutOfMemory, why))
     })?;
     loop {
         match take.recv_timeout(BETWEEN_LOOKS) {
             Ok(done) => return Ok(done),
-            Err(RecvTimeoutError::Timeout) => stop_if_canceled(progress)?,
+            Err(RecvTimeoutError::Timeout) => {
+                if let Err(error) = stop_if_canceled(progress) {
+                    cancel.cancel();
+                    let left = Some(thread);
+                    return Err(Stopped { error, left });
+                }
+            }
             Err(RecvTimeoutError::Disconnected) => {
                 if let Err(panic) = thread.join() {
                     resume_unwind(panic);
                 }
-                return Err(EngineError::new(ErrorKind::Defect, "a thread ended without a result"));
+                let why = "a thread ended without a result";
+                return Err(stopped(EngineError::new(ErrorKind::Defect, why)));
             }
         }
     }
+}
+
+/// Runs work that looks by [`sabi_cancel`] on this thread, while another thread looks whether it is canceled.
+///
+/// # Errors
+/// The work was canceled.
+pub(crate) fn watched<T>(progress: &dyn Progress, work: impl FnOnce() -> T) -> Result<T, Canceled> {
+    let cancel = Cancel::new();
+    let (ends, ended) = mpsc::channel::<()>();
+    thread::scope(|scope| {
+        let asking = &cancel;
+        scope.spawn(move || {
+            while ended.recv_timeout(BETWEEN_LOOKS) == Err(RecvTimeoutError::Timeout) {
+                if progress.is_canceled() {
+                    return asking.cancel();
+                }
+            }
+        });
+        let done = cancelable(&cancel, work);
+        drop(ends);
+        done
+    })
 }
 
 /// Time spent in one phase.
@@ -292,6 +345,50 @@ mod tests {
         let told = unless_canceled(&Third::default(), move || ends.recv()).unwrap_err();
         assert_eq!(told.kind, ErrorKind::Interrupted);
         assert_eq!(unless_canceled(&NoProgress, || 7).unwrap(), 7);
+    }
+
+    /// Work that tells when it has begun, and looks until it is canceled.
+    fn looking(begun: mpsc::Sender<()>) {
+        begun.send(()).unwrap();
+        loop {
+            sabi_cancel::look();
+            thread::yield_now();
+        }
+    }
+
+    #[test]
+    fn the_thread_of_canceled_work_ends_at_its_next_look() {
+        let (begun, begins) = mpsc::channel();
+        let stopped = unless_left(&Third::default(), move || looking(begun)).unwrap_err();
+        assert_eq!(stopped.error.kind, ErrorKind::Interrupted);
+        stopped.left.unwrap().join().unwrap();
+        begins.recv().unwrap();
+    }
+
+    #[test]
+    fn work_within_work_is_left_with_it() {
+        let (begun, begins) = mpsc::channel();
+        let inner = move || {
+            let outer = thread::current().id();
+            let same = unless_canceled(&NoProgress, move || thread::current().id() == outer).unwrap();
+            assert!(same, "one thread is enough");
+            unless_canceled(&NoProgress, move || looking(begun))
+        };
+        let stopped = unless_left(&Third::default(), inner).unwrap_err();
+        stopped.left.unwrap().join().unwrap();
+        begins.recv().unwrap();
+    }
+
+    #[test]
+    fn work_that_is_watched_ends_at_its_next_look_once_it_is_canceled() {
+        let endless = || {
+            loop {
+                sabi_cancel::look();
+                thread::yield_now();
+            }
+        };
+        assert_eq!(watched::<()>(&Third::default(), endless), Err(Canceled));
+        assert_eq!(watched(&NoProgress, || 7), Ok(7));
     }
 
     #[test]

@@ -53,6 +53,8 @@ pub enum Remedy {
     AllParts,
     /// The faces of the model that are inside out turned around.
     TurnFaces,
+    /// A folder in which the missing pictures of the model are.
+    TextureFolder,
     /// The mean of all charts that share a place on the maps.
     MergeOverlaps,
     /// Other UVs, made in a modeling program.
@@ -81,7 +83,7 @@ pub enum Remedy {
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 35] = [
+    pub const ALL: [Remedy; 36] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -105,6 +107,7 @@ impl Remedy {
         Remedy::TilesRepeat,
         Remedy::AllParts,
         Remedy::TurnFaces,
+        Remedy::TextureFolder,
         Remedy::MergeOverlaps,
         Remedy::EditUvs,
         Remedy::WithoutModelCopy,
@@ -146,6 +149,7 @@ impl fmt::Display for Remedy {
             Remedy::TilesRepeat => "take the UV tiles for a texture that repeats",
             Remedy::AllParts => "take all parts",
             Remedy::TurnFaces => "turn them around",
+            Remedy::TextureFolder => "choose the folder in which they are",
             Remedy::MergeOverlaps => "take the mean of overlapping charts",
             Remedy::EditUvs => "change the UVs in a modeling program",
             Remedy::WithoutModelCopy => "do without the copy of the model",

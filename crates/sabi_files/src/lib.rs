@@ -27,6 +27,7 @@ mod disk;
 mod error;
 #[cfg(test)]
 mod fault_tests;
+mod folder_search;
 mod invisible;
 mod lock;
 mod named;
@@ -47,6 +48,7 @@ pub use append::append_durably;
 pub use cache::{Cache, CacheKey, CacheKind};
 pub use disk::{Disk, Fault};
 pub use error::{FileError, Operation, io_reason};
+pub use folder_search::FolderSearch;
 pub use invisible::is_invisible;
 pub use lock::{FileLock, LockError, is_locked};
 pub use named::{AbsolutePaths, NotText, PathBase, path_text, without_detours};

@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
+use sabi_cancel::LookingReader;
+
 use crate::refusal::Refusal;
 
 /// Reason why a file was not read.
@@ -23,7 +25,7 @@ pub enum Unread {
     Other(String),
 }
 
-/// Returns the bytes of an ordinary file of at most `limit` bytes.
+/// Returns the bytes of an ordinary file of at most `limit` bytes. Looks whether it was canceled ([`sabi_cancel`]).
 ///
 /// # Errors
 /// See [`Unread`].
@@ -40,7 +42,8 @@ pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
     }
     // Some files report no length, and others grow while they are read.
     let mut bytes = Vec::new();
-    let mut start = File::open(path).map_err(unread)?.take(limit.saturating_add(1));
+    let file = LookingReader(File::open(path).map_err(unread)?);
+    let mut start = file.take(limit.saturating_add(1));
     start.read_to_end(&mut bytes).map_err(unread)?;
     if bytes.len() as u64 > limit {
         return Err(Unread::TooLarge(bytes.len() as u64));

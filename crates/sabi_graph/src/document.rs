@@ -95,6 +95,8 @@ pub struct LibrarySource {
 pub struct Preview {
     /// The model, as a path relative to the graph file.
     pub mesh: Option<String>,
+    /// Folder in which files are looked for that the model names and that are not there, as a path relative to the graph file.
+    pub textures: Option<String>,
     /// Names of the parts of the model to use. If empty, all parts but collision hulls and coarser levels of detail are used.
     pub parts: Vec<String>,
     /// Names of the parts of the model that are left out.

@@ -265,6 +265,11 @@ pub(crate) static PREVIEW: ObjectKeys = ObjectKeys {
     keys: &[
         key("mesh", Shape::Text, "Model, relative to the graph file."),
         key(
+            "textures",
+            Shape::Text,
+            "Folder in which, and below which, files are looked for that the model names and that are not there, relative to the graph file.",
+        ),
+        key(
             "parts",
             Shape::Texts,
             "Names of the parts of the model that are taken; without it all but hulls and coarser levels of detail.",

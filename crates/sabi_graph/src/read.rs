@@ -112,6 +112,7 @@ fn read_preview(json: Json) -> Result<Preview, ReadError> {
     let names = |texts: Vec<(usize, String)>| texts.into_iter().map(|(_, name)| name).collect();
     Ok(Preview {
         mesh: fields.text("mesh")?,
+        textures: fields.text("textures")?,
         parts: fields.texts("parts").map(names)?,
         without: fields.texts("without").map(names)?,
         turn_faces: fields.flag("turn_faces")?,

@@ -74,8 +74,13 @@ impl PathRewriter<'_> {
     }
 
     fn preview(&self, preview: Option<&mut Preview>) {
-        if let Some(mesh) = preview.and_then(|preview| preview.mesh.as_mut()) {
-            *mesh = (self.relocation.moved)(mesh);
+        for path in preview
+            .into_iter()
+            .flat_map(|preview| [&mut preview.mesh, &mut preview.textures])
+        {
+            if let Some(path) = path {
+                *path = (self.relocation.moved)(path);
+            }
         }
     }
 

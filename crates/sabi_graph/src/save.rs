@@ -111,6 +111,7 @@ fn reference_item(from: &OutputRef) -> Item {
 fn preview_item(preview: &Preview) -> Item {
     let mut object = OrderedObject::default();
     object.put_some("mesh", preview.mesh.as_deref());
+    object.put_some("textures", preview.textures.as_deref());
     put_texts(&mut object, "parts", &preview.parts);
     put_texts(&mut object, "without", &preview.without);
     object.put_some("turn_faces", preview.turn_faces.then_some(true));

@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 use std::io::Cursor;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+use sabi_cancel::{LookingReader, is_canceled};
 
 use crate::decode_bmp;
 use crate::decode_exr::{check_exr, decode_exr, exr_layer_names};
@@ -23,7 +24,8 @@ const TGA_PIXELS_A_BYTE: u64 = 64;
 
 /// Decodes a PNG, JPEG, WebP, TGA, BMP, Radiance HDR, OpenEXR or KTX2 file. The format is recognized by the content (TGA,
 /// which has no signature, by the extension of the name). `name` is used in messages. Sizes are checked before memory is
-/// allocated. If an OpenEXR file has several layers, the first of [`layer_names`] is read.
+/// allocated. If an OpenEXR file has several layers, the first of [`layer_names`] is read. Ends early once it is canceled
+/// ([`sabi_cancel`]), but not within a JPEG or Basis Universal picture.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     decode_chosen(name, bytes, None)
 }
@@ -92,8 +94,11 @@ pub fn decoded_size(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError>
 /// Calls `read` with the format of the bytes. A panic in a decoder of another crate becomes an error.
 fn guarded<T>(name: &str, bytes: &[u8], read: impl FnOnce(Format) -> Result<T, ImageError>) -> Result<T, ImageError> {
     let format = recognize(name, bytes)?;
-    catch_unwind(AssertUnwindSafe(|| read(format)))
-        .unwrap_or_else(|_| Err(damaged(name, format.name(), "its contents contradict each other")))
+    match catch_unwind(AssertUnwindSafe(|| read(format))) {
+        Ok(read) => read,
+        Err(payload) if is_canceled(payload.as_ref()) => resume_unwind(payload),
+        Err(_) => Err(damaged(name, format.name(), "its contents contradict each other")),
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -212,12 +217,12 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
 }
 
 /// Opens a PNG and reads everything before its pixels.
-fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<Cursor<&'b [u8]>>, ImageError> {
+fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<LookingReader<Cursor<&'b [u8]>>>, ImageError> {
     let damaged = |error: png::DecodingError| damaged(name, "PNG", error);
     let limits = png::Limits {
         bytes: MAX_DECODED_BYTES as usize,
     };
-    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    let mut decoder = png::Decoder::new_with_limits(LookingReader(Cursor::new(bytes)), limits);
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     // Only the existence of a profile matters, and a small one may unpack to gigabytes.
@@ -333,7 +338,7 @@ fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<im
     if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(damaged(name, format_name, "the file ends too early"));
     }
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut reader = ImageReader::with_format(LookingReader(Cursor::new(bytes)), format);
     // Sizes are checked below, with a clearer message. This limits the memory that the decoder itself allocates.
     let mut limits = image::Limits::no_limits();
     limits.max_alloc = Some(2 * MAX_DECODED_BYTES);

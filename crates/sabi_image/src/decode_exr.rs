@@ -7,6 +7,7 @@ use exr::meta::MetaData;
 use exr::meta::attribute::IntegerBounds;
 use exr::meta::header::Header;
 use exr::prelude::{AnyChannels, ReadChannels as _, ReadLayers as _};
+use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
 use crate::exr_layers::{ExrLayer, Part, layers};
@@ -78,7 +79,7 @@ pub(crate) fn decode_exr(name: &str, bytes: &[u8], asked: Option<&str>) -> Resul
         .all_layers()
         .all_attributes()
         .non_parallel()
-        .from_buffered(Cursor::new(bytes))
+        .from_buffered(LookingReader(Cursor::new(bytes)))
         .map_err(|error| explain(name, error))?;
     let parts: Vec<Part> = image.layer_data.iter().map(part_of_decoded).collect();
     let layers = layers_of(name, &parts)?;

@@ -5,6 +5,7 @@ use std::io::{Cursor, Read};
 
 use image::ImageDecoder as _;
 use image::codecs::hdr::HdrDecoder;
+use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, check_size};
@@ -88,7 +89,7 @@ impl<'b> HdrFile<'b> {
         let explain = |error: image::ImageError| damaged(name, FORMAT, error);
         let [outer, inner] = self.axes.map(|axis| axis.length);
         let header = format!("#?RADIANCE\n\n-Y {outer} +X {inner}\n");
-        let decoder = HdrDecoder::new(Cursor::new(header).chain(self.scanlines)).map_err(explain)?;
+        let decoder = HdrDecoder::new(LookingReader(Cursor::new(header).chain(self.scanlines))).map_err(explain)?;
         // The size is within the limit of decoded images, which `open` has checked.
         let mut samples = vec![0.0_f32; outer as usize * inner as usize * 3];
         decoder

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use basisu::{DecodeFlags, TargetFormat, Transcoder};
 use ruzstd::StreamingDecoder;
+use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, check_size};
@@ -106,7 +107,7 @@ fn plain(name: &str, level: &[u8], header: &Header, channels: u8) -> Result<Vec<
         // The length was checked before.
         return Ok(level[..size].to_vec());
     }
-    let frame = StreamingDecoder::new(level).map_err(|error| damaged(name, NAME, error))?;
+    let frame = StreamingDecoder::new(LookingReader(level)).map_err(|error| damaged(name, NAME, error))?;
     let mut samples = Vec::new();
     let read = frame.take(size as u64).read_to_end(&mut samples);
     match read.map_err(|error| damaged(name, NAME, error))? {

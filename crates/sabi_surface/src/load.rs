@@ -1,6 +1,8 @@
 //! Reading model files: glTF, FBX, OBJ, COLLADA, PLY and STL become one [`Model`] in one world space.
 //!
-//! The readers check everything that a file claims, return a model with warnings or an error, and never panic.
+//! The readers check everything that a file claims, return a model with warnings or an error, and never panic. They look whether they
+//! were canceled ([`sabi_cancel`]) at least once for every few hundred elements, but not within other crates that do not ask back:
+//! JSON, XML, Draco.
 
 mod arealess;
 mod assembly;
@@ -39,6 +41,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
+use sabi_cancel::look;
 use sabi_files::{PathBase, TrustedPaths, Unread, Uri};
 use serde::{Deserialize, Serialize};
 
@@ -82,6 +85,8 @@ pub struct LoadOptions {
     pub parts: PartChoice,
     /// True to turn faces that are inside out; see [`crate::orientation`].
     pub turns_faces: bool,
+    /// Folder in which, and below which, files are looked for by their names that the model names and that are not there.
+    pub textures: Option<PathBuf>,
     /// Most bytes of memory for the files of a model together, for what they unpack to, and for its mesh, each. What would take
     /// more is refused before.
     pub memory_bytes: u64,
@@ -97,6 +102,7 @@ impl Default for LoadOptions {
             smooth_degrees: None,
             parts: PartChoice::default(),
             turns_faces: false,
+            textures: None,
             memory_bytes: u64::MAX,
         }
     }
@@ -150,7 +156,7 @@ pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions)
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
-    let (bytes, mut beside) = FilesBeside::of_model(path, trusted, options.memory_bytes).map_err(fault)?;
+    let (bytes, mut beside) = FilesBeside::of_model(path, trusted, options).map_err(fault)?;
     let loaded = load_from(&name, &bytes, &mut |uri| beside.read(uri), options);
     let mut model = loaded.map_err(|error| fault(beside.explained(error)))?;
     model.file_bytes = beside.bytes_read();
@@ -204,6 +210,7 @@ fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &Lo
             Ok(Format::Stl) => stl::read(name, bytes, resolve, options),
             Err(fault) => Err(fault),
         };
+        look();
         model.map(|mut model| {
             model.mesh.repeating = repeating(&model);
             Model { is_smoothed, ..model }

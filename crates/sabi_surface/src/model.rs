@@ -198,6 +198,22 @@ pub struct ModelMaterial {
     pub finish: ModelFinish,
 }
 
+impl Model {
+    /// Names of the pictures of its materials that are not where the model says, each once.
+    pub fn missing_pictures(&self) -> BTreeSet<&str> {
+        let absent: BTreeSet<&str> = self
+            .absent
+            .iter()
+            .filter_map(|place| place.file_name()?.to_str())
+            .collect();
+        let unread = self.images.iter().filter(|image| image.bytes.is_err());
+        unread
+            .map(|image| image.name.as_str())
+            .filter(|name| absent.contains(name))
+            .collect()
+    }
+}
+
 impl ModelMaterial {
     /// Label in messages.
     pub fn label(&self) -> String {

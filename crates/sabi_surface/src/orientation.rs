@@ -6,6 +6,7 @@
 //! so it is not held against its volume either.
 
 use glam::DVec3;
+use sabi_cancel::{Cancel, Looking as _, look};
 
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::bvh::Bvh;
@@ -83,7 +84,7 @@ impl Bodies {
             body: vec![None; count],
             agrees: vec![true; count],
         };
-        for triangle in 0..count {
+        for triangle in (0..count).looking() {
             if found.body[triangle].is_none() && is_wanted(triangle) && !is_line(topology, triangle) {
                 found.follow(mesh, topology, triangle, &joins);
             }
@@ -104,7 +105,9 @@ impl Bodies {
         let [origin, ..] = mesh.corners(first as u32);
         self.body[first] = Some(number);
         let mut open = vec![first];
+        let cancel = Cancel::current();
         while let Some(triangle) = open.pop() {
+            cancel.look();
             body.triangles.push(triangle as u32);
             body.measure(mesh.corners(triangle as u32), origin, self.agrees[triangle]);
             for edge in 3 * triangle..3 * triangle + 3 {
@@ -203,6 +206,7 @@ impl<'m> Inside<'m> {
 
     /// Returns true if a closed body lies within another one: most rays from it cross an odd number of their faces.
     fn has(&mut self, body: &Body) -> bool {
+        look();
         let Some(first) = body.triangles.first().filter(|_| self.count > 1) else {
             return false;
         };

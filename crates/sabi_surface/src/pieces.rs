@@ -11,6 +11,7 @@ mod tightest;
 
 use glam::Vec3;
 use rayon::prelude::*;
+use sabi_cancel::Cancel;
 
 use crate::atlas::topology::Topology;
 use crate::groups::Groups;
@@ -88,8 +89,10 @@ fn mean_size(mesh: &Mesh, triangle_piece: &[u32], boxes: &[PieceBox]) -> f64 {
 /// Returns the oriented boxes of `count` groups of triangles; `triangle_group` holds the group of each triangle.
 pub fn boxes(mesh: &Mesh, triangle_group: &[u32], count: usize) -> Vec<PieceBox> {
     let groups = Groups::of_each(triangle_group, count);
+    let cancel = Cancel::current();
     (0..count)
         .into_par_iter()
+        .inspect(|_| cancel.look())
         .map(|group| tightest::piece_box(mesh, groups.members(group)))
         .collect()
 }

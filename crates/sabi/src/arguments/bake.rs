@@ -22,6 +22,7 @@ const SHAPING: [&str; 34] = [
     "without",
     "turn_faces",
     "no_turn_faces",
+    "textures",
     "overlap",
     "udim",
     "set",

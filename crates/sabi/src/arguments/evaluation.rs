@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use sabi_engine::{
     AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides,
-    PartChoice, SavedReading, SetFile, TrustedPaths, Udim, Up, default_cache_dir, default_memory_bytes, read_setting,
-    without_paint,
+    PartChoice, SavedReading, SetFile, TrustedPaths, Udim, Up, absolute, default_cache_dir, default_memory_bytes,
+    read_setting, without_paint,
 };
 
 use super::model_file;
@@ -39,9 +39,19 @@ pub(crate) struct ReadingArguments {
     /// Leave faces that are inside out as they are, even if the graph turns those of its model
     #[arg(long, conflicts_with = "turn_faces", help_heading = "Model")]
     no_turn_faces: bool,
+    /// Folder in which, and below which, files are looked for by their names that the model names and that are not there, such as
+    /// its pictures
+    #[arg(long, value_name = "DIR", help_heading = "Model")]
+    textures: Option<PathBuf>,
 }
 
 impl ReadingArguments {
+    /// Paths from which the model may open what it names: these, and the folder for its textures, which the user names.
+    pub(crate) fn trusted(&self, trusted: &TrustedPaths) -> TrustedPaths {
+        let textures = self.textures.iter();
+        textures.fold(trusted.clone(), |trusted, folder| trusted.with_path(folder))
+    }
+
     /// Options of the engine. Where they say nothing, a graph decides that names the model.
     pub(crate) fn reading(&self) -> SavedReading {
         SavedReading {
@@ -54,6 +64,7 @@ impl ReadingArguments {
                 (false, true) => Some(false),
                 (false, false) => None,
             },
+            textures: self.textures.as_deref().map(absolute),
         }
     }
 }
@@ -110,7 +121,7 @@ impl ModelArguments {
     /// Options of the engine, with maps of `size` texels along a side. The model may open what it names below `trusted`.
     pub(crate) fn options(&self, path: PathBuf, trusted: &TrustedPaths, size: u32) -> ModelOptions {
         ModelOptions {
-            trusted: trusted.clone().with_file(&path),
+            trusted: self.reading.trusted(trusted).with_file(&path),
             uv: self.uv,
             up: match self.up {
                 Axis::X => Up::X,

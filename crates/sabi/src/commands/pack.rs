@@ -20,7 +20,7 @@ pub(crate) fn run(arguments: &PackArguments, trusted: &TrustedPaths, terminal: &
         output: arguments.output.clone(),
         allows_missing: arguments.allow_missing,
         replaces: arguments.force,
-        trusted: trusted.clone(),
+        trusted: arguments.reading.trusted(trusted),
     };
     let progress = ShownProgress::new(terminal);
     let report = pack_graph(&request, &progress)?;

@@ -22,6 +22,7 @@ mod interruption;
 mod log;
 mod looking;
 mod losses;
+mod lost_textures;
 mod model_options;
 mod nothing_lost;
 mod outputs;

@@ -43,7 +43,7 @@ fn an_input_can_feed_only_inputs_that_accept_its_type() {
     let said = refused(&mut document, |document| {
         ports::publish_input(document, &to("l.source"))
     });
-    assert_eq!(said, "the group's input 'where' leads there already");
+    assert_eq!(said, "the group's input 'Where' leads there already");
     flat(&document);
 }
 

@@ -221,10 +221,10 @@ fn material_outputs_of_a_group_are_stacks() {
     let said = refused(&mut document, |document| layers::move_to(document, &end, 1, 2));
     assert_eq!(
         said,
-        "'Low' lies on the group's input 'under'; no layer can come between"
+        "'Low' lies on the group's input 'Under'; no layer can come between"
     );
     let said = refused(&mut document, |document| layers::add(document, &end, 3, "effect/layer"));
-    assert_eq!(said, "the group's input 'under' would bypass the layer; use the canvas");
+    assert_eq!(said, "the group's input 'Under' would bypass the layer; use the canvas");
     step(&mut document, |document| layers::add(document, &end, 0, "effect/layer"));
     step(&mut document, |document| layers::remove(document, &end, 1));
     assert_eq!(titles(&document), ["Layer", "Top", "Low"]);

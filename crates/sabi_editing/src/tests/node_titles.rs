@@ -4,7 +4,7 @@ use super::*;
 use crate::node_paths::with_titles;
 
 #[test]
-fn ids_and_kinds_in_a_sentence_are_replaced_by_titles() {
+fn ids_kinds_and_names_in_a_sentence_are_replaced_by_titles_and_labels() {
     let document = opened(
         r#""groups": { "Worn": { "outputs": { "mask": "blur.mask" }, "nodes": { "blur": { "kind": "filter/blur" } } } },"#,
         r#""image_2": { "kind": "source/image", "label": "Rust photo" },
@@ -16,15 +16,27 @@ fn ids_and_kinds_in_a_sentence_are_replaced_by_titles() {
     let told = [
         (
             "parameter 'file' of node 'image_2' (source/image): rust.png is missing",
-            "parameter 'file' of node 'Rust photo': rust.png is missing".to_owned(),
+            "parameter 'File' of node 'Rust photo': rust.png is missing".to_owned(),
         ),
         (
             "parameter 'octaves' of node 'octaves' (noise/simplex) takes a whole number, not 'image_2'",
-            format!("parameter 'octaves' of node '{clouds}' takes a whole number, not 'image_2'"),
+            format!("parameter 'Detail' of node '{clouds}' takes a whole number, not 'image_2'"),
         ),
         (
             "input 'in' of node 'image_2' takes a mask, but 'octaves' gives a material; connect a mask",
             format!("input 'in' of node 'Rust photo' takes a mask, but '{clouds}' gives a material; connect a mask"),
+        ),
+        (
+            "parameter 'radius' of node 'worn/blur' (filter/blur) takes a number, not 'radius'",
+            format!("parameter 'Radius' of node '{worn} › Blur' takes a number, not 'radius'"),
+        ),
+        (
+            "input 'source' of node 'worn/blur' asks 'image_2' for 'source', which it does not give",
+            format!("input 'Source' of node '{worn} › Blur' asks 'Rust photo' for 'source', which it does not give"),
+        ),
+        (
+            "node 'octaves' (noise/simplex) has no parameter 'base_color_strength'; it is kept and ignored",
+            format!("node '{clouds}' has no parameter 'base_color_strength'; it is kept and ignored"),
         ),
         (
             "waiting for node 'worn/blur'",

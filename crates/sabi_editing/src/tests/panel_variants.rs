@@ -192,7 +192,7 @@ fn invalid_variant_names_are_reported() {
     let mut document = opened(wide, r#""n": { "kind": "noise/white" }"#);
     assert_eq!(
         refused(&mut document, |document| variants::show(document, Some("wide"))),
-        "'size' takes 0 to 1, and this is 2"
+        "'Size' takes 0 to 1, and this is 2"
     );
     panel::unexpose(&mut document, "size");
     assert_eq!(

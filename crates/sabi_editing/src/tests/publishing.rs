@@ -56,7 +56,7 @@ fn one_published_knob_can_control_several_knobs_of_the_same_type() {
     let said = refused(&mut document, |document| {
         panel::expose_also(document, &id("n"), "mode", "size")
     });
-    assert_eq!(said, "'size' holds values of another sort than 'mode'");
+    assert_eq!(said, "'Size' holds values of another sort than 'Mode'");
     step(&mut document, |document| {
         panel::unexpose_knob(document, &id("n"), "size")
     });
@@ -223,15 +223,15 @@ fn a_range_applies_to_the_default_the_variants_and_the_instances() {
     };
     assert_eq!(
         said([0.75, 1.0]),
-        "the variant 'v' would lie outside: 'size' takes 0.75 to 1, and this is 0.5"
+        "the variant 'v' would lie outside: 'Size' takes 0.75 to 1, and this is 0.5"
     );
     assert_eq!(
         said([0.0, 0.5]),
-        "the instance 'Dust' would lie outside: 'size' takes 0 to 0.5, and this is 0.75"
+        "the instance 'Dust' would lie outside: 'Size' takes 0 to 0.5, and this is 0.75"
     );
     assert_eq!(
         said([1.0, 0.0]),
-        "the variant 'v' would lie outside: 'size' takes 1 to 0, and this is 0.5"
+        "the variant 'v' would lie outside: 'Size' takes 1 to 0, and this is 0.5"
     );
     step(&mut document, |document| {
         panel_values::set_range(document, "size", Some([0.5, 0.75]))
@@ -239,11 +239,11 @@ fn a_range_applies_to_the_default_the_variants_and_the_instances() {
     let said = refused(&mut document, |document| {
         panel_values::set_default(document, "size", number(2.0))
     });
-    assert_eq!(said, "'size' takes 0.5 to 0.75, and this is 2");
+    assert_eq!(said, "'Size' takes 0.5 to 0.75, and this is 2");
     let said = refused(&mut document, |document| {
         panel_values::set(document, "size", &Value::from("much"))
     });
-    assert_eq!(said, "'size' takes numbers from 0.5 to 0.75, and this is none");
+    assert_eq!(said, "'Size' takes numbers from 0.5 to 0.75, and this is none");
     step(&mut document, |document| {
         panel_values::set_range(document, "size", None)
     });

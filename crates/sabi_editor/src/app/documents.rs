@@ -10,7 +10,7 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{FileState, Keeping, NodeDraft, SavedReading, Session, TrustedPaths};
+use sabi_engine::{EngineError, ErrorKind, FileState, Keeping, NodeDraft, Remedy, SavedReading, Session, TrustedPaths};
 
 use super::recoveries::Recoveries;
 use crate::action::LibraryKind;
@@ -20,7 +20,7 @@ use crate::files::examples;
 use crate::kinds_reading::KindsReading;
 use crate::library::Library;
 use crate::model_row::ModelRow;
-use crate::paths::{canonical_if_present, model_of};
+use crate::paths::{canonical_if_present, in_canonical_folder, model_of};
 use crate::saved_pictures::SavedPictures;
 use crate::search::{Candidate, LibraryGroup, candidates};
 use crate::settings::{ModelStrip, Settings};
@@ -45,6 +45,21 @@ pub(crate) struct Folders {
 }
 
 impl Folders {
+    /// Writes the built-in model that new graphs are shown on, if it is missing, and returns its file.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(crate) fn first_model(&self) -> Result<PathBuf, EngineError> {
+        let temporary = || std::env::temp_dir().join("sabi");
+        let folder = self.examples.clone().unwrap_or_else(temporary);
+        let model = examples::first_model(&folder).map_err(|error| {
+            let why = format!("{} cannot be written: {error}", folder.display());
+            let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
+            refused.with_remedies([Remedy::NameModel])
+        });
+        model.map(|model| in_canonical_folder(&model))
+    }
+
     /// Folders below which every graph may open files.
     pub(super) fn trusted(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.effects, &self.library, &self.examples].into_iter().flatten()
@@ -330,13 +345,16 @@ impl Documents {
         if is_substitute || is_named || evaluation.model.failure.is_some() {
             return;
         }
-        let mesh = match relative_paths::from_own_folder(&self.document, model) {
-            Ok(mesh) => mesh,
+        let reading = evaluation.model.import_options().saved();
+        let mesh = relative_paths::from_own_folder(&self.document, model);
+        let texts = mesh.and_then(|mesh| Ok((mesh, self.textures_text(&reading)?)));
+        let (mesh, textures) = match texts {
+            Ok(texts) => texts,
             Err(refused) => return self.document.notify(refused.to_string()),
         };
         let edit = changed_preview(&self.document, |preview| {
             preview.mesh = Some(mesh);
-            evaluation.model.import_options().saved().put_into(preview);
+            reading.put_into(preview, textures);
         });
         self.document.edit_aside(edit);
     }

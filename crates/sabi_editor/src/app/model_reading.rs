@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use sabi_editing::document_settings::changed_preview;
-use sabi_engine::SavedReading;
+use sabi_editing::relative_paths;
+use sabi_engine::{NotText, SavedReading};
 
 use super::documents::Documents;
 use crate::import_options::ImportOptions;
@@ -27,8 +28,13 @@ impl Documents {
         }
         let wanted = reading.saved();
         if wanted != self.saved_reading() {
-            let edit = changed_preview(&self.document, |preview| wanted.put_into(preview));
-            self.document.edit("Change how the model is read", vec![edit]);
+            match self.textures_text(&wanted) {
+                Ok(textures) => {
+                    let edit = changed_preview(&self.document, |preview| wanted.put_into(preview, textures));
+                    self.document.edit("Change how the model is read", vec![edit]);
+                }
+                Err(refused) => self.document.notify(refused.to_string()),
+            }
         }
         true
     }
@@ -43,7 +49,21 @@ impl Documents {
 
     fn saved_reading(&self) -> SavedReading {
         let preview = self.document.contents().preview.as_ref();
-        preview.map_or_else(SavedReading::default, SavedReading::of_preview)
+        let base = self.document.session.graph().base();
+        preview.map_or_else(SavedReading::default, |preview| {
+            SavedReading::of_preview(preview, &base)
+        })
+    }
+
+    /// Path of the folder for textures as the graph writes it.
+    ///
+    /// # Errors
+    /// The path cannot be named in a file.
+    pub(super) fn textures_text(&self, reading: &SavedReading) -> Result<Option<String>, NotText> {
+        let textures = reading.textures.as_deref();
+        textures
+            .map(|folder| relative_paths::from_own_folder(&self.document, folder))
+            .transpose()
     }
 
     fn is_own_model(&self, model: &Path) -> bool {

@@ -115,9 +115,20 @@ impl Window {
     }
 
     fn in_folders(folder: tempfile::TempDir, folders: Folders, session: impl FnOnce(&Folders) -> Session) -> Window {
+        let model = cube(&folders);
+        Window::beginning_on(folder, folders, &model, session)
+    }
+
+    /// A window whose first model is not the cube.
+    fn beginning_on(
+        folder: tempfile::TempDir,
+        folders: Folders,
+        model: &Path,
+        session: impl FnOnce(&Folders) -> Session,
+    ) -> Window {
         let session = session(&folders);
         let handover: Handover = Arc::new(Mutex::new(None));
-        let harness = open(session, folders, handover.clone());
+        let harness = open(session, folders, model.to_owned(), handover.clone());
         Window {
             harness,
             folder,
@@ -227,9 +238,8 @@ fn beside(folders: &Folders) -> &Path {
 }
 
 /// A window on the software driver.
-fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'static, Editor> {
+fn open(session: Session, folders: Folders, model: PathBuf, handover: Handover) -> Harness<'static, Editor> {
     let setup = configuration(&AdapterChoice::Cpu).wgpu_setup;
-    let model = cube(&folders);
     let builder = Harness::builder()
         .with_size(vec2(1600.0, 900.0))
         .with_step_dt(1.0 / 60.0)

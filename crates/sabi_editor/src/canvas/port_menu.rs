@@ -42,7 +42,7 @@ pub(super) fn show(
         };
         match &published_as {
             None if ui.button(publish).clicked() => actions.push(Action::edit(publish_command(place))),
-            Some(name) if ui.button(format!("{off} '{name}'")).clicked() => {
+            Some(name) if ui.button(format!("{off} '{}'", label(document, place, name))).clicked() => {
                 actions.push(Action::edit(unpublish(place, name)));
             }
             _ => {}
@@ -164,5 +164,13 @@ pub(super) fn mark(
         let font = FontId::proportional((type_size::SMALL * zoom * 2.0).round() / 2.0);
         let at = center + vec2(way * NAME_OF_PUBLISHED * zoom, 0.0);
         painter.text(at, align, name, font, theme.quiet);
+    }
+}
+
+/// Label of the input or output of the shown graph as which a port is published.
+fn label(document: &OpenDocument, place: &PortRef, name: &str) -> String {
+    match place {
+        PortRef::Input(_) => ports::input_label(document, name),
+        PortRef::Output(_) => ports::output_label(document, name),
     }
 }

@@ -180,6 +180,18 @@ impl RequestedModel {
         Some((self.file().to_owned(), self.import.clone()))
     }
 
+    /// Returns whether the requested model is being read and is the first one.
+    pub(crate) fn is_first(&self) -> bool {
+        self.failure.is_none() && self.good.is_none()
+    }
+
+    /// Requests another model in place of the first one, which is being read.
+    pub(crate) fn cancel_first(&mut self, instead: &Path, import: ImportOptions) {
+        let left = self.file().to_owned();
+        self.replace(instead, import);
+        self.refused = Some(left);
+    }
+
     /// Requests the last model again that could be shown.
     fn return_to_good(&mut self) {
         if let Some(good) = &self.good {

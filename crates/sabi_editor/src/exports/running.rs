@@ -1,12 +1,13 @@
 //! An export on a thread of its own.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use egui::Context;
 use sabi_engine::{Activity, BakeReport, EngineError, Phase, Progress, SharedActivity};
 
+use crate::notices::with_capital;
 use crate::task::{Failed, Task};
 
 /// An export on a thread of its own. Dropping it cancels it and waits for its end.
@@ -24,11 +25,25 @@ pub(crate) struct Running {
 struct Watch {
     is_canceled: AtomicBool,
     activity: SharedActivity,
+    /// Sentence about what it waits for, until it goes on.
+    waits_for: Mutex<Option<String>>,
+}
+
+impl Watch {
+    fn waits_for(&self) -> MutexGuard<'_, Option<String>> {
+        // Every change is a single assignment.
+        self.waits_for.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl Progress for Watch {
     fn advance(&self, phase: Phase, done: usize, of: usize) {
+        *self.waits_for() = None;
         self.activity.set(phase, done, of);
+    }
+
+    fn waits(&self, sentence: &str) {
+        *self.waits_for() = Some(with_capital(sentence));
     }
 
     fn is_canceled(&self) -> bool {
@@ -69,6 +84,11 @@ impl Running {
     /// Activity of the export; `None` before it has begun.
     pub(crate) fn activity(&self) -> Option<Activity> {
         self.watch.activity.get()
+    }
+
+    /// Sentence about another program that the export waits for; `None` while it is at work.
+    pub(crate) fn waits_for(&self) -> Option<String> {
+        self.watch.waits_for().clone()
     }
 
     /// Asks the export to end; [`Running::poll`] says when it has.

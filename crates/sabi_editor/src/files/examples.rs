@@ -140,13 +140,22 @@ pub(crate) fn models(folder: &Path) -> impl Iterator<Item = PathBuf> {
     MODELS.iter().map(move |(name, _)| folder.join(name))
 }
 
+/// Returns whether a file is a built-in model, of any computer or user.
+pub(crate) fn is_own_model(file: &Path) -> bool {
+    MODELS.iter().any(|(name, _)| is_named(file, name))
+}
+
+fn is_named(file: &Path, name: &str) -> bool {
+    file.ends_with(Path::new(EXAMPLES_FOLDER).join(MESHES).join(name))
+}
+
 /// File of a model that a graph names: where there is none and it is a built-in model of another computer or user, the one here, which
 /// is written if it is missing.
 pub(crate) fn at_home(folder: Option<&Path>, file: PathBuf) -> PathBuf {
     let Some(folder) = folder.filter(|_| !file.exists()) else {
         return file;
     };
-    let is_same = |(name, _): &(&str, &[u8])| file.ends_with(Path::new(EXAMPLES_FOLDER).join(MESHES).join(name));
+    let is_same = |(name, _): &(&str, &[u8])| is_named(&file, name);
     let Some((name, bytes)) = MODELS.into_iter().find(is_same) else {
         return file;
     };
@@ -175,6 +184,15 @@ fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_built_in_model_is_known_by_its_place_among_the_examples() {
+        let folder = Path::new("home").join(EXAMPLES_FOLDER);
+        assert!(models(&folder).all(|model| is_own_model(&model)));
+        for other in ["cube.glb", "examples/cube.glb", "examples/assets/meshes/mine.glb"] {
+            assert!(!is_own_model(Path::new(other)), "{other}");
+        }
+    }
 
     #[test]
     fn every_example_finds_its_model_where_it_is_unpacked() {

@@ -268,7 +268,11 @@ fn progress(ui: &mut Ui, context: &ViewContext<'_>) -> Option<ExportAction> {
     let theme = context.theme;
     if let Some(running) = &context.exports.running {
         let activity = running.activity();
-        ui.label(activity.map_or_else(|| "Starting".to_owned(), |activity| activity_text(&activity)));
+        if let Some(sentence) = running.waits_for() {
+            ui.add(Label::new(RichText::new(sentence).color(theme.warning)).wrap());
+        } else {
+            ui.label(activity.map_or_else(|| "Starting".to_owned(), |activity| activity_text(&activity)));
+        }
         let share = activity.and_then(|activity| activity.share());
         // A phase of a single step leaves the bar empty: a full one would look like the end.
         let bar = ProgressBar::new(share.unwrap_or(0.0));

@@ -3,7 +3,7 @@
 use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::painting::{PAINT, STROKES};
-use sabi_editing::{OpenDocument, connections, panel};
+use sabi_editing::{OpenDocument, connections, panel, ports as document_ports};
 use sabi_engine::catalog::{Entry, Knob};
 use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 
@@ -187,8 +187,8 @@ fn mask_of(document: &OpenDocument, id: &NodeId, knob: &str) -> Option<String> {
         node: id.clone(),
         name: knob.to_owned(),
     };
-    let fed = sabi_editing::ports::published_as(document, &PendingWire::Into(slot.clone()));
-    let fed = fed.map(|input| format!("the input '{input}'"));
+    let fed = document_ports::published_as(document, &PendingWire::Into(slot.clone()));
+    let fed = fed.map(|input| format!("the input '{}'", document_ports::input_label(document, input)));
     fed.or_else(|| Some(document.title(&connections::wire_into(document, &slot)?.node)))
 }
 

@@ -8,7 +8,7 @@ use sabi_editing::missing_files;
 use sabi_engine::EngineError;
 
 use super::update;
-use crate::action::{Action, FileAction};
+use crate::action::{Action, FileAction, ModelAction};
 use crate::context::{View, ViewContext};
 use crate::paths::file_stem;
 use crate::remedies::{self, Request};
@@ -54,7 +54,12 @@ impl View for Problems {
         };
         let import = evaluation.model.import_options();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            actions.extend(missing(ui, context, self.missing(context)));
+            let lost = self.missing(context);
+            actions.extend(missing(ui, context, lost));
+            actions.extend(missing(ui, context, &pictures_of_model(context)));
+            if lost.is_empty() && context.is_named_model_refused() {
+                actions.extend(unread_model(ui, context));
+            }
             for fault in &faults.faults {
                 let text = format!("{} {}", icon::WARNING, context.said(&fault.sentence));
                 actions.extend(at_node(ui, RichText::new(text).color(theme.fault), &fault.node));
@@ -106,6 +111,34 @@ impl Problems {
         let look = || (revision, Instant::now(), missing_files::missing(context.document));
         &self.missing.insert(known.unwrap_or_else(look)).2
     }
+}
+
+/// Pictures that the shown model names and that are not there.
+fn pictures_of_model(context: &ViewContext<'_>) -> Vec<String> {
+    let model = context.evaluation.model.received.as_ref();
+    let names = model
+        .into_iter()
+        .flat_map(|model| model.linked.model.missing_pictures());
+    names.map(str::to_owned).collect()
+}
+
+/// The model that the graph names and that could not be read, or not to its end, with a button that reads it again.
+fn unread_model(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
+    let model = &context.evaluation.model;
+    let refused = model.refused()?;
+    let (name, instead) = (file_stem(refused), file_stem(model.file()));
+    let text = format!(
+        "{} {name}, the model of the graph, was not read; {instead} stands in for it.",
+        icon::WARNING
+    );
+    ui.horizontal_wrapped(|ui| {
+        ui.add(egui::Label::new(RichText::new(text).color(context.theme.fault)).wrap());
+        let button = ui.button("Read it again");
+        button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Read {name} again")));
+        let again = || Action::Model(ModelAction::Show(refused.to_owned()));
+        button.clicked().then(again)
+    })
+    .inner
 }
 
 /// Files that the graph names and that are not there, each with a button that asks where it is.

@@ -36,6 +36,7 @@ fn recipe() -> Recipe {
             parts: vec![text()],
             without: vec![text()],
             turn_faces: Some(true),
+            textures: Some(text()),
             overlap: Overlap::Auto,
             udim: Udim::Auto,
         },

@@ -1,22 +1,20 @@
 //! Reading of a model on a thread of its own, so that one which is no longer wanted is not waited for.
 
-use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread::{Builder, JoinHandle, sleep};
+use std::thread::{JoinHandle, sleep};
 use std::time::Duration;
 
 use super::queue::WorkerQueue;
-use crate::error::{EngineError, ErrorKind};
+use crate::error::EngineError;
 use crate::opening::linked_model::LinkedModel;
-use crate::phases::{Phase, Progress};
+use crate::phases::{Phase, Progress, stop_if_canceled, unless_left};
 
-/// Time between two looks at whether a model is still wanted.
+/// Time between two looks at whether a model that was left has ended.
 const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
-/// Reading of models, one after the other. A model that is left ends at its next step, on its own thread; the next one is read
-/// once that has ended if another one was left before, so that memory is taken by two at most.
+/// Reading of models, one after the other. A model that is left ends at its next look, on its own thread; the next one is read
+/// after that, so that memory is taken by one.
 #[derive(Default)]
 pub(super) struct ModelReading {
     left: Option<JoinHandle<()>>,
@@ -70,51 +68,41 @@ impl ModelReading {
     ) -> Result<LinkedModel, EngineError> {
         progress.advance(Phase::Load, 0, 1);
         while self.left.as_ref().is_some_and(|left| !left.is_finished()) {
-            if progress.is_unwanted() {
-                return Err(interrupted());
-            }
+            stop_if_canceled(&Wanted(progress))?;
             sleep(LOOK_AGAIN);
         }
         self.left = None;
-        let (sender, result) = channel();
         let shared = progress.clone();
-        let read = move || {
-            // Fails where the model was left.
-            let _ = sender.send(work(shared.as_ref()));
-        };
-        let thread = Builder::new().name("sabi model".to_owned()).spawn(read);
-        let thread = thread.map_err(|error| {
-            let why = format!("the system gives no thread to read the model on ({error})");
-            EngineError::new(ErrorKind::OutOfMemory, why)
-        })?;
-        loop {
-            match result.recv_timeout(LOOK_AGAIN) {
-                Ok(read) => return read,
-                Err(RecvTimeoutError::Disconnected) => match thread.join() {
-                    // The worker reports a panic.
-                    Err(panic) => resume_unwind(panic),
-                    Ok(()) => return Err(interrupted()),
-                },
-                Err(RecvTimeoutError::Timeout) if progress.is_unwanted() => {
-                    progress.is_left.store(true, Ordering::Relaxed);
-                    self.left = Some(thread);
-                    return Err(interrupted());
-                }
-                Err(RecvTimeoutError::Timeout) => {}
+        match unless_left(&Wanted(progress), move || work(shared.as_ref())) {
+            Ok(read) => read,
+            Err(stopped) => {
+                progress.is_left.store(true, Ordering::Relaxed);
+                self.left = stopped.left;
+                Err(stopped.error)
             }
         }
     }
 }
 
-fn interrupted() -> EngineError {
-    EngineError::new(ErrorKind::Interrupted, "another model was requested")
+/// Cancelation of reading for the thread that waits for it, which has the turn already.
+struct Wanted<'p>(&'p LoadProgress);
+
+impl Progress for Wanted<'_> {
+    fn advance(&self, phase: Phase, done: usize, of: usize) {
+        self.0.advance(phase, done, of);
+    }
+
+    fn is_canceled(&self) -> bool {
+        self.0.is_unwanted()
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::sync::mpsc::Receiver;
+    use std::sync::mpsc::{Receiver, channel};
 
     use super::*;
+    use crate::error::ErrorKind;
     use crate::live::request::LiveOptions;
 
     fn no_model() -> EngineError {
@@ -147,6 +135,33 @@ mod tests {
         assert_eq!(queue.activity.get(), None, "what was left tells nothing more");
         go.send(()).unwrap();
         left.join().unwrap();
+    }
+
+    #[test]
+    fn the_next_model_is_read_once_the_one_that_was_left_has_heard_of_it() {
+        let queue = Arc::new(WorkerQueue::new(&LiveOptions::default()));
+        let progress = Arc::new(LoadProgress::new(&queue, 1));
+        let mut reading = ModelReading::default();
+        let (begun, begins) = channel();
+        let leaves = progress.clone();
+        let leaving = std::thread::spawn(move || {
+            begins.recv().unwrap();
+            leaves.is_left.store(true, Ordering::Relaxed);
+        });
+        let looking = move |_: &dyn Progress| {
+            begun.send(()).unwrap();
+            loop {
+                sabi_cancel::look();
+                std::thread::yield_now();
+            }
+        };
+        let error = reading.read(&progress, looking).err();
+        assert_eq!(error.map(|error| error.kind), Some(ErrorKind::Interrupted));
+        leaving.join().unwrap();
+        let next = Arc::new(LoadProgress::new(&queue, 2));
+        let read = reading.read(&next, |_| Err(no_model()));
+        assert_eq!(read.err(), Some(no_model()));
+        assert!(reading.left.is_none(), "the one before has ended");
     }
 
     #[test]

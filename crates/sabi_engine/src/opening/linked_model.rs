@@ -199,6 +199,7 @@ impl LinkedModel {
             smooth_degrees: options.smooth_degrees,
             parts: options.reading.parts.clone(),
             turns_faces: options.reading.turns_faces(),
+            textures: options.reading.textures.clone(),
             memory_bytes: options.memory_bytes,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();

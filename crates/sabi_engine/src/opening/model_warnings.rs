@@ -23,7 +23,8 @@ impl LinkedModel {
         let shares = OverlapTotals::of(self).warning(self).into_iter();
         let all = sentences.chain(tiles::warnings(self)).chain(shares);
         let all = all.chain(coverage::warnings(self));
-        all.chain(self.parts_left_out()).chain(self.refused_files()).collect()
+        let all = all.chain(self.parts_left_out()).chain(self.missing_pictures());
+        all.chain(self.refused_files()).collect()
     }
 
     /// Warns about parts that were left out by what their names mean.
@@ -49,6 +50,19 @@ impl LinkedModel {
             format!("{named} {are} left out, since {their}"),
             [Remedy::AllParts],
         ))
+    }
+
+    /// Warns about pictures that the model names and that are not there.
+    fn missing_pictures(&self) -> Option<Warning> {
+        let names = self.model.missing_pictures();
+        let are = match names.len() {
+            0 => return None,
+            1 => "is",
+            _ => "are",
+        };
+        let named = listed(names.into_iter(), MOST_NAMED);
+        let sentence = format!("{named} {are} not where the model says");
+        Some(Warning::new(sentence, [Remedy::TextureFolder]))
     }
 
     /// Warns about files that the model names and may not open.

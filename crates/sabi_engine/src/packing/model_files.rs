@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, Uri, read_plain, without_detours};
+use sabi_files::{FolderSearch, PathBase, Refusal, TrustedPaths, Unread, Uri, read_plain, without_detours};
 use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, PartChoice, gltf_json, load_bytes};
 
 use super::entries::{is_picture, is_usual_ending};
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::linked_model::SavedReading;
 use crate::opening::memory::default_memory_bytes;
 
 /// A model and the files that it names.
@@ -26,8 +27,8 @@ impl ModelFiles {
     /// # Errors
     /// It cannot be loaded, names two files that would have one place, or names a file that is none of a model: one from elsewhere must not
     /// make anyone send other files of their computer.
-    pub(super) fn read(path: &Path, trusted: &TrustedPaths, parts: &PartChoice) -> Result<ModelFiles, EngineError> {
-        let search = Search::of_model(path, trusted, parts)?;
+    pub(super) fn read(path: &Path, trusted: &TrustedPaths, reading: &SavedReading) -> Result<ModelFiles, EngineError> {
+        let search = Search::of_model(path, trusted, reading)?;
         if let Some(refusal) = search.refused.first() {
             let refused = EngineError::refused(refusal);
             return Err(refused.map_messages(|why| format!("{} names a file that is not read: {why}", path.display())));
@@ -72,7 +73,11 @@ impl ModelFiles {
 /// # Errors
 /// The model cannot be loaded.
 pub(crate) fn files_of_model(path: &Path, trusted: &TrustedPaths) -> Result<BTreeMap<String, PathBuf>, EngineError> {
-    let mut files = Search::of_model(path, trusted, &PartChoice::all())?.named;
+    let whole = SavedReading {
+        parts: PartChoice::all(),
+        ..SavedReading::default()
+    };
+    let mut files = Search::of_model(path, trusted, &whole)?.named;
     let own = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     files.insert(own.into_owned(), path.to_owned());
     Ok(files)
@@ -99,6 +104,8 @@ fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>,
 struct Search<'t> {
     base: PathBase,
     trusted: &'t TrustedPaths,
+    /// Folder in which files are looked for that are not where the model says.
+    elsewhere: Option<FolderSearch>,
     refused: Vec<Refusal>,
     named: BTreeMap<String, PathBuf>,
     missing: Vec<String>,
@@ -108,7 +115,7 @@ struct Search<'t> {
 
 impl<'t> Search<'t> {
     /// Reads a model, and looks for the files that it names.
-    fn of_model(path: &Path, trusted: &'t TrustedPaths, parts: &PartChoice) -> Result<Search<'t>, EngineError> {
+    fn of_model(path: &Path, trusted: &'t TrustedPaths, reading: &SavedReading) -> Result<Search<'t>, EngineError> {
         let shown = path.display();
         let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
             Unread::Missing => EngineError::new(
@@ -123,6 +130,7 @@ impl<'t> Search<'t> {
         let mut search = Search {
             base: PathBase::of_file(path),
             trusted,
+            elsewhere: reading.textures.as_deref().map(FolderSearch::new),
             refused: Vec::new(),
             named: BTreeMap::new(),
             missing: Vec::new(),
@@ -130,7 +138,7 @@ impl<'t> Search<'t> {
         };
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let options = LoadOptions {
-            parts: parts.clone(),
+            parts: reading.parts.clone(),
             memory_bytes: default_memory_bytes(),
             ..LoadOptions::default()
         };
@@ -149,7 +157,17 @@ impl<'t> Search<'t> {
     }
 
     fn find(&mut self, written: &str) -> Result<Vec<u8>, String> {
-        match self.trusted.read_of_model(&self.base, written, MAX_FILE_BYTES) {
+        let read = match (
+            self.trusted.read_of_model(&self.base, written, MAX_FILE_BYTES),
+            &mut self.elsewhere,
+        ) {
+            (Err(Unread::Missing), Some(elsewhere)) => elsewhere.find(self.trusted, written).and_then(|place| {
+                let bytes = self.trusted.read_found(&place, MAX_FILE_BYTES)?;
+                Ok((bytes, place))
+            }),
+            (read, _) => read,
+        };
+        match read {
             Ok((bytes, place)) => {
                 if let Some(advice) = self.strangeness(&place).filter(|_| !is_picture(written, &bytes)) {
                     self.strange.get_or_insert((place.clone(), advice));

@@ -238,7 +238,7 @@ fn model_of(
     let (model, asked) = (&request.model, &request.reading);
     let kept = || {
         let preview = graph.open.document.preview.as_ref();
-        preview.map_or_else(SavedReading::default, |preview| asked.or(preview))
+        preview.map_or_else(SavedReading::default, |preview| asked.or(preview, &graph.base()))
     };
     let shown = graph.open.path.display();
     let mut trusted = graph.open.trusted.clone();
@@ -274,8 +274,8 @@ fn model_of(
         ..ModelOptions::new(&path, 0)
     };
     let reading = options.for_graph(&graph.open).reading;
-    let (read, parts) = (path.clone(), reading.parts.clone());
-    let files = unless_canceled(progress, move || ModelFiles::read(&read, &trusted, &parts))??;
+    let (read, own) = (path.clone(), reading.clone());
+    let files = unless_canceled(progress, move || ModelFiles::read(&read, &trusted, &own))??;
     let lacks = files.missing.iter();
     missing.extend(lacks.map(|named| format!("the model {} names {named}, which is missing", path.display())));
     Ok((Some(files), reading))

@@ -56,7 +56,8 @@ pub(super) fn rewritten(
         let preview = document.preview.get_or_insert_with(Preview::default);
         preview.mesh = mesh;
         if let ShownModel::Entry(_, reading) = model {
-            reading.put_into(preview);
+            // The model finds its files in the archive where it says.
+            reading.put_into(preview, None);
         }
     }
     let text = match document == *original {

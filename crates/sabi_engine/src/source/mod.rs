@@ -30,6 +30,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use sabi_cancel::Canceled;
 use sabi_files::{PathBase, TrustedPaths};
 use sabi_gpu::{GpuError, PlaneData, RayScene, SourceCanvas, SourceFill, TileSet};
 use sabi_graph::{FlatGraph, FlatNode};
@@ -38,6 +39,7 @@ use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
+use crate::phases::{Progress, watched};
 use crate::program_cache::ProgramCache;
 
 pub(crate) use model::NAME as SOURCE_MODEL;
@@ -114,6 +116,8 @@ pub(crate) struct Sources<'a> {
     model: model::ModelSource<'a>,
     ray_cache: &'a RayCache,
     kept_results: Option<&'a ProgramCache>,
+    /// Cancels the decoding of pictures.
+    progress: &'a dyn Progress,
     /// Warnings about what cannot be shown.
     pub(crate) warnings: Vec<String>,
 }
@@ -124,6 +128,7 @@ impl<'a> Sources<'a> {
         surface: SourceSurface<'a>,
         files: Files<'a>,
         (ray_cache, kept_results): (&'a RayCache, Option<&'a ProgramCache>),
+        progress: &'a dyn Progress,
     ) -> Sources<'a> {
         Sources {
             surface,
@@ -131,6 +136,7 @@ impl<'a> Sources<'a> {
             model: model::ModelSource::default(),
             ray_cache,
             kept_results,
+            progress,
             warnings: Vec::new(),
         }
     }
@@ -184,12 +190,16 @@ impl SourceFill for Sources<'_> {
         let (surface, warnings) = (&self.surface, &mut self.warnings);
         match step.kind.as_str() {
             image::NAME => {
-                let picture = self.files.picture(step).map_err(|why| of_node(step, why))?;
+                let picture = watched(self.progress, || self.files.picture(step));
+                let picture = picture.map_err(|Canceled| GpuError::Canceled)?;
+                let picture = picture.map_err(|why| of_node(step, why))?;
                 image::draw(surface, canvas, (step, output), &picture, warnings)?;
             }
             model::NAME => {
                 let pictures = (self.files.pictures, self.files.memory_bytes);
-                self.model.draw(surface, canvas, pictures, (output, plane), warnings)?;
+                let opened = watched(self.progress, || self.model.open(surface, pictures, warnings));
+                opened.map_err(|Canceled| GpuError::Canceled)?;
+                self.model.draw(surface, canvas, (output, plane), warnings)?;
             }
             surface_id::NAME => surface_id::draw(surface, canvas, (step, output), warnings)?,
             vertex_color::NAME => vertex_color::draw(surface, canvas, (&step.id, plane), warnings)?,

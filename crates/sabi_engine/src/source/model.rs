@@ -261,8 +261,14 @@ pub(crate) struct ModelSource<'a> {
 }
 
 impl<'a> ModelSource<'a> {
-    /// Draws a plane of a result of a model; `pictures` come with the memory that they may take, bytes. Adds what cannot be shown
-    /// to `warnings`.
+    /// Opens the pictures of the materials, which come with the memory that they may take, bytes; once. Adds what cannot be shown to
+    /// `warnings`.
+    pub(crate) fn open(&mut self, surface: &SourceSurface<'a>, pictures: (&Pictures, u64), warnings: &mut Vec<String>) {
+        let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
+        self.materials.get_or_insert_with(open);
+    }
+
+    /// Draws a plane of a result of a model, whose pictures were opened. Adds what cannot be shown to `warnings`.
     ///
     /// # Errors
     /// The run is canceled, or the device refuses.
@@ -270,12 +276,10 @@ impl<'a> ModelSource<'a> {
         &mut self,
         surface: &SourceSurface<'a>,
         canvas: &SourceCanvas<'_>,
-        pictures: (&Pictures, u64),
         (output, plane): (&str, Plane),
         warnings: &mut Vec<String>,
     ) -> Result<(), GpuError> {
-        let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
-        let materials = &*self.materials.get_or_insert_with(open);
+        let materials = self.materials.as_deref().unwrap_or_default();
         let tiles = &*self.tiles.get_or_insert_with(|| surface.tiles_of_materials());
         let unused = &canvas.table("no texture", &[[0; 4]])?;
         for material in 0..tiles.len().max(1) {

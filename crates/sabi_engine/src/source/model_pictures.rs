@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use sabi_cancel::Cancel;
 use sabi_surface::model::{Model, ModelImage, ModelMaterial};
 
 use super::pictures::{OpenPicture, Pictures, memory_of};
@@ -31,8 +32,9 @@ pub(super) fn open_pictures(model: &Model, pictures: &Pictures, memory_bytes: u6
             Err(why) => opened.extend(content.images.iter().map(|image| (*image, Err(why.clone())))),
         }
     }
+    let cancel = Cancel::current();
     let open = |content: &Content<'_>| {
-        let picture = pictures.open_bytes(content.name, content.bytes, content.hash);
+        let picture = cancel.during(|| pictures.open_bytes(content.name, content.bytes, content.hash));
         picture.map_err(|why| format!("{why}; the factor is used alone"))
     };
     let decoded: Vec<Result<Arc<OpenPicture>, String>> = fitting.par_iter().map(open).collect();

@@ -33,7 +33,7 @@ fn a_misspelled_key_is_reported_with_its_place_and_a_suggestion() {
         ),
         (
             r#""preview": { "model": "a.glb", "views": { "v": { "lens": 1 } } }, "nodes": {}"#,
-            r#"2:14: "preview" of the graph has a key "model", which nothing reads; there is also "mesh", "parts", "without", "turn_faces", "size", "variant""#,
+            r#"2:14: "preview" of the graph has a key "model", which nothing reads; there is also "mesh", "textures", "parts", "without", "turn_faces", "size", "variant""#,
         ),
         (
             r#""nodes": { "a": { "kind": "x" } }, "exposed": { "k": { "to": ["a.b"], "defaults": 1 } }"#,
@@ -62,7 +62,7 @@ fn names_and_values_are_no_keys() {
 #[test]
 fn every_known_key_is_read_and_every_other_one_is_kept() {
     let text = r##"{ "format": "sabi", "version": 1, "x": 1, "name": "n", "about": "a", "words": ["w"],
-        "preview": { "mesh": "m.glb", "parts": ["p"], "without": ["w"], "turn_faces": true, "size": 64, "variant": "v", "x": 1,
+        "preview": { "mesh": "m.glb", "textures": "t", "parts": ["p"], "without": ["w"], "turn_faces": true, "size": 64, "variant": "v", "x": 1,
             "views": { "v": { "target": [0, 0, 0], "yaw": 1, "pitch": 1, "distance": 1, "parallel": true, "x": 1 } } },
         "fit": "metres", "seed": 1,
         "exposed": { "k": { "to": ["a.p"], "curves": { "a.p": [[0, 0], [1, 1]] }, "label": "l", "about": "a", "section": "s",

@@ -196,7 +196,7 @@ fn a_fit() -> impl Strategy<Value = Fit> {
 
 fn a_preview() -> impl Strategy<Value = Preview> {
     (
-        prop::option::of(any::<String>()),
+        [prop::option::of(any::<String>()), prop::option::of(any::<String>())],
         prop::collection::vec(any::<String>(), 0..3),
         prop::collection::vec(any::<String>(), 0..3),
         any::<bool>(),
@@ -206,8 +206,9 @@ fn a_preview() -> impl Strategy<Value = Preview> {
         values(),
     )
         .prop_map(
-            |(mesh, parts, without, turn_faces, size, variant, views, extra)| Preview {
+            |([mesh, textures], parts, without, turn_faces, size, variant, views, extra)| Preview {
                 mesh,
+                textures,
                 parts,
                 without,
                 turn_faces,

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use sabi_cancel::look;
 
 use super::charts::{Partition, partition, sheet_of};
 use super::division::Division;
@@ -164,8 +165,10 @@ impl Plan<'_> {
         }
         let placement = place(masks, self.size, self.page_limit)?;
         self.check_memory(masks.len(), placed_bytes(masks, &placement))?;
+        look();
         let mut owners = owners::texel_owners(&self.uvs, partition, &placement);
         let leap = leap::leap(self.mesh, &self.uvs, partition, &owners, placement.page_size);
+        look();
         let occupancy = Occupancy::new(&owners, placement.page_size);
         let sound = self.sound_triangles();
         let links = self.links(partition, masks, &placement, &owners, &occupancy, &sound);
@@ -174,6 +177,7 @@ impl Plan<'_> {
             let [x, y, page] = ghost.texel.map(|value| value as usize);
             owners[(page * height + y) * width + x] = GHOST_BIT | index as u32;
         }
+        look();
         let charts = self.charts(placed, &placement);
         let inputs = ReportInputs {
             mesh: self.mesh,

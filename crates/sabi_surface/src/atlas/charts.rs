@@ -3,6 +3,7 @@
 use super::topology::{NO_TWIN, Topology};
 use crate::groups::Groups;
 use crate::model::Mesh;
+use sabi_cancel::Looking as _;
 
 /// Assignment of triangles to charts, which are numbered by material, then by first triangle.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +73,7 @@ pub(super) fn partition(mesh: &Mesh, topology: &Topology, orientations: &[i8]) -
     let mut sets = DisjointSets::new(orientations);
     // Triangles without area in UV are joined last: to their neighbors, but never to two of opposite winding.
     for with_flat in [false, true] {
-        for (edge, &twin) in topology.twins.iter().enumerate() {
+        for (edge, &twin) in topology.twins.iter().enumerate().looking() {
             if twin == NO_TWIN || (twin as usize) < edge {
                 continue;
             }
@@ -84,6 +85,7 @@ pub(super) fn partition(mesh: &Mesh, topology: &Topology, orientations: &[i8]) -
         }
     }
     let labels: Vec<u32> = (0..mesh.triangles.len() as u32)
+        .looking()
         .map(|triangle| sets.find(triangle))
         .collect();
     Partition::from_labels(mesh, &labels)

@@ -1,5 +1,6 @@
 //! Division of charts into those that are placed, each on its own: at overlaps with themselves and at narrow gaps.
 
+use sabi_cancel::Cancel;
 use std::collections::HashMap;
 
 use rayon::prelude::*;
@@ -79,16 +80,21 @@ impl Plan<'_> {
             MASKS * mask_bytes.saturating_add(charts.len() as u64 * CHART_BYTES),
         )?;
         let bounded = charts.par_iter().zip(boxes);
+        let cancel = Cancel::current();
+        let mask = |chart, bounds| Mask::of_chart(&self.uvs, partition.triangles(chart), bounds);
         Ok(bounded
-            .map(|(&chart, bounds)| Mask::of_chart(&self.uvs, partition.triangles(chart), bounds))
+            .map(|(&chart, bounds)| cancel.during(|| mask(chart, bounds)))
             .collect())
     }
 
     /// Splits charts that overlap themselves; `None` when there are none.
     pub(super) fn split(&self, partition: &Partition, masks: &[(Mask, bool)]) -> Option<Partition> {
+        let cancel = Cancel::current();
         let splitter = Splitter { plan: self, partition };
         let suspects = (0..masks.len()).into_par_iter().filter(|&chart| masks[chart].1);
-        let found: Vec<(usize, Vec<u32>)> = suspects.map(|chart| (chart, splitter.split(chart))).collect();
+        let found: Vec<(usize, Vec<u32>)> = suspects
+            .map(|chart| (chart, cancel.during(|| splitter.split(chart))))
+            .collect();
         let is_whole = |(_, labels): &(usize, Vec<u32>)| labels.iter().all(|&label| label == labels[0]);
         (!found.iter().all(is_whole)).then(|| self.relabeled(partition, &found))
     }
@@ -128,7 +134,9 @@ impl Plan<'_> {
                 plan: self,
                 partition: &partition,
             };
-            let found: Vec<Option<Vec<u32>>> = open.par_iter().map(|(chart, mask)| gaps.divide(*chart, mask)).collect();
+            let cancel = Cancel::current();
+            let divide = |(chart, mask): &(usize, Mask)| cancel.during(|| gaps.divide(*chart, mask));
+            let found: Vec<Option<Vec<u32>>> = open.par_iter().map(divide).collect();
             let mut divided = Vec::new();
             for ((chart, mask), labels) in open.into_iter().zip(found) {
                 match labels {

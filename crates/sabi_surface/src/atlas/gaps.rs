@@ -2,6 +2,7 @@
 //! them for the rings of ghosts of both. A ghost continues only one side, so the other would read what lies elsewhere on the
 //! surface. A chart is divided there, and its parts are placed apart.
 
+use sabi_cancel::{Looking as _, look};
 use std::collections::{HashSet, VecDeque};
 
 use glam::{DVec2, DVec3};
@@ -112,7 +113,7 @@ impl Gaps<'_> {
     fn touching_pairs(&self, chart: usize, mask: &Mask, pairs: &mut Vec<[Texel; 2]>) {
         let triangles = self.partition.triangles(chart);
         let mut steps_left = EDGE_STEPS.saturating_mul(triangles.len()).max(LEAST_EDGE_STEPS);
-        for &triangle in triangles {
+        for &triangle in triangles.iter().looking() {
             let corners = self.plan.uvs.corners(triangle);
             for k in 0..3 {
                 if self.beyond(3 * triangle + k as u32).is_some() {
@@ -185,6 +186,7 @@ impl Gaps<'_> {
         let mut seen = HashSet::from([from]);
         let mut queue = VecDeque::from([from]);
         while let Some(triangle) = queue.pop_front() {
+            look();
             for next in self.near_neighbors(triangle, middle) {
                 if next == to || seen.len() > AROUND_LIMIT || *effort == 0 {
                     return true;

@@ -6,6 +6,7 @@
 //! clear of it, rounded down.
 
 use rayon::prelude::*;
+use sabi_cancel::Cancel;
 
 use super::EMPTY;
 use super::charts::Partition;
@@ -28,6 +29,7 @@ pub(super) fn leap(mesh: &Mesh, uvs: &Uvs, partition: &Partition, owners: &[u32]
         .into_par_iter()
         .map(|triangle| metric(mesh, uvs, triangle))
         .collect();
+    let cancel = Cancel::current();
     let mut leaps = vec![0u8; owners.len()];
     leaps
         .par_chunks_mut(width * height)
@@ -37,12 +39,14 @@ pub(super) fn leap(mesh: &Mesh, uvs: &Uvs, partition: &Partition, owners: &[u32]
                 owners,
                 width,
                 metrics: &metrics,
+                cancel: &cancel,
             };
             let columns = page.column_distances();
             leaps
                 .par_chunks_mut(width)
                 .zip(columns.par_chunks(width))
                 .for_each(|(leaps, columns)| {
+                    cancel.look();
                     row_leaps(columns, leaps);
                 });
         });
@@ -53,6 +57,7 @@ struct Page<'a> {
     owners: &'a [u32],
     width: usize,
     metrics: &'a [Metric],
+    cancel: &'a Cancel,
 }
 
 impl Page<'_> {
@@ -61,6 +66,7 @@ impl Page<'_> {
         let (width, height) = (self.width, self.owners.len() / self.width);
         let mut distances = vec![FAR; self.owners.len()];
         distances.par_chunks_mut(width).enumerate().for_each(|(y, distances)| {
+            self.cancel.look();
             for (x, distance) in distances.iter_mut().enumerate() {
                 if self.is_wall(x, y) {
                     *distance = 0;
@@ -73,6 +79,7 @@ impl Page<'_> {
             .collect::<Vec<_>>()
             .into_par_iter()
             .map(|left| {
+                self.cancel.look();
                 let wide = STRIP.min(width - left);
                 let mut strip: Vec<u16> = Vec::with_capacity(wide * height);
                 for row in distances.chunks_exact(width) {

@@ -2,6 +2,7 @@
 
 use glam::{DMat2, DVec2, UVec2};
 use rayon::prelude::*;
+use sabi_cancel::Cancel;
 
 use super::charts::Partition;
 use super::place::Placement;
@@ -51,8 +52,10 @@ enum Outcome {
 
 /// Links all ghosts, in their order.
 pub(super) fn link(walker: &Walker, pages: &Pages, anchored: &[AnchoredGhost]) -> Links {
+    let cancel = Cancel::current();
     let linked: Vec<(Ghost, Outcome)> = anchored
         .par_iter()
+        .inspect(|_| cancel.look())
         .map(|anchored| pages.link(walker, anchored))
         .collect();
     let count = |is_counted: fn(&Outcome) -> bool| linked.iter().filter(|linked| is_counted(&linked.1)).count() as u32;

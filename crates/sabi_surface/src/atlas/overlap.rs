@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
+use sabi_cancel::{Cancel, look};
 
 use super::PAIRS_LIMIT;
 use super::charts::sheet_of;
@@ -74,6 +75,7 @@ fn claims_of_tiles<'m>(charts: &'m ChartSet, numbers: &[usize], size: u32) -> Ve
         covering.iter().map(|&chart| (own(chart), Vec::new())).collect();
     let tiles: BTreeSet<[i32; 2]> = squares.keys().copied().collect();
     for chart in covering {
+        look();
         let home = |tile: [i32; 2]| if tiles.contains(&tile) { tile } else { own(chart) };
         for (tile, mask) in charts.masks[chart].by_tile(size, home) {
             squares.entry(tile).or_default().push(Claim { chart, mask });
@@ -96,6 +98,7 @@ fn overlap_of_sheet(
     for claims in squares.iter().filter(|claims| claims.len() > 1) {
         let mut square = Square::new(size);
         for claim in claims {
+            look();
             square.claim(&Wrapped::new(&claim.mask, size));
         }
         if square.twice.iter().all(|&word| word == 0) {
@@ -128,6 +131,7 @@ fn overlap_of_sheet(
 fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
     let mut candidates = Vec::new();
     'all: for (index, (_, a)) in crowded.iter().enumerate() {
+        look();
         for (other, (_, b)) in crowded.iter().enumerate().skip(index + 1) {
             if a.near(b) {
                 candidates.push((index, other));
@@ -137,8 +141,10 @@ fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
             }
         }
     }
+    let cancel = Cancel::current();
     let shared: Vec<u64> = candidates
         .par_iter()
+        .inspect(|_| cancel.look())
         .map(|&(a, b)| crowded[a].1.shared(&crowded[b].1))
         .collect();
     let listed = candidates.iter().zip(shared).filter(|&(_, shared)| shared > 0);
@@ -160,6 +166,7 @@ fn coinciding(
     let mut seen = BTreeSet::new();
     let mut stacked = BTreeSet::new();
     for chart in numbers {
+        look();
         let tile = if are_tiles {
             [0; 2]
         } else {

@@ -1,6 +1,7 @@
 //! Owners: the triangle of every texel whose center a chart covers.
 
 use rayon::prelude::*;
+use sabi_cancel::{Cancel, Looking as _};
 
 use super::EMPTY;
 use super::charts::Partition;
@@ -26,6 +27,7 @@ pub(super) fn texel_owners(uvs: &Uvs, partition: &Partition, placement: &Placeme
         uvs.fixed(triangle)
             .map(|corner| [corner[0] + x * UNIT, corner[1] + y * UNIT])
     };
+    let cancel = Cancel::current();
     let bands = bands(partition.triangle_chart.len() as u32, rows, corners);
     owners
         .par_chunks_mut(width * BAND_ROWS)
@@ -35,6 +37,7 @@ pub(super) fn texel_owners(uvs: &Uvs, partition: &Partition, placement: &Placeme
             let bottom = top + (owners.len() / width) as i64;
             // Backwards, so that the lowest number is written last.
             for &triangle in bands.members(band).iter().rev() {
+                cancel.look();
                 spans(corners(triangle), (top, bottom), |y, x0, x1| {
                     let start = (y - top) as usize * width;
                     owners[start + x0 as usize..start + x1 as usize].fill(triangle);
@@ -56,7 +59,7 @@ fn bands(triangles: u32, rows: usize, corners: impl Fn(u32) -> [[i64; 2]; 3] + S
         })
         .collect();
     Groups::new(count, |member| {
-        for (triangle, &(first, last)) in reach.iter().enumerate() {
+        for (triangle, &(first, last)) in reach.iter().enumerate().looking() {
             (first..=last).for_each(|band| member(band as usize, triangle as u32));
         }
     })

@@ -1,6 +1,7 @@
 //! Placement of charts: whole texels away from their place in the user's layout, so that export is a copy.
 
 use rayon::prelude::*;
+use sabi_cancel::look;
 
 use super::mask::Mask;
 use super::pack::{CellPosition, Packer};
@@ -88,6 +89,7 @@ fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
     }
     let mut taken = Mask::empty([0, 0], page, page);
     for mask in masks {
+        look();
         let grown = mask.grown();
         let [x, y] = grown.origin.map(|value| value + i64::from(margin));
         for (row, bits) in grown.rows().enumerate() {
@@ -146,6 +148,7 @@ fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
     });
     let mut charts = vec![Place::default(); masks.len()];
     for chart in order {
+        look();
         let (origin, shape) = &grown[chart];
         let CellPosition { page, column, row } = packer.place(shape);
         let offset = [i64::from(column * cell) - origin[0], i64::from(row * cell) - origin[1]];

@@ -1,6 +1,7 @@
 //! Rings: the texels around charts that become ghosts, each with its anchor, the owned texel that its walk starts from.
 
 use rayon::prelude::*;
+use sabi_cancel::Cancel;
 
 use super::mask::{for_each_run, or_shifted};
 use super::{EMPTY, RINGS, TILE, TileRef};
@@ -79,6 +80,7 @@ impl Occupancy {
     /// Returns all ghosts with their anchors, in the order of their texels. Triangles for which `prefer` returns true
     /// are anchors before all others.
     pub(super) fn anchored(&self, owners: &[u32], prefer: impl Fn(u32) -> bool + Sync) -> Vec<AnchoredGhost> {
+        let cancel = Cancel::current();
         let offsets = neighborhood();
         let bands: Vec<usize> = (0..self.rows()).step_by(BAND_ROWS).collect();
         let found: Vec<Vec<AnchoredGhost>> = bands
@@ -86,6 +88,7 @@ impl Occupancy {
             .map(|top| {
                 let mut found = Vec::new();
                 for row in top..(top + BAND_ROWS).min(self.rows()) {
+                    cancel.look();
                     let mut ring = self.grown_row(row);
                     ring.iter_mut()
                         .zip(self.row(row))

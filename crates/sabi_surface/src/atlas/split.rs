@@ -1,5 +1,6 @@
 //! Splitting of charts that overlap themselves.
 
+use sabi_cancel::look;
 use std::collections::VecDeque;
 
 use super::charts::Partition;
@@ -37,6 +38,7 @@ impl Splitter<'_> {
             queued[start] = true;
             let mut queue = VecDeque::from([start]);
             while let Some(at) = queue.pop_front() {
+                look();
                 let triangle = triangles[at];
                 if triangle != seed && !self.fits(&grid, triangle) {
                     continue;

@@ -1,6 +1,7 @@
 //! Half-edges of a mesh, paired in space regardless of texture coordinates.
 
 use rayon::prelude::*;
+use sabi_cancel::{Cancel, Looking as _};
 
 use crate::model::Mesh;
 
@@ -32,7 +33,7 @@ impl Topology {
             .map(|&vertex| welded[vertex as usize])
             .collect();
         let mut edges: Vec<(u64, u32)> = Vec::with_capacity(corners.len());
-        for (triangle, corner) in corners.chunks_exact(3).enumerate() {
+        for (triangle, corner) in corners.chunks_exact(3).enumerate().looking() {
             let [a, b, c] = [corner[0], corner[1], corner[2]];
             // A triangle with two corners at one position is a line, whose two other edges coincide. It is left out, so that
             // its neighbors become twins.
@@ -44,14 +45,18 @@ impl Topology {
                 edges.push((key, (triangle * 3 + k) as u32));
             }
         }
-        edges.par_sort_unstable();
+        let cancel = Cancel::current();
+        edges.par_sort_unstable_by(|a, b| {
+            cancel.look();
+            a.cmp(b)
+        });
         let mut topology = Topology {
             twins: vec![NO_TWIN; corners.len()],
             corners,
             border_edges: 0,
             nonmanifold_edges: 0,
         };
-        for group in edges.chunk_by(|a, b| a.0 == b.0) {
+        for group in edges.chunk_by(|a, b| a.0 == b.0).looking() {
             match group {
                 [_] => topology.border_edges += 1,
                 [(_, a), (_, b)] => topology.join(*a, *b),
@@ -102,9 +107,13 @@ fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
         .enumerate()
         .map(|(vertex, position)| (position.map(|value| (value + 0.0).to_bits()), vertex as u32))
         .collect();
-    order.par_sort_unstable();
+    let cancel = Cancel::current();
+    order.par_sort_unstable_by(|a, b| {
+        cancel.look();
+        a.cmp(b)
+    });
     let mut welded = vec![0; positions.len()];
-    for group in order.chunk_by(|a, b| a.0 == b.0) {
+    for group in order.chunk_by(|a, b| a.0 == b.0).looking() {
         for &(_, vertex) in group {
             welded[vertex as usize] = group[0].1;
         }

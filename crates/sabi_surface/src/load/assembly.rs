@@ -1,5 +1,6 @@
 //! Meshes, their instances and materials, as formats other than glTF have them, become a [`Model`].
 
+use sabi_cancel::look;
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DMat4;
@@ -125,6 +126,7 @@ impl Assembly {
             let part = model.parts.len() as u32;
             let mut dropped = 0;
             for submesh in &self.meshes[instance.mesh] {
+                look();
                 let mut placed = submesh.placed(world_from_file * instance.file_from_mesh);
                 lost += placed.drop_broken();
                 blurred += placed.blurred;

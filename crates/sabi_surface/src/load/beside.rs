@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, is_local, read_plain};
+use sabi_files::{FolderSearch, PathBase, Refusal, TrustedPaths, Unread, is_local, read_plain};
 
 use super::error::{Fault, mib};
-use super::{MAX_FILE_BYTES, reason, reason_beside};
+use super::{LoadOptions, MAX_FILE_BYTES, reason, reason_beside};
 
 /// Most paths of missing files, and most refusals, that are recorded.
 const MOST_RECORDED: usize = 256;
@@ -19,6 +19,8 @@ const MOST_LISTINGS: usize = 1000;
 pub(super) struct FilesBeside<'t> {
     base: PathBase,
     trusted: &'t TrustedPaths,
+    /// Folder in which files are looked for that are not where the model says.
+    elsewhere: Option<FolderSearch>,
     /// Files that were read, in their order, as they were found.
     pub(super) files: Vec<PathBuf>,
     /// Places of files that do not exist.
@@ -37,12 +39,13 @@ pub(super) struct FilesBeside<'t> {
 
 impl<'t> FilesBeside<'t> {
     /// Reads the model's own file first, which is returned with the reader of the others. All files together have at most
-    /// `memory_bytes`.
+    /// the memory of the options.
     pub(super) fn of_model(
         path: &Path,
         trusted: &'t TrustedPaths,
-        memory_bytes: u64,
+        options: &LoadOptions,
     ) -> Result<(Vec<u8>, FilesBeside<'t>), Fault> {
+        let memory_bytes = options.memory_bytes;
         let bytes = read_plain(path, memory_bytes.min(MAX_FILE_BYTES)).map_err(|unread| match unread {
             Unread::TooLarge(needed) if needed <= MAX_FILE_BYTES => Fault::memory(needed, memory_bytes),
             unread => reason(unread).map_or(Fault::NoFile, Fault::Unreadable),
@@ -50,6 +53,7 @@ impl<'t> FilesBeside<'t> {
         let beside = FilesBeside {
             base: PathBase::of_file(path),
             trusted,
+            elsewhere: options.textures.as_deref().map(FolderSearch::new),
             files: vec![path.to_owned()],
             absent: Vec::new(),
             refused: Vec::new(),
@@ -96,7 +100,13 @@ impl<'t> FilesBeside<'t> {
             }
             found => found,
         };
-        let (file, place) = found?;
+        let (file, place) = match (found, &mut self.elsewhere) {
+            (Err(Unread::Missing), Some(elsewhere)) => {
+                let place = elsewhere.find(self.trusted, written)?;
+                (self.trusted.check_found(&place)?, place)
+            }
+            (found, _) => found?,
+        };
         if let Some(known) = self.known.get(&file) {
             return Ok(known.clone());
         }

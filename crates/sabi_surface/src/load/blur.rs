@@ -1,6 +1,7 @@
 //! Triangles that lose their shape, since positions of 32 bits are too coarse for them so far from the origin.
 
 use glam::DVec3;
+use sabi_cancel::Looking as _;
 
 use super::warnings::{TRIANGLES, Warnings, counted};
 
@@ -20,7 +21,7 @@ pub(super) fn blurred(triangles: &[[u32; 3]], exact: impl Fn(usize) -> DVec3, er
         // A triangle without any edge has no shape to lose.
         longest > 0.0 && moved.is_finite() && moved > MOST_MOVED * longest
     };
-    let count = triangles.iter().filter(is_blurred).count();
+    let count = triangles.iter().looking().filter(is_blurred).count();
     if count as f64 >= TOLD * triangles.len() as f64 {
         count
     } else {
@@ -38,7 +39,7 @@ pub(super) struct StorageErrors {
 impl StorageErrors {
     pub(super) fn of(stored: impl Iterator<Item = [f32; 3]>) -> StorageErrors {
         let mut half_steps = [0.0; 3];
-        for at in stored {
+        for at in stored.looking() {
             for (most, x) in half_steps.iter_mut().zip(at) {
                 if x.to_bits() & 1 == 1 {
                     *most = half_step(x).max(*most);

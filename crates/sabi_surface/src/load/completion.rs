@@ -1,5 +1,6 @@
 //! Completion of triangles that were read: what is invalid is repaired, and what the file leaves out is computed.
 
+use sabi_cancel::look;
 use std::collections::BTreeSet;
 
 use super::blur::warn_of_storage;
@@ -31,6 +32,7 @@ impl Completion {
         who: &str,
         warnings: &mut Warnings,
     ) -> bool {
+        look();
         warn_of_storage(submesh.blurred_by_file, who, warnings);
         let dropped = submesh.drop_broken();
         if dropped > 0 {
@@ -59,6 +61,7 @@ impl Completion {
                 self.repaired_normals
             ));
         }
+        look();
         let has_own_tangents = tangents::complete(submesh, who, warnings);
         for index in 0..submesh.texture_uvs.len() {
             if framed.contains(&submesh.texture_uvs[index].set) {

@@ -1,5 +1,6 @@
 //! Faces of any number of corners, with attributes that have indices of their own, and the triangles that they become.
 
+use sabi_cancel::{Cancel, Looking as _};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -57,7 +58,11 @@ impl<const N: usize> Attribute<N> {
         // + 0.0 turns −0 into 0.
         let bits = |value: u32| self.values[value as usize].map(|x| (x + 0.0).to_bits());
         let mut order: Vec<u32> = (0..self.values.len() as u32).collect();
-        order.sort_unstable_by_key(|value| (bits(*value), *value));
+        let cancel = Cancel::current();
+        order.sort_unstable_by_key(|value| {
+            cancel.look();
+            (bits(*value), *value)
+        });
         let mut first = vec![0; order.len()];
         for run in order.chunk_by(|a, b| bits(*a) == bits(*b)) {
             for value in run {
@@ -79,7 +84,10 @@ impl<const N: usize> Attribute<N> {
             let value = self.corners.get(*corner as usize);
             value.and_then(|value| self.values.get(*value as usize)).copied()
         };
-        at.iter().map(|corner| value(corner).unwrap_or(otherwise)).collect()
+        at.iter()
+            .looking()
+            .map(|corner| value(corner).unwrap_or(otherwise))
+            .collect()
     }
 
     /// Numbers of the values of the corners; `None` where the file does not have the attribute.
@@ -130,7 +138,7 @@ impl Faces {
             ..Submesh::default()
         };
         let mut outline: Vec<[f32; 3]> = Vec::new();
-        for face in &self.faces {
+        for face in self.faces.iter().looking() {
             let before = submesh.triangles.len();
             let numbers = &vertices[face.corners.clone()];
             outline.clear();
@@ -178,7 +186,7 @@ impl Faces {
 fn renumbered(vertices: &mut [u32], number: impl Fn(usize) -> u32) -> Vec<u32> {
     let mut known: HashMap<(u32, u32), u32> = HashMap::new();
     let mut first_corners = Vec::new();
-    for (corner, vertex) in vertices.iter_mut().enumerate() {
+    for (corner, vertex) in vertices.iter_mut().enumerate().looking() {
         *vertex = *known.entry((*vertex, number(corner))).or_insert_with(|| {
             first_corners.push(corner as u32);
             first_corners.len() as u32 - 1

@@ -14,7 +14,10 @@ mod textures;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use ufbx::{AllocatorOpts, ErrorType, FileFormat, LoadOpts, MirrorAxis, OpenFileCb, WarningType};
+use sabi_cancel::{Cancel, look};
+use ufbx::{
+    AllocatorOpts, ErrorType, FileFormat, LoadOpts, MirrorAxis, OpenFileCb, ProgressCb, ProgressResult, WarningType,
+};
 
 use self::material::Looks;
 use super::LoadOptions;
@@ -84,6 +87,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let sets = assembly.texture_sets(sources.len());
     let mut budget = Budget::default();
     for (source, sets) in sources.iter().zip(&sets) {
+        look();
         assembly.uv_sets.extend(0..source.mesh.uv_sets.len() as u32);
         let reader = mesh::Reader { options, sets };
         let submesh = reader.read(source, &mut budget, &mut warnings);
@@ -143,6 +147,12 @@ fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
         ..AllocatorOpts::default()
     };
     let no_file = |_: &str, _: &ufbx::OpenFileInfo| None;
+    let cancel = Cancel::current();
+    // Nothing unwinds through the library, which is written in C.
+    let go_on = |_: &ufbx::Progress| match cancel.is_made() {
+        true => ProgressResult::Cancel,
+        false => ProgressResult::Continue,
+    };
     let options = LoadOpts {
         temp_allocator: limited(),
         result_allocator: limited(),
@@ -153,6 +163,7 @@ fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
         force_single_thread_ascii_parsing: true,
         generate_missing_normals: true,
         open_file_cb: OpenFileCb::Ref(&no_file),
+        progress_cb: ProgressCb::Ref(&go_on),
         target_axes: ufbx::CoordinateAxes::right_handed_y_up(),
         target_unit_meters: 1.0,
         // Up and front stay where they are.
@@ -162,7 +173,9 @@ fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
         no_format_from_extension: true,
         ..LoadOpts::default()
     };
-    ufbx::load_memory(bytes, options).or_else(|error| match error.type_ {
+    let loaded = ufbx::load_memory(bytes, options);
+    cancel.look();
+    loaded.or_else(|error| match error.type_ {
         ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
             damaged("it promises more data than a file of its size has")
         }

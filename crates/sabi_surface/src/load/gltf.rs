@@ -18,6 +18,7 @@ mod tidy;
 mod unpacked;
 mod uv_decoding;
 
+use sabi_cancel::look;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -109,6 +110,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         blurred: 0,
     };
     for instance in &instances {
+        look();
         placing.place(instance, primitives.get(&instance.mesh).into_iter().flatten());
     }
     let Placing {
@@ -226,6 +228,7 @@ impl Placing<'_> {
         let world_from_mesh = self.world_from_file * instance.file_from_mesh;
         let mut dropped = 0;
         for (number, primitive) in primitives.enumerate() {
+            look();
             let mut placed = primitive.submesh.placed(world_from_mesh);
             self.lost += placed.drop_broken();
             self.blurred += placed.blurred;

@@ -1,6 +1,7 @@
 //! Normals that a file leaves out: flat (glTF's rule), or smooth up to a crease angle; and those that replace its own.
 
 use glam::{DVec3, Vec3};
+use sabi_cancel::{Cancel, Looking as _};
 
 use super::submesh::{MadeNormals, Smoothing, Submesh};
 use super::unit_vector::unit;
@@ -117,6 +118,7 @@ pub(super) fn follow_turned(submesh: &mut Submesh, is_turned: &[bool]) {
 
 fn face_normals(submesh: &Submesh) -> Vec<DVec3> {
     (0..submesh.triangles.len())
+        .looking()
         .map(|triangle| face_normal(submesh, triangle))
         .collect()
 }
@@ -136,8 +138,12 @@ fn face_normal(submesh: &Submesh, triangle: usize) -> DVec3 {
 fn smooth(submesh: &Submesh, faces: &[DVec3], is_smooth: impl Fn(usize, usize) -> bool) -> Vec<DVec3> {
     let mut corner_sets = DisjointSets((0..submesh.triangles.len() as u32 * 3).collect());
     let mut edges = directed_edges(submesh);
-    edges.sort_unstable();
-    for run in edges.chunk_by(|a, b| a.ends == b.ends) {
+    let cancel = Cancel::current();
+    edges.sort_unstable_by(|a, b| {
+        cancel.look();
+        a.cmp(b)
+    });
+    for run in edges.chunk_by(|a, b| a.ends == b.ends).looking() {
         for pair in run.windows(2) {
             let [first, second] = [pair[0].triangle as usize, pair[1].triangle as usize];
             if is_smooth(first, second) {
@@ -147,7 +153,7 @@ fn smooth(submesh: &Submesh, faces: &[DVec3], is_smooth: impl Fn(usize, usize) -
         }
     }
     let mut sums = vec![DVec3::ZERO; faces.len() * 3];
-    for (triangle, face) in faces.iter().enumerate() {
+    for (triangle, face) in faces.iter().enumerate().looking() {
         let at = corners_of(submesh, triangle);
         for corner in 0..3 {
             let [here, next, last] = [at[corner], at[(corner + 1) % 3], at[(corner + 2) % 3]];
@@ -185,7 +191,7 @@ struct Edge {
 fn directed_edges(submesh: &Submesh) -> Vec<Edge> {
     let first_at = submesh.first_at_position();
     let mut edges = Vec::with_capacity(submesh.triangles.len() * 3);
-    for (triangle, corners) in submesh.triangles.iter().enumerate() {
+    for (triangle, corners) in submesh.triangles.iter().enumerate().looking() {
         let triangle = triangle as u32;
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let mut ends = [

@@ -1,5 +1,6 @@
 //! Pictures that materials name, as formats other than glTF have them.
 
+use sabi_cancel::look;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -108,6 +109,7 @@ fn bytes(place: Place, resolve: &mut Resolve) -> Result<Arc<[u8]>, String> {
         first_reason = Some("it stands for a picture of each UV tile (UDIM), and one for all is read".to_owned());
     }
     for path in paths {
+        look();
         match resolve(&path) {
             Ok(bytes) => return Ok(bytes),
             Err(reason) => {

@@ -9,6 +9,7 @@
 mod body;
 mod header;
 
+use sabi_cancel::Looking as _;
 use std::collections::BTreeSet;
 
 use glam::DMat4;
@@ -176,7 +177,7 @@ impl Reader<'_, '_> {
         self.faces.is_single =
             self.header.encoding != Encoding::Text && (0..3).all(|axis| kind_of(axis) == Some(Kind::F32));
         let mut row = Vec::new();
-        for _ in 0..element.count {
+        for _ in (0..element.count).looking() {
             body.row(element, &mut row)?;
             let number = |place: Option<usize>| match place.and_then(|place| row.get(place)) {
                 Some(Value::Number(number)) => *number,
@@ -206,7 +207,7 @@ impl Reader<'_, '_> {
         let lone_texture = !self.header.pictures.is_empty();
         let mut row = Vec::new();
         let mut triangles = 0u64;
-        for face in 0..element.count {
+        for face in (0..element.count).looking() {
             body.row(element, &mut row)?;
             let Some(Value::List(corners)) = row.get(indices) else {
                 return damaged("the `vertex_indices` of its faces are no list");

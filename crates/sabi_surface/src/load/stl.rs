@@ -4,6 +4,7 @@
 //! read. Corners at exactly one position are one vertex. The format has no units and no axis that points up: lengths are taken
 //! as they are.
 
+use sabi_cancel::Looking as _;
 use std::collections::{BTreeSet, HashMap};
 
 use glam::DMat4;
@@ -170,7 +171,7 @@ fn read_binary(bytes: &[u8], memory_bytes: u64, warnings: &mut Warnings) -> Resu
     }
     let mut solid = Solid::default();
     solid.faces.is_single = true;
-    for facet in facets {
+    for facet in facets.iter().looking() {
         let numbers: &[[u8; 4]] = facet.as_chunks().0;
         // The first three numbers are a normal.
         let (corners, _) = numbers[3..].as_chunks::<3>();

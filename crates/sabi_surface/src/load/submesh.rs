@@ -1,5 +1,6 @@
 //! Triangles that become part of a [`Mesh`]: repaired, completed, placed.
 
+use sabi_cancel::{Cancel, Looking as _};
 use std::collections::HashMap;
 
 use glam::{DMat4, DVec3, Vec3};
@@ -144,7 +145,11 @@ impl Submesh {
         // + 0.0 turns −0 into 0.
         let bits = |vertex: u32| self.positions[vertex as usize].map(|x| (x + 0.0).to_bits());
         let mut order: Vec<u32> = (0..self.positions.len() as u32).collect();
-        order.sort_unstable_by_key(|vertex| (bits(*vertex), *vertex));
+        let cancel = Cancel::current();
+        order.sort_unstable_by_key(|vertex| {
+            cancel.look();
+            (bits(*vertex), *vertex)
+        });
         let mut first_at = vec![0; self.positions.len()];
         for run in order.chunk_by(|a, b| bits(*a) == bits(*b)) {
             for vertex in run {
@@ -161,7 +166,8 @@ impl Submesh {
         let mut origins: Vec<u32> = Vec::new();
         let mut values: Vec<Option<[f32; N]>> = vec![None; count];
         let mut split: HashMap<(u32, [u32; N]), u32> = HashMap::new();
-        for (corner, value) in self.triangles.as_flattened_mut().iter_mut().zip(corners) {
+        let all = self.triangles.as_flattened_mut().iter_mut().zip(corners);
+        for (corner, value) in all.looking() {
             let bits = value.map(f32::to_bits);
             match values[*corner as usize] {
                 None => values[*corner as usize] = Some(*value),
@@ -206,19 +212,19 @@ impl Submesh {
         let [a, b, c] = [linear.x_axis, linear.y_axis, linear.z_axis];
         let normal_from_normal = glam::DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * sign;
         let exact = |vertex: usize| world_from_mesh.transform_point3(Vec3::from(self.positions[vertex]).as_dvec3());
-        for (vertex, at) in placed.positions.iter_mut().enumerate() {
+        for (vertex, at) in placed.positions.iter_mut().enumerate().looking() {
             *at = exact(vertex).as_vec3().into();
         }
         let error = |vertex: usize| exact(vertex).distance(Vec3::from(placed.positions[vertex]).as_dvec3());
         placed.blurred = self.blurred.max(blurred(&self.triangles, exact, error));
-        for normal in &mut placed.normals {
+        for normal in placed.normals.iter_mut().looking() {
             // A singular transform leaves no direction; the normal of the file stays.
             *normal = unit(normal_from_normal * Vec3::from(*normal).as_dvec3()).unwrap_or(*normal);
         }
         let others = placed.texture_uvs.iter_mut().map(|other| &mut other.tangents);
         let frames = std::iter::once(&mut placed.tangents).chain(others);
         let with_normals = frames.flat_map(|tangents| tangents.iter_mut().zip(&placed.normals));
-        for (tangent, normal) in with_normals {
+        for (tangent, normal) in with_normals.looking() {
             let [x, y, z, w] = *tangent;
             let turned = linear * Vec3::new(x, y, z).as_dvec3();
             let [x, y, z] = unit(turned).unwrap_or_else(|| perpendicular(*normal));

@@ -2,6 +2,7 @@
 
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use glam::Vec3;
+use sabi_cancel::Cancel;
 
 use super::submesh::Submesh;
 use super::unit_vector::{perpendicular, unit};
@@ -65,6 +66,7 @@ fn mikktspace(submesh: &Submesh) -> Option<Vec<[f32; 4]>> {
         uvs_scale: power_of_two_scale(submesh.uvs.as_flattened()),
         submesh,
         tangents: vec![[0.0; 4]; submesh.triangles.len() * 3],
+        cancel: Cancel::current(),
     };
     generate_tangents(&mut corners).ok()?;
     Some(corners.tangents)
@@ -122,6 +124,7 @@ struct Corners<'a> {
     uvs_scale: f32,
     /// Three a triangle.
     tangents: Vec<[f32; 4]>,
+    cancel: Cancel,
 }
 
 impl Corners<'_> {
@@ -140,6 +143,8 @@ impl Geometry for Corners<'_> {
     }
 
     fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+        // Asked for all the time, so that the crate can be left.
+        self.cancel.look();
         self.submesh.positions[self.vertex(face, corner)].map(|x| x * self.positions_scale)
     }
 

@@ -1,5 +1,6 @@
 //! Text files of old and new programs.
 
+use sabi_cancel::Looking as _;
 use std::borrow::Cow;
 
 /// Text in UTF-8, or in UTF-16 where it says so, or else in Latin-1, which old programs write: names stay distinct.
@@ -14,7 +15,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
         [0xef, 0xbb, 0xbf, text @ ..] => String::from_utf8_lossy(text),
         _ => match std::str::from_utf8(bytes) {
             Ok(text) => Cow::Borrowed(text),
-            Err(_) => Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect()),
+            Err(_) => Cow::Owned(bytes.iter().looking().map(|byte| char::from(*byte)).collect()),
         },
     }
 }
@@ -31,7 +32,7 @@ pub(super) fn unmarked(bytes: &[u8]) -> Cow<'_, [u8]> {
 /// The lines of a text, each of which may end as those of any system do.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = text;
-    std::iter::from_fn(move || {
+    let lines = std::iter::from_fn(move || {
         if rest.is_empty() {
             return None;
         }
@@ -42,7 +43,8 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
             .or_else(|| after.strip_prefix(['\n', '\r']))
             .unwrap_or(after);
         Some(line)
-    })
+    });
+    lines.looking()
 }
 
 /// The bytes of a text whose lines end in a carriage return alone with line feeds instead.

@@ -1,6 +1,7 @@
 //! Connected components of the triangles of each part.
 
 use glam::{DVec3, Vec3};
+use sabi_cancel::Looking as _;
 
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
@@ -36,7 +37,7 @@ pub(super) fn triangle_pieces(mesh: &Mesh, topology: &Topology) -> Vec<u32> {
         parents: (0..count).collect(),
     };
     let part = |triangle: u32| mesh.triangle_part[triangle as usize];
-    for (edge, &twin) in topology.twins.iter().enumerate() {
+    for (edge, &twin) in topology.twins.iter().enumerate().looking() {
         let (own, other) = (edge as u32 / 3, twin / 3);
         if twin != NO_TWIN && part(own) == part(other) {
             sets.join(own, other);
@@ -46,7 +47,7 @@ pub(super) fn triangle_pieces(mesh: &Mesh, topology: &Topology) -> Vec<u32> {
     join_lines(mesh, topology, &mut sets);
     let mut numbers = vec![0; count as usize];
     let mut next = 0;
-    for triangle in 0..count {
+    for triangle in (0..count).looking() {
         let first = sets.first(triangle);
         if first == triangle {
             numbers[triangle as usize] = next;
@@ -66,7 +67,7 @@ fn is_line(topology: &Topology, triangle: usize) -> bool {
 /// Joins triangles at nonmanifold edges within a part, where solids touch: pairs that bound the same solid.
 fn join_nonmanifold(mesh: &Mesh, topology: &Topology, sets: &mut DisjointSets) {
     let mut open: Vec<(u32, u64, u32)> = Vec::new();
-    for (edge, &twin) in topology.twins.iter().enumerate() {
+    for (edge, &twin) in topology.twins.iter().enumerate().looking() {
         let triangle = edge / 3;
         if twin == NO_TWIN && !is_line(topology, triangle) {
             let [low, high] = ends(topology, edge as u32);

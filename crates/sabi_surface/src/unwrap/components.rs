@@ -1,5 +1,6 @@
 //! Connected components of a mesh, and similar ones among them: copies that were moved, rotated or scaled.
 
+use sabi_cancel::{Looking as _, look};
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
@@ -29,7 +30,7 @@ pub(super) fn components(mesh: &Mesh) -> Vec<Component> {
     let topology = Topology::new(mesh);
     let mut component_of = vec![u32::MAX; mesh.triangles.len()];
     let mut groups: Vec<Vec<u32>> = Vec::new();
-    for first in 0..mesh.triangles.len() as u32 {
+    for first in (0..mesh.triangles.len() as u32).looking() {
         if component_of[first as usize] != u32::MAX || area(mesh, first) <= 0.0 {
             continue;
         }
@@ -40,6 +41,7 @@ pub(super) fn components(mesh: &Mesh) -> Vec<Component> {
         while next < members.len() {
             let triangle = members[next];
             next += 1;
+            look();
             for edge in 3 * triangle..3 * triangle + 3 {
                 let twin = topology.twins[edge as usize];
                 if twin == NO_TWIN {
@@ -118,6 +120,7 @@ fn numbered(mesh: &Mesh, triangles: Vec<u32>, first: &[u32], local: &mut [u32]) 
 fn find_similar(mesh: &Mesh, topology: &Topology, components: &mut [Component]) {
     let mut first_of: BTreeMap<[u8; 32], Vec<usize>> = BTreeMap::new();
     for index in 0..components.len() {
+        look();
         let candidates = first_of.entry(connectivity(&components[index], topology)).or_default();
         let lengths = edge_lengths(mesh, &components[index]);
         let found = candidates

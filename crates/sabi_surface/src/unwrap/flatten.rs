@@ -1,5 +1,6 @@
 //! Components cut into charts and flattened, by the crate `uvunwrap`.
 
+use sabi_cancel::Cancel;
 use std::collections::BTreeMap;
 
 use glam::{DVec2, Vec3};
@@ -40,8 +41,10 @@ pub(super) struct Flattened {
 pub(super) fn flatten(mesh: &Mesh, components: &[Component]) -> Flattened {
     let is_first = |&index: &usize| components[index].similar_to.0 == index;
     let firsts: Vec<usize> = (0..components.len()).filter(is_first).collect();
+    let cancel = Cancel::current();
     let flattened: Vec<(Vec<LocalChart>, Option<String>)> = firsts
         .par_iter()
+        .inspect(|_| cancel.look())
         .map(|&index| charts_of(mesh, &components[index]))
         .collect();
     let mut charts = Vec::new();

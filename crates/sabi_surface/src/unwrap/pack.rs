@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
+use sabi_cancel::look;
 
 use super::area::{area, flat_area};
 use super::flatten::FlatChart;
@@ -186,6 +187,7 @@ fn largest(shapes: &[Shape], total: f64, size: u32) -> Option<Packing> {
 
 /// Packs the shapes at a scale; `None` when they do not fit.
 fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
+    look();
     let room = f64::from(size - GAP.min(size - 1));
     if shapes.iter().any(|shape| shape.side.max_element() * scale > room) {
         return None;
@@ -214,6 +216,7 @@ fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
     let mut packer = Packer::with_columns(limit, limit);
     let mut places = vec![(0, DVec2::ZERO); shapes.len()];
     for index in order {
+        look();
         let found = turned[index].each_ref().map(|mask| packer.find(mask));
         // The turn that ends highest leaves the most room below.
         let reach = |turns: usize| (found[turns].page, found[turns].row + turned[index][turns].height, turns);

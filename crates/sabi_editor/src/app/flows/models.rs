@@ -74,10 +74,28 @@ impl Editor {
         self.evaluation.model.replace(&file, reading);
     }
 
-    /// Shows the model again that was there before the one that is being read.
+    /// Reads the requested model no further: the one before it is shown again, or a built-in one in place of the first.
     pub(in crate::app) fn cancel_reading(&mut self) {
         if let Some((file, reading)) = self.evaluation.model.cancel() {
-            self.keep_reading(&file, &reading);
+            return self.keep_reading(&file, &reading);
+        }
+        if self.evaluation.model.is_first() {
+            self.cancel_first();
+        }
+    }
+
+    /// Shows a built-in model in place of the first one, which is being read.
+    fn cancel_first(&mut self) {
+        match self.documents.folders.first_model() {
+            Ok(instead) => {
+                let left = file_stem(self.evaluation.model.file()).into_owned();
+                let reading = self.reading(&instead);
+                self.evaluation.model.cancel_first(&instead, reading);
+                let instead = file_stem(&instead);
+                self.shell
+                    .notify(format!("{left} was not read; {instead} is shown. Read it in Problems."));
+            }
+            Err(error) => self.shell.fail(error.to_string()),
         }
     }
 

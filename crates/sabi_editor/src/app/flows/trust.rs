@@ -8,6 +8,7 @@ use sabi_engine::{PathBase, TrustedPaths, Value};
 
 use super::super::Editor;
 use crate::action::TrustAction;
+use crate::import_options::ImportOptions;
 use crate::paths::{canonical_if_present, model_of};
 
 impl Editor {
@@ -103,6 +104,15 @@ impl Editor {
 
     /// Names a file in place of one that is missing, and those beside it in place of others.
     pub(in crate::app) fn find_missing(&mut self, lost: &str, file: &Path) {
+        let model = self.evaluation.model.received.as_ref();
+        let is_texture = model.is_some_and(|model| model.linked.model.missing_pictures().contains(lost));
+        if is_texture
+            && !missing_files::missing(&self.documents.document)
+                .iter()
+                .any(|named| named == lost)
+        {
+            return self.look_for_textures_beside(file);
+        }
         let before = model_of(&self.documents.document.session);
         let found = missing_files::relocate(&mut self.documents.document, lost, file);
         if model_of(&self.documents.document.session) != before {
@@ -122,6 +132,23 @@ impl Editor {
             ),
         };
         self.shell.notify(sentence);
+    }
+
+    /// Has the pictures that the shown model lacks looked for in the folder of a file, and below it.
+    fn look_for_textures_beside(&mut self, file: &Path) {
+        let Some(folder) = file.parent().map(canonical_if_present) else {
+            return;
+        };
+        self.trust_model(&folder);
+        let reading = ImportOptions {
+            textures: Some(folder.clone()),
+            ..self.evaluation.model.import_options().clone()
+        };
+        self.read_model(reading);
+        self.shell.notify(format!(
+            "Missing pictures of the model are looked for in {}.",
+            folder.display()
+        ));
     }
 
     pub(in crate::app) fn set_image(&mut self, parameter: &KnobTarget, file: &Path) {

@@ -131,6 +131,37 @@ fn an_export_is_canceled_and_leaves_nothing() {
 }
 
 #[test]
+fn an_export_says_that_it_waits_for_another_bake_of_its_folder_and_can_be_canceled_meanwhile() {
+    let mut window = ready();
+    let own = window.path("maps").join(".sabi");
+    fs::create_dir_all(&own).expect("a folder");
+    let lock = fs::File::create(own.join("lock")).expect("a file");
+    lock.lock().expect("a lock, as another bake has it");
+    window.press("Export");
+    window.until("the sentence", |editor| {
+        let running = editor.exports.running.as_ref();
+        running.is_some_and(|running| running.waits_for().is_some())
+    });
+    assert!(
+        window.says("Waiting for another bake, which writes into"),
+        "{:?}",
+        window.labels()
+    );
+    window.press("Cancel");
+    window.until("the end", |editor| editor.exports.running.is_none());
+    assert!(maps_in(&window.path("maps")).is_empty());
+    window.press("Export");
+    window.until("the sentence", |editor| {
+        let running = editor.exports.running.as_ref();
+        running.is_some_and(|running| running.waits_for().is_some())
+    });
+    drop(lock);
+    window.until("the maps", |editor| editor.exports.running.is_none());
+    assert!(!window.says("Waiting for another bake"), "{:?}", window.labels());
+    assert!(!maps_in(&window.path("maps")).is_empty());
+}
+
+#[test]
 fn what_cannot_be_exported_says_why() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
     window.open(Panel::Export);

@@ -3,7 +3,7 @@
 use sabi_editing::nodes;
 use sabi_engine::Session;
 
-use super::{Window, open};
+use super::{Window, cube, open};
 
 impl Window {
     /// Destroys the device while nothing is uploaded to it, since wgpu 29 would deadlock.
@@ -32,7 +32,7 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     if let Some(kept) = handover.lock().expect("what was kept").as_mut() {
         kept.was_exporting = true;
     }
-    window.harness = open(Session::new(None), folders, handover);
+    window.harness = open(Session::new(None), folders.clone(), cube(&folders), handover);
     window.settle();
     assert_eq!(window.text(), muted);
     assert!(window.says("The textures were not written, since the graphics device was lost"));

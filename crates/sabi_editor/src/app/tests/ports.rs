@@ -43,8 +43,8 @@ fn ports_are_published_and_taken_back_by_their_menus() {
         ["n.position".parse().expect("an input")]
     );
     assert_eq!(ports::outputs(document)["mask_2"].to_string(), "n");
-    window.choose("Cells, output Mask, mask", "Remove the output 'mask_2'");
-    window.choose("Levels, input Source, mask", "Disconnect from the input 'where'");
+    window.choose("Cells, output Mask, mask", "Remove the output 'Mask 2'");
+    window.choose("Levels, input Source, mask", "Disconnect from the input 'Where'");
     let document = &window.editor().documents.document;
     assert!(!ports::outputs(document).contains_key("mask_2"));
     assert!(ports::inputs(document)["where"].to.is_empty());

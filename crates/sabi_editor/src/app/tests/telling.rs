@@ -158,6 +158,38 @@ fn a_missing_picture_is_found_again_with_the_model_that_lies_beside_it() {
 }
 
 #[test]
+fn lost_pictures_of_a_model_are_found_in_the_folder_of_one_of_them_which_the_graph_keeps() {
+    let mut window = Window::opened(CLOUDS);
+    window.until_model();
+    let moved = window.path("moved");
+    fs::create_dir_all(moved.join("deep")).expect("a folder");
+    let picture = image::RgbImage::from_pixel(2, 2, image::Rgb([200, 100, 50]));
+    for name in ["wood.png", "deep/rust.png"] {
+        picture.save(moved.join(name)).expect("a picture");
+    }
+    let look = "newmtl a\nmap_Kd old/wood.png\nnorm old/rust.png\n";
+    fs::write(window.path("textured.mtl"), look).expect("a material");
+    let model = format!("mtllib textured.mtl\nusemtl a\n{STACKED}");
+    window.shows("textured.obj", &model);
+    window.open(Panel::Problems);
+    assert!(window.says("There is no file wood.png") && window.says("There is no file rust.png"));
+    window.press("Find wood.png");
+    window.answer_path(&moved.join("wood.png"));
+    window.until("the pictures", |editor| {
+        let model = editor.evaluation.model.received.as_ref();
+        editor.evaluation.model.loaded().1
+            && model.is_some_and(|model| model.linked.model.missing_pictures().is_empty())
+    });
+    assert!(!window.says("There is no file"), "{:?}", window.labels());
+    window.keys(egui::Modifiers::COMMAND, egui::Key::S);
+    window.settle();
+    let saved = fs::read_to_string(window.path("graph.sabi")).expect("the graph");
+    assert!(saved.contains(r#""textures": "moved""#), "{saved}");
+    let mtl = fs::read_to_string(window.path("textured.mtl")).expect("the material");
+    assert_eq!(mtl, look, "the model's own files stay as they are");
+}
+
+#[test]
 fn each_graph_has_a_strip_of_models_of_its_own() {
     let mut window = Window::opened(CLOUDS);
     window.until_model();
@@ -201,6 +233,42 @@ fn write_grid(file: &Path, side: usize) {
         );
     }
     fs::write(file, text).expect("a model");
+}
+
+#[test]
+fn the_first_model_can_be_left_for_a_built_in_one_and_read_again_later() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folders = super::folders_in(folder.path());
+    let grid = folder.path().join("grid.obj");
+    write_grid(&grid, 400);
+    let mut window = Window::beginning_on(folder, folders, &grid, |folders| {
+        let file = super::beside(folders).join("graph.sabi");
+        let text = super::graph_text(CLOUDS).replacen("\"size\"", "\"mesh\": \"grid.obj\", \"size\"", 1);
+        fs::write(&file, text).expect("a graph");
+        Session::open(&file, None).expect("a graph that can be read")
+    });
+    window.settle();
+    assert!(window.editor().evaluation.model.is_first(), "it is being read");
+    window.press("Cancel reading the model");
+    window.until("another model", |editor| editor.evaluation.model.loaded().1);
+    assert_ne!(window.editor().evaluation.model.file(), grid);
+    assert!(window.editor().evaluation.model.file().ends_with("meshes/bench.glb"));
+    assert!(
+        window.says("Grid was not read; bench is shown"),
+        "{:?}",
+        window.labels()
+    );
+    window.keys(egui::Modifiers::COMMAND, egui::Key::S);
+    window.settle();
+    let saved = fs::read_to_string(window.path("graph.sabi")).expect("the graph");
+    assert!(saved.contains("grid.obj"), "the graph keeps its model: {saved}");
+    window.open(Panel::Problems);
+    assert!(window.says("grid, the model of the graph, was not read; bench stands in for it"));
+    window.press("Read grid again");
+    window.until("the grid", |editor| {
+        editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("grid.obj")
+    });
+    assert!(!window.says("stands in for it"));
 }
 
 #[test]

@@ -102,6 +102,9 @@ pub struct ModelRecipe {
     /// True to turn faces that are inside out, false to leave them even if the graph says otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn_faces: Option<bool>,
+    /// Folder in which files are looked for that the model names and that are not there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub textures: Option<String>,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
     /// Treatment of UVs in several tiles.
@@ -117,6 +120,15 @@ pub struct SetRecipe {
     /// The value, as graph files have it.
     #[serde(deserialize_with = "value")]
     pub value: Value,
+}
+
+impl ModelRecipe {
+    /// Paths from which the model may open what it names: its folder, and what the request named.
+    fn trusted(&self) -> TrustedPaths {
+        let own = TrustedPaths::of_file(&path_of(&self.file));
+        let textures = self.textures.as_deref().map(path_of);
+        textures.iter().fold(own, |trusted, folder| trusted.with_path(folder))
+    }
 }
 
 impl Recipe {
@@ -141,6 +153,7 @@ impl Recipe {
                 parts: model.reading.parts.parts.clone(),
                 without: model.reading.parts.without.clone(),
                 turn_faces: model.reading.turn_faces,
+                textures: model.reading.textures.as_deref().map(absolute_text),
                 overlap: model.overlap,
                 udim: model.udim,
             },
@@ -186,12 +199,13 @@ impl Recipe {
                             without: model.without.clone(),
                         },
                         turn_faces: model.turn_faces,
+                        textures: model.textures.as_deref().map(path_of),
                     },
                     overlap: model.overlap,
                     udim: model.udim,
                     size: self.size,
                     cache_dir,
-                    trusted: TrustedPaths::of_file(&path_of(&model.file)),
+                    trusted: model.trusted(),
                     memory_bytes: default_memory_bytes(),
                 },
                 overrides: Overrides {

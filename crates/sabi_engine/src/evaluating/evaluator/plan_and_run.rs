@@ -121,6 +121,7 @@ impl Evaluator {
             self.surface.for_sources(),
             self.graph.files(),
             (&self.ray_cache, self.kept_results.as_ref()),
+            progress,
         );
         let options = RunOptions {
             submission,

@@ -1,50 +1,57 @@
 //! Choices that a graph saves for reading its model.
 
-use sabi_files::canonical;
+use std::path::PathBuf;
+
+use sabi_files::{PathBase, canonical};
 use sabi_graph::Preview;
 use sabi_surface::load::PartChoice;
 
 use super::ModelOptions;
 use crate::opening::document::OpenGraph;
 
-/// Parts of a model that count, and treatment of faces that are inside out: what is wrong with the model that a graph is made for, and so
-/// is kept in the graph.
+/// Parts of a model that count, treatment of faces that are inside out, and place of lost textures: what is wrong with the model that a
+/// graph is made for, and so is kept in the graph.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SavedReading {
     /// Parts that count.
     pub parts: PartChoice,
     /// True to turn faces that are inside out, false to leave them even if a graph says otherwise; none where nothing is said.
     pub turn_faces: Option<bool>,
+    /// Folder in which, and below which, files are looked for that the model names and that are not there.
+    pub textures: Option<PathBuf>,
 }
 
 impl SavedReading {
-    /// Returns what the preview of a graph says about its model.
-    pub fn of_preview(preview: &Preview) -> SavedReading {
+    /// Returns what the preview of a graph says about its model. Paths in it start from a base.
+    pub fn of_preview(preview: &Preview, base: &PathBase) -> SavedReading {
         SavedReading {
             parts: PartChoice {
                 parts: preview.parts.clone(),
                 without: preview.without.clone(),
             },
             turn_faces: preview.turn_faces.then_some(true),
+            textures: preview.textures.as_ref().map(|textures| base.resolve(textures)),
         }
     }
 
-    /// Says it in the preview of a graph.
-    pub fn put_into(&self, preview: &mut Preview) {
+    /// Says it in the preview of a graph, with a path to the folder for textures that starts from where the graph is.
+    pub fn put_into(&self, preview: &mut Preview, textures: Option<String>) {
+        preview.textures = textures;
         preview.parts = self.parts.parts.clone();
         preview.without = self.parts.without.clone();
         preview.turn_faces = self.turns_faces();
     }
 
     /// Returns what is asked for, and otherwise what a preview says.
-    pub(crate) fn or(&self, preview: &Preview) -> SavedReading {
-        let saved = SavedReading::of_preview(preview);
+    pub(crate) fn or(&self, preview: &Preview, base: &PathBase) -> SavedReading {
+        let saved = SavedReading::of_preview(preview, base);
         SavedReading {
             parts: match self.parts.is_default() {
                 true => saved.parts,
                 false => self.parts.clone(),
             },
             turn_faces: self.turn_faces.or(saved.turn_faces),
+            textures: self.textures.clone().or(saved.textures),
         }
     }
 
@@ -64,7 +71,10 @@ impl ModelOptions {
             named.is_some() && named == canonical(&self.path).ok()
         });
         ModelOptions {
-            reading: preview.map_or_else(|| self.reading.clone(), |preview| self.reading.or(preview)),
+            reading: preview.map_or_else(
+                || self.reading.clone(),
+                |preview| self.reading.or(preview, &open.base()),
+            ),
             ..self.clone()
         }
     }

@@ -1,5 +1,6 @@
 //! The tree of elements, and what is said about all of it.
 
+use sabi_cancel::Looking as _;
 use std::collections::HashMap;
 
 use glam::{DMat4, DVec3};
@@ -64,7 +65,7 @@ impl<'d> Document<'d> {
             return damaged("it is no COLLADA file");
         }
         let mut ids = HashMap::new();
-        for node in root.descendants() {
+        for node in root.descendants().looking() {
             if let Some(id) = node.attribute("id") {
                 ids.entry(id).or_insert(node);
             }
@@ -144,7 +145,8 @@ pub(super) fn text<'d>(node: Node<'d, 'd>) -> &'d str {
 /// The numbers of a text. Words that are no number are NaN.
 pub(super) fn numbers(node: Node<'_, '_>, warnings: &mut Warnings) -> Vec<f64> {
     let words = node.text().map_or("", str::trim).split_ascii_whitespace();
-    words.map(|word| number(word, warnings).unwrap_or(f64::NAN)).collect()
+    let numbers = words.looking().map(|word| number(word, warnings).unwrap_or(f64::NAN));
+    numbers.collect()
 }
 
 #[cfg(test)]

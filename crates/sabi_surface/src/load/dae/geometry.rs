@@ -1,5 +1,6 @@
 //! Meshes: lists of polygons, and the attributes of their corners.
 
+use sabi_cancel::Looking as _;
 use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
@@ -106,7 +107,7 @@ impl<'d> Geometry<'d> {
         }
         faces.positions = positions.attribute.values;
         let mut rest = &positions.attribute.corners[..];
-        for count in &list.polygons.counts {
+        for count in list.polygons.counts.iter().looking() {
             let (corners, after) = rest.split_at(*count as usize);
             faces.corners.extend(corners);
             faces.close(corners.len(), list.material, Smoothing::ByAngle);

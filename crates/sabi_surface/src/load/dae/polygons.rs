@@ -1,6 +1,7 @@
 //! Lists of polygons: `triangles`, `polylist`, `polygons`, `trifans`, `tristrips`.
 
 use roxmltree::Node;
+use sabi_cancel::Looking as _;
 
 use super::document::{Document, child, children};
 use crate::load::error::{Fault, damaged};
@@ -107,7 +108,7 @@ impl<'d> Polygons<'d> {
     /// Adds polygons of so many corners each.
     fn add(&mut self, rows: &[u32], counts: impl Iterator<Item = u32>, warnings: &mut Warnings) -> Result<(), Fault> {
         let mut rest = rows;
-        for count in counts {
+        for count in counts.looking() {
             if rest.len() < self.stride {
                 break;
             }
@@ -129,7 +130,7 @@ impl<'d> Polygons<'d> {
     /// Adds the triangles of a strip or a fan.
     fn add_strip(&mut self, rows: &[u32], is_fan: bool) {
         let corners: Vec<&[u32]> = rows.chunks_exact(self.stride).collect();
-        for third in 2..corners.len() {
+        for third in (2..corners.len()).looking() {
             let triangle = match (is_fan, third % 2) {
                 (true, _) => [0, third - 1, third],
                 (false, 0) => [third - 2, third - 1, third],
@@ -175,7 +176,7 @@ fn inputs<'d>(document: &Document<'d>, list: Node<'d, 'd>) -> Vec<Input<'d>> {
 
 fn indices(list: Node<'_, '_>) -> Result<Vec<u32>, Fault> {
     let words = list.text().map_or("", str::trim).split_ascii_whitespace();
-    let indices = words.map(|word| {
+    let indices = words.looking().map(|word| {
         let index = word.parse();
         index.map_err(|_| Fault::Damaged(format!("`{word}` is not an index")))
     });

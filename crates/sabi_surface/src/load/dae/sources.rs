@@ -1,5 +1,6 @@
 //! Sources: rows of numbers, which the corners of polygons index.
 
+use sabi_cancel::Looking as _;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -68,7 +69,7 @@ impl Sources {
             beyond: None,
         };
         let Attribute { values, corners } = &mut gathered.attribute;
-        for index in polygons.corners(input) {
+        for index in polygons.corners(input).looking() {
             corners.push(
                 *numbers
                     .entry(index)

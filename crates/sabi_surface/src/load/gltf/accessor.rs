@@ -3,6 +3,7 @@
 use gltf::json;
 use json::accessor::{ComponentType, Type};
 use json::validation::Checked;
+use sabi_cancel::Looking as _;
 
 use super::source::Source;
 use super::storage::{Meaning, Storage, largest};
@@ -204,7 +205,7 @@ impl Source<'_> {
                         "The accessor of the {what} says {count}, and its Draco data has {there}; these are taken."
                     ));
                 }
-                bytes.chunks_exact(size).map(&read).collect()
+                bytes.chunks_exact(size).looking().map(&read).collect()
             }
             (None, Some(view)) => {
                 // 0 is glTF's default.
@@ -212,7 +213,7 @@ impl Source<'_> {
                 let elements = self
                     .buffers
                     .elements(self.document, who, view.value(), offset, size, count)?;
-                elements.iter().map(&read).collect()
+                elements.iter().looking().map(&read).collect()
             }
             (None, None) if count > self.most_unstored() => {
                 return damaged(format!("{who} asks for {count} elements and stores none of them"));
@@ -255,7 +256,7 @@ impl Source<'_> {
         self.warn_of_stride(view, &what, warnings);
         let replaced = self.buffers.elements(self.document, &who, view, offset, size, more)?;
         let mut last = None;
-        for (place, value) in places.iter().zip(replaced.iter()) {
+        for (place, value) in places.iter().zip(replaced.iter()).looking() {
             let place = unsigned(place) as usize;
             match values.get_mut(place) {
                 Some(slot) => *slot = read(value),

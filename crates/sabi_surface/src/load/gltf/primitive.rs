@@ -1,5 +1,6 @@
 //! Primitives become [`Submesh`]s: attributes read, strips and fans unrolled, normals and tangents completed.
 
+use sabi_cancel::{Cancel, look};
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3;
@@ -49,9 +50,10 @@ impl Source<'_> {
             .flat_map(|mesh| (0..self.document.meshes[*mesh].primitives.len()).map(|primitive| (*mesh, primitive)))
             .collect();
         // All are read before the first fault is returned, so that it does not depend on the order of threads.
+        let cancel = Cancel::current();
         let loaded: Vec<_> = primitives
             .par_iter()
-            .map(|(mesh, primitive)| self.read(*mesh, *primitive))
+            .map(|(mesh, primitive)| cancel.during(|| self.read(*mesh, *primitive)))
             .collect();
         let mut by_mesh: BTreeMap<usize, Vec<LoadedPrimitive>> = BTreeMap::new();
         for ((mesh, _), loaded) in primitives.into_iter().zip(loaded) {
@@ -97,6 +99,7 @@ impl Source<'_> {
     }
 
     fn read(&self, mesh: usize, number: usize) -> Result<LoadedPrimitive, Fault> {
+        look();
         let primitive = &self.document.meshes[mesh].primitives[number];
         let label = self.document.mesh_label(mesh);
         let mut loaded = LoadedPrimitive {

@@ -1,6 +1,7 @@
 //! Scenes and nodes: placed meshes.
 
 use glam::{DMat4, DQuat, DVec3};
+use sabi_cancel::look;
 use serde_json::Value;
 
 use super::document::{Document, Node};
@@ -60,6 +61,7 @@ pub(super) fn read(source: &Source, warnings: &mut Warnings) -> Result<Scene, Fa
     // An explicit stack, since a chain of nodes may be as long as the file.
     let mut stack: Vec<Step> = below(&roots(source, warnings)?, None, DMat4::IDENTITY, false).collect();
     while let Some(step) = stack.pop() {
+        look();
         let Some((index, node)) = usize::try_from(step.node)
             .ok()
             .and_then(|index| Some((index, document.nodes.get(index)?)))

@@ -4,6 +4,7 @@ use super::header::{Element, Encoding, Kind};
 use crate::load::error::{Fault, damaged};
 use crate::load::numbers::number;
 use crate::load::warnings::Warnings;
+use sabi_cancel::Looking as _;
 
 /// Value of a property.
 pub(super) enum Value {
@@ -79,7 +80,7 @@ impl<'b> Body<'b> {
             return Ok(());
         }
         let mut row = Vec::new();
-        for _ in 0..element.count {
+        for _ in (0..element.count).looking() {
             self.row(element, &mut row)?;
         }
         Ok(())
@@ -95,7 +96,7 @@ impl<'b> Body<'b> {
             return damaged(format!("a list of it promises {count} entries; it was cut off"));
         }
         entries.clear();
-        for _ in 0..count as usize {
+        for _ in (0..count as usize).looking() {
             entries.push(self.number(kind)?);
         }
         Ok(())
