@@ -9,7 +9,7 @@ use super::{EvaluationArguments, MapArguments, model_file};
 use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi bake` that shape the maps, which a report has already.
-const SHAPING: [&str; 34] = [
+const SHAPING: [&str; 35] = [
     "graph",
     "mesh",
     "size",
