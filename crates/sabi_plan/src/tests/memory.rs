@@ -65,7 +65,9 @@ fn peak(plan: &Plan) -> u64 {
         let [reads, writes] = used(step);
         let unneeded = reads.iter().chain(&writes).filter(|slot| !needed.contains(slot));
         dead_after.insert(at, unneeded.copied().collect());
-        writes.iter().for_each(|slot| drop(needed.remove(slot)));
+        for slot in &writes {
+            needed.remove(slot);
+        }
         needed.extend(reads);
     }
     let (mut alive, mut most) = (BTreeSet::new(), 0);
