@@ -263,12 +263,7 @@ pub(crate) struct ModelSource<'a> {
 impl<'a> ModelSource<'a> {
     /// Opens the pictures of the materials, which come with the memory that they may take, bytes; once. Adds what cannot be shown to
     /// `warnings`.
-    pub(crate) fn open(
-        &mut self,
-        surface: &SourceSurface<'a>,
-        pictures: (&Pictures, u64),
-        warnings: &mut Vec<String>,
-    ) {
+    pub(crate) fn open(&mut self, surface: &SourceSurface<'a>, pictures: (&Pictures, u64), warnings: &mut Vec<String>) {
         let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
         self.materials.get_or_insert_with(open);
     }
