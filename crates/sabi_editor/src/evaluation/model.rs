@@ -118,11 +118,14 @@ impl RequestedModel {
 
     /// Requests another model, or the same one with other options.
     pub(crate) fn replace(&mut self, file: &Path, import: ImportOptions) {
+        // One that stands in for another does so as well when it is read again.
+        if file != self.file() {
+            self.refused = None;
+        }
         self.set_options(import.options((file, &self.trusted), self.size(), self.cache_dir.as_deref()));
         self.file_since = self.revision;
         self.import = import;
         self.failure = None;
-        self.refused = None;
     }
 
     /// Requests the model again, since its file changed.

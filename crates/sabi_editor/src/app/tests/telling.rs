@@ -171,6 +171,10 @@ fn lost_pictures_of_a_model_are_found_in_the_folder_of_one_of_them_which_the_gra
     fs::write(window.path("textured.mtl"), look).expect("a material");
     let model = format!("mtllib textured.mtl\nusemtl a\n{STACKED}");
     window.shows("textured.obj", &model);
+    window.until("the pictures that are gone", |editor| {
+        let model = editor.evaluation.model.received.as_ref();
+        model.is_some_and(|model| model.linked.model.missing_pictures().len() == 2)
+    });
     window.open(Panel::Problems);
     assert!(window.says("There is no file wood.png") && window.says("There is no file rust.png"));
     window.press("Find wood.png");
