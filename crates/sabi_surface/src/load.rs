@@ -49,6 +49,7 @@ use self::format::{Format, format_of, refused_format};
 pub use self::gltf::UnpackedVertices;
 pub use self::listed::listed;
 pub use self::parts::PartChoice;
+pub use self::size::mesh_bytes;
 use self::repeating::repeating;
 pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;

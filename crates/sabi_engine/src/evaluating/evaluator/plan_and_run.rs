@@ -19,7 +19,7 @@ impl Evaluator {
         RunOptions {
             is_canceled,
             shown: self.shown(),
-            ..RunOptions::new(submission, self.budget_bytes)
+            ..RunOptions::new(submission, self.budget)
         }
     }
 
@@ -124,7 +124,7 @@ impl Evaluator {
             submission,
             is_canceled: &|| progress.is_canceled(),
             progress: &|done, of| progress.advance(Phase::Run, done, of),
-            budget_bytes: self.budget_bytes,
+            budget: self.budget,
             caster: self.rays.caster,
             hits: self.rays.hits,
             times_ghosts: self.times_ghosts,
