@@ -422,7 +422,11 @@ mod tests {
             (AdapterKind::Integrated, 500, TextureBudget::Textures(600)),
             (AdapterKind::Discrete, 2000, TextureBudget::Textures(600)),
         ] {
-            assert_eq!(options.texture_budget(kind, model_bytes), budget, "{kind}, {model_bytes}");
+            assert_eq!(
+                options.texture_budget(kind, model_bytes),
+                budget,
+                "{kind}, {model_bytes}"
+            );
         }
     }
 }

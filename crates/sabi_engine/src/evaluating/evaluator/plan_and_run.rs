@@ -8,6 +8,7 @@ use sabi_plan::{Lengths, Mode, Plan, PlanError, Planner, Target};
 
 use super::Evaluator;
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::graph_faults::remedies_of;
 use crate::opening::solidity;
 use crate::phases::{Phase, Progress};
 use crate::program_cache::ProgramCache;
@@ -32,9 +33,12 @@ impl Evaluator {
         let messages: Vec<String> = errors.iter().map(said).collect();
         self.warn(warnings.iter().map(said));
         self.warn(solidity::warnings(&plan, self.surface.linked()));
+        let remedies = remedies_of(&errors);
         match errors.into_iter().next() {
             None => Ok(plan),
-            Some(first) => Err(EngineError::several(ErrorKind::BadInput, messages).caused_by(first)),
+            Some(first) => Err(EngineError::several(ErrorKind::BadInput, messages)
+                .with_remedies(remedies)
+                .caused_by(first)),
         }
     }
 
