@@ -21,7 +21,7 @@ use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::{FittedModel, LinkedModel, ModelOptions};
 use crate::opening::override_faults::{all_override_faults, refuse_bad_values};
 use crate::opening::setting::read_typed;
-use crate::phases::{Phase, PhaseTimes, Progress, stop_if_canceled};
+use crate::phases::{NoProgress, Phase, PhaseTimes, Progress, stop_if_canceled};
 use crate::program_cache::ProgramCache;
 use crate::source::ray_cache::RayCache;
 use crate::warning::Warning;
@@ -289,7 +289,7 @@ impl Evaluator {
     /// Corners of boxes around some tiles in model space.
     pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Vec<[DVec3; 2]> {
         let scale = self.model().model_from_working();
-        let bounds = self.surface.for_sources().bounds_of(tiles).into_iter();
+        let bounds = self.surface.for_sources(&NoProgress).bounds_of(tiles).into_iter();
         bounds.map(|corners| corners.map(|corner| corner * scale)).collect()
     }
 

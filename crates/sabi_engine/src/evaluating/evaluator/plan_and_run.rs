@@ -120,7 +120,7 @@ impl Evaluator {
     ) -> Result<Run, GpuError> {
         let _span = tracing::debug_span!("run", steps = plan.steps.len()).entered();
         let mut sources = Sources::new(
-            self.surface.for_sources(),
+            self.surface.for_sources(progress),
             self.graph.files(),
             (&self.ray_cache, self.kept_results.as_ref()),
         );
