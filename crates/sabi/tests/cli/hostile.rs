@@ -150,14 +150,12 @@ fn very_many_faults_of_a_file_are_told_in_part() {
     let place = Place::new();
     let keys: String = (0..100_000).map(|key| format!("\"k{key}\": 1, ")).collect();
     let head = r#""format": "sabi", "version": 1"#;
-    let out = r#""out": { "kind": "output/mask" }"#;
+    let out = r#""a": { "kind": "noise/simplex" }, "out": { "kind": "output/mask", "inputs": { "source": "a" } }"#;
     place.write("keys.sabi", format!("{{ {head}, {keys} \"nodes\": {{ {out} }} }}"));
-    let told = place.sabi(&["check", "keys.sabi"]).good().stderr;
-    assert!(
-        told.contains("99900 more keys that nothing reads are left out"),
-        "{}",
-        &told[..999]
-    );
+    let told = place.sabi(&["check", "keys.sabi"]).good();
+    let told = told.stdout + &told.stderr;
+    assert!(told.contains("99900 more keys that nothing reads are left out"));
+    assert!(told.lines().count() < 300);
     let nodes: String = (0..20_000)
         .map(|node| format!("\"n{node}\": {{ \"kind\": \"none/n{node}\" }}, "))
         .collect();
