@@ -13,6 +13,9 @@ use crate::exit::{Exit, Failure};
 use crate::failure_report::FailureReport;
 use crate::printable::{Page, printable, printable_json};
 
+/// Most warnings of a list that are printed; JSON has all of them.
+const MOST_WARNINGS: usize = 200;
+
 /// Output of a command.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terminal {
@@ -70,6 +73,19 @@ impl Terminal {
                 "warning: {}",
                 with_flags(&sentence, &remedies, self.command)
             ));
+        }
+    }
+
+    /// Prints warnings, the first ones of very many: a file may cause any number of them.
+    pub(crate) fn warnings(&self, warnings: impl IntoIterator<Item = impl Into<Warning>>) {
+        let mut warnings = warnings.into_iter().fuse();
+        warnings
+            .by_ref()
+            .take(MOST_WARNINGS)
+            .for_each(|warning| self.warning(warning));
+        let more = warnings.count();
+        if more > 0 {
+            self.warning(format!("{more} more warnings are left out"));
         }
     }
 

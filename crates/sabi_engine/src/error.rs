@@ -205,6 +205,7 @@ impl From<GpuError> for EngineError {
             ),
             GpuError::TooDeep { .. } => (ErrorKind::BadInput, &[Remedy::ProcessorRays]),
             GpuError::OverBudget { .. } => (ErrorKind::OutOfMemory, &[Remedy::RaiseBudget, Remedy::SmallerSize]),
+            GpuError::OverMemory { .. } => (ErrorKind::OutOfMemory, &[Remedy::RaiseMemory, Remedy::SmallerSize]),
             GpuError::OutOfMemory { .. } => (ErrorKind::OutOfMemory, &[Remedy::SmallerSize, Remedy::SoftwareAdapter]),
             GpuError::NoAdapter => (ErrorKind::NoAdapter, &[]),
             GpuError::NoSuchAdapter { .. } => (ErrorKind::NoAdapter, &[Remedy::OtherAdapter, Remedy::AnyAdapter]),
@@ -365,6 +366,10 @@ mod tests {
             "the textures need 9 MiB, more than the budget of 4 MiB; raise the budget, or choose a smaller size"
         );
         assert_eq!(error.remedies, [Remedy::RaiseBudget, Remedy::SmallerSize]);
+        let left_mib = 4;
+        let error = EngineError::from(GpuError::OverMemory { needed_mib, left_mib });
+        assert_eq!(error.kind, ErrorKind::OutOfMemory);
+        assert_eq!(error.remedies, [Remedy::RaiseMemory, Remedy::SmallerSize]);
         let far = AtlasError::UvTooFar {
             vertex: 3,
             u: "1e9".to_owned(),

@@ -4,6 +4,9 @@ use crate::error::{EngineError, ErrorKind};
 use crate::phases::interrupted;
 use crate::remedy::Remedy;
 
+/// Most sentences that are kept, each of which is compared with all others: more than an error has.
+const MOST_KEPT: usize = 1000;
+
 /// Sentences about several faults, each once.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
@@ -18,7 +21,7 @@ impl Faults {
         self.kinds.push(error.kind);
         self.is_refusal |= error.remedies.contains(&Remedy::TrustFile);
         for message in error.messages {
-            if !self.messages.contains(&message) {
+            if self.messages.len() < MOST_KEPT && !self.messages.contains(&message) {
                 self.messages.push(message);
             }
         }

@@ -135,7 +135,7 @@ impl NamePattern {
     /// Returns true if this pattern gives a map of this name the file name, without its ending, for some material, tile and
     /// size.
     pub fn may_give(&self, stem: &str, map: &str) -> bool {
-        may_give(&self.segments, stem, map).contains(&"")
+        may_give(&self.segments, vec![stem], map).contains(&"")
     }
 }
 
@@ -169,11 +169,17 @@ fn has(segments: &[Segment], token: Token) -> bool {
     })
 }
 
-/// Returns what may be left of a text once the segments were taken off its beginning.
-fn may_give<'t>(segments: &[Segment], text: &'t str, map: &str) -> Vec<&'t str> {
-    let mut rests = vec![text];
+/// Returns what may be left of texts, which are ends of one text, once the segments were taken off their beginning. All of them are
+/// followed at once, so that groups within groups take no more time than as many segments.
+fn may_give<'t>(segments: &[Segment], mut rests: Vec<&'t str>, map: &str) -> Vec<&'t str> {
     for segment in segments {
-        let mut next: Vec<&str> = rests.iter().flat_map(|rest| after(segment, rest, map)).collect();
+        let mut next: Vec<&str> = match segment {
+            Segment::Optional(group) => {
+                let taken = may_give(group, rests.clone(), map);
+                rests.into_iter().chain(taken).collect()
+            }
+            single => rests.iter().flat_map(|rest| after(single, rest, map)).collect(),
+        };
         next.sort_unstable_by_key(|rest| rest.len());
         next.dedup();
         rests = next;
@@ -181,6 +187,7 @@ fn may_give<'t>(segments: &[Segment], text: &'t str, map: &str) -> Vec<&'t str> 
     rests
 }
 
+/// Returns what may be left of a text once a segment that is no group was taken off its beginning.
 fn after<'t>(segment: &Segment, text: &'t str, map: &str) -> Vec<&'t str> {
     let cut = |end: usize| text.get(end..);
     match segment {
@@ -197,11 +204,6 @@ fn after<'t>(segment: &Segment, text: &'t str, map: &str) -> Vec<&'t str> {
             let end = end.unwrap_or(text.len());
             cut(end).filter(|_| end > 0).into_iter().collect()
         }
-        Segment::Nothing => vec![text],
-        Segment::Optional(group) => {
-            let mut rests = may_give(group, text, map);
-            rests.push(text);
-            rests
-        }
+        Segment::Nothing | Segment::Optional(_) => vec![text],
     }
 }

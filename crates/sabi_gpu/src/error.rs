@@ -40,6 +40,16 @@ pub enum GpuError {
         /// Budget, MiB.
         budget_mib: u64,
     },
+    /// The textures of a run exceed what is left of the memory of the process, which they are in.
+    #[error(
+        "the textures need {needed_mib} MiB, which this driver takes from the memory of the process; {left_mib} MiB of it are left"
+    )]
+    OverMemory {
+        /// Peak size of all textures, MiB.
+        needed_mib: u64,
+        /// Memory that the model leaves, MiB.
+        left_mib: u64,
+    },
     /// The driver refused to allocate memory.
     #[error("the device is out of memory while making {what}")]
     OutOfMemory {

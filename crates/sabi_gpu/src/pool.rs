@@ -7,6 +7,7 @@ use sabi_nodes::link::Format;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::wgpu_format;
+use crate::texture_budget::TextureBudget;
 
 /// Default budget for textures, those of the surface included.
 pub const DEFAULT_BUDGET_BYTES: u64 = 4 << 30;
@@ -27,7 +28,7 @@ pub struct PoolReport {
 /// Textures by format and extent.
 #[derive(Debug)]
 pub(crate) struct TexturePool {
-    budget_bytes: u64,
+    budget: TextureBudget,
     /// Bytes beyond which free textures are dropped before another one is made.
     aim_bytes: u64,
     free: BTreeMap<(Format, Extent), Vec<wgpu::Texture>>,
@@ -36,10 +37,10 @@ pub(crate) struct TexturePool {
 
 impl TexturePool {
     /// An empty pool with a budget, some bytes of which are in use already.
-    pub(crate) fn new(budget_bytes: u64, used_bytes: u64) -> TexturePool {
+    pub(crate) fn new(budget: TextureBudget, used_bytes: u64) -> TexturePool {
         TexturePool {
-            budget_bytes,
-            aim_bytes: budget_bytes,
+            budget,
+            aim_bytes: budget.bytes(),
             free: BTreeMap::new(),
             report: PoolReport {
                 bytes: used_bytes,
@@ -54,7 +55,7 @@ impl TexturePool {
 
     /// Sets the bytes of textures that are needed at once: free ones are kept as long as there are no more in all.
     pub(crate) fn aim_at(&mut self, needed_bytes: u64) {
-        self.aim_bytes = (self.report.bytes + needed_bytes).min(self.budget_bytes);
+        self.aim_bytes = (self.report.bytes + needed_bytes).min(self.budget.bytes());
     }
 
     /// Drops free textures, the largest first, as far as another one that has to be made would not fit otherwise. Returns true if
@@ -105,13 +106,20 @@ impl TexturePool {
     /// Bytes held after `bytes` more; an error over the budget.
     fn within_budget(&self, bytes: u64) -> Result<u64, GpuError> {
         let needed = self.report.bytes + bytes;
-        if needed > self.budget_bytes {
-            return Err(GpuError::OverBudget {
-                needed_mib: needed.div_ceil(1 << 20),
-                budget_mib: self.budget_bytes >> 20,
-            });
+        if needed <= self.budget.bytes() {
+            return Ok(needed);
         }
-        Ok(needed)
+        let needed_mib = needed.div_ceil(1 << 20);
+        Err(match self.budget {
+            TextureBudget::Textures(bytes) => GpuError::OverBudget {
+                needed_mib,
+                budget_mib: bytes >> 20,
+            },
+            TextureBudget::Process(bytes) => GpuError::OverMemory {
+                needed_mib,
+                left_mib: bytes >> 20,
+            },
+        })
     }
 
     /// Returns a texture to the pool.

@@ -195,7 +195,7 @@ impl<'a> Runner<'a> {
             plan,
             options,
             textures: plan.slots.iter().map(|_| None).collect(),
-            pool: TexturePool::new(options.budget_bytes, surfaces.finest.texture_bytes()),
+            pool: TexturePool::new(options.budget, surfaces.finest.texture_bytes()),
             report: RunReport::default(),
             unused_planes: BTreeMap::new(),
             hit_cache,

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use crate::rays::{CasterChoice, Hits};
 use crate::shown_tiles::ShownTiles;
+use crate::texture_budget::TextureBudget;
 
 /// Default of [`RunOptions::keeps_from`].
 pub const DEFAULT_KEEPS_FROM: Duration = Duration::from_millis(250);
@@ -19,8 +20,8 @@ pub struct RunOptions<'a> {
     pub is_canceled: &'a dyn Fn() -> bool,
     /// Called after each step with the number of steps done and of all steps.
     pub progress: &'a dyn Fn(usize, usize),
-    /// Budget for textures, bytes, those of the surface included; a cache has its own.
-    pub budget_bytes: u64,
+    /// Limit of the textures, those of the surface included; a cache has its own.
+    pub budget: TextureBudget,
     /// Ray caster to use.
     pub caster: CasterChoice,
     /// Origin of ray hits.
@@ -42,12 +43,12 @@ pub struct RunOptions<'a> {
 
 impl RunOptions<'_> {
     /// Options without cancellation and progress, with rays cast by [`CasterChoice::Auto`].
-    pub fn new(submission: Duration, budget_bytes: u64) -> Self {
+    pub fn new(submission: Duration, budget: TextureBudget) -> Self {
         RunOptions {
             submission,
             is_canceled: &|| false,
             progress: &|_, _| {},
-            budget_bytes,
+            budget,
             caster: CasterChoice::Auto,
             hits: Hits::Cast,
             times_ghosts: false,

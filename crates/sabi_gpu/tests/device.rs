@@ -21,7 +21,7 @@ use std::time::Duration;
 
 use sabi_gpu::{
     AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, PlaneData, RayScene, ResultCache, Run,
-    RunOptions, SourceFill, SurfaceTables, Surfaces, TileSet,
+    RunOptions, SourceFill, SurfaceTables, Surfaces, TextureBudget, TileSet,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
@@ -190,7 +190,7 @@ fn sinks() -> BTreeMap<String, SourceKind> {
 }
 
 fn options<'a>() -> RunOptions<'a> {
-    RunOptions::new(Duration::from_millis(25), DEFAULT_BUDGET_BYTES)
+    RunOptions::new(Duration::from_millis(25), TextureBudget::Textures(DEFAULT_BUDGET_BYTES))
 }
 
 const FUSED: Mode = Mode::Bake { fuse: true };
@@ -231,12 +231,24 @@ fn a_budget_that_is_too_small_is_a_sentence() {
     let bench = Bench::new(128);
     let plan = bench.plan(CHAIN, Mode::Bake { fuse: false });
     let small = RunOptions {
-        budget_bytes: 1000,
+        budget: TextureBudget::Textures(1000),
         ..options()
     };
     let error = bench.run(&plan, &small, None).err().unwrap();
     assert!(matches!(error, GpuError::OverBudget { .. }));
     assert!(error.to_string().ends_with("more than the budget of 0 MiB"), "{error}");
+    let small = RunOptions {
+        budget: TextureBudget::Process(1 << 20),
+        ..options()
+    };
+    let error = bench.run(&plan, &small, None).err().unwrap();
+    assert!(matches!(error, GpuError::OverMemory { left_mib: 1, .. }));
+    assert!(
+        error
+            .to_string()
+            .ends_with("the memory of the process; 1 MiB of it are left"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -247,9 +259,9 @@ fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
     let planes = all - bench.surface.texture_bytes();
     assert_eq!(bench.surface.texture_bytes(), 5 * bench.surface.texels());
     assert!(planes > 0 && planes.is_multiple_of(4 * bench.surface.texels()));
-    let limited = |budget_bytes| {
+    let limited = |bytes| {
         let limited = RunOptions {
-            budget_bytes,
+            budget: TextureBudget::Textures(bytes),
             ..options()
         };
         bench.run(&plan, &limited, None).err()
@@ -279,7 +291,7 @@ fn a_run_holds_no_more_textures_than_are_needed_at_once() {
         let expected = bench.surface.texture_bytes() + texel_bytes * bench.surface.texels();
         assert_eq!(run.report.pool.peak_bytes, expected, "{plan}");
         let limited = RunOptions {
-            budget_bytes: expected,
+            budget: TextureBudget::Textures(expected),
             ..options()
         };
         let within = bench.run(&plan, &limited, None).unwrap();

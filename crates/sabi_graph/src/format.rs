@@ -6,7 +6,7 @@ mod tests;
 mod unknown_keys;
 
 pub use schema::{FormatKey, FormatObject, format_objects, format_schema};
-pub use unknown_keys::{UnknownKey, unknown_keys};
+pub use unknown_keys::{UnknownKey, UnknownKeys, unknown_keys};
 
 /// Object of a graph file whose keys are fixed.
 #[derive(Debug)]

@@ -52,12 +52,12 @@ pub use flatten::{
     FlatGraph, FlatNode, FlatRef, FlattenError, INSTANCE_KNOBS, NodeRef, Overrides, ResultOrigin, flatten,
     flatten_and_find, takes_values,
 };
-pub use format::{FormatKey, FormatObject, UnknownKey, format_objects, format_schema, unknown_keys};
+pub use format::{FormatKey, FormatObject, UnknownKey, UnknownKeys, format_objects, format_schema, unknown_keys};
 pub use graph::{Exposed, Frame, Graph, Node};
 pub use history::{History, UNDO_STEPS};
 pub use id::{NodeId, OutputRef, SlotRef};
 pub use knob_curve::KnobCurve;
-pub use locate::locate;
+pub use locate::Locator;
 pub use nearest::{advice_on, nearest};
 pub use port::PortType;
 pub use problem::Problem;

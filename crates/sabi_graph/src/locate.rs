@@ -3,12 +3,35 @@
 use crate::json::{Json, Member, Tree, parse};
 use crate::text_position::line_and_column;
 
-/// Returns line and column (both from 1, the column in characters) of a node in the text of a graph file, or of one of its
-/// inputs or parameters. `node` is the id in a flat graph. For a node in a group (`instance/inner`), this is the place in
-/// the group; if the group is a file of its own, it is the place of the instance.
-pub fn locate(text: &str, node: &str, member: Option<&str>) -> Option<(usize, usize)> {
-    let root = parse(text).ok()?;
-    let mut body = &root;
+/// Search for the places of nodes in the text of a graph file, which is parsed once for all of them.
+#[derive(Debug)]
+pub struct Locator<'t> {
+    text: &'t str,
+    /// None where the text is no JSON.
+    root: Option<Json>,
+}
+
+impl<'t> Locator<'t> {
+    /// Parses a text.
+    pub fn new(text: &'t str) -> Locator<'t> {
+        Locator {
+            text,
+            root: parse(text).ok(),
+        }
+    }
+
+    /// Line and column (both from 1, the column in characters) of a node, or of one of its inputs or parameters. `node` is its id
+    /// in a flat graph: of a node in a group (`instance/inner`) the place is that in the group, or that of the instance where the group
+    /// is a file of its own.
+    pub fn locate(&self, node: &str, member: Option<&str>) -> Option<(usize, usize)> {
+        let found = found(self.root.as_ref()?, node, member)?;
+        Some(line_and_column(self.text, found.key_at))
+    }
+}
+
+/// Finds the member of the file that holds a node, or a member of it.
+fn found<'j>(root: &'j Json, node: &str, member: Option<&str>) -> Option<&'j Member> {
+    let mut body = root;
     let mut found: Option<&Member> = None;
     for id in node.split('/') {
         let Some(here) = child(body, "nodes").and_then(|nodes| child(&nodes.value, id)) else {
@@ -17,7 +40,7 @@ pub fn locate(text: &str, node: &str, member: Option<&str>) -> Option<(usize, us
         found = Some(here);
         let name = child(&here.value, "group").map(|group| &group.value.tree);
         let Some(Tree::Text(name)) = name else { break };
-        let Some(group) = child(&root, "groups").and_then(|groups| child(&groups.value, name)) else {
+        let Some(group) = child(root, "groups").and_then(|groups| child(&groups.value, name)) else {
             break;
         };
         body = &group.value;
@@ -29,7 +52,7 @@ pub fn locate(text: &str, node: &str, member: Option<&str>) -> Option<(usize, us
             .filter_map(|section| child(&child(&here.value, section)?.value, member))
             .next()
     });
-    Some(line_and_column(text, written.unwrap_or(here).key_at))
+    Some(written.unwrap_or(here))
 }
 
 fn child<'a>(json: &'a Json, key: &str) -> Option<&'a Member> {
@@ -41,7 +64,11 @@ fn child<'a>(json: &'a Json, key: &str) -> Option<&'a Member> {
 
 #[cfg(test)]
 mod tests {
-    use super::locate;
+    use super::Locator;
+
+    fn locate(text: &str, node: &str, member: Option<&str>) -> Option<(usize, usize)> {
+        Locator::new(text).locate(node, member)
+    }
 
     const TEXT: &str = r#"{
   "format": "sabi",

@@ -39,6 +39,7 @@ fn read_headers(name: &str, bytes: &[u8]) -> Result<Headers, ImageError> {
     if bytes.get(5).is_some_and(|flags| flags & 0x08 != 0) {
         return Err(unsupported(name, DEEP));
     }
+    check_lengths(name, bytes)?;
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| explain(name, error))?;
     if meta.headers.is_empty() {
         return Err(damaged(name, FORMAT, "it has no layer"));
@@ -122,6 +123,53 @@ fn unsupported(name: &str, feature: &str) -> ImageError {
         format: FORMAT,
         feature: feature.into(),
     }
+}
+
+/// Most attributes of all headers of a file.
+const MOST_ATTRIBUTES: usize = 10_000;
+/// Most bytes of a list of channels, each of which takes about 20.
+const MOST_CHANNEL_BYTES: usize = 1 << 18;
+
+/// Rejects files with very many attributes or channels, each of which takes many times its bytes in memory (OpenEXR file layout:
+/// after the version, attributes of a name, a type, a size and as many bytes, and an empty name behind each header). What is damaged
+/// is told when it is read.
+fn check_lengths(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
+    // The flag of files with several parts (version field, bit 12), whose headers end with an empty one.
+    let has_parts = bytes.get(5).is_some_and(|flags| flags & 0x10 != 0);
+    let mut rest = bytes.get(8..).unwrap_or_default(); // A file without a version is damaged.
+    let (mut count, mut in_header) = (0, false);
+    while let Some((attribute, behind)) = split_word(rest) {
+        if attribute.is_empty() {
+            if !has_parts || !in_header {
+                break;
+            }
+            (rest, in_header) = (behind, false);
+            continue;
+        }
+        let Some((kind, behind)) = split_word(behind) else {
+            break;
+        };
+        let Some((size, behind)) = behind.split_first_chunk::<4>() else {
+            break;
+        };
+        let size = u32::from_le_bytes(*size) as usize;
+        (count, in_header) = (count + 1, true);
+        if count > MOST_ATTRIBUTES {
+            return Err(unsupported(name, "it has more than 10000 attributes"));
+        }
+        if kind == b"chlist" && size > MOST_CHANNEL_BYTES {
+            return Err(unsupported(name, "it has too many channels"));
+        }
+        let Some(behind) = behind.get(size..) else { break };
+        rest = behind;
+    }
+    Ok(())
+}
+
+/// Splits bytes at the first zero, which ends a text.
+fn split_word(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let end = bytes.iter().position(|byte| *byte == 0)?;
+    Some((&bytes[..end], &bytes[end + 1..]))
 }
 
 /// Rejects unsupported layers. Returns the size of the decoded layer in bytes.
@@ -242,6 +290,36 @@ fn sample(samples: &FlatSamples, index: usize) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn very_many_attributes_or_channels_are_refused_before_they_are_read() {
+        let attribute = |kind: &str, size: usize| {
+            let start = [b"a\0", kind.as_bytes(), b"\0", &(size as u32).to_le_bytes()].concat();
+            [start, vec![1; size]].concat()
+        };
+        let file = |flags: u8, headers: &[u8]| [&[0x76, 0x2f, 0x31, 1, 2, flags, 0, 0], headers].concat();
+        let told = |bytes: &[u8]| check_lengths("a.exr", bytes).map_err(|error| error.to_string());
+        let many = attribute("int", 4).repeat(MOST_ATTRIBUTES + 1);
+        assert!(
+            told(&file(0, &many))
+                .unwrap_err()
+                .contains("more than 10000 attributes")
+        );
+        assert_eq!(
+            told(&file(0, &many[..many.len() - 1])),
+            Ok(()),
+            "the last one is cut off"
+        );
+        let channels = attribute("chlist", MOST_CHANNEL_BYTES + 1);
+        assert!(told(&file(0, &channels)).unwrap_err().contains("too many channels"));
+        // Pixels begin behind the first header, or behind an empty one where there are parts.
+        let behind = [attribute("int", 4), vec![0], channels].concat();
+        assert_eq!(told(&file(0, &behind)), Ok(()));
+        assert!(told(&file(0x10, &behind)).is_err());
+        for bytes in [&b""[..], b"v/1", b"v/1\x01\x02\0\0\0abc"] {
+            assert_eq!(told(bytes), Ok(()));
+        }
+    }
 
     #[test]
     fn the_data_is_placed_according_to_its_window() {

@@ -60,7 +60,8 @@ pub struct Painted {
 
 impl Canvases {
     /// The canvas of a list of strokes with at least these layers; `key` tells atlases and supplies apart. Strokes that a kept canvas has
-    /// already are not painted again. At most `budget` bytes are kept, or a single canvas.
+    /// already are not painted again. At most `budget` bytes are kept, or a single canvas; nothing is of work that was stopped, which gives an
+    /// unfinished canvas.
     pub fn painted(
         &mut self,
         surface: &PaintSurface<'_>,
@@ -102,6 +103,9 @@ impl Canvases {
                 }
                 _ => painters.paint(&mut canvas.full, strokes, &mut lost),
             }
+            if surface.is_stopped() {
+                break;
+            }
             let before = count;
             count += strokes.len();
             if (before / KEYFRAME < count / KEYFRAME || count == below) && count < list.strokes.len() {
@@ -111,6 +115,13 @@ impl Canvases {
                     .layered
                     .clone();
             }
+        }
+        if surface.is_stopped() {
+            self.growing.clear();
+            return Painted {
+                canvas: Arc::new(canvas.shown(None)),
+                lost,
+            };
         }
         self.keep(key, &list.strokes, canvas, &lost, budget).painted()
     }

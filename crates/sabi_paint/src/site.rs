@@ -242,6 +242,9 @@ fn moved(
     let mut lost = 0;
     let mut starts = false;
     for point in points {
+        if surface.is_stopped() {
+            break;
+        }
         starts |= point.starts;
         match site_of(point) {
             Some(site) => {

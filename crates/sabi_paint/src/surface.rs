@@ -22,7 +22,11 @@ pub struct PaintSurface<'a> {
     mesh: &'a Mesh,
     index: &'a SurfaceIndex,
     by_key: OnceLock<BTreeMap<u32, u32>>,
+    stop: Option<&'a Stop<'a>>,
 }
+
+/// Asked many times while strokes are laid; true ends the work early, and what it gives then is of no use.
+pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
 impl<'a> PaintSurface<'a> {
     /// A mesh with its own index.
@@ -31,7 +35,22 @@ impl<'a> PaintSurface<'a> {
             mesh,
             index,
             by_key: OnceLock::new(),
+            stop: None,
         }
+    }
+
+    /// The surface for work that can be stopped: strokes may have millions of places.
+    #[must_use]
+    pub fn stopped_by(self, stop: &'a Stop<'a>) -> PaintSurface<'a> {
+        PaintSurface {
+            stop: Some(stop),
+            ..self
+        }
+    }
+
+    /// Returns true once the work is to end.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.is_some_and(|stop| stop())
     }
 
     /// The mesh with its connections.

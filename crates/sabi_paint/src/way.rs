@@ -45,6 +45,9 @@ pub(crate) fn way_of(surface: &PaintSurface<'_>, points: &[StrokePoint], step: f
             starts: true,
         });
         for index in 1..run.len() {
+            if surface.is_stopped() {
+                break;
+            }
             add_span(surface, run, index, step, &mut way);
         }
     }

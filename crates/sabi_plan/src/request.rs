@@ -162,6 +162,8 @@ pub enum FileFaultKind {
     NeverOpened,
     /// Its content cannot be used.
     Unusable,
+    /// It takes more memory than there is for it.
+    TooLarge,
 }
 
 impl fmt::Display for FileFault {

@@ -116,6 +116,12 @@ pub enum Owner {
 }
 
 impl Atlas {
+    /// Bytes that it takes for its texels and ghosts.
+    pub fn memory_bytes(&self) -> u64 {
+        let texels = size_of_val(self.owners.as_slice()) + size_of_val(self.leap.as_slice());
+        (texels + size_of_val(self.ghosts.as_slice())) as u64
+    }
+
     /// Returns the content of texel `(x, y)` of `page`; [`Owner::Empty`] outside of the pages.
     pub fn owner(&self, x: u32, y: u32, page: u32) -> Owner {
         let [width, height] = self.page_size;

@@ -53,6 +53,7 @@ pub use self::gltf::{UnpackedVertices, gltf_json};
 pub use self::listed::listed;
 pub use self::parts::PartChoice;
 use self::repeating::repeating;
+pub use self::size::mesh_bytes;
 pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
 use self::text::unmarked;

@@ -82,7 +82,7 @@ pub(crate) struct RunArguments {
     /// Print a summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Memory for the model of a bake and its pictures, MiB; an equal part of half of this machine's for each bake at a time if it is
+    /// Memory for the model of a bake and its pictures, and for textures where the driver runs on the processor, MiB; an equal part of half of this machine's for each bake at a time if it is
     /// not given
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(16..=1 << 30), help_heading = "Machine")]
     memory: Option<u64>,

@@ -98,8 +98,9 @@ pub(crate) struct ModelArguments {
     /// most lie alike in different tiles, tiles have no UDIM number, or a texture of the model repeats (auto)
     #[arg(long, value_enum, default_value_t = UdimChoice::Auto, help_heading = "Model")]
     pub(crate) udim: UdimChoice,
-    /// Memory for the files of the model, its pictures and its layout on the maps, MiB; half of this machine's if it is not given. A model that takes more is
-    /// refused, and pictures that do not fit are left out
+    /// Memory for the files of the model, its pictures and its layout on the maps, and for textures where the driver runs on the
+    /// processor, MiB; half of this machine's if it is not given. A model that takes more is refused, and pictures that do not fit are
+    /// left out
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(16..=1 << 30), help_heading = "Model")]
     memory: Option<u64>,
     /// Neither take anything from the disk cache nor keep anything there
@@ -159,7 +160,7 @@ pub(crate) struct MachineArguments {
     /// Caster of rays: the graphics card (gpu), the processor (cpu), or the faster of the two (auto)
     #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
     pub(crate) caster: CasterChoice,
-    /// Budget for textures, MiB
+    /// Budget for textures, MiB; with a driver that runs on the processor --memory limits them as well
     #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
           value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
     budget: u64,

@@ -43,9 +43,7 @@ fn tell(
     report_file: Option<ReportFile>,
     terminal: &Terminal,
 ) -> Result<(), Failure> {
-    for warning in &report.warnings {
-        terminal.warning(warning);
-    }
+    terminal.warnings(&report.warnings);
     if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
         let placed = report.placed(&file.base());
         file.write(&placed, terminal)?;
@@ -64,9 +62,7 @@ fn tell_finished(
     report_file: Option<ReportFile>,
     terminal: &Terminal,
 ) -> Result<(), Failure> {
-    for warning in finished.warnings() {
-        terminal.warning(warning);
-    }
+    terminal.warnings(finished.warnings());
     if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
         let placed = finished.report(Some(&file.base()))?;
         file.write(&placed, terminal)?;

@@ -14,9 +14,7 @@ pub(crate) fn run(arguments: &DoctorArguments, terminal: &Terminal) -> Result<Ex
     } else {
         terminal.page(&page(&diagnosis))?;
     }
-    for fault in &diagnosis.faults {
-        terminal.warning(fault.as_str());
-    }
+    terminal.warnings(diagnosis.faults.iter().map(String::as_str));
     match diagnosis.problem {
         None => Ok(Exit::Done),
         Some(problem) => {

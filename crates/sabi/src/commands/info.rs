@@ -14,9 +14,7 @@ use crate::terminal::Terminal;
 pub(crate) fn run(arguments: &InfoArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let open = arguments.graph.open(trusted)?;
     let description = describe_graph(&open);
-    for warning in &description.warnings {
-        terminal.warning(warning.as_str());
-    }
+    terminal.warnings(description.warnings.iter().map(String::as_str));
     if arguments.json {
         terminal.json(&description)?;
     } else {

@@ -15,9 +15,7 @@ pub(crate) fn run(arguments: MeshArguments, trusted: &TrustedPaths, terminal: &T
     let linked = LinkedModel::open(&options, &progress)?;
     drop(progress);
     let report = describe_mesh(&linked);
-    for warning in &report.warnings {
-        terminal.warning(warning);
-    }
+    terminal.warnings(&report.warnings);
     if arguments.json {
         terminal.json(&report)?;
     } else {

@@ -10,9 +10,7 @@ use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &NodesArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let kinds = Kinds::beside(arguments.graph.as_deref(), trusted);
-    for fault in &kinds.faults {
-        terminal.warning(fault.to_string());
-    }
+    terminal.warnings(kinds.faults.iter().map(ToString::to_string));
     let nodes = describe_nodes(&kinds);
     let found = match &arguments.id {
         None => nodes.iter().collect(),

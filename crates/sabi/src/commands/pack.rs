@@ -25,9 +25,7 @@ pub(crate) fn run(arguments: &PackArguments, trusted: &TrustedPaths, terminal: &
     let progress = ShownProgress::new(terminal);
     let report = pack_graph(&request, &progress)?;
     drop(progress);
-    for warning in report.missing.iter().chain(&report.warnings) {
-        terminal.warning(warning.as_str());
-    }
+    terminal.warnings(report.missing.iter().chain(&report.warnings).map(String::as_str));
     if arguments.json {
         terminal.json(&report)?;
     } else {

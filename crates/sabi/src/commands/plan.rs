@@ -36,9 +36,7 @@ pub(crate) fn run(arguments: &PlanArguments, trusted: &TrustedPaths, terminal: &
     let PlannedBakes { plan, warnings } =
         plan_bakes(&arguments.matrix, folder, preset_folder.as_deref(), trusted, &progress)?;
     drop(progress);
-    for warning in &warnings {
-        terminal.warning(warning.as_str());
-    }
+    terminal.warnings(warnings.iter().map(String::as_str));
     let text = plan.to_text()?;
     let Some(file) = file else {
         terminal.data(&text)?;

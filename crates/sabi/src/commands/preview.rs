@@ -25,9 +25,7 @@ pub(crate) fn run(arguments: &PreviewArguments, trusted: &TrustedPaths, terminal
         None => preview(&request, &progress)?,
     };
     drop(progress);
-    for warning in &warnings {
-        terminal.warning(warning);
-    }
+    terminal.warnings(&warnings);
     terminal.data_line(arguments.output.display())?;
     Ok(Exit::Done)
 }

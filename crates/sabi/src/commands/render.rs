@@ -56,9 +56,7 @@ pub(crate) fn run(arguments: &RenderArguments, trusted: &TrustedPaths, terminal:
         None => render(&request, &progress)?,
     };
     drop(progress);
-    for warning in &rendered.warnings {
-        terminal.warning(warning);
-    }
+    terminal.warnings(&rendered.warnings);
     for file in &rendered.files {
         terminal.data_line(file.display())?;
     }

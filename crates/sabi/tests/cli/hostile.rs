@@ -82,11 +82,20 @@ fn a_model_that_takes_more_memory_than_it_may_is_refused_by_a_sentence() {
     place.write("primitives.glb", triangles(1, 200_000));
     place.write("large.glb", triangles(100, 1));
     place.write("polygons.obj", polygons(8000, 1000));
+    // A bracket of a file becomes a material of a kilobyte.
+    place.write(
+        "empty.glb",
+        glb(&json!({ "asset": { "version": "2.0" }, "materials": vec![json!({}); 300_000] })),
+    );
+    let tree = "<COLLADA>".to_owned() + &"<a/>".repeat(1_000_000) + "</COLLADA>";
+    place.write("tree.dae", tree);
     for (model, size, sentence) in [
         ("nodes.glb", "64", "of memory, and there are 128 for it"),
         ("primitives.glb", "64", "MiB"),
         ("large.glb", "2048", "of memory, and there are 128 for it"),
         ("polygons.obj", "64", "MiB"),
+        ("empty.glb", "64", "MiB"),
+        ("tree.dae", "64", "MiB"),
     ] {
         let arguments = ["mesh", model, "--size", size, "--memory", "128", "--no-cache"];
         let refused = within(&place, 1_200_000, &arguments).fails(65);
@@ -96,6 +105,76 @@ fn a_model_that_takes_more_memory_than_it_may_is_refused_by_a_sentence() {
             refused.stderr
         );
     }
+}
+
+#[test]
+fn a_picture_that_takes_more_memory_than_it_may_is_refused_by_a_sentence() {
+    let place = Place::new();
+    // A compressed bitmap (RLE8) whose few bytes claim 16384 × 16384 pixels.
+    let mut bytes = b"BM".to_vec();
+    for word in [1078, 0, 1078, 40, 16384, 16384, 1 | 8 << 16, 1, 0, 0, 0, 256, 0] {
+        bytes.extend(u32::to_le_bytes(word));
+    }
+    bytes.resize(1078, 0);
+    bytes.extend([0, 1]);
+    place.write("huge.bmp", bytes);
+    let nodes = r#"    "clouds": { "kind": "source/image", "params": { "file": "huge.bmp" } },
+    "out": { "kind": "output/mask", "inputs": { "source": "clouds.mask" } }"#;
+    let text = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
+    place.write("picture.sabi", text);
+    software_adapter();
+    let arguments = [
+        "bake",
+        "picture.sabi",
+        "--mesh",
+        "cube.glb",
+        "-o",
+        "out",
+        "--size",
+        "16",
+        "--adapter",
+        "cpu",
+        "--memory",
+        "512",
+    ];
+    let refused = place.sabi(&arguments).fails(65);
+    let told = &refused.stderr;
+    assert!(
+        told.contains("huge.bmp takes ") && told.contains("MiB are for pictures") && told.contains("with --memory"),
+        "{told}"
+    );
+}
+
+#[test]
+fn very_many_faults_of_a_file_are_told_in_part() {
+    let place = Place::new();
+    let keys: String = (0..100_000).map(|key| format!("\"k{key}\": 1, ")).collect();
+    let head = r#""format": "sabi", "version": 1"#;
+    let out = r#""a": { "kind": "noise/simplex" }, "out": { "kind": "output/mask", "inputs": { "source": "a" } }"#;
+    place.write("keys.sabi", format!("{{ {head}, {keys} \"nodes\": {{ {out} }} }}"));
+    let told = place.sabi(&["check", "keys.sabi"]).good();
+    let told = told.stdout + &told.stderr;
+    assert!(told.contains("99900 more keys that nothing reads are left out"));
+    assert!(told.lines().count() < 300);
+    let nodes: String = (0..20_000)
+        .map(|node| format!("\"n{node}\": {{ \"kind\": \"none/n{node}\" }}, "))
+        .collect();
+    place.write("kinds.sabi", format!("{{ {head}, \"nodes\": {{ {nodes} {out} }} }}"));
+    let told = place.sabi(&["check", "kinds.sabi"]).fails(65);
+    assert!(told.stderr.lines().count() + told.stdout.lines().count() < 500);
+    let told = place.sabi(&["info", "kinds.sabi"]).good().stderr;
+    assert!(told.lines().count() < 300 && told.contains(" more warnings are left out"));
+}
+
+#[test]
+fn groups_in_a_name_that_are_in_each_other_end_in_a_sentence() {
+    let place = Place::new();
+    let names = format!("{}$map{}", "(".repeat(100_000), ")".repeat(100_000));
+    let map = "[[map]]\nname = \"M\"\ngray = \"roughness\"\nformat = \"png8\"\n";
+    let preset = format!("version = 1\nname = \"deep\"\nabout = \"Deep.\"\nnames = \"{names}\"\n{map}");
+    place.write("deep.toml", preset);
+    let told = place.sabi(&["presets", "check", "deep.toml"]).fails(65).stderr;
+    assert!(told.contains("groups are in each other more than 16 deep"), "{told}");
 }
 
 #[test]

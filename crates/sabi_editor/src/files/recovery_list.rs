@@ -1,9 +1,10 @@
 //! Graphs and node files that were not saved when the program last ended: their dates and sizes, and drawings of the graphs.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use egui::{Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 use sabi_engine::Recovery;
 use sabi_graph::Document;
 
@@ -17,6 +18,8 @@ const DRAWING: Vec2 = vec2(132.0, 76.0);
 const NODE: [f32; 2] = [160.0, 90.0];
 /// Points of a drawing for each canvas point, at most: a single node does not fill it.
 const LARGEST_SCALE: f32 = 0.25;
+/// Most height of the rows, points; more of them are scrolled.
+const MOST_HEIGHT: f32 = 240.0;
 /// Names of nodes that are said.
 const MOST_NAMES: usize = 4;
 
@@ -53,15 +56,21 @@ impl RecoveryList {
         let theme = context.theme;
         let mut chosen = None;
         ui.colored_label(theme.warning, "The program ended before this was saved:");
-        for (at, (recovery, (_, drawing))) in context.recoveries.iter().zip(&self.drawings).enumerate() {
-            ui.horizontal(|ui| {
-                if let Some(drawing) = drawing {
-                    drawing.show(ui, theme);
-                }
-                ui.vertical(|ui| chosen = row(ui, theme, (at, recovery, drawing), actions).or(chosen.take()));
-            });
-            ui.add_space(space::USUAL);
-        }
+        // As many rows as sessions have ended; what stands below them stays in sight.
+        let rows = ScrollArea::vertical()
+            .max_height(MOST_HEIGHT)
+            .auto_shrink([false, true]);
+        rows.show(ui, |ui| {
+            for (at, (recovery, (_, drawing))) in context.recoveries.iter().zip(&self.drawings).enumerate() {
+                ui.horizontal(|ui| {
+                    if let Some(drawing) = drawing {
+                        drawing.show(ui, theme);
+                    }
+                    ui.vertical(|ui| chosen = row(ui, theme, (at, recovery, drawing), actions).or(chosen.take()));
+                });
+                ui.add_space(space::USUAL);
+            }
+        });
         ui.add_space(space::WIDE);
         chosen
     }
@@ -111,11 +120,11 @@ fn row(
 impl Drawing {
     fn new(graph: &Document) -> Drawing {
         let nodes: Vec<_> = graph.graph.nodes().collect();
-        let index = |id: &str| nodes.iter().position(|(known, _)| known.as_str() == id);
+        let places: BTreeMap<&str, usize> = (0..).zip(&nodes).map(|(at, (id, _))| (id.as_str(), at)).collect();
         let mut wires = Vec::new();
         for (into, (_, node)) in nodes.iter().enumerate() {
-            let from = node.inputs.values().filter_map(|from| index(from.node.as_str()));
-            wires.extend(from.map(|from| [from, into]));
+            let from = node.inputs.values().filter_map(|from| places.get(from.node.as_str()));
+            wires.extend(from.map(|from| [*from, into]));
         }
         let names = nodes.iter().map(|(_, node)| {
             let kind = node.kind.rsplit('/').next().unwrap_or(&node.kind);

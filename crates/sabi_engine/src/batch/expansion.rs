@@ -49,6 +49,8 @@ pub(super) struct Graphs {
     kinds: BTreeMap<PathBuf, Rc<Kinds>>,
     /// Paths from which all of them may open what they name.
     trusted: TrustedPaths,
+    /// Entries of folders that the patterns of the matrix led past.
+    looked_at: usize,
 }
 
 impl Graphs {
@@ -151,19 +153,21 @@ impl<'m> Expansion<'m> {
             canceled.unwrap_or_else(|| EngineError::new(ErrorKind::BadInput, why))
         };
         let values = RowValues::of(row, &base, faults);
+        let looked_at = &mut graphs.looked_at;
         let mut files = |patterns: &[String]| {
             let mut found: Vec<WrittenFile> = Vec::new();
+            let mut known = BTreeSet::new();
             for pattern in patterns {
-                match written_files(&base, std::slice::from_ref(pattern), progress) {
-                    Ok(files) => found.extend(files),
+                let files = written_files(&base, std::slice::from_ref(pattern), looked_at, progress);
+                stop_if_canceled(progress)?;
+                match files {
+                    Ok(files) => found.extend(files.into_iter().filter(|file| known.insert(file.path.clone()))),
                     Err(why) => faults.add(said(why)),
                 }
             }
-            let mut known = BTreeSet::new();
-            found.retain(|file| known.insert(file.path.clone()));
-            found
+            Ok::<Vec<WrittenFile>, EngineError>(found)
         };
-        let (graph_files, models) = (files(&row.graphs), files(&row.models));
+        let (graph_files, models) = (files(&row.graphs)?, files(&row.models)?);
         let mut is_complete = true;
         let mut with_variants = Vec::new();
         let mut patterns = UnusedPatterns::of(row);

@@ -9,7 +9,7 @@ use sabi_files::PathBase;
 
 use crate::phases::Progress;
 
-/// Most entries of folders that a pattern may lead past.
+/// Most entries of folders that the patterns of a matrix may lead past together.
 const MOST_LOOKED_AT: usize = 1_000_000;
 
 /// A file as a matrix names it.
@@ -37,13 +37,15 @@ impl WrittenFile {
     }
 }
 
-/// Finds the files of paths and patterns, each once, in the order in which they are named; those of a pattern by name.
+/// Finds the files of paths and patterns, each once, in the order in which they are named; those of a pattern by name. Each entry of a
+/// folder that a pattern leads past is counted in `looked_at`.
 ///
 /// # Errors
 /// A clause: a pattern fits no file, or is none.
 pub(super) fn written_files(
     base: &PathBase,
     patterns: &[String],
+    looked_at: &mut usize,
     progress: &dyn Progress,
 ) -> Result<Vec<WrittenFile>, String> {
     let mut files: Vec<WrittenFile> = Vec::new();
@@ -51,7 +53,7 @@ pub(super) fn written_files(
     for written in patterns {
         let path = base.resolve(written);
         let found = match written.contains(['*', '?']) && !path.exists() {
-            true => matching(base, written, progress)?,
+            true => matching(base, written, looked_at, progress)?,
             false => vec![WrittenFile {
                 written: written.replace('\\', "/"),
                 path,
@@ -67,9 +69,14 @@ pub(super) fn written_files(
 }
 
 /// Finds the files that a pattern fits; the error is a clause.
-fn matching(base: &PathBase, written: &str, progress: &dyn Progress) -> Result<Vec<WrittenFile>, String> {
+fn matching(
+    base: &PathBase,
+    written: &str,
+    looked_at: &mut usize,
+    progress: &dyn Progress,
+) -> Result<Vec<WrittenFile>, String> {
     let folder = base.folder();
-    let mut files: Vec<WrittenFile> = Walk::new(folder, written)?
+    let mut files: Vec<WrittenFile> = Walk::new(folder, written, looked_at)?
         .files(progress)?
         .into_iter()
         .map(|path| {
@@ -97,18 +104,18 @@ enum Part {
 }
 
 /// Search for the files that a pattern fits, which looks at each folder once for each part of the pattern.
-struct Walk<'p> {
+struct Walk<'p, 'l> {
     written: &'p str,
     parts: Vec<Part>,
     /// Folders with the part that their entries have to fit.
     open: Vec<(PathBuf, usize)>,
     known: HashSet<(PathBuf, usize)>,
     found: BTreeSet<PathBuf>,
-    looked_at: usize,
+    looked_at: &'l mut usize,
 }
 
-impl<'p> Walk<'p> {
-    fn new(folder: &Path, written: &'p str) -> Result<Walk<'p>, String> {
+impl<'p, 'l> Walk<'p, 'l> {
+    fn new(folder: &Path, written: &'p str, looked_at: &'l mut usize) -> Result<Walk<'p, 'l>, String> {
         let slashed = written.replace('\\', "/");
         let is_pattern = |part: &str| part.contains(['*', '?', '[']);
         // The parts before the first pattern are a path, which may be absolute.
@@ -133,7 +140,7 @@ impl<'p> Walk<'p> {
             known: HashSet::from([(start.clone(), 0)]),
             open: vec![(start, 0)],
             found: BTreeSet::new(),
-            looked_at: 0,
+            looked_at,
         })
     }
 
@@ -196,11 +203,11 @@ impl<'p> Walk<'p> {
             folder
         };
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-            self.looked_at += 1;
-            if self.looked_at > MOST_LOOKED_AT {
+            *self.looked_at += 1;
+            if *self.looked_at > MOST_LOOKED_AT {
                 let written = self.written;
                 return Err(format!(
-                    "'{written}' leads past more than {MOST_LOOKED_AT} files; begin it with the folder of those that are meant"
+                    "'{written}' leads past more than {MOST_LOOKED_AT} files, with the patterns before it; begin it with the folder of those that are meant"
                 ));
             }
             if progress.is_canceled() {
@@ -236,7 +243,7 @@ mod tests {
         let base = PathBase::of_folder(&root);
         let of = |patterns: &[&str]| {
             let patterns: Vec<String> = patterns.iter().map(|text| (*text).to_owned()).collect();
-            let files = written_files(&base, &patterns, &NoProgress)?;
+            let files = written_files(&base, &patterns, &mut 0, &NoProgress)?;
             Ok::<_, String>(files.into_iter().map(|file| file.written).collect::<Vec<_>>())
         };
         let names = |names: &[&str]| Ok(names.iter().map(|name| (*name).to_owned()).collect());
@@ -276,7 +283,7 @@ mod tests {
     fn a_pattern_that_leads_through_the_whole_disk_can_be_canceled() {
         let base = PathBase::of_folder("/");
         let patterns = ["/**/**/**/*.no-such-ending".to_owned()];
-        let told = written_files(&base, &patterns, &After(20.into()));
+        let told = written_files(&base, &patterns, &mut 0, &After(20.into()));
         assert_eq!(told, Err("it was canceled".to_owned()));
     }
 
@@ -288,7 +295,11 @@ mod tests {
         fs::write(folder.path().join("a/x.glb"), "").expect("written");
         std::os::unix::fs::symlink("..", folder.path().join("a/up")).expect("linked");
         let base = PathBase::of_folder(folder.path());
-        let found = written_files(&base, &["**/**/*.glb".to_owned()], &NoProgress).expect("one file");
+        let found = written_files(&base, &["**/**/*.glb".to_owned()], &mut 0, &NoProgress).expect("one file");
         assert_eq!(found.len(), 1);
+        // All patterns together are limited.
+        let mut looked_at = MOST_LOOKED_AT;
+        let told = written_files(&base, &["**/*.glb".to_owned()], &mut looked_at, &NoProgress);
+        assert!(told.expect_err("over").contains("with the patterns before it"));
     }
 }

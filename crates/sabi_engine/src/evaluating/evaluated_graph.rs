@@ -25,7 +25,7 @@ pub(crate) struct EvaluatedGraph {
     pictures: Pictures,
     strokes: Strokes,
     trusted: TrustedPaths,
-    /// Memory that the pictures of the model may take, bytes.
+    /// Memory that the pictures of the model may take, and each one of the graph, bytes.
     memory_bytes: u64,
 }
 
@@ -47,6 +47,7 @@ impl EvaluatedGraph {
             memory_bytes,
         };
         graph.kinds.adapt_to(model);
+        graph.pictures.keep_at_most(memory_bytes);
         graph
     }
 
@@ -120,9 +121,12 @@ impl EvaluatedGraph {
             Some((*index, Ok(paint::content(&files, node, model)?)))
         });
         let strokes: FileContents = strokes.collect();
-        let pictures = self
-            .pictures
-            .contents((&self.base(), &self.trusted), &self.flat, &self.kinds.sources, wanted);
+        let pictures = self.pictures.contents(
+            (&self.base(), &self.trusted),
+            &self.flat,
+            &self.kinds.sources,
+            (wanted, self.memory_bytes),
+        );
         pictures.into_iter().chain(strokes).collect()
     }
 

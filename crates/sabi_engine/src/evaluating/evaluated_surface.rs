@@ -12,7 +12,7 @@ use crate::error::EngineError;
 use crate::opening::levels::SurfaceLevels;
 use crate::opening::linked_model::FittedModel;
 use crate::opening::linked_model::LinkedModel;
-use crate::phases::PhaseTimes;
+use crate::phases::{PhaseTimes, Progress};
 use crate::source::SourceSurface;
 use crate::source::picture_table::PictureTables;
 
@@ -129,7 +129,7 @@ impl EvaluatedSurface {
     }
 
     /// Returns the surface as sources see it.
-    pub(crate) fn for_sources(&self) -> SourceSurface<'_> {
+    pub(crate) fn for_sources<'a>(&'a self, progress: &'a dyn Progress) -> SourceSurface<'a> {
         SourceSurface {
             model: &self.linked.model,
             atlas: &self.linked.atlas,
@@ -142,6 +142,7 @@ impl EvaluatedSurface {
             key: self.key,
             working_from_model: self.model().working_from_model(),
             tiles: None,
+            progress,
         }
     }
 

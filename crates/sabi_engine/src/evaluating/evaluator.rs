@@ -7,7 +7,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_files::{PathBase, TrustedPaths, is_local};
-use sabi_gpu::{AdapterChoice, CasterChoice, Exported, Gpu, GpuSurface, Hits, Shares, ShownTiles, TileSet};
+use sabi_gpu::{
+    AdapterChoice, AdapterKind, CasterChoice, Exported, Gpu, GpuSurface, Hits, Shares, ShownTiles, TextureBudget,
+    TileSet,
+};
 use sabi_graph::{Document, Fit, FlatGraph, FlatNode, NodeRef, Overrides, ResultOrigin};
 use sabi_view::{ViewModel, ViewModelParts};
 
@@ -19,7 +22,7 @@ use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::{FittedModel, LinkedModel, ModelOptions};
 use crate::opening::override_faults::{all_override_faults, refuse_bad_values};
 use crate::opening::setting::read_typed;
-use crate::phases::{Phase, PhaseTimes, Progress, stop_if_canceled};
+use crate::phases::{NoProgress, Phase, PhaseTimes, Progress, stop_if_canceled};
 use crate::program_cache::ProgramCache;
 use crate::source::ray_cache::RayCache;
 use crate::warning::Warning;
@@ -60,7 +63,7 @@ pub struct Evaluator {
     rays: RaySettings,
     ray_cache: RayCache,
     kept_results: Option<ProgramCache>,
-    budget_bytes: u64,
+    budget: TextureBudget,
     times_ghosts: bool,
     /// True if kernels are forgotten once no step needs them.
     forgets_kernels: bool,
@@ -100,6 +103,18 @@ impl EvaluatorOptions {
         let files = texts.filter(|text| is_local(text) && !text.is_empty());
         let trusted = self.model.trusted.clone().with_file(graph);
         files.fold(trusted, |trusted, text| trusted.with_path(&base.resolve(text)))
+    }
+
+    /// Returns the limit of textures beside a model that takes `model_bytes`. A driver that runs on the processor keeps them in the
+    /// memory of the process, which bounds them there as well.
+    fn texture_budget(&self, kind: AdapterKind, model_bytes: u64) -> TextureBudget {
+        let left = self.model.memory_bytes.saturating_sub(model_bytes);
+        match kind {
+            AdapterKind::Cpu if left < self.budget_bytes => TextureBudget::Process(left),
+            AdapterKind::Cpu | AdapterKind::Integrated | AdapterKind::Discrete => {
+                TextureBudget::Textures(self.budget_bytes)
+            }
+        }
     }
 }
 
@@ -196,6 +211,7 @@ impl Evaluator {
         let surface = EvaluatedSurface::upload(&gpu, linked.into(), fixed.of(&open.document), &mut times)?;
         let model = &surface.linked().model;
         let memory_bytes = options.model.memory_bytes.saturating_sub(model.file_bytes);
+        let budget = options.texture_budget(gpu.summary().kind, surface.linked().memory_bytes());
         let graph = EvaluatedGraph::new(open, graph, kinds, (model, memory_bytes));
         let mut evaluator = Evaluator {
             graph,
@@ -209,7 +225,7 @@ impl Evaluator {
             },
             ray_cache: RayCache::new(options.model.cache_dir.as_deref()),
             kept_results: None,
-            budget_bytes: options.budget_bytes,
+            budget,
             times_ghosts: false,
             forgets_kernels: false,
             shows_alone: false,
@@ -274,7 +290,7 @@ impl Evaluator {
     /// Corners of boxes around some tiles in model space.
     pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Vec<[DVec3; 2]> {
         let scale = self.model().model_from_working();
-        let bounds = self.surface.for_sources().bounds_of(tiles).into_iter();
+        let bounds = self.surface.for_sources(&NoProgress).bounds_of(tiles).into_iter();
         bounds.map(|corners| corners.map(|corner| corner * scale)).collect()
     }
 
@@ -390,5 +406,37 @@ impl Evaluator {
     /// Uploads the model for drawing.
     pub(crate) fn view_model(&self) -> Result<ViewModel, EngineError> {
         Ok(ViewModel::new(&self.gpu, self.view_parts())?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn textures_of_a_driver_on_the_processor_take_what_the_model_leaves_of_the_memory() {
+        let mut model = ModelOptions::new(Path::new("cube.glb"), 64);
+        model.memory_bytes = 1000;
+        let options = EvaluatorOptions {
+            model,
+            overrides: Overrides::default(),
+            fit: None,
+            adapter: AdapterChoice::Auto,
+            caster: CasterChoice::Auto,
+            budget_bytes: 600,
+        };
+        for (kind, model_bytes, budget) in [
+            (AdapterKind::Cpu, 300, TextureBudget::Textures(600)),
+            (AdapterKind::Cpu, 500, TextureBudget::Process(500)),
+            (AdapterKind::Cpu, 2000, TextureBudget::Process(0)),
+            (AdapterKind::Integrated, 500, TextureBudget::Textures(600)),
+            (AdapterKind::Discrete, 2000, TextureBudget::Textures(600)),
+        ] {
+            assert_eq!(
+                options.texture_budget(kind, model_bytes),
+                budget,
+                "{kind}, {model_bytes}"
+            );
+        }
     }
 }

@@ -66,6 +66,9 @@ impl EvaluationError {
                 "the graph's results need {needed_mib} MiB of textures at a size of {size}, more than the budget of \
                  {budget_mib} MiB"
             ),
+            GpuError::OverMemory { needed_mib, left_mib } => format!(
+                "the graph's results need {needed_mib} MiB of memory at a size of {size}, and {left_mib} MiB are left for them"
+            ),
             GpuError::OutOfMemory { what } => {
                 format!("the device is out of memory while making {what} at a size of {size}")
             }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, io_reason, read_plain};
 use sabi_graph::{
-    Document, FlatGraph, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find, locate, unknown_keys,
+    Document, FlatGraph, FlattenError, Locator, NodeRef, Overrides, ResultOrigin, flatten_and_find, unknown_keys,
 };
 use sabi_plan::{FileContents, PlanError};
 
@@ -168,14 +168,19 @@ impl OpenGraph {
         nodes: impl IntoIterator<Item = usize>,
     ) -> FileContents {
         self.pictures
-            .contents((&self.base(), &self.trusted), graph, &kinds.sources, nodes)
+            .contents((&self.base(), &self.trusted), graph, &kinds.sources, (nodes, u64::MAX))
     }
 
     /// Lists the keys of the file that nothing reads, as sentences with the file's path, line and column before them.
     pub fn unknown_keys(&self) -> Vec<String> {
-        let keys = unknown_keys(&self.text).into_iter();
+        let found = unknown_keys(&self.text);
         let path = self.path.display();
-        keys.map(|key| format!("{path}:{}:{}: {key}", key.line, key.column))
+        let more =
+            (found.more > 0).then(|| format!("{path}: {} more keys that nothing reads are left out", found.more));
+        let first = found.first.into_iter();
+        first
+            .map(|key| format!("{path}:{}:{}: {key}", key.line, key.column))
+            .chain(more)
             .collect()
     }
 
@@ -184,9 +189,19 @@ impl OpenGraph {
         format!("{}: {sentence}", self.path.display())
     }
 
-    /// Returns a sentence about a faulty node, with the file's path, line and column before it.
-    pub(crate) fn with_position(&self, error: &PlanError, sentence: impl fmt::Display) -> String {
-        match locate(&self.text, &error.node, error.problem.member()) {
+    /// Search for the places of nodes in the file.
+    pub(crate) fn locator(&self) -> Locator<'_> {
+        Locator::new(&self.text)
+    }
+
+    /// Returns a sentence about a faulty node, with the file's path, line and column before it; `locator` is that of the file.
+    pub(crate) fn with_position(
+        &self,
+        locator: &Locator<'_>,
+        error: &PlanError,
+        sentence: impl fmt::Display,
+    ) -> String {
+        match locator.locate(&error.node, error.problem.member()) {
             Some((line, column)) => format!("{}:{line}:{column}: {sentence}", self.path.display()),
             None => self.with_path(sentence),
         }

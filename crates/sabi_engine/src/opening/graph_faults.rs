@@ -1,6 +1,6 @@
 //! Planning of a graph without a model, to find its faults.
 
-use sabi_graph::FlatGraph;
+use sabi_graph::{FlatGraph, Locator};
 use sabi_plan::{
     FileContents, FileFaultKind, Lengths, LevelWidths, Limits, Mode, Plan, PlanError, Planner, Problem, Target,
 };
@@ -50,24 +50,24 @@ pub(crate) fn targets(nodes: impl IntoIterator<Item = usize>) -> Vec<Target> {
 }
 
 /// Explains an error in sentences, with the faults of the kind's file where the kind is unknown because of them.
-pub(crate) fn explain(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> Vec<String> {
+fn explain(open: &OpenGraph, locator: &Locator<'_>, kinds: &Kinds, error: &PlanError) -> Vec<String> {
     let faults: Vec<String> = match error.problem {
         Problem::UnknownKind { .. } => kinds.faults_of(&error.kind).map(ToString::to_string).collect(),
         _ => Vec::new(),
     };
     if faults.is_empty() {
-        return vec![open.with_position(error, error)];
+        return vec![open.with_position(locator, error, error)];
     }
     let sentence = format!(
         "node '{}' is of kind '{}', whose file has a fault:",
         error.node, error.kind
     );
-    std::iter::once(open.with_position(error, sentence))
+    std::iter::once(open.with_position(locator, error, sentence))
         .chain(faults)
         .collect()
 }
 
-/// Most errors of a graph that are explained: finding the place of each takes a look at the whole text.
+/// Most errors of a graph that are explained: the place of each is counted from the beginning of the text.
 const MOST_EXPLAINED: usize = 100;
 
 /// Explains errors in sentences, those of a graph with very many in part.
@@ -78,9 +78,13 @@ pub(crate) fn explained<'e>(
 ) -> Vec<String> {
     let mut errors = errors.fuse();
     let first: Vec<&PlanError> = errors.by_ref().take(MOST_EXPLAINED).collect();
+    if first.is_empty() {
+        return Vec::new();
+    }
+    let locator = open.locator();
     let mut sentences: Vec<String> = first
         .into_iter()
-        .flat_map(|error| explain(open, kinds, error))
+        .flat_map(|error| explain(open, &locator, kinds, error))
         .collect();
     sentences.iter_mut().for_each(shorten);
     let more = errors.count();
@@ -94,18 +98,32 @@ fn kind_of(errors: &[PlanError]) -> ErrorKind {
     if all(|problem| matches!(problem, Problem::NoSuchResult { .. })) {
         // The missing result was requested by name, so the file is not at fault.
         ErrorKind::Usage
-    } else if all(|problem| matches!(problem, Problem::BadFile(fault) if fault.kind != FileFaultKind::Unusable)) {
+    } else if all(|problem| matches!(problem, Problem::BadFile(fault) if is_out_of_reach(fault.kind))) {
         ErrorKind::MissingInput
     } else {
         ErrorKind::BadInput
     }
 }
 
+/// Returns true for the fault of a file that was not opened.
+fn is_out_of_reach(kind: FileFaultKind) -> bool {
+    match kind {
+        FileFaultKind::Missing | FileFaultKind::Refused | FileFaultKind::NeverOpened => true,
+        FileFaultKind::Unusable | FileFaultKind::TooLarge => false,
+    }
+}
+
 /// Remedies of faults.
 pub(crate) fn remedies_of(errors: &[PlanError]) -> Option<Remedy> {
-    let is_refused =
-        |error: &PlanError| matches!(&error.problem, Problem::BadFile(fault) if fault.kind == FileFaultKind::Refused);
-    errors.iter().any(is_refused).then_some(Remedy::TrustFile)
+    let is_there = |kind: FileFaultKind| {
+        let is_it = |error: &PlanError| matches!(&error.problem, Problem::BadFile(fault) if fault.kind == kind);
+        errors.iter().any(is_it)
+    };
+    if is_there(FileFaultKind::Refused) {
+        Some(Remedy::TrustFile)
+    } else {
+        is_there(FileFaultKind::TooLarge).then_some(Remedy::RaiseMemory)
+    }
 }
 
 /// Refuses a graph with faults that the targets depend on, with a sentence for each. Returns the plan without a model.

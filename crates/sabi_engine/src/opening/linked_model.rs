@@ -13,7 +13,7 @@ use sabi_paint::SurfaceIndex;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, Repeats, Udim, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
-use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load_trusting};
+use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load_trusting, mesh_bytes};
 use sabi_surface::model::Model;
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
@@ -174,6 +174,11 @@ pub struct Unwrapping {
 }
 
 impl LinkedModel {
+    /// Bytes that its files, its mesh and its atlas take.
+    pub(crate) fn memory_bytes(&self) -> u64 {
+        self.model.file_bytes + mesh_bytes(self.model.mesh.triangles.len() as u64) + self.atlas.memory_bytes()
+    }
+
     /// Loads a model and builds its atlas.
     pub fn open(options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let model = LinkedModel::load_model(options, progress)?;

@@ -36,6 +36,9 @@ pub(crate) fn refuse_bad_values(
     Err(EngineError::several(ErrorKind::Usage, messages))
 }
 
+/// Most settings of which each one that is wrong is told.
+const MOST_LOOKED_AT: usize = 500;
+
 /// Returns an error with all faults of the values that a request sets, given the first one, which keeps the graph from being flattened:
 /// each name and value is tried alone, and those that remain together.
 pub(crate) fn all_override_faults(
@@ -56,6 +59,10 @@ pub(crate) fn all_override_faults(
             return first;
         }
         faults.add(error);
+    }
+    // Each takes a look at the whole graph; what is wrong in very many was written by a program.
+    if overrides.set.len() > MOST_LOOKED_AT {
+        return first;
     }
     for setting in &overrides.set {
         good.set.push(setting.clone());

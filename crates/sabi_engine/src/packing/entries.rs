@@ -28,7 +28,12 @@ pub(super) fn is_usual_ending(ending: &str) -> bool {
 
 /// Checks the name of an entry; the error is a clause.
 pub(super) fn check_name(name: &str) -> Result<(), String> {
-    if let Some(hidden) = name.split('/').find(|part| part.starts_with('.')) {
+    // Some disks leave joiners of letters out of names, so that they could stand before or in `.git`.
+    let is_joiner = |letter: char| matches!(letter, '\u{200c}' | '\u{200d}');
+    if let Some(hidden) = name
+        .split('/')
+        .find(|part| part.trim_start_matches(is_joiner).starts_with('.'))
+    {
         return Err(format!(
             "'{hidden}' begins with a dot, as settings of other programs do, which no bake reads"
         ));
@@ -86,6 +91,7 @@ mod tests {
         }
         for bad in [
             ".git/config",
+            "\u{200c}.git/config",
             ".envrc",
             "a/.vscode/settings.json",
             "a/.git",

@@ -248,7 +248,9 @@ fn canvas(
     };
     let mesh = &surface.model.mesh;
     let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
-    let paint_surface = PaintSurface::new(mesh, index);
+    let progress = surface.progress;
+    let is_canceled = || progress.is_canceled();
+    let paint_surface = PaintSurface::new(mesh, index).stopped_by(&is_canceled);
     if from.is_none() && strokes.copy_input(graph, model, written) {
         let why = "has strokes that copy from another node, and nothing is connected to From: connect a node to it, or remove them";
         warn(why.to_owned());

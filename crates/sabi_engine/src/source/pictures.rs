@@ -22,6 +22,9 @@ pub(crate) const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 const CACHE_LIMIT_BYTES: u64 = 2 << 30;
 /// Bytes of a pixel of the smaller copies of a picture, which are a third of its pixels together.
 const COPY_PIXEL_BYTES: u64 = 16;
+/// Bytes of a pixel on its way to the device: half floats with their smaller copies, in a buffer, and in the texture where the driver
+/// keeps it in the memory of the process.
+const UPLOAD_PIXEL_BYTES: u64 = 16;
 
 /// Reason why a picture is unavailable, as a sentence, and its kind.
 pub(crate) type Fault = (String, FileFaultKind);
@@ -32,8 +35,9 @@ pub struct Pictures {
     cache: Arc<Mutex<PictureCache>>,
 }
 
-#[derive(Default)]
 struct PictureCache {
+    /// Bytes of decoded pictures that are kept; a single larger one is kept alone.
+    limit_bytes: u64,
     /// Files by path, as they were when last read.
     known: BTreeMap<PathBuf, KnownFile>,
     /// Pictures by the key of what they show, the most recently used last.
@@ -50,6 +54,8 @@ struct KnownFile {
     content: [u8; 32],
     /// Layers of an OpenEXR file, the one that is shown by default first.
     layers: Vec<String>,
+    /// Memory that showing it takes, bytes.
+    memory_bytes: u64,
 }
 
 /// Length and modification time of a file.
@@ -78,6 +84,17 @@ impl Shown<'_> {
         let mut hash = blake3::Hasher::new();
         hash.update(&self.content).update(self.layer.as_bytes());
         *hash.finalize().as_bytes()
+    }
+}
+
+impl Default for PictureCache {
+    fn default() -> PictureCache {
+        PictureCache {
+            limit_bytes: CACHE_LIMIT_BYTES,
+            known: BTreeMap::new(),
+            decoded: Vec::new(),
+            others: BTreeMap::new(),
+        }
     }
 }
 
@@ -186,13 +203,22 @@ fn is_transparent(picture: &Picture) -> bool {
 }
 
 impl Pictures {
-    /// Returns the hash of the file that each of these nodes names, or the fault; muted nodes name none.
+    /// Keeps decoded pictures of at most so many bytes from now on, and never more than a session does.
+    pub(crate) fn keep_at_most(&self, bytes: u64) {
+        let mut cache = self.lock();
+        let limit_bytes = bytes.min(CACHE_LIMIT_BYTES);
+        cache.limit_bytes = limit_bytes;
+        cache.evict(limit_bytes);
+    }
+
+    /// Returns the hash of the file that each of these nodes names, or the fault, such as that showing it takes more than
+    /// `memory_bytes`; muted nodes name none.
     pub(crate) fn contents(
         &self,
         (base, trusted): (&PathBase, &TrustedPaths),
         graph: &FlatGraph,
         sources: &SourceKinds,
-        nodes: impl IntoIterator<Item = usize>,
+        (nodes, memory_bytes): (impl IntoIterator<Item = usize>, u64),
     ) -> FileContents {
         let named = nodes.into_iter().filter_map(|index| {
             let node = graph.nodes.get(index).filter(|node| !node.muted)?;
@@ -208,6 +234,8 @@ impl Pictures {
             let content = content.and_then(|(content, file)| {
                 self.check_layer(&file, path, named_layer(node))
                     .map_err(|why| fault(LAYER, why))?;
+                self.check_memory(&file, path, memory_bytes)
+                    .map_err(|why| fault(param, why))?;
                 Ok(content)
             });
             Some((index, content))
@@ -232,10 +260,27 @@ impl Pictures {
             stamp,
             content: *blake3::hash(&bytes).as_bytes(),
             layers: sabi_image::layer_names(written, &bytes).map_err(unusable)?,
+            memory_bytes: memory_of_shown(written, &bytes).map_err(unusable)?,
         };
         let content = known.content;
         self.lock().known.insert(path.to_owned(), known);
         Ok(content)
+    }
+
+    /// Checks that showing a file whose content is known takes no more than `memory_bytes`.
+    fn check_memory(&self, path: &Path, written: &str, memory_bytes: u64) -> Result<(), Fault> {
+        let cache = self.lock();
+        match cache.known.get(path).map(|known| known.memory_bytes) {
+            Some(needed) if needed > memory_bytes => {
+                let why = format!(
+                    "{written} takes {} MiB of memory once it is open, and {} MiB are for pictures",
+                    needed.div_ceil(1 << 20),
+                    memory_bytes >> 20
+                );
+                Err((why, FileFaultKind::TooLarge))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Checks that a file whose content is known has a layer; an empty name asks for none.
@@ -295,7 +340,8 @@ impl Pictures {
         let picture = Arc::new(OpenPicture::new(picture, layers));
         let mut cache = self.lock();
         cache.decoded.push((shown.key(), picture.clone()));
-        cache.evict(CACHE_LIMIT_BYTES);
+        let limit_bytes = cache.limit_bytes;
+        cache.evict(limit_bytes);
         Ok(picture)
     }
 
@@ -307,7 +353,12 @@ impl Pictures {
 
     /// Drops all pictures; they are read again on their next use.
     pub(crate) fn clear(&self) {
-        *self.lock() = PictureCache::default();
+        let mut cache = self.lock();
+        let limit_bytes = cache.limit_bytes;
+        *cache = PictureCache {
+            limit_bytes,
+            ..PictureCache::default()
+        };
     }
 
     /// Has these files read again on their next use, for changes that neither length nor time shows.
@@ -318,6 +369,14 @@ impl Pictures {
     fn lock(&self) -> MutexGuard<'_, PictureCache> {
         locked(&self.cache)
     }
+}
+
+/// Returns the memory that a picture takes until a node shows it: that of [`memory_of`], and of its way to the device.
+fn memory_of_shown(name: &str, bytes: &[u8]) -> Result<u64, ImageError> {
+    let uploaded = sabi_image::decoded_size(name, bytes)?
+        .pixels
+        .saturating_mul(UPLOAD_PIXEL_BYTES);
+    Ok(memory_of(name, bytes, 1)?.saturating_add(uploaded))
 }
 
 /// Returns the memory of a picture in memory and of its smaller copies, once it is open, by its header alone; `spaces` is the

@@ -286,7 +286,7 @@ impl Strokes {
         list.is_some_and(|list| list.strokes.iter().any(copies))
     }
 
-    /// The canvas of a version that a node has, with at least these layers; none if the version is not known. Strokes whose picture is not beside
+    /// The canvas of a version that a node has, with at least these layers; none if the version is not known, or the work was stopped. Strokes whose picture is not beside
     /// the graph leave nothing, nor do those that copy the result that is connected to the node, if there is none.
     pub(crate) fn painted(
         &self,
@@ -316,6 +316,9 @@ impl Strokes {
         };
         let painted = canvases.painted(surface, (atlas, key), (&list, supplies), layers, CANVAS_LIMIT_BYTES);
         drop(canvases);
+        if surface.is_stopped() {
+            return None;
+        }
         self.remember_canvas((surface_key, node.to_owned()), version, &painted.canvas);
         Some(painted)
     }

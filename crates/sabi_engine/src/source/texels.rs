@@ -15,6 +15,7 @@ use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
 
 use super::picture_table::PictureTables;
+use crate::phases::Progress;
 
 /// Texels per parallel task.
 const CHUNK: usize = 4096;
@@ -47,6 +48,8 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) working_from_model: f64,
     /// Tiles whose texels are filled; none for all.
     pub(crate) tiles: Option<&'a TileSet>,
+    /// Receiver of the progress, which can cancel the work.
+    pub(crate) progress: &'a dyn Progress,
 }
 
 /// Point of the surface under a texel of the atlas: its triangle, and its position on the page of its chart.

@@ -14,12 +14,15 @@ pub(super) fn segments(
         tokens,
         words,
     };
-    let segments = reader.segments(false)?;
+    let segments = reader.segments(0)?;
     match reader.rest {
         "" => Ok(segments),
         _ => Err("a group is closed that was not opened; write $( and $) for plain parentheses".to_owned()),
     }
 }
+
+/// Most groups in each other.
+const MOST_GROUPS: usize = 16;
 
 struct Reader<'t, 'w> {
     rest: &'t str,
@@ -28,8 +31,11 @@ struct Reader<'t, 'w> {
 }
 
 impl<'t> Reader<'t, '_> {
-    /// Reads to the end, or to the end of the group.
-    fn segments(&mut self, in_group: bool) -> Result<Vec<Segment>, String> {
+    /// Reads to the end, or to the end of the group, which is in so many others and itself; 0 outside of groups.
+    fn segments(&mut self, depth: usize) -> Result<Vec<Segment>, String> {
+        if depth > MOST_GROUPS {
+            return Err(format!("groups are in each other more than {MOST_GROUPS} deep"));
+        }
         let mut segments = Vec::new();
         loop {
             let end = self.rest.find(['$', '{', '(', ')']);
@@ -38,11 +44,11 @@ impl<'t> Reader<'t, '_> {
             push_text(&mut segments, text);
             self.rest = rest;
             match rest.chars().next() {
-                None if in_group => return Err("a group is opened and not closed; close it with )".to_owned()),
+                None if depth > 0 => return Err("a group is opened and not closed; close it with )".to_owned()),
                 None | Some(')') => return Ok(segments),
                 Some('(') => {
                     self.rest = &rest[1..];
-                    let group = self.segments(true)?;
+                    let group = self.segments(depth + 1)?;
                     if !self.rest.starts_with(')') {
                         return Err("a group is opened and not closed; close it with )".to_owned());
                     }

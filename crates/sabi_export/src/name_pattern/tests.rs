@@ -49,6 +49,16 @@ fn names_stand_where_the_pattern_has_them() {
 }
 
 #[test]
+fn groups_in_each_other_are_followed_at_once() {
+    // One by one, this would take as long as the letters of the name to the power of the groups.
+    let text = format!("$map{}{}", "($material".repeat(16), ")".repeat(16));
+    let pattern = NamePattern::parse(&text, &[]).unwrap();
+    let stem = format!("height{}", "a".repeat(200));
+    assert!(pattern.may_give(&stem, "height"));
+    assert!(!pattern.may_give(&stem, "normal"));
+}
+
+#[test]
 fn patterns_that_cannot_be_names_say_why() {
     let letters = "it has letters that a file name cannot have, or too many; use plain letters, digits, '_' and '-'";
     let known = "there is: $material, $map, $channel, $udim, $size, $graph, $variant, $mesh";
@@ -68,6 +78,10 @@ fn patterns_that_cannot_be_names_say_why() {
         (
             "$map)",
             "a group is closed that was not opened; write $( and $) for plain parentheses".to_owned(),
+        ),
+        (
+            "$map(((((((((((((((((a)))))))))))))))))",
+            "groups are in each other more than 16 deep".to_owned(),
         ),
         ("{mapp}", format!("nobody knows $mapp; {known}")),
         ("$chanel_x", format!("nobody knows $chanel; {known}")),

@@ -20,9 +20,7 @@ impl Runner<'_> {
         let covered = self.coverages.tiles(self.at);
         for (output, planes) in &step.writes {
             for (plane, slot) in planes {
-                if (self.options.is_canceled)() {
-                    return Err(GpuError::Canceled);
-                }
+                self.stop_if_canceled()?;
                 let texture = self.texture(*slot)?;
                 let format = self.plan.slots[*slot].format;
                 let failed = |reason: String| GpuError::Node {
@@ -52,10 +50,12 @@ impl Runner<'_> {
                     let bytes = sources
                         .plane_tiles(step, output, *plane, inputs, &tiles)
                         .map_err(failed)?;
+                    self.stop_if_canceled()?;
                     self.upload_tiles(&texture, format, &tiles, &bytes);
                     continue;
                 }
                 let bytes = sources.plane(step, output, *plane, inputs, covered).map_err(failed)?;
+                self.stop_if_canceled()?;
                 if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
                     let given = bytes.len();
                     let message = format!(
@@ -72,6 +72,14 @@ impl Runner<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Ends the run once it is canceled: a source that was stopped gives a plane that is of no use.
+    fn stop_if_canceled(&self) -> Result<(), GpuError> {
+        match (self.options.is_canceled)() {
+            true => Err(GpuError::Canceled),
+            false => Ok(()),
+        }
     }
 
     /// Textures of the connected inputs of a source.

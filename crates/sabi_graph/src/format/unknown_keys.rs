@@ -36,24 +36,42 @@ impl fmt::Display for UnknownKey {
     }
 }
 
-/// Lists the unknown keys in the text of a graph file, in order. The list is empty for a text that is not a graph.
-pub fn unknown_keys(text: &str) -> Vec<UnknownKey> {
+/// Keys of a graph file that nothing reads.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct UnknownKeys {
+    /// The first ones, in their order.
+    pub first: Vec<UnknownKey>,
+    /// Number of the others: a file may have any number of them.
+    pub more: usize,
+}
+
+/// Most keys that are described: the place of each is counted from the beginning of the text.
+const MOST_DESCRIBED: usize = 100;
+
+/// Lists the unknown keys in the text of a graph file. There are none in a text that is not a graph.
+pub fn unknown_keys(text: &str) -> UnknownKeys {
     let Some(json) = parse(text).ok().and_then(|json| to_newest(json).ok()) else {
-        return Vec::new();
+        return UnknownKeys::default();
     };
     let mut search = Search {
         text,
         found: Vec::new(),
+        more: 0,
     };
     search.object(&json, &DOCUMENT, "the graph", "");
     search.found.sort_by_key(|(at, _)| *at);
-    search.found.into_iter().map(|(_, key)| key).collect()
+    UnknownKeys {
+        first: search.found.into_iter().map(|(_, key)| key).collect(),
+        more: search.more,
+    }
 }
 
 struct Search<'t> {
     text: &'t str,
-    /// Keys with their offsets.
+    /// The first keys with their offsets.
     found: Vec<(usize, UnknownKey)>,
+    /// Number of the others.
+    more: usize,
 }
 
 impl Search<'_> {
@@ -64,6 +82,7 @@ impl Search<'_> {
         for member in members {
             match keys.keys.iter().find(|known| known.name == member.key) {
                 Some(known) => self.value(&member.value, known, place, of),
+                None if self.found.len() == MOST_DESCRIBED => self.more += 1,
                 None => {
                     let (line, column) = line_and_column(self.text, member.key_at);
                     // A key that is present already cannot be the one that was meant.

@@ -127,6 +127,9 @@ impl Painter<'_> {
         };
         let mut before: Option<StampPlace> = None;
         for stamp in stamps_of(&way, used) {
+            if self.surface.is_stopped() {
+                return;
+            }
             let way = before.as_ref().map_or(DVec3::ZERO, |before| {
                 stamp.point.site.position - before.point.site.position
             });

@@ -145,6 +145,9 @@ impl Painter<'_> {
         let mut all = Vec::new();
         let mut limit = FOUND_LIMIT;
         for part in 0..run.points.len() - 1 {
+            if self.surface.is_stopped() {
+                return;
+            }
             self.find_beside(run, part, used, &mut all);
             if all.len() > limit {
                 keep_nearest(&mut all);

@@ -64,6 +64,9 @@ impl Painter<'_> {
     pub(super) fn draw_line(&mut self, way: &[WayPoint], parts: Range<usize>, used: &UsedBrush) {
         let brush = &used.brush;
         for (index, point) in way.iter().enumerate().take(parts.end).skip(parts.start) {
+            if self.surface.is_stopped() {
+                return;
+            }
             let next = way.get(index + 1).filter(|next| next.is_joined);
             if next.is_none() && point.is_joined {
                 continue;
@@ -106,6 +109,9 @@ impl Painter<'_> {
         let brush = &used.brush;
         let seed = stroke_seed(stamps.first().map(|first| first.point).as_slice());
         for (index, stamp) in stamps.iter().enumerate().take(range.end).skip(range.start) {
+            if self.surface.is_stopped() {
+                return;
+            }
             let number = |salt: i32| random(seed, [index as i32, salt, 5]);
             let jitter = brush.jitter;
             let radius = brush.radius_at(&stamp.point.pose) * (1.0 - f64::from(jitter.size) * number(1));

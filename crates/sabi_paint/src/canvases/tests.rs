@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 use sabi_files::Disk;
@@ -226,6 +227,44 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
         }
     }
     assert!(undone > 1000 && reopened > 20, "{undone} undone, {reopened} reopened");
+}
+
+#[test]
+fn strokes_end_wherever_they_are_stopped_and_nothing_of_them_is_kept() {
+    let mesh = square();
+    let (index, atlas) = (
+        SurfaceIndex::new(&mesh),
+        Atlas::build(&mesh, &AtlasOptions::new(64)).unwrap(),
+    );
+    let whole = PaintSurface::new(&mesh, &index);
+    let mut dice = Dice { operation: 3, asked: 0 };
+    let strokes = (0..40).map(|number| {
+        Arc::new(Stroke {
+            id: Version([number; 8]),
+            ..stroke(&whole, &mut dice)
+        })
+    });
+    let list = StrokeList {
+        strokes: strokes.collect(),
+    };
+    let pictures = StampPictures::new();
+    let painted = |canvases: &mut Canvases, surface: &PaintSurface<'_>| {
+        let supplies = Supplies::of_pictures(&pictures);
+        let painted = canvases.painted(surface, (&atlas, [0; 32]), (&list, supplies), ALL, BUDGET);
+        hash(&painted.canvas)
+    };
+    let wanted = painted(&mut Canvases::default(), &whole);
+    for after in [0, 1, 10, 300, 2000] {
+        let asked = AtomicUsize::new(0);
+        let stop = || asked.fetch_add(1, Ordering::Relaxed) >= after;
+        let mut canvases = Canvases::default();
+        painted(&mut canvases, &PaintSurface::new(&mesh, &index).stopped_by(&stop));
+        let most = asked.into_inner();
+        assert!(most < after + 5000, "asked {most} times, and stopped after {after}");
+        assert!(canvases.kept.iter().all(|kept| kept.strokes.len() < list.strokes.len()));
+        assert!(canvases.growing.is_empty());
+        assert_eq!(painted(&mut canvases, &whole), wanted, "stopped after {after}");
+    }
 }
 
 #[test]

@@ -38,7 +38,7 @@ pub(super) const ROOT: &[u8] = b"<COLLADA";
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
     let text = decoded(bytes);
-    let tree = document::parsed(&text)?;
+    let tree = document::parsed(&text, options.memory_bytes)?;
     let document = Document::new(&tree, &mut warnings)?;
     if document.first("library_animations").is_some() {
         warnings.add("Animations are left out: the scene is taken as it stands without them.");

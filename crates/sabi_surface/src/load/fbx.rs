@@ -51,7 +51,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     if writes_commas(&text) {
         return Err(Fault::Format(COMMAS.into()));
     }
-    let scene = opened(&text)?;
+    let scene = opened(&text, options.memory_bytes)?;
     note_omissions(&scene, &mut warnings);
     let mut groups = Groups::default();
     let shown = nodes::shown(&scene, &mut groups, &mut warnings);
@@ -136,12 +136,15 @@ struct Source<'s> {
     who: String,
 }
 
-/// Opens the scene, in meters and right-handed with +Y up. No other file is opened, and memory is limited.
-fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
+/// Opens the scene, in meters and right-handed with +Y up. No other file is opened, and memory is limited, each of what is kept and of what is not.
+fn opened(bytes: &[u8], memory_bytes: u64) -> Result<ufbx::SceneRoot, Fault> {
     let limit = bytes
         .len()
         .saturating_mul(MEMORY_OF_A_BYTE)
         .saturating_add(LEAST_MEMORY);
+    let allowed = usize::try_from(memory_bytes).unwrap_or(usize::MAX);
+    let is_of_file = limit <= allowed;
+    let limit = limit.min(allowed);
     let limited = || AllocatorOpts {
         memory_limit: limit,
         ..AllocatorOpts::default()
@@ -176,6 +179,8 @@ fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
     let loaded = ufbx::load_memory(bytes, options);
     cancel.look();
     loaded.or_else(|error| match error.type_ {
+        // How much more it takes is not known before it is read.
+        ErrorType::MemoryLimit if !is_of_file => Err(Fault::memory(memory_bytes.saturating_add(1), memory_bytes)),
         ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
             damaged("it promises more data than a file of its size has")
         }

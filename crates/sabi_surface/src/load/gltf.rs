@@ -52,7 +52,7 @@ pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Arc<[u8]>, String> + 'a;
 /// Reads a `.gltf` or `.glb` file.
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
-    let (document, binary) = Document::parse(bytes, &mut warnings)?;
+    let (document, binary) = Document::parse(bytes, options.memory_bytes, &mut warnings)?;
     document.check_extensions(&mut warnings)?;
     let buffers = Buffers::gather(&document, binary, (resolve, options.memory_bytes), &mut warnings)?;
     let source = Source {

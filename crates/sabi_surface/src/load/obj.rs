@@ -45,7 +45,8 @@ pub(super) fn read(
     let mut warnings = Warnings::default();
     let text = decoded(bytes);
     let mut statements = Statements::read(&text, &mut warnings)?;
-    check_size(statements.faces.triangles(), 1, options.memory_bytes)?;
+    let named = statements.materials.len() + statements.parts.len();
+    check_size(statements.faces.triangles(), named as u64, options.memory_bytes)?;
     check_uv_set(&statements, options)?;
     let mut model = Model {
         stem: super::stem(name),

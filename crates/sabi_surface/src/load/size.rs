@@ -15,6 +15,11 @@ const PRIMITIVE_BYTES: u64 = 1024;
 /// Primitives that take no memory worth counting.
 const FEW_PRIMITIVES: u64 = 64;
 
+/// Returns the bytes that a mesh of so many triangles takes once it is loaded, with what an atlas keeps for it.
+pub fn mesh_bytes(triangles: u64) -> u64 {
+    triangles.saturating_mul(TRIANGLE_BYTES + ATLAS_BYTES)
+}
+
 /// Checks that so many triangles, in so many primitives and placed meshes, can be held.
 ///
 /// # Errors

@@ -231,6 +231,9 @@ impl TextReader<'_> {
                 let name = solid_name(&mut words);
                 self.close();
                 self.first = 0;
+                // One without any facet is nothing, and a file may have millions of them.
+                let is_empty = |solid: &mut Solid| solid.faces.corners.is_empty();
+                self.solids.pop_if(is_empty);
                 self.solids.push(Solid {
                     name,
                     ..Solid::default()

@@ -21,8 +21,9 @@ const MANY: usize = 10_000;
 const STEPS: u32 = 7;
 /// Share of the sheet that no packing covers.
 const TOO_FULL: f64 = 0.95;
-/// Most texels of the bounding boxes of all charts, a bit each: 256 MB.
-const MOST_BOXED: f64 = (1u64 << 31) as f64;
+/// Most cells of the bounding boxes of all charts, a bit for each in each of four turns: 64 MB. A sheet has an eighth of them at most;
+/// charts that fill less of their boxes are splinters, and are laid out smaller.
+const MOST_BOXED: f64 = (1u64 << 27) as f64;
 
 /// Two corners of a triangle, model units.
 type Edge = [DVec2; 2];
@@ -196,18 +197,19 @@ fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
         let [width, height] = shape.texels(scale).map(|texels| f64::from(texels + GAP));
         width * height
     };
-    if shapes.iter().map(boxed).sum::<f64>() > MOST_BOXED {
+    let (cell, limit) = cells(shapes.len(), size);
+    if shapes.iter().map(boxed).sum::<f64>() > MOST_BOXED * f64::from(cell).powi(2) {
         return None;
     }
-    let (cell, limit) = cells(shapes.len(), size);
-    let masks: Vec<Mask> = shapes.par_iter().map(|shape| shape.mask(scale)).collect();
-    let key = |mask: &Mask| {
-        let (width, height) = (u64::from(mask.width), u64::from(mask.height));
-        (std::cmp::Reverse((width.max(height), width * height)), width, height)
-    };
+    // The texels of a shape are dropped before those of the next one are made.
+    let drawn = shapes.par_iter().map(|shape| {
+        let mask = shape.mask(scale);
+        ([mask.width, mask.height].map(u64::from), turns(mask, cell))
+    });
+    let (sides, turned): (Vec<[u64; 2]>, Vec<[Mask; 4]>) = drawn.unzip();
+    let key = |[width, height]: [u64; 2]| (std::cmp::Reverse((width.max(height), width * height)), width, height);
     let mut order: Vec<usize> = (0..shapes.len()).collect();
-    order.sort_by_key(|&index| (key(&masks[index]), index));
-    let turned: Vec<[Mask; 4]> = masks.into_par_iter().map(|mask| turns(mask, cell)).collect();
+    order.sort_by_key(|&index| (key(sides[index]), index));
     let taken: u64 = turned.iter().map(|[mask, ..]| mask.count()).sum();
     let widest = turned.iter().map(|[mask, ..]| mask.width.max(mask.height)).max();
     if taken > u64::from(limit).pow(2) || widest.is_some_and(|widest| widest > limit) {

@@ -289,6 +289,25 @@ fn what_was_kept_and_cannot_be_read_is_told_until_it_is_let_go() {
 }
 
 #[test]
+fn however_much_was_kept_the_start_page_stays_in_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let unsaved = folder.path().join("unsaved");
+    fs::create_dir_all(&unsaved).expect("a folder");
+    for session in 0..60 {
+        let text = format!(
+            r#"{{ "file": null, "graph": {:?}, "drafts": [] }}"#,
+            r#"{"format":"sabi","version":1,"nodes":{}}"#
+        );
+        fs::write(unsaved.join(format!("1-{session}-0.recovery")), text).expect("a file");
+    }
+    let mut window = Window::in_folder(folder, |_| Session::new(None));
+    window.settle();
+    let screen = window.harness.ctx.content_rect();
+    let below = window.harness.get_by_label("Empty graph").rect();
+    assert!(screen.contains_rect(below), "{below} in {screen}");
+}
+
+#[test]
 fn keys_of_the_window_are_heard_while_a_text_is_typed_and_letters_are_not() {
     let mut window = Window::opened(CLOUDS);
     window.mute();

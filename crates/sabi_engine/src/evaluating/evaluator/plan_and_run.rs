@@ -8,6 +8,7 @@ use sabi_plan::{Lengths, Mode, Plan, PlanError, Planner, Target};
 
 use super::Evaluator;
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::graph_faults::remedies_of;
 use crate::opening::solidity;
 use crate::phases::{Phase, Progress};
 use crate::program_cache::ProgramCache;
@@ -19,7 +20,7 @@ impl Evaluator {
         RunOptions {
             is_canceled,
             shown: self.shown(),
-            ..RunOptions::new(submission, self.budget_bytes)
+            ..RunOptions::new(submission, self.budget)
         }
     }
 
@@ -32,9 +33,12 @@ impl Evaluator {
         let messages: Vec<String> = errors.iter().map(said).collect();
         self.warn(warnings.iter().map(said));
         self.warn(solidity::warnings(&plan, self.surface.linked()));
+        let remedies = remedies_of(&errors);
         match errors.into_iter().next() {
             None => Ok(plan),
-            Some(first) => Err(EngineError::several(ErrorKind::BadInput, messages).caused_by(first)),
+            Some(first) => Err(EngineError::several(ErrorKind::BadInput, messages)
+                .with_remedies(remedies)
+                .caused_by(first)),
         }
     }
 
@@ -118,7 +122,7 @@ impl Evaluator {
     ) -> Result<Run, GpuError> {
         let _span = tracing::debug_span!("run", steps = plan.steps.len()).entered();
         let mut sources = Sources::new(
-            self.surface.for_sources(),
+            self.surface.for_sources(progress),
             self.graph.files(),
             (&self.ray_cache, self.kept_results.as_ref()),
             progress,
@@ -127,7 +131,7 @@ impl Evaluator {
             submission,
             is_canceled: &|| progress.is_canceled(),
             progress: &|done, of| progress.advance(Phase::Run, done, of),
-            budget_bytes: self.budget_bytes,
+            budget: self.budget,
             caster: self.rays.caster,
             hits: self.rays.hits,
             times_ghosts: self.times_ghosts,

@@ -14,12 +14,23 @@ use crate::load::warnings::Warnings;
 /// Most attributes of an element. The parser compares each with all before it; elements of COLLADA have ten at most.
 const MOST_ATTRIBUTES: usize = 1000;
 
-/// Parses the text; definitions of entities, by which a short text may become a long one, are refused.
-pub(super) fn parsed(text: &str) -> Result<roxmltree::Document<'_>, Fault> {
+/// Memory of an element with the text behind it.
+const ELEMENT_BYTES: u64 = 192;
+/// Memory of an attribute.
+const ATTRIBUTE_BYTES: u64 = 80;
+
+/// Parses the text, whose tree takes at most `memory_bytes`; definitions of entities, by which a short text may become a long one, are
+/// refused.
+pub(super) fn parsed(text: &str, memory_bytes: u64) -> Result<roxmltree::Document<'_>, Fault> {
     if let Some(count) = most_attributes(text).filter(|count| *count > MOST_ATTRIBUTES) {
         return damaged(format!(
             "one of its elements has {count} attributes, and at most {MOST_ATTRIBUTES} are read"
         ));
+    }
+    let count = |mark: u8| text.bytes().filter(|byte| *byte == mark).count() as u64;
+    let needed = ELEMENT_BYTES * count(b'<') + ATTRIBUTE_BYTES * count(b'=');
+    if needed > memory_bytes {
+        return Err(Fault::memory(needed, memory_bytes));
     }
     let options = ParsingOptions {
         allow_dtd: false,
@@ -169,12 +180,12 @@ mod tests {
     fn an_element_of_many_attributes_is_refused_before_it_is_parsed() {
         let attributes: String = (0..300_000).map(|number| format!(" a{number}='1'")).collect();
         let text = format!("<COLLADA><asset{attributes}/></COLLADA>");
-        let told = parsed(&text).map(|_| ()).unwrap_err().to_string();
+        let told = parsed(&text, u64::MAX).map(|_| ()).unwrap_err().to_string();
         assert!(
             told.contains("one of its elements has 300000 attributes, and at most 1000 are read"),
             "{told}"
         );
         let attributes: String = (0..1000).map(|number| format!(" a{number}='1'")).collect();
-        assert!(parsed(&format!("<COLLADA{attributes}/>")).is_ok());
+        assert!(parsed(&format!("<COLLADA{attributes}/>"), u64::MAX).is_ok());
     }
 }

@@ -71,13 +71,18 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// Splits a GLB container where there is one, and reads the JSON; also gives the binary chunk.
-    pub(super) fn parse<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(Document, Option<&'a [u8]>), Fault> {
+    /// Splits a GLB container where there is one, and reads the JSON, which takes at most `memory_bytes`; also gives the binary chunk.
+    pub(super) fn parse<'a>(
+        bytes: &'a [u8],
+        memory_bytes: u64,
+        warnings: &mut Warnings,
+    ) -> Result<(Document, Option<&'a [u8]>), Fault> {
         let (text, binary) = if bytes.starts_with(b"glTF") {
             chunks(bytes, warnings)?
         } else {
             (bytes, None)
         };
+        check_json(text, memory_bytes)?;
         let root = gltf_json(text).map_err(|error| Fault::Damaged(format!("its JSON cannot be read ({error})")))?;
         let Value::Object(mut root) = root else {
             return damaged("its JSON is not an object");
@@ -218,6 +223,25 @@ fn list<T>(
             })
             .collect(),
         Some(_) => damaged(format!("{key} is not a list")),
+    }
+}
+
+/// Memory of a JSON object once it is read: its keys and values, and what is made of it, of which a material is the largest.
+const OBJECT_BYTES: u64 = 1400;
+/// Memory of any other value, in a list that grows.
+const VALUE_BYTES: u64 = 64;
+
+/// Checks that JSON takes no more than `memory_bytes` once it is read, by its brackets and commas: a few bytes of a file can claim
+/// hundreds in memory. Those in texts count as well, which are few.
+fn check_json(text: &[u8], memory_bytes: u64) -> Result<(), Fault> {
+    let needed = text.iter().fold(0u64, |sum, byte| match byte {
+        b'{' => sum + OBJECT_BYTES,
+        b',' | b'[' => sum + VALUE_BYTES,
+        _ => sum,
+    });
+    match needed > memory_bytes {
+        true => Err(Fault::memory(needed, memory_bytes)),
+        false => Ok(()),
     }
 }
 

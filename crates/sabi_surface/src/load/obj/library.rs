@@ -11,6 +11,9 @@ use crate::load::text::decoded;
 use crate::load::warnings::Warnings;
 use crate::model::ModelMaterial;
 
+/// Most materials of all libraries of a file.
+const MOST_MATERIALS: usize = 1 << 16;
+
 /// Materials by name, and the pictures that they name.
 #[derive(Default)]
 pub(super) struct Library {
@@ -95,6 +98,21 @@ impl Library {
         self.known.insert(name.to_owned())
     }
 
+    /// Returns the draft of a material of a name, unless it is in vain: the first of two materials of one name stays, and there are
+    /// not too many.
+    fn draft(&self, name: &str, warnings: &mut Warnings) -> Option<Draft> {
+        if self.places.contains_key(name) {
+            return None;
+        }
+        if self.materials.len() >= MOST_MATERIALS {
+            warnings.add(format!(
+                "The material libraries have more than {MOST_MATERIALS} materials; the others are left out."
+            ));
+            return None;
+        }
+        Some(Draft::new(name))
+    }
+
     fn parse(&mut self, file: &str, bytes: &[u8], warnings: &mut Warnings) {
         let text = decoded(bytes);
         let mut unknown = Unknown::default();
@@ -107,9 +125,7 @@ impl Library {
             };
             if keyword.lower == "newmtl" {
                 self.finish(current.take(), warnings);
-                let name = named(rest);
-                // The first of two materials of one name stays.
-                current = (!self.places.contains_key(name)).then(|| Draft::new(name));
+                current = self.draft(named(rest), warnings);
             } else if keyword.lower.starts_with('#') {
                 // A remark that OBJ files have a meaning for.
             } else if !is_known(&keyword.lower) {
