@@ -314,7 +314,7 @@ impl Strokes {
             pictures: &found.pictures,
             input: colors.as_ref().map(|colors| colors as &InputColors<'_>),
         };
-        let painted = canvases.painted(surface, (atlas, key), (&list, supplies), layers, CANVAS_LIMIT_BYTES);
+        let painted = canvases.painted(surface, atlas, key, &list, supplies, layers, CANVAS_LIMIT_BYTES);
         drop(canvases);
         self.remember_canvas((surface_key, node.to_owned()), version, &painted.canvas);
         Some(painted)
