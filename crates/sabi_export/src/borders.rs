@@ -165,18 +165,15 @@ impl Pages<'_> {
             return None;
         }
         let chart = ghost.chart;
-        let at = (texel, pixel);
         // Of texels that are equally near the first one is taken, as when ghosts are anchored.
-        let near = offsets().filter(|offset| self.is_own(chart, at, *offset));
+        let near = offsets().filter(|offset| self.is_own(chart, texel, pixel, *offset));
         let nearest = near.min_by_key(|[x, y]| (x * x + y * y, *y, *x))?;
-        let anchor = (
-            self.moved(texel, nearest)?,
-            wrapped(pixel, nearest, self.layout.size as usize),
-        );
-        let own = offsets().filter(|offset| self.is_own(chart, anchor, *offset));
+        let anchor_texel = self.moved(texel, nearest)?;
+        let anchor = wrapped(pixel, nearest, self.layout.size as usize);
+        let own = offsets().filter(|offset| self.is_own(chart, anchor_texel, anchor, *offset));
         Some(BorderGhost {
             pixel: pixel as u32,
-            anchor: anchor.1 as u32,
+            anchor: anchor as u32,
             step: nearest.map(|step| -step as i8),
             own: own.fold(0, |bits, offset| bits | 1 << bit(offset)),
         })
@@ -191,17 +188,17 @@ impl Pages<'_> {
     }
 
     /// Returns whether the texel at an offset from another is owned by a chart and shown by its pixel.
-    fn is_own(&self, chart: u32, (texel, pixel): (usize, usize), offset: [i64; 2]) -> bool {
-        let Some(texel) = self.moved(texel, offset) else {
+    fn is_own(&self, chart: u32, texel: usize, pixel: usize, offset: [i64; 2]) -> bool {
+        let Some(own_texel) = self.moved(texel, offset) else {
             return false;
         };
-        let owner = self.atlas.owners[texel];
+        let owner = self.atlas.owners[own_texel];
         let is_owned = owner != EMPTY && owner & GHOST_BIT == 0;
-        let pixel = wrapped(pixel, offset, self.layout.size as usize);
+        let own_pixel = wrapped(pixel, offset, self.layout.size as usize);
         is_owned
             && self.atlas.triangle_chart.get(owner as usize) == Some(&chart)
-            && self.layout.source[pixel] != NONE
-            && self.layout.source[pixel] as usize == texel
+            && self.layout.source[own_pixel] != NONE
+            && self.layout.source[own_pixel] as usize == own_texel
     }
 
     /// Returns the texel at an offset from another on the same page.

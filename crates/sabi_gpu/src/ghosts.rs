@@ -52,7 +52,8 @@ impl Gpu {
     pub(crate) fn fill_ghosts(
         &self,
         surface: &GpuSurface,
-        texture: (&wgpu::Texture, Format),
+        texture: &wgpu::Texture,
+        format: Format,
         rounds: &[FillRound],
     ) -> Result<(), GpuError> {
         let GhostLinks { all, plain, coupled } = &surface.ghosts;
@@ -63,7 +64,7 @@ impl Gpu {
         self.submit_compute_pass(|pass| {
             for (links, rounds) in parts {
                 let group = links.surface_group.get_or_init(|| self.surface_group(surface, links));
-                self.encode_links(pass, links, group, texture, rounds)?;
+                self.encode_links(pass, links, group, texture, format, rounds)?;
             }
             Ok(())
         })
@@ -74,10 +75,11 @@ impl Gpu {
         &self,
         links: &Links,
         surface_group: &wgpu::BindGroup,
-        texture: (&wgpu::Texture, Format),
+        texture: &wgpu::Texture,
+        format: Format,
         rounds: &[FillRound],
     ) -> Result<(), GpuError> {
-        self.submit_compute_pass(|pass| self.encode_links(pass, links, surface_group, texture, rounds))
+        self.submit_compute_pass(|pass| self.encode_links(pass, links, surface_group, texture, format, rounds))
     }
 
     fn encode_links(
@@ -85,7 +87,8 @@ impl Gpu {
         pass: &mut wgpu::ComputePass<'_>,
         links: &Links,
         surface_group: &wgpu::BindGroup,
-        (texture, format): (&wgpu::Texture, Format),
+        texture: &wgpu::Texture,
+        format: Format,
         rounds: &[FillRound],
     ) -> Result<(), GpuError> {
         if links.count == 0 || rounds.is_empty() {

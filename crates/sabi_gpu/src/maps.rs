@@ -67,22 +67,25 @@ impl Gpu {
         run: &mut Run,
         slots: MaterialSlots,
         shares: Option<&Shares>,
-        (options, mut cache): (&RunOptions<'_>, Option<&mut ResultCache>),
+        options: &RunOptions<'_>,
+        mut cache: Option<&mut ResultCache>,
     ) -> Result<DeviceMaps, GpuError> {
         let MaterialSlots { height, slope, .. } = slots;
         let is_flat = height.is_none() && slope.is_none();
         let normal = match (is_flat, cache.as_deref_mut()) {
             (true, _) => None,
             (false, Some(cache)) => {
-                Some(self.kept_result_normals(surface, run, [height, slope], shares, (options, cache))?)
+                Some(self.kept_result_normals(surface, run, [height, slope], shares, options, cache)?)
             }
             (false, None) => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
         };
-        let anisotropy = slots.anisotropy.map(|slot| {
-            let made = self.anisotropy_texture(surface, run, slot, options)?;
-            self.shown(surface, run, made, shares, Mean::Plain)
-        });
-        let anisotropy = anisotropy.transpose()?;
+        let anisotropy = slots
+            .anisotropy
+            .map(|slot| {
+                let made = self.anisotropy_texture(surface, run, slot, options)?;
+                self.shown(surface, run, made, shares, Mean::Plain)
+            })
+            .transpose()?;
         let mut of = |slot: Option<SlotRef>| {
             slot.map(|slot| self.kept_result_texture(surface, run, slot, shares, cache.as_deref_mut()))
                 .transpose()
@@ -129,7 +132,7 @@ impl Gpu {
         };
         let made = MadeMap::of(run, "shown", &[Some(slot)]);
         let texture = run.texture(slot)?;
-        self.kept_shared(surface, run, shares, (&texture, made), Mean::Plain, cache)
+        self.kept_shared(surface, run, shares, &texture, made, Mean::Plain, cache)
     }
 
     /// Normals of height and slope that a cache keeps, with `shares` as in [`Gpu::result_texture`].
@@ -139,14 +142,15 @@ impl Gpu {
         run: &mut Run,
         slots: [Option<SlotRef>; 2],
         shares: Option<&Shares>,
-        (options, cache): (&RunOptions<'_>, &mut ResultCache),
+        options: &RunOptions<'_>,
+        cache: &mut ResultCache,
     ) -> Result<wgpu::Texture, GpuError> {
         let normals = self.kept_normals(surface, run, slots, options, cache)?;
         let Some(shares) = shares else {
             return Ok(normals);
         };
         let made = MadeMap::of(run, "shown normals", &slots).map(|made| made.grown(surface));
-        self.kept_shared(surface, run, shares, (&normals, made), Mean::Unit, cache)
+        self.kept_shared(surface, run, shares, &normals, made, Mean::Unit, cache)
     }
 
     /// Normals of height and slope, with `shares` as in [`Gpu::result_texture`].

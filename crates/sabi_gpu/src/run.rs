@@ -68,13 +68,13 @@ impl Gpu {
             _ => BTreeSet::new(),
         };
         if !kept.is_empty() {
-            match self.run_with(surfaces, library, plan, options, sources, (None, kept)) {
+            match self.run_with(surfaces, library, plan, options, sources, None, kept) {
                 // It was removed or is damaged: all is computed.
                 Err(GpuError::ResultGone) => {}
                 run => return run,
             }
         }
-        self.run_with(surfaces, library, plan, options, sources, (cache, BTreeSet::new()))
+        self.run_with(surfaces, library, plan, options, sources, cache, BTreeSet::new())
     }
 
     /// Runs a plan with results that are known: in a cache, or in slots that are kept elsewhere.
@@ -85,7 +85,8 @@ impl Gpu {
         plan: &Plan,
         options: &RunOptions<'_>,
         sources: &mut dyn SourceFill,
-        (mut cache, kept): (Option<&mut ResultCache>, BTreeSet<SlotRef>),
+        mut cache: Option<&mut ResultCache>,
+        kept: BTreeSet<SlotRef>,
     ) -> Result<Run, GpuError> {
         self.wait_for_overrun(options.is_canceled)?;
         let started = Instant::now();
@@ -96,12 +97,14 @@ impl Gpu {
         let known = cached.keys().copied().chain(kept.iter().copied()).collect();
         let steps = needed_steps(plan, &known);
         let mut changes = match cache.as_deref_mut() {
-            Some(cache) if !steps.is_empty() => Changes::find((plan, &coverages), (&steps, &keys), cache, sources),
+            Some(cache) if !steps.is_empty() => Changes::find(plan, &coverages, &steps, &keys, cache, sources),
             _ => Changes::default(),
         };
-        let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);
-        let hit_cache = hit_cache.filter(|_| options.hits == Hits::Cached);
-        let mut runner = Runner::new(self, surfaces, library, (plan, options, coverages), hit_cache);
+        let hit_cache = cache
+            .as_deref_mut()
+            .map(|cache| &mut cache.hits)
+            .filter(|_| options.hits == Hits::Cached);
+        let mut runner = Runner::new(self, surfaces, library, plan, options, coverages, hit_cache);
         runner.take_known(&steps, cached, std::mem::take(&mut changes.parts));
         if !keeps_all && sources.keeps_results() {
             runner.kept = Some(KeptResults::new(keys.clone(), kept));
@@ -182,7 +185,9 @@ impl<'a> Runner<'a> {
         gpu: &'a Gpu,
         surfaces: Surfaces<'a>,
         library: &'a Library,
-        (plan, options, coverages): (&'a Plan, &'a RunOptions<'a>, Coverages<'a>),
+        plan: &'a Plan,
+        options: &'a RunOptions<'a>,
+        coverages: Coverages<'a>,
         hit_cache: Option<&'a mut HitCache>,
     ) -> Runner<'a> {
         Runner {

@@ -149,7 +149,8 @@ impl Gpu {
         surface: &GpuSurface,
         run: &mut Run,
         shares: &Shares,
-        (texture, made): (&wgpu::Texture, Option<MadeMap>),
+        texture: &wgpu::Texture,
+        made: Option<MadeMap>,
         mean: Mean,
         cache: &mut ResultCache,
     ) -> Result<wgpu::Texture, GpuError> {

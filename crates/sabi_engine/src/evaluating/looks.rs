@@ -80,18 +80,19 @@ pub fn evaluate_looks(
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let is_canceled = || progress.is_canceled();
     let options = evaluator.run_options(SUBMISSION, &is_canceled);
-    looks_of_run(evaluator, (&plan, &mut run), &assignment, &options, None)
+    looks_of_run(evaluator, &plan, &mut run, &assignment, &options, None)
 }
 
 /// Makes the looks of all materials from the results of a run. With a cache, only what has changed is made again.
 pub(crate) fn looks_of_run(
     evaluator: &Evaluator,
-    (plan, run): (&Plan, &mut Run),
+    plan: &Plan,
+    run: &mut Run,
     assignment: &LookAssignment,
     options: &RunOptions<'_>,
     mut cache: Option<&mut ResultCache>,
 ) -> Result<ModelLooks, EngineError> {
-    let (are_opaque, height_range) = value_extents(evaluator, (plan, run), options, cache.as_deref_mut())?;
+    let (are_opaque, height_range) = value_extents(evaluator, plan, run, options, cache.as_deref_mut())?;
     // Materials without triangles get the neutral look.
     let mut looks = vec![neutral_look()];
     for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
@@ -113,7 +114,7 @@ pub(crate) fn looks_of_run(
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),
         height_range,
-        identity: identity(evaluator, (plan, run), assignment, &looks)?,
+        identity: identity(evaluator, plan, run, assignment, &looks)?,
         looks,
     })
 }
@@ -121,7 +122,8 @@ pub(crate) fn looks_of_run(
 /// Identity of looks.
 fn identity(
     evaluator: &Evaluator,
-    (plan, run): (&Plan, &Run),
+    plan: &Plan,
+    run: &Run,
     assignment: &LookAssignment,
     looks: &[MaterialLook],
 ) -> Result<Option<LooksIdentity>, EngineError> {
@@ -154,7 +156,8 @@ fn identity(
 /// heights.
 fn value_extents(
     evaluator: &Evaluator,
-    (plan, run): (&Plan, &Run),
+    plan: &Plan,
+    run: &Run,
     options: &RunOptions<'_>,
     cache: Option<&mut ResultCache>,
 ) -> Result<(Vec<bool>, [f32; 2]), EngineError> {
@@ -203,7 +206,8 @@ fn look(
                 run,
                 material_slots(result),
                 shares,
-                (options, cache.as_deref_mut()),
+                options,
+                cache.as_deref_mut(),
             )?;
             return Ok(MaterialLook { maps, ..neutral_look() });
         }

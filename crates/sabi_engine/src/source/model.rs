@@ -190,7 +190,8 @@ fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
 /// Opens the pictures that the materials use. Adds what cannot be shown to `warnings`.
 fn open_materials<'a>(
     model: &'a Model,
-    (pictures, memory_bytes): (&Pictures, u64),
+    pictures: &Pictures,
+    memory_bytes: u64,
     size: u32,
     warnings: &mut Vec<String>,
 ) -> Vec<MaterialTextures<'a>> {
@@ -222,10 +223,13 @@ fn open_materials<'a>(
                  there the factor is used alone"
             ));
         }
-        let picture = decoded.get(&texture.image)?;
-        let picture = picture.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
+        let picture = decoded
+            .get(&texture.image)?
+            .as_ref()
+            .map_err(|why| warnings.push(why.clone()))
+            .ok()?;
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let mut texture = Texture::new((name, picture), texture, other, reading, size);
+        let mut texture = Texture::new(name, picture, texture, other, reading, size);
         texture.missing = missing;
         Some(texture)
     };
@@ -261,7 +265,7 @@ pub(crate) struct ModelSource<'a> {
 }
 
 impl<'a> ModelSource<'a> {
-    /// Draws a plane of a result of a model; `pictures` come with the memory that they may take, bytes. Adds what cannot be shown
+    /// Draws a plane of a result of a model; its pictures may take `memory_bytes`. Adds what cannot be shown
     /// to `warnings`.
     ///
     /// # Errors
@@ -270,11 +274,13 @@ impl<'a> ModelSource<'a> {
         &mut self,
         surface: &SourceSurface<'a>,
         canvas: &SourceCanvas<'_>,
-        pictures: (&Pictures, u64),
-        (output, plane): (&str, Plane),
+        pictures: &Pictures,
+        memory_bytes: u64,
+        output: &str,
+        plane: Plane,
         warnings: &mut Vec<String>,
     ) -> Result<(), GpuError> {
-        let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
+        let open = || open_materials(surface.model, pictures, memory_bytes, surface.atlas.size, warnings);
         let materials = &*self.materials.get_or_insert_with(open);
         let tiles = &*self.tiles.get_or_insert_with(|| surface.tiles_of_materials());
         let unused = &canvas.table("no texture", &[[0; 4]])?;

@@ -189,7 +189,8 @@ impl Pictures {
     /// Returns the hash of the file that each of these nodes names, or the fault; muted nodes name none.
     pub(crate) fn contents(
         &self,
-        (base, trusted): (&PathBase, &TrustedPaths),
+        base: &PathBase,
+        trusted: &TrustedPaths,
         graph: &FlatGraph,
         sources: &SourceKinds,
         nodes: impl IntoIterator<Item = usize>,
@@ -202,10 +203,10 @@ impl Pictures {
                 why,
                 kind,
             };
-            let content = allowed_path(base, trusted, node, path)
+            let read = allowed_path(base, trusted, node, path)
                 .and_then(|file| Ok((self.content(&file, path)?, file)))
                 .map_err(|why| fault(param, why));
-            let content = content.and_then(|(content, file)| {
+            let content = read.and_then(|(content, file)| {
                 self.check_layer(&file, path, named_layer(node))
                     .map_err(|why| fault(LAYER, why))?;
                 Ok(content)
@@ -340,11 +341,7 @@ fn unusable(error: ImageError) -> Fault {
 }
 
 /// Lists the files that the nodes of a graph name and may open.
-pub(crate) fn files(
-    (base, trusted): (&PathBase, &TrustedPaths),
-    graph: &FlatGraph,
-    sources: &SourceKinds,
-) -> Vec<PathBuf> {
+pub(crate) fn files(base: &PathBase, trusted: &TrustedPaths, graph: &FlatGraph, sources: &SourceKinds) -> Vec<PathBuf> {
     let named = graph.nodes.iter().filter_map(|node| {
         let (_, path) = named_file(node, sources)?;
         (!path.is_empty()).then(|| allowed_path(base, trusted, node, path).ok())?
@@ -354,7 +351,8 @@ pub(crate) fn files(
 
 /// Lists the refusals of files that the nodes of a graph name and may not open.
 pub(crate) fn refused(
-    (base, trusted): (&PathBase, &TrustedPaths),
+    base: &PathBase,
+    trusted: &TrustedPaths,
     graph: &FlatGraph,
     sources: &SourceKinds,
 ) -> Vec<Refusal> {

@@ -118,7 +118,8 @@ impl Evaluator {
         let mut sources = Sources::new(
             self.surface.for_sources(),
             self.graph.files(),
-            (&self.ray_cache, self.kept_results.as_ref()),
+            &self.ray_cache,
+            self.kept_results.as_ref(),
         );
         let options = RunOptions {
             submission,

@@ -73,12 +73,7 @@ pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Res
         }
         for controller in children(node, "instance_controller") {
             all.extend(controlled(
-                document,
-                node,
-                controller,
-                placed,
-                (&joints, &mut skins),
-                warnings,
+                document, node, controller, placed, &joints, &mut skins, warnings,
             ));
         }
     }
@@ -149,7 +144,8 @@ fn controlled<'d>(
     node: Node<'d, 'd>,
     instance: Node<'d, 'd>,
     scene_from_node: DMat4,
-    (joints, skins): (&Joints<'d>, &mut Skins),
+    joints: &Joints<'d>,
+    skins: &mut Skins,
     warnings: &mut Warnings,
 ) -> Option<Shown<'d>> {
     let mut source = document.referenced(instance, "url")?;
