@@ -25,12 +25,12 @@ impl GroupFiles {
     /// Returns a reader of the files that a graph names.
     pub(crate) fn reader<'a>(&'a mut self, graph: &'a OpenGraph) -> impl FnMut(&str) -> Option<Document> + 'a {
         let base = graph.base();
-        move |written| self.read((&base, &graph.trusted), written)
+        move |written| self.read(&base, &graph.trusted, written)
     }
 
     /// Returns a graph file that a file of the base names; none if it cannot be read or may not be opened, which the evaluation
     /// reports.
-    pub(crate) fn read(&mut self, (base, trusted): (&PathBase, &TrustedPaths), written: &str) -> Option<Document> {
+    pub(crate) fn read(&mut self, base: &PathBase, trusted: &TrustedPaths, written: &str) -> Option<Document> {
         if matches!(trusted.check(base, written), Err(Unread::Refused(_))) {
             return None;
         }

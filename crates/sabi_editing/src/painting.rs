@@ -43,14 +43,15 @@ pub fn is_read(document: &OpenDocument, node: &NodeId) -> bool {
 /// Replaces what a paint node had on a model `before`, by that and a stroke on top. While the brush moves, `before` stays that of
 /// its first touch.
 pub fn stroke(document: &mut OpenDocument, node: &NodeId, model: &str, before: &str, stroke: Arc<Stroke>) -> bool {
-    take_steps(document, node, (model, before), "Stroke", &[Step::Add(stroke)])
+    take_steps(document, node, model, before, "Stroke", &[Step::Add(stroke)])
 }
 
 /// Takes steps in the strokes of a paint node on a model, from what it had before, as one step of the history.
 pub fn take_steps(
     document: &mut OpenDocument,
     node: &NodeId,
-    (model, before): (&str, &str),
+    model: &str,
+    before: &str,
     name: &str,
     steps: &[Step],
 ) -> bool {
