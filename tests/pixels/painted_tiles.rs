@@ -138,7 +138,7 @@ fn evaluated(on_mesh: &mut OnMesh, mut cache: Option<&mut ResultCache>, node: &s
         all.push(format!("{extents:?}").into_bytes());
         for shares in [None, Some(&shares)] {
             let maps = gpu
-                .device_maps(surface, &mut run, slots, shares, (&options, cache.as_deref_mut()))
+                .device_maps(surface, &mut run, slots, shares, &options, cache.as_deref_mut())
                 .expect("maps");
             for map in [maps.normal, maps.color] {
                 let map = gpu.read_texels(&map.expect("a map")).expect("a map");
