@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use sabi_engine::paint::{Action, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
 use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress, Strokes};
-use sabi_gpu::{MaterialSlots, ResultCache, RunOptions, Shares};
+use sabi_gpu::{Exported, MaterialSlots, ResultCache, RunOptions, Shares, TextureBudget};
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Mode, PlannedResult, SlotRef};
@@ -129,7 +129,7 @@ fn evaluated(on_mesh: &mut OnMesh, mut cache: Option<&mut ResultCache>, node: &s
             .to_vec()
     };
     let mut all: Vec<Vec<u8>> = result.slots.iter().map(read).collect();
-    let options = RunOptions::new(SUBMISSION, DEFAULT_BUDGET_BYTES);
+    let options = RunOptions::new(SUBMISSION, TextureBudget::Textures(DEFAULT_BUDGET_BYTES));
     let slots = slots(result);
     if let Some(height) = slots.height {
         let extents = gpu
@@ -137,8 +137,12 @@ fn evaluated(on_mesh: &mut OnMesh, mut cache: Option<&mut ResultCache>, node: &s
             .expect("extents");
         all.push(format!("{extents:?}").into_bytes());
         for shares in [None, Some(&shares)] {
+            let exported = Exported {
+                shares,
+                ..Exported::default()
+            };
             let maps = gpu
-                .device_maps(surface, &mut run, slots, shares, (&options, cache.as_deref_mut()))
+                .device_maps(surface, &mut run, slots, exported, &options, cache.as_deref_mut())
                 .expect("maps");
             for map in [maps.normal, maps.color] {
                 let map = gpu.read_texels(&map.expect("a map")).expect("a map");

@@ -20,9 +20,13 @@ fn graph(fit: &str, mode: &str, unit: f64) -> String {
 }
 
 /// Heights in the model's own unit.
-fn heights(fit: (&str, Fit), mode: &str, unit: f64) -> (OnMesh, Vec<f32>) {
-    let mut on_mesh = OnMesh::new(&graph(fit.0, mode, unit), &project("assets/meshes/bench.glb"), 128);
-    let scale = on_mesh.evaluator.linked().fitted(fit.1).working_from_model() as f32;
+fn heights(written_fit: &str, fit: Fit, mode: &str, unit: f64) -> (OnMesh, Vec<f32>) {
+    let mut on_mesh = OnMesh::new(
+        &graph(written_fit, mode, unit),
+        &project("assets/meshes/bench.glb"),
+        128,
+    );
+    let scale = on_mesh.evaluator.linked().fitted(fit).working_from_model() as f32;
     let heights = on_mesh.evaluate("upper").component("height");
     let heights = heights.into_iter().map(|height| height / scale).collect();
     (on_mesh, heights)
@@ -38,10 +42,10 @@ fn a_relief_is_the_same_whatever_unit_it_is_given_in() {
     };
     assert!(modes.len() > 3, "{modes:?}");
     for mode in modes {
-        let (on_mesh, by_unit) = heights(("unit", Fit::Unit), mode, 1.0);
+        let (on_mesh, by_unit) = heights("unit", Fit::Unit, mode, 1.0);
         let side = 1.0 / on_mesh.evaluator.linked().fitted(Fit::Unit).working_from_model();
         assert!((side - 1.0).abs() > 0.1, "a model of side {side} shows nothing");
-        let (_, by_metres) = heights(("metres", Fit::Metres), mode, side);
+        let (_, by_metres) = heights("metres", Fit::Metres, mode, side);
         let whole = range(on_mesh.owned().map(|(index, _)| by_unit[index]));
         assert!(whole > 1e-3 && whole < side, "{mode}: the heights range over {whole}");
         for (index, _) in on_mesh.owned() {

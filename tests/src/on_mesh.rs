@@ -7,7 +7,7 @@ use sabi_engine::{
     CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
     OpenGraph, Overrides, Pictures, Strokes, TrustedPaths,
 };
-use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
+use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables, TextureBudget};
 use sabi_graph::{Document, FlatGraph, PortType};
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
@@ -166,7 +166,7 @@ impl OnMesh {
             Some(result.slots[at])
         };
         let (height, slope) = (slot(Channel::Height), slot(Channel::Slope));
-        let options = RunOptions::new(SUBMISSION, DEFAULT_BUDGET_BYTES);
+        let options = RunOptions::new(SUBMISSION, TextureBudget::Textures(DEFAULT_BUDGET_BYTES));
         let has_relief = height.is_some() || slope.is_some();
         let normals = has_relief.then(|| {
             gpu.normals(surface, &mut run, height, slope, &options)

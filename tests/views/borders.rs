@@ -142,7 +142,7 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
     for (plane, slot) in planes.into_iter().zip(result.slots.clone()) {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
         let mut shown_of = |exported: Exported<'_>| {
-            let shown = gpu.shown_result(surface, &mut run, (slot, plane), exported, Some(&mut cache));
+            let shown = gpu.shown_result(surface, &mut run, slot, plane, exported, Some(&mut cache));
             shown.expect("a map")
         };
         let shown = shown_of(exported);
@@ -194,7 +194,7 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             .count();
         assert_eq!(differing, 0, "{plane:?}");
         let changed = gpu
-            .shown_result(surface, &mut run, (slot, plane), changes, None)
+            .shown_result(surface, &mut run, slot, plane, changes, None)
             .expect("a map");
         assert_eq!(changed, run.texture(slot).expect("the result"), "it is changed itself");
         assert!(read(&changed) == bytes, "{plane:?}");

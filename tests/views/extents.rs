@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress};
-use sabi_gpu::{RunOptions, ValueExtent};
+use sabi_gpu::{RunOptions, TextureBudget, ValueExtent};
 use sabi_plan::Mode;
 use sabi_surface::atlas::GHOST_BIT;
 use sabi_tests::{OnMesh, extent, project};
@@ -22,7 +22,7 @@ fn extents(nodes: &str, node: &str, plane: usize, component: u32, mesh: &Path) -
     let slot = plan.results[0].slots[plane];
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let texture = run.texture(slot).expect("a result");
-    let options = RunOptions::new(SUBMISSION, DEFAULT_BUDGET_BYTES);
+    let options = RunOptions::new(SUBMISSION, TextureBudget::Textures(DEFAULT_BUDGET_BYTES));
     let found = gpu
         .extents(surface, &[(&texture, component)], &options)
         .expect("extents");

@@ -167,7 +167,7 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     for (plane, slot) in planes.zip(plan.results[0].slots.clone()) {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
         let shown = gpu
-            .shown_result(surface, &mut run, (slot, plane), exported, None)
+            .shown_result(surface, &mut run, slot, plane, exported, None)
             .expect("a copy");
         let after = gpu.read(surface, &plan, &run, slot).expect("a plane");
         assert_eq!(before, after);
@@ -175,7 +175,7 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
         gpu.read_layer(&shown, 0, 0, &mut bytes).expect("a layer");
         assert_ne!(bytes, after.bytes()[..bytes.len()]);
         let same = gpu
-            .shown_result(surface, &mut run, (slot, plane), Exported::default(), None)
+            .shown_result(surface, &mut run, slot, plane, Exported::default(), None)
             .expect("the texture");
         assert_eq!(
             same,

@@ -25,7 +25,8 @@ impl CurrentFaces {
     pub(crate) fn refresh(
         &mut self,
         session: &Session,
-        (catalog, kinds_revision): (&Catalog, u64),
+        catalog: &Catalog,
+        kinds_revision: u64,
         read: ReadGroup<'_>,
     ) -> bool {
         let now = (session.revision(), kinds_revision);

@@ -33,7 +33,8 @@ pub enum DroppedOn {
 /// has a normal map there that no layer below uses, a layer with the normal map is added, too.
 pub(crate) fn on_model(
     document: &mut OpenDocument,
-    (kind, group): (&str, Option<&str>),
+    kind: &str,
+    group: Option<&str>,
     place: &DroppedOn,
     has_normal_map: bool,
 ) -> Option<NodeId> {
@@ -58,11 +59,7 @@ pub(crate) fn on_model(
 }
 
 /// Adds a node of a kind, or an instance of a group, on top of the material that a node outputs or that an output receives.
-pub(crate) fn on_node(
-    document: &mut OpenDocument,
-    (kind, group): (&str, Option<&str>),
-    node: &NodeId,
-) -> Option<NodeId> {
+pub(crate) fn on_node(document: &mut OpenDocument, kind: &str, group: Option<&str>, node: &NodeId) -> Option<NodeId> {
     let end = StackEnd::Node(node.clone());
     match stack::all(document).iter().any(|stack| stack.end == end) {
         true => add(document, &end, 0, kind, group),

@@ -36,7 +36,7 @@ impl HandLayer {
 /// node that the artist is likely to change next: the layer, or the paint node of its mask.
 pub(crate) fn add(document: &mut OpenDocument, end: Option<&StackEnd>, what: HandLayer) -> Option<NodeId> {
     let place = end.map_or(DroppedOn::Unknown, |end| DroppedOn::Output(end.clone()));
-    let layer = dropped_layers::on_model(document, (LAYER, None), &place, false)?;
+    let layer = dropped_layers::on_model(document, LAYER, None, &place, false)?;
     let label = Edit::SetLabel {
         body: document.body(),
         node: layer.clone(),

@@ -298,7 +298,7 @@ fn place_of_layer(document: &OpenDocument, link: &Link, size: [f32; 2]) -> ([f32
         (None, None) => [0.0; 2],
     };
     let (between, moves) = match reader {
-        Some(reader) => wires::room_between(document, (near, size), source, reader, None),
+        Some(reader) => wires::room_between(document, near, size, source, reader, None),
         None => (near, Vec::new()),
     };
     let moved = |id: &NodeId| {

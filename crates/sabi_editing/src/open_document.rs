@@ -44,6 +44,13 @@ pub struct OpenDocument {
     pub(crate) trust: Trust,
 }
 
+/// The nodes that are shown, before a step of the history.
+struct ShownNodes {
+    /// Number of instances that are entered.
+    entered_instances: usize,
+    ids: BTreeSet<NodeId>,
+}
+
 impl OpenDocument {
     pub(crate) fn with_kinds(
         session: Session,
@@ -298,25 +305,23 @@ impl OpenDocument {
         self.refresh();
     }
 
-    /// Returns the number of entered instances and the ids of the shown nodes, to find the nodes that undo or redo restores.
-    fn shown_nodes(&self) -> (usize, BTreeSet<NodeId>) {
-        (self.instance_path.len(), self.graph().ids().cloned().collect())
+    /// The shown nodes, to find the nodes that undo or redo restores.
+    fn shown_nodes(&self) -> ShownNodes {
+        ShownNodes {
+            entered_instances: self.instance_path.len(),
+            ids: self.graph().ids().cloned().collect(),
+        }
     }
 
-    fn after_history(
-        &mut self,
-        moved: Result<Option<String>, EditError>,
-        verb: &str,
-        before: &(usize, BTreeSet<NodeId>),
-    ) {
+    fn after_history(&mut self, moved: Result<Option<String>, EditError>, verb: &str, before: &ShownNodes) {
         match moved {
             Ok(step) => self.notices.extend(step.map(|name| format!("{verb}: {name}"))),
             Err(error) => self.notify(error.to_string()),
         }
         self.refresh();
         let ids = self.graph().ids();
-        let returned: Vec<NodeId> = ids.filter(|id| !before.1.contains(*id)).cloned().collect();
-        if before.0 == self.instance_path.len() && !returned.is_empty() {
+        let returned: Vec<NodeId> = ids.filter(|id| !before.ids.contains(*id)).cloned().collect();
+        if before.entered_instances == self.instance_path.len() && !returned.is_empty() {
             self.select(returned);
         }
     }
@@ -367,9 +372,14 @@ impl OpenDocument {
 
     /// Updates what is derived from the document: ports and knobs of nodes, the shown graph and the selection.
     fn refresh(&mut self) {
-        let kinds = (&*self.catalog, self.kinds_revision);
         let session = &self.session;
-        if !(self.faces).refresh(session, kinds, &mut self.group_files.reader(session.graph())) {
+        let has_changed = self.faces.refresh(
+            session,
+            &self.catalog,
+            self.kinds_revision,
+            &mut self.group_files.reader(session.graph()),
+        );
+        if !has_changed {
             return;
         }
         let mut entered = self.entered_graphs();

@@ -43,14 +43,15 @@ pub fn is_read(document: &OpenDocument, node: &NodeId) -> bool {
 /// Replaces the strokes of a paint node on a model by the strokes `before` plus one stroke on top. While the brush moves,
 /// `before` stays the version before the stroke began.
 pub fn stroke(document: &mut OpenDocument, node: &NodeId, model: &str, before: &str, stroke: Arc<Stroke>) -> bool {
-    take_steps(document, node, (model, before), "Stroke", &[Step::Add(stroke)])
+    take_steps(document, node, model, before, "Stroke", &[Step::Add(stroke)])
 }
 
 /// Applies several changes to the strokes of a paint node on a model, starting from an earlier version, as one undo step.
 pub fn take_steps(
     document: &mut OpenDocument,
     node: &NodeId,
-    (model, before): (&str, &str),
+    model: &str,
+    before: &str,
     name: &str,
     steps: &[Step],
 ) -> bool {

@@ -85,9 +85,9 @@ impl Editor {
         for fault in fault {
             shell.fail(fault);
         }
-        let model = (model.as_path(), documents.reading(&shell.settings, &model));
+        let reading = documents.reading(&shell.settings, &model);
         let mut editor = Editor {
-            evaluation: Evaluation::new(gpu, model, folders.cache, context),
+            evaluation: Evaluation::new(gpu, &model, reading, folders.cache, context),
             row: ModelRow::default(),
             trials: Trials::default(),
             documents,

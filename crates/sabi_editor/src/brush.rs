@@ -114,7 +114,7 @@ impl BrushTool {
 
     /// The brush in the size that it has under a place of the screen.
     pub(crate) fn brush_at(brush: &BrushChoices, model: &LiveModel, canvas: &impl Canvas, at: Pos2) -> BrushChoices {
-        match point_at(model, canvas, at, (1.0, true)) {
+        match point_at(model, canvas, at, 1.0, true) {
             Some(point) => decal::sized(brush, model, canvas, &point),
             None => brush.clone(),
         }
@@ -143,7 +143,8 @@ impl BrushTool {
         &mut self,
         ui: &Ui,
         response: &Response,
-        (painted, model): (Option<&PaintSubject>, &Arc<LiveModel>),
+        painted: Option<&PaintSubject>,
+        model: &Arc<LiveModel>,
         canvas: &impl Canvas,
         actions: &mut Vec<Action>,
     ) -> bool {
@@ -192,10 +193,10 @@ impl BrushTool {
         }
         let pen = self.pen.unwrap_or(self.touch());
         let is_second = self.is_second_press(ui, at);
-        if self.press_path(ui, (painted, model), canvas, (at, pen, is_second), actions) {
+        if self.press_path(ui, painted, model, canvas, at, pen, is_second, actions) {
             return true;
         }
-        self.begin_stroke((painted, model), canvas, (at, pen, modifiers), actions);
+        self.begin_stroke(painted, model, canvas, at, pen, modifiers, actions);
         self.end_if_lifted(ui, actions);
         true
     }
@@ -203,14 +204,17 @@ impl BrushTool {
     /// Begins a stroke at a place of the screen, or takes it as the place to copy from.
     fn begin_stroke(
         &mut self,
-        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
         canvas: &impl Canvas,
-        (at, pen, modifiers): (Pos2, PenState, Modifiers),
+        at: Pos2,
+        pen: PenState,
+        modifiers: Modifiers,
         actions: &mut Vec<Action>,
     ) {
         let brush = &painted.brush;
         if !pen.is_eraser && self.takes_source(brush, model, modifiers) {
-            self.take_source((brush, model), canvas, (at, has_ctrl(modifiers)), actions);
+            self.take_source(brush, model, canvas, at, has_ctrl(modifiers), actions);
             return;
         }
         let action = if pen.is_eraser {
@@ -218,7 +222,7 @@ impl BrushTool {
         } else {
             action_of(brush, modifiers)
         };
-        let mut stroke = OpenStroke::new(painted, model, action, (at, pen));
+        let mut stroke = OpenStroke::new(painted, model, action, at, pen);
         stroke.source = self.source_on(model).filter(|_| action == BrushAction::Clone);
         stroke.eye = canvas.eye(model);
         stroke.stencil = painted.stencil_before(model, canvas);
@@ -239,13 +243,15 @@ impl BrushTool {
     /// Takes the place under the pointer as the one that strokes copy from, or says that one is needed.
     fn take_source(
         &mut self,
-        (brush, model): (&BrushChoices, &LiveModel),
+        brush: &BrushChoices,
+        model: &LiveModel,
         canvas: &impl Canvas,
-        (at, is_meant): (Pos2, bool),
+        at: Pos2,
+        is_meant: bool,
         actions: &mut Vec<Action>,
     ) {
         if is_meant {
-            let source = point_at(model, canvas, at, (1.0, true));
+            let source = point_at(model, canvas, at, 1.0, true);
             self.source = source.map(|source| (model.linked.model.stem.clone(), source));
         }
         if brush.needs_source() && self.source_on(model).is_none() {

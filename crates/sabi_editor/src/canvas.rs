@@ -177,9 +177,16 @@ impl Canvas {
         }
         self.popups.show(ui, &self.camera, context, &mut actions);
         if let Some(chosen) = port_question::show(&mut self.popups.ports, ui, context.document) {
-            let wire = (PendingWire::From(chosen.from), chosen.off);
-            let port = PortRef::Input(chosen.to);
-            gesture::connect(&mut self.popups, context.document, wire, &port, chosen.at, &mut actions);
+            let (wire, port) = (PendingWire::From(chosen.from), PortRef::Input(chosen.to));
+            gesture::connect(
+                &mut self.popups,
+                context.document,
+                wire,
+                chosen.off,
+                &port,
+                chosen.at,
+                &mut actions,
+            );
         }
         actions
     }

@@ -99,7 +99,8 @@ impl Evaluation {
     /// Starts the evaluation on a device; `context` draws a frame when a result arrives.
     pub(crate) fn new(
         gpu: Arc<Gpu>,
-        model: (&Path, ImportOptions),
+        model: &Path,
+        import: ImportOptions,
         cache_dir: Option<PathBuf>,
         context: &Context,
     ) -> Evaluation {
@@ -108,11 +109,11 @@ impl Evaluation {
             cache_dir,
             ..LiveOptions::default()
         };
-        Evaluation::start(gpu, model, options, MOST, context)
+        Evaluation::start(gpu, model, import, options, MOST, context)
     }
 
     /// Starts the evaluation on a model beside this one: it works only while this one has nothing to do.
-    pub(crate) fn beside(&self, model: (&Path, ImportOptions), context: &Context) -> Evaluation {
+    pub(crate) fn beside(&self, model: &Path, import: ImportOptions, context: &Context) -> Evaluation {
         let options = LiveOptions {
             finds_shade: self.finds_shade(),
             cache_dir: self.cache_dir.clone(),
@@ -122,7 +123,7 @@ impl Evaluation {
             rank: RANK_BESIDE,
             ..LiveOptions::default()
         };
-        Evaluation::start(self.gpu.clone(), model, options, MOST_BESIDE, context)
+        Evaluation::start(self.gpu.clone(), model, import, options, MOST_BESIDE, context)
     }
 
     /// Starts an evaluator of what is tried, which draws thumbnails of a side in pixels while all others have nothing to do.
@@ -149,7 +150,8 @@ impl Evaluation {
 
     fn start(
         gpu: Arc<Gpu>,
-        (model, import): (&Path, ImportOptions),
+        model: &Path,
+        import: ImportOptions,
         options: LiveOptions,
         most_texels: u32,
         context: &Context,

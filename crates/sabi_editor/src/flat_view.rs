@@ -149,12 +149,14 @@ impl FlatView {
             wanted, theme, title, ..
         } = *subject;
         let inspected = evaluation.results.inspected.as_ref();
-        let values = inspected.filter(|(node, _)| Some(node) == wanted);
-        let values = values.map(|(_, values)| values.clone());
+        let values = inspected
+            .filter(|(node, _)| Some(node) == wanted)
+            .map(|(_, values)| values.clone());
         output.unpins = self.bar(ui, evaluation, subject, values.as_deref());
         let Some(values) = values else {
-            let doing = evaluation.activity().map(|activity| activity_text(&activity));
-            let doing = doing.unwrap_or_else(|| "Evaluating…".to_owned());
+            let doing = evaluation
+                .activity()
+                .map_or_else(|| "Evaluating…".to_owned(), |activity| activity_text(&activity));
             let sentence = match (wanted, subject.fault.as_deref()) {
                 (_, Some(fault)) => fault,
                 (Some(_), None) => &doing,
@@ -181,7 +183,7 @@ impl FlatView {
         if self.has_wires
             && let Some(model) = &evaluation.model.received
         {
-            self.wires.draw(&painter, (model, values.set.key), square, theme);
+            self.wires.draw(&painter, model, values.set.key, square, theme);
         }
         let canvas = self.canvas(evaluation, square, values.set.key);
         if !self.paint_on(ui, &response, evaluation, subject, &canvas, &mut output) {
@@ -237,8 +239,9 @@ impl FlatView {
     ) -> bool {
         let model = evaluation.model.received.as_ref();
         model.is_some_and(|model| {
-            let painted = (subject.painted, model);
-            let is_drag = self.brush.paint(ui, response, painted, canvas, &mut output.actions);
+            let is_drag = self
+                .brush
+                .paint(ui, response, subject.painted, model, canvas, &mut output.actions);
             let stroke = subject.painted.and_then(|painted| painted.path.as_ref());
             if let Some(path) = stroke.and_then(|stroke| ShownPath::of(model, canvas, stroke)) {
                 path.show(&ui.painter().with_clip_rect(response.rect), subject.theme.accent);

@@ -113,7 +113,8 @@ impl ImportOptions {
     /// Engine options for a file at a size.
     pub(crate) fn options(
         &self,
-        (file, trusted): (&Path, &TrustedPaths),
+        file: &Path,
+        trusted: &TrustedPaths,
         size: u32,
         cache_dir: Option<&Path>,
     ) -> ModelOptions {

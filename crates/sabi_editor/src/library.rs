@@ -71,7 +71,7 @@ impl Library {
             let mut files = Vec::new();
             for (library, folder) in &folders {
                 files.push(folder.clone());
-                files.extend(self.read((*library, folder), folder, None, catalog));
+                files.extend(self.read(*library, folder, folder, None, catalog));
             }
             self.files = files.into();
             self.folders = Some(folders);
@@ -82,7 +82,8 @@ impl Library {
     /// Adds the groups of a folder, and of the folders in it, which are categories. Returns their graph files.
     fn read(
         &mut self,
-        library: (LibraryKind, &Path),
+        library: LibraryKind,
+        root: &Path,
         folder: &Path,
         category: Option<&str>,
         catalog: &Catalog,
@@ -102,7 +103,7 @@ impl Library {
         let (folders, mut files): (Vec<PathBuf>, Vec<PathBuf>) = entries.into_iter().partition(|entry| entry.is_dir());
         files.retain(|file| file.extension().is_some_and(|ending| ending == GRAPH_EXTENSION));
         for file in &files {
-            match group_of(library, file, catalog) {
+            match group_of(library, root, file, catalog) {
                 Ok(group) => self.groups.push(LibraryGroup {
                     category: category.map(str::to_owned),
                     ..group
@@ -113,7 +114,7 @@ impl Library {
         if category.is_none() {
             for inner in folders {
                 let name = inner.file_name().map(|name| name.to_string_lossy().into_owned());
-                files.extend(self.read(library, &inner, name.as_deref(), catalog));
+                files.extend(self.read(library, root, &inner, name.as_deref(), catalog));
             }
         }
         files
@@ -121,7 +122,7 @@ impl Library {
 }
 
 /// A file of the library at a root as a group that other graphs can use, or a sentence about why it is none.
-fn group_of((library, root): (LibraryKind, &Path), file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
+fn group_of(library: LibraryKind, root: &Path, file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
     let trusted = TrustedPaths::default().with_path(root);
     let open = OpenGraph::open_trusting(file, &trusted).map_err(|error| error.to_string())?;
     let mut beside = |name: &str| Some(open.open_group(name).ok()?.document);

@@ -46,7 +46,8 @@ impl ModelRow {
     pub(crate) fn add(
         &mut self,
         main: &Evaluation,
-        (model, import): (&Path, ImportOptions),
+        model: &Path,
+        import: ImportOptions,
         context: &Context,
     ) -> Result<(), String> {
         if main.model.file() == model || self.contains(model) {
@@ -58,7 +59,7 @@ impl ModelRow {
                 MOST_BESIDE + 1
             ));
         }
-        self.beside.push(main.beside((model, import), context));
+        self.beside.push(main.beside(model, import, context));
         Ok(())
     }
 
@@ -71,7 +72,7 @@ impl ModelRow {
     }
 
     /// Shows another model in the place of one that becomes the main one.
-    pub(crate) fn replace(&mut self, model: &Path, (by, import): (&Path, ImportOptions)) {
+    pub(crate) fn replace(&mut self, model: &Path, by: &Path, import: ImportOptions) {
         if let Some(at) = self.position(model) {
             self.beside[at].model.replace(by, import);
         }

@@ -34,7 +34,7 @@ impl NodeTips {
         };
         self.forget();
         self.coming = Some(Task::start(context, move || {
-            stamp_square(&graph, kinds, (gpu, adapter), &node, SIDE).map_err(|error| error.to_string())
+            stamp_square(&graph, kinds, gpu, adapter, &node, SIDE).map_err(|error| error.to_string())
         }));
     }
 

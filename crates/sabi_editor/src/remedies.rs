@@ -22,7 +22,8 @@ pub(crate) enum Request<'a> {
 pub(crate) fn show(
     ui: &mut Ui,
     color: Color32,
-    (sentence, remedies): (&str, &[Remedy]),
+    sentence: &str,
+    remedies: &[Remedy],
     request: Request<'_>,
     import: &ImportOptions,
 ) -> Option<Action> {

@@ -97,7 +97,8 @@ impl Window {
         }
     }
 
-    fn draw(&mut self, (model, shown): &Pictured) {
+    fn draw(&mut self, pictured: &Pictured) {
+        let (model, shown) = pictured;
         let points = model.placement.points_in_view(&model.linked.model.mesh);
         let aspect = VIEWPORT[0] as f32 / VIEWPORT[1] as f32;
         let scene = Scene {
@@ -147,7 +148,8 @@ impl Window {
 }
 
 /// A thumbnail of a look drawn on its own, and as one of many of a pose: milliseconds.
-fn pictures(window: &Window, (model, shown): &Pictured) -> [f64; 2] {
+fn pictures(window: &Window, pictured: &Pictured) -> [f64; 2] {
+    let (model, shown) = pictured;
     let (gpu, renderer, environment) = (&window.gpu, &window.renderer, &window.environment);
     let look: &MaterialLook = shown.looks.last().unwrap();
     let points = model.placement.points_in_view(&model.linked.model.mesh);

@@ -137,7 +137,7 @@ pub fn reproject_strokes(
                 .is_some_and(|own| !own.strokes.is_empty())
         };
         let would_drop = from != model.stem && !replaces && has_own();
-        if let Some(refusal) = refusal((&laid, &list), &model.stem, would_drop) {
+        if let Some(refusal) = refusal(&laid, &list, &model.stem, would_drop) {
             let refusal = refusal.map_messages(|why| format!("{}: node '{node}' {why}", graph.display()));
             return Err(refusal);
         }
@@ -164,7 +164,7 @@ fn laid_again(
         if lost > 0 {
             lost_strokes.push(LostStroke {
                 node: node.to_string(),
-                stroke: title(stroke, (index, list.strokes.len())),
+                stroke: title(stroke, index, list.strokes.len()),
                 lost,
                 points: stroke.points.len(),
             });
@@ -177,7 +177,7 @@ fn laid_again(
 }
 
 /// Reason for which the strokes of a node are not laid on a model; none where nothing speaks against it.
-fn refusal((laid, list): (&[Step], &StrokeList), model: &str, would_drop: bool) -> Option<EngineError> {
+fn refusal(laid: &[Step], list: &StrokeList, model: &str, would_drop: bool) -> Option<EngineError> {
     let refused = |why: String| EngineError::new(ErrorKind::BadInput, why);
     if laid.is_empty() && !list.strokes.is_empty() {
         let count = list.strokes.len();

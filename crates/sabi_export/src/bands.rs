@@ -44,23 +44,29 @@ impl BandGather {
     /// the channel's begin at `first`; values beyond them are the channel's neutral ones.
     pub fn add(
         &self,
-        set: (&PaddingMap, &SetLayout),
-        (channel, pixels): (&Channel, &mut ChannelPixels),
-        (band, first): (&Range<usize>, usize),
+        padding: &PaddingMap,
+        layout: &SetLayout,
+        channel: &Channel,
+        pixels: &mut ChannelPixels,
+        band: &Range<usize>,
+        first: usize,
         copy: impl Fn(Range<usize>, &mut [[f32; 4]]) + Sync,
     ) {
         match channel.neutral() {
-            [neutral] => self.add_values(set, ([*neutral], &mut pixels.data), (band, first), copy),
-            [x, y, z] => self.add_values(set, ([*x, *y, *z], &mut pixels.data), (band, first), copy),
+            [neutral] => self.add_values(padding, layout, [*neutral], &mut pixels.data, band, first, copy),
+            [x, y, z] => self.add_values(padding, layout, [*x, *y, *z], &mut pixels.data, band, first, copy),
             _ => {}
         }
     }
 
     fn add_values<const N: usize>(
         &self,
-        (padding, layout): (&PaddingMap, &SetLayout),
-        (neutral, data): ([f32; N], &mut [f32]),
-        (band, first): (&Range<usize>, usize),
+        padding: &PaddingMap,
+        layout: &SetLayout,
+        neutral: [f32; N],
+        data: &mut [f32],
+        band: &Range<usize>,
+        first: usize,
         copy: impl Fn(Range<usize>, &mut [[f32; 4]]) + Sync,
     ) {
         let parts = data.par_chunks_mut(PART * N).zip(&self.of_parts).enumerate();
@@ -165,16 +171,11 @@ mod tests {
                 let mut pixels = ChannelPixels::neutral(&channel, layout.source.len());
                 for start in (0..atlas.owners.len()).step_by(100) {
                     let band = start..start + 100;
-                    gather.add(
-                        (&padding, &layout),
-                        (&channel, &mut pixels),
-                        (&band, first),
-                        |texels, out| {
-                            assert!(band.start <= texels.start && texels.end <= band.end);
-                            assert_eq!(texels.len(), out.len());
-                            out.iter_mut().zip(texels).for_each(|(out, texel)| *out = value(texel));
-                        },
-                    );
+                    gather.add(&padding, &layout, &channel, &mut pixels, &band, first, |texels, out| {
+                        assert!(band.start <= texels.start && texels.end <= band.end);
+                        assert_eq!(texels.len(), out.len());
+                        out.iter_mut().zip(texels).for_each(|(out, texel)| *out = value(texel));
+                    });
                 }
                 assert_eq!(pixels, padding.gather(&layout, &channel, first, value));
             }

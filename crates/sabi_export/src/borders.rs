@@ -192,15 +192,15 @@ impl Pages<'_> {
         }
         let chart = ghost.chart;
         // Of texels that are equally near the first one is taken, as when ghosts are anchored.
-        let near = offsets().filter(|offset| self.is_own(chart, at, *offset));
+        let near = offsets().filter(|offset| self.is_own(chart, texel, pixel, *offset));
         let nearest = near.min_by_key(|[x, y]| (x * x + y * y, *y, *x))?;
-        let texel = self.moved(texel, nearest)?;
-        let anchor = (texel, self.pixel(pixel, texel, nearest));
-        let own = offsets().filter(|offset| self.is_own(chart, anchor, *offset));
+        let anchor_texel = self.moved(texel, nearest)?;
+        let anchor = self.pixel(pixel, anchor_texel, nearest);
+        let own = offsets().filter(|offset| self.is_own(chart, anchor_texel, anchor, *offset));
         Some(BorderGhost {
             index,
             pixel: pixel as u32,
-            anchor: anchor.1 as u32,
+            anchor: anchor as u32,
             step: nearest.map(|step| -step as i8),
             own: own.fold(0, |bits, offset| bits | 1 << bit(offset)),
         })
@@ -215,20 +215,20 @@ impl Pages<'_> {
     }
 
     /// Returns whether the texel at an offset from another is owned by a chart and shown by its pixel.
-    fn is_own(&self, chart: u32, (texel, pixel): (usize, usize), offset: [i64; 2]) -> bool {
-        let Some(texel) = self.moved(texel, offset) else {
+    fn is_own(&self, chart: u32, texel: usize, pixel: usize, offset: [i64; 2]) -> bool {
+        let Some(own_texel) = self.moved(texel, offset) else {
             return false;
         };
-        let owner = self.atlas.owners[texel];
+        let owner = self.atlas.owners[own_texel];
         let is_owned = owner != EMPTY && owner & GHOST_BIT == 0;
         let is_shown = |layout: &SetLayout| {
-            let shown = layout.source[self.pixel(pixel, texel, offset)];
-            shown != NONE && shown as usize == texel
+            let shown = layout.source[self.pixel(pixel, own_texel, offset)];
+            shown != NONE && shown as usize == own_texel
         };
         is_owned && self.atlas.triangle_chart.get(owner as usize) == Some(&chart) && self.layout.is_none_or(is_shown)
     }
 
-    /// Returns the pixel at an offset from another, where it shows this texel.
+    /// Returns the pixel at an offset from another; in texture space it is the texel there.
     fn pixel(&self, pixel: usize, texel: usize, offset: [i64; 2]) -> usize {
         match self.layout {
             Some(layout) => wrapped(pixel, offset, [layout.size as usize; 2]),

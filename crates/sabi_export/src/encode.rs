@@ -28,7 +28,6 @@ pub(crate) struct Encoding {
 /// The bytes of a file of one to four components.
 pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>, ImageError> {
     let [width, height] = encoding.size;
-    let kind = (encoding.size, encoding.is_srgb);
     let png = |data: PngData<'_>| {
         let options = PngOptions {
             channels: planes.len() as u8,
@@ -39,9 +38,11 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
     };
     match encoding.format {
         Format::Png { bits: 16 } => png(PngData::Rows(&|rows, bytes| {
-            code_rows::<[u8; 2]>(planes, kind, rows, bytes.as_chunks_mut().0);
+            code_rows::<[u8; 2]>(planes, encoding.size, encoding.is_srgb, rows, bytes.as_chunks_mut().0);
         })),
-        Format::Png { .. } => png(PngData::Rows(&|rows, bytes| code_rows(planes, kind, rows, bytes))),
+        Format::Png { .. } => png(PngData::Rows(&|rows, bytes| {
+            code_rows(planes, encoding.size, encoding.is_srgb, rows, bytes)
+        })),
         Format::Tga => encode_tga(width, height, planes.len() as u8, &codes_8(planes, encoding)),
         Format::ExrHalf | Format::Exr => {
             let values: Vec<Cow<'_, [f32]>> = planes.iter().map(|plane| floats(plane, encoding.size)).collect();
@@ -94,7 +95,8 @@ pub(crate) fn codes_8(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u8> {
         let first = block * BLOCK_ROWS;
         code_rows(
             planes,
-            (encoding.size, encoding.is_srgb),
+            encoding.size,
+            encoding.is_srgb,
             first..(first + BLOCK_ROWS).min(height),
             codes,
         );

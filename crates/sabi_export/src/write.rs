@@ -405,10 +405,13 @@ impl SetWriter<'_> {
             udim: self.layout.key.udim,
             size: self.layout.size,
         };
-        let for_all = (self.options.dither_seed, self.bake.map_collector.is_some());
+        let dither_seed = self.options.dither_seed;
+        let keeps_bytes = self.bake.map_collector.is_some();
         let kept = self.bake.encoded_files.as_deref();
-        let encoded: Vec<Result<EncodedFile, ExportError>> =
-            files.par_iter().map(|file| file.encode(set, for_all, kept)).collect();
+        let encoded: Vec<Result<EncodedFile, ExportError>> = files
+            .par_iter()
+            .map(|file| file.encode(set, dither_seed, keeps_bytes, kept))
+            .collect();
         self.bake
             .cut
             .extend(files.iter().filter_map(|file| file.cut(&self.name)));

@@ -169,7 +169,7 @@ fn a_package_of_a_set_is_either_complete_or_missing() {
     let write = |disk: &Disk, folder: &Path| -> Result<bool, StagedError> {
         let mut set = StagedSet::create_on(disk, folder)?;
         set.stage(names[0], NEW)?;
-        let is_packed = set.stage_package(names[1], ("first", OLD), &names[..1], 64)?;
+        let is_packed = set.stage_package(names[1], "first", OLD, &names[..1], 64)?;
         set.commit()?;
         Ok(is_packed)
     };

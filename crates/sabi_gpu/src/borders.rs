@@ -190,7 +190,7 @@ impl Gpu {
         // One submission, since all textures share the buffer of values.
         self.submit_compute_pass(|pass| {
             self.encode_borders(pass, surface, borders, texture, dispatch)?;
-            self.encode_scattered_ghosts(pass, surface, (shown, format))
+            self.encode_scattered_ghosts(pass, surface, shown, format)
         })
     }
 

@@ -46,8 +46,10 @@ impl Changes {
     /// Holds a plan, of which these steps have to run, against the latest plan of the same steps, and takes the textures that are
     /// changed in place from the cache.
     pub(crate) fn find(
-        (plan, coverages): (&Plan, &Coverages<'_>),
-        (steps, keys): (&[usize], &BTreeMap<SlotRef, ResultKey>),
+        plan: &Plan,
+        coverages: &Coverages<'_>,
+        steps: &[usize],
+        keys: &BTreeMap<SlotRef, ResultKey>,
         cache: &mut ResultCache,
         sources: &mut dyn SourceFill,
     ) -> Changes {
@@ -82,8 +84,8 @@ impl Changes {
                 continue;
             }
             let tiles = known.iter().fold(TileSet::default(), |all, (_, tiles)| all.and(tiles));
-            let textures = known.iter().filter_map(|(key, _)| cache.take(key));
-            let textures = written.into_iter().zip(textures).collect();
+            let taken = known.iter().filter_map(|(key, _)| cache.take(key));
+            let textures = written.into_iter().zip(taken).collect();
             found.parts.insert(*at, Part { tiles, textures });
         }
         found
@@ -95,7 +97,8 @@ impl ResultCache {
     /// some tiles, as the function says of a step before and now.
     pub fn would_run_in_part(
         &self,
-        (plan, shown): (&Plan, Option<&ShownTiles>),
+        plan: &Plan,
+        shown: Option<&ShownTiles>,
         is_in_part: &dyn Fn(&SourceStep, &SourceStep) -> bool,
     ) -> bool {
         let Some(before) = self.latest_like(plan) else {

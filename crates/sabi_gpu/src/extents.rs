@@ -67,8 +67,10 @@ impl Gpu {
         options: &RunOptions<'_>,
         cache: Option<&mut ResultCache>,
     ) -> Result<Vec<ValueExtent>, GpuError> {
-        let textures = of.iter().map(|(slot, _)| run.texture(*slot));
-        let textures = textures.collect::<Result<Vec<wgpu::Texture>, GpuError>>()?;
+        let textures = of
+            .iter()
+            .map(|(slot, _)| run.texture(*slot))
+            .collect::<Result<Vec<wgpu::Texture>, GpuError>>()?;
         let Some(cache) = cache else {
             let of: Vec<(&wgpu::Texture, u32)> = textures
                 .iter()
@@ -77,10 +79,10 @@ impl Gpu {
                 .collect();
             return self.extents(surface, &of, options);
         };
-        let known = of
+        let known: Vec<Option<(Vec<TileExtent>, TileSet)>> = of
             .iter()
-            .map(|(slot, component)| known_extents(surface, run, cache, (*slot, *component)));
-        let known: Vec<Option<(Vec<TileExtent>, TileSet)>> = known.collect();
+            .map(|(slot, component)| known_extents(surface, run, cache, *slot, *component))
+            .collect();
         let asked: Vec<Asking<'_>> = textures
             .iter()
             .zip(of)
@@ -186,7 +188,8 @@ fn known_extents(
     surface: &GpuSurface,
     run: &Run,
     cache: &ResultCache,
-    (slot, component): (SlotRef, u32),
+    slot: SlotRef,
+    component: u32,
 ) -> Option<(Vec<TileExtent>, TileSet)> {
     let key = run.keys.get(&slot)?;
     let own = cache.extents(&(*key, component)).map(|all| (all, TileSet::default()));

@@ -52,7 +52,8 @@ impl Gpu {
     pub(crate) fn fill_ghosts(
         &self,
         surface: &GpuSurface,
-        texture: (&wgpu::Texture, Format),
+        texture: &wgpu::Texture,
+        format: Format,
         rounds: &[FillRound],
     ) -> Result<(), GpuError> {
         let GhostLinks { all, plain, coupled } = &surface.ghosts;
@@ -63,7 +64,7 @@ impl Gpu {
         self.submit_compute_pass(|pass| {
             for (links, rounds) in parts {
                 let group = links.surface_group.get_or_init(|| self.surface_group(surface, links));
-                self.encode_links(pass, links, group, texture, rounds)?;
+                self.encode_links(pass, links, group, texture, format, rounds)?;
             }
             Ok(())
         })
@@ -74,13 +75,14 @@ impl Gpu {
         &self,
         pass: &mut wgpu::ComputePass<'_>,
         surface: &GpuSurface,
-        (texture, format): (&wgpu::Texture, Format),
+        texture: &wgpu::Texture,
+        format: Format,
     ) -> Result<(), GpuError> {
         let links = &surface.ghosts.all;
         let group = links.surface_group.get_or_init(|| self.surface_group(surface, links));
         pass.set_bind_group(0, group, &[]);
-        let dispatch = (FillRound::Cubic, FillDispatch::Scatter);
-        self.encode_dispatch(pass, links, (&array_view(texture), format), dispatch)
+        let view = array_view(texture);
+        self.encode_dispatch(pass, links, &view, format, FillRound::Cubic, FillDispatch::Scatter)
     }
 
     /// Fills the linked texels of one texture; `surface_group` binds the surface with these links.
@@ -88,10 +90,11 @@ impl Gpu {
         &self,
         links: &Links,
         surface_group: &wgpu::BindGroup,
-        texture: (&wgpu::Texture, Format),
+        texture: &wgpu::Texture,
+        format: Format,
         rounds: &[FillRound],
     ) -> Result<(), GpuError> {
-        self.submit_compute_pass(|pass| self.encode_links(pass, links, surface_group, texture, rounds))
+        self.submit_compute_pass(|pass| self.encode_links(pass, links, surface_group, texture, format, rounds))
     }
 
     fn encode_links(
@@ -99,7 +102,8 @@ impl Gpu {
         pass: &mut wgpu::ComputePass<'_>,
         links: &Links,
         surface_group: &wgpu::BindGroup,
-        (texture, format): (&wgpu::Texture, Format),
+        texture: &wgpu::Texture,
+        format: Format,
         rounds: &[FillRound],
     ) -> Result<(), GpuError> {
         if links.count == 0 || rounds.is_empty() {
@@ -109,7 +113,7 @@ impl Gpu {
         pass.set_bind_group(0, surface_group, &[]);
         for round in rounds {
             for dispatch in FillDispatch::of_round(*round, format) {
-                self.encode_dispatch(pass, links, (&view, format), (*round, *dispatch))?;
+                self.encode_dispatch(pass, links, &view, format, *round, *dispatch)?;
             }
         }
         Ok(())
@@ -119,8 +123,10 @@ impl Gpu {
         &self,
         pass: &mut wgpu::ComputePass<'_>,
         links: &Links,
-        (view, format): (&wgpu::TextureView, Format),
-        (round, dispatch): (FillRound, FillDispatch),
+        view: &wgpu::TextureView,
+        format: Format,
+        round: FillRound,
+        dispatch: FillDispatch,
     ) -> Result<(), GpuError> {
         let groups = links.count.div_ceil(GROUP);
         let with_ghosts = usize::from(matches!(round, FillRound::WithGhosts | FillRound::Settled));

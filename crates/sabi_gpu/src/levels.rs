@@ -139,16 +139,14 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
         match step.levels {
-            [Level::Texels(from), Level::Texels(to)] => {
-                self.move_texels(surfaces, ([from, to], step), textures, options)
-            }
+            [Level::Texels(from), Level::Texels(to)] => self.move_texels(surfaces, [from, to], step, textures, options),
             [Level::Texels(_), Level::Points(number)] => {
                 let points = surfaces.points_of(number)?;
                 self.gather_to_points(points, step.format, textures, options)
             }
             [Level::Points(number), Level::FINEST] => {
                 let points = surfaces.points_of(number)?;
-                self.spread_from_points((surfaces, points), step, textures, options)
+                self.spread_from_points(surfaces, points, step, textures, options)
             }
             [from, to] => Err(GpuError::Defect(format!(
                 "nothing moves from level {from} to level {to}"
@@ -160,7 +158,8 @@ impl Gpu {
     fn move_texels(
         &self,
         surfaces: Surfaces<'_>,
-        ([from, to], step): ([u32; 2], &MoveStep),
+        [from, to]: [u32; 2],
+        step: &MoveStep,
         [source, target]: [&wgpu::Texture; 2],
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
@@ -213,11 +212,12 @@ impl Gpu {
         step: &MoveStep,
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
-        let written = (target, step.format);
         if let Some(orphans) = orphans {
             let of_orphans = Slices::with_links(self, surface, orphans, options.submission);
-            self.fill_links(orphans, of_orphans.surface_group(), written, &[FillRound::Owned])?;
+            let group = of_orphans.surface_group();
+            self.fill_links(orphans, group, target, step.format, &[FillRound::Owned])?;
         }
-        self.fill_ghosts(surface, written, FillRound::sequence(step.result.is_some()))
+        let rounds = FillRound::sequence(step.result.is_some());
+        self.fill_ghosts(surface, target, step.format, rounds)
     }
 }

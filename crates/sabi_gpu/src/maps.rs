@@ -85,7 +85,8 @@ impl Gpu {
         run: &mut Run,
         slots: MaterialSlots,
         exported: Exported<'_>,
-        (options, mut cache): (&RunOptions<'_>, Option<&mut ResultCache>),
+        options: &RunOptions<'_>,
+        mut cache: Option<&mut ResultCache>,
     ) -> Result<DeviceMaps, GpuError> {
         let mut maps = Vec::new();
         for (channel, slot) in slots.stored() {
@@ -95,12 +96,7 @@ impl Gpu {
         }
         let is_flat = slots.height.is_none() && slots.slope.is_none();
         if !is_flat {
-            maps.push(self.shown_normals(
-                surface,
-                run,
-                [slots.height, slots.slope],
-                (options, cache.as_deref_mut()),
-            )?);
+            maps.push(self.shown_normals(surface, run, [slots.height, slots.slope], options, cache.as_deref_mut())?);
         }
         if let Some(slot) = slots.anisotropy {
             maps.push(ShownMap {
@@ -133,7 +129,8 @@ impl Gpu {
         &self,
         surface: &GpuSurface,
         run: &mut Run,
-        (slot, plane): (SlotRef, Plane),
+        slot: SlotRef,
+        plane: Plane,
         exported: Exported<'_>,
         cache: Option<&mut ResultCache>,
     ) -> Result<wgpu::Texture, GpuError> {
@@ -148,7 +145,8 @@ impl Gpu {
         surface: &GpuSurface,
         run: &mut Run,
         slots: [Option<SlotRef>; 2],
-        (options, cache): (&RunOptions<'_>, Option<&mut ResultCache>),
+        options: &RunOptions<'_>,
+        cache: Option<&mut ResultCache>,
     ) -> Result<ShownMap, GpuError> {
         let [height, slope] = slots;
         let is_spare = cache.is_none();

@@ -152,7 +152,8 @@ pub(crate) fn band_rows([_, height, _]: [u32; 3], row_bytes: u64) -> u32 {
 
 /// Bytes that a kernel spares by writing its results over what it reads last, from a limit on.
 fn spared(
-    (plan, kernel): (&Plan, &KernelStep),
+    plan: &Plan,
+    kernel: &KernelStep,
     dead: &BTreeSet<SlotRef>,
     from: u64,
     bytes: impl Fn(SlotRef) -> u64,
@@ -169,7 +170,8 @@ fn spared(
 /// they read last from some bytes on.
 pub(crate) fn most_alive(
     plan: &Plan,
-    (steps, dead): (&[usize], &BTreeMap<usize, BTreeSet<SlotRef>>),
+    steps: &[usize],
+    dead: &BTreeMap<usize, BTreeSet<SlotRef>>,
     writes_over_from: u64,
     bytes: impl Fn(SlotRef) -> u64,
 ) -> u64 {
@@ -184,7 +186,7 @@ pub(crate) fn most_alive(
         let shared = match step {
             Step::Kernel(kernel) => match free_after_first_run(kernel, dead) {
                 Some(start) => second_written(kernel).map_or(0, |second| bytes(start).min(bytes(second))),
-                None => spared((plan, kernel), dead, writes_over_from, &bytes),
+                None => spared(plan, kernel, dead, writes_over_from, &bytes),
             },
             Step::Source(_) | Step::Move(_) | Step::Survey(_) => 0,
         };

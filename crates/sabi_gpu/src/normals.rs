@@ -62,7 +62,8 @@ impl Gpu {
     pub fn normals_in_bands(
         &self,
         surface: &GpuSurface,
-        (run, slots): (&mut Run, [Option<SlotRef>; 2]),
+        run: &mut Run,
+        slots: [Option<SlotRef>; 2],
         texels: &Range<usize>,
         options: &RunOptions<'_>,
         mut visit: impl FnMut(&Range<usize>, &BandData<'_>),
@@ -82,9 +83,9 @@ impl Gpu {
             let tiles = surface.tiles_of_rows(&band, options.shown);
             let slices = Slices::over(self, surface, &tiles, options.submission)?;
             let origin = [band.layer, band.rows.start];
-            self.draw_normals((surface, &slices), run, slots, (&normals, origin), options)?;
+            self.draw_normals(&slices, run, slots, &normals, origin, options)?;
             let rows = LayerRows::of_whole(&normals);
-            self.read_rows(&normals, format, (&rows, &staging), |data| visit(&band_texels, data))?;
+            self.read_rows(&normals, format, &rows, &staging, |data| visit(&band_texels, data))?;
             normals.destroy();
         }
         staging.destroy();
@@ -103,7 +104,7 @@ impl Gpu {
     ) -> Result<wgpu::Texture, GpuError> {
         let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
         let slices = Slices::shown(self, surface, options.shown, options.submission)?;
-        self.draw_normals((surface, &slices), run, [height, slope], (&normals, [0; 2]), options)?;
+        self.draw_normals(&slices, run, [height, slope], &normals, [0; 2], options)?;
         Ok(normals)
     }
 
@@ -126,7 +127,7 @@ impl Gpu {
         let normals = match before {
             Some((normals, tiles)) => {
                 let slices = Slices::over(self, surface, &tiles, options.submission)?;
-                self.draw_normals((surface, &slices), run, [height, slope], (&normals, [0; 2]), options)?;
+                self.draw_normals(&slices, run, [height, slope], &normals, [0; 2], options)?;
                 normals
             }
             None => self.normal_texture(surface, run, height, slope, options)?,
@@ -142,12 +143,14 @@ impl Gpu {
     /// Computes the normals of some tiles.
     fn draw_normals(
         &self,
-        (surface, slices): (&GpuSurface, &Slices<'_>),
+        slices: &Slices<'_>,
         run: &mut Run,
         [height, slope]: [Option<SlotRef>; 2],
-        (normals, [first_page, first_row]): (&wgpu::Texture, [u32; 2]),
+        normals: &wgpu::Texture,
+        [first_page, first_row]: [u32; 2],
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
+        let surface = slices.surface();
         let stencils = self.stencils(surface, run, options)?;
         let entries = [
             uniform_entry(0),
@@ -164,13 +167,13 @@ impl Gpu {
             None => Ok(array_view(&unused)),
         };
         let (heights, slopes) = (bound(height)?, bound(slope)?);
-        let constants = NormalConstants {
+        let values = NormalConstants {
             has_height: u32::from(height.is_some()),
             has_slope: u32::from(slope.is_some()),
             first_page,
             first_row,
         };
-        let constants = self.uniform(bytemuck::bytes_of(&constants));
+        let constants = self.uniform(bytemuck::bytes_of(&values));
         let view = array_view(normals);
         let group = self.bind(
             &kernel.layout,

@@ -71,13 +71,13 @@ impl Gpu {
             _ => BTreeSet::new(),
         };
         if !kept.is_empty() {
-            match self.run_with(surfaces, library, plan, options, sources, (None, kept)) {
+            match self.run_with(surfaces, library, plan, options, sources, None, kept) {
                 // It was removed or is damaged: all is computed.
                 Err(GpuError::ResultGone) => {}
                 run => return run,
             }
         }
-        self.run_with(surfaces, library, plan, options, sources, (cache, BTreeSet::new()))
+        self.run_with(surfaces, library, plan, options, sources, cache, BTreeSet::new())
     }
 
     /// Runs a plan with results that are known: in a cache, or in slots that are kept elsewhere.
@@ -88,7 +88,8 @@ impl Gpu {
         plan: &Plan,
         options: &RunOptions<'_>,
         sources: &mut dyn SourceFill,
-        (mut cache, kept): (Option<&mut ResultCache>, BTreeSet<SlotRef>),
+        mut cache: Option<&mut ResultCache>,
+        kept: BTreeSet<SlotRef>,
     ) -> Result<Run, GpuError> {
         self.wait_for_overrun(options.is_canceled)?;
         let started = Instant::now();
@@ -99,12 +100,14 @@ impl Gpu {
         let known = cached.keys().copied().chain(kept.iter().copied()).collect();
         let steps = needed_steps(plan, &known);
         let mut changes = match cache.as_deref_mut() {
-            Some(cache) if !steps.is_empty() => Changes::find((plan, &coverages), (&steps, &keys), cache, sources),
+            Some(cache) if !steps.is_empty() => Changes::find(plan, &coverages, &steps, &keys, cache, sources),
             _ => Changes::default(),
         };
-        let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);
-        let hit_cache = hit_cache.filter(|_| options.hits == Hits::Cached);
-        let mut runner = Runner::new(self, surfaces, library, (plan, options, coverages), hit_cache);
+        let hit_cache = cache
+            .as_deref_mut()
+            .map(|cache| &mut cache.hits)
+            .filter(|_| options.hits == Hits::Cached);
+        let mut runner = Runner::new(self, surfaces, library, plan, options, coverages, hit_cache);
         runner.take_known(&steps, cached, std::mem::take(&mut changes.parts));
         if !keeps_all && sources.keeps_results() {
             runner.kept = Some(KeptResults::new(keys.clone(), kept));
@@ -185,7 +188,9 @@ impl<'a> Runner<'a> {
         gpu: &'a Gpu,
         surfaces: Surfaces<'a>,
         library: &'a Library,
-        (plan, options, coverages): (&'a Plan, &'a RunOptions<'a>, Coverages<'a>),
+        plan: &'a Plan,
+        options: &'a RunOptions<'a>,
+        coverages: Coverages<'a>,
         hit_cache: Option<&'a mut HitCache>,
     ) -> Runner<'a> {
         Runner {
@@ -362,12 +367,7 @@ impl Runner<'_> {
             // A level that is missing is reported by the step that runs on it.
             extent.map_or(0, |extent| bytes_of(self.plan.slots[slot].format, extent))
         };
-        most_alive(
-            self.plan,
-            (steps, &self.dead_after),
-            self.options.writes_over_from,
-            bytes,
-        )
+        most_alive(self.plan, steps, &self.dead_after, self.options.writes_over_from, bytes)
     }
 
     /// Returns textures to the pool that no step after this one reads.
@@ -401,7 +401,7 @@ impl Runner<'_> {
         let block = block_buffer(self.gpu, &compiled, step, None);
         let over = self.slots_written_over(step);
         if !over.is_empty() {
-            let taken = self.kernel_over(step, (&compiled, &block), &over)?;
+            let taken = self.kernel_over(step, &compiled, &block, &over)?;
             self.forget_kernel(&compiled);
             return Ok(Some(taken));
         }

@@ -41,7 +41,7 @@ impl SurfaceTables {
             .map(|triangle| {
                 let piece = pieces.triangle_piece[triangle];
                 let size = (f64::from(pieces.boxes[piece as usize].typical_size()) * working_from_model) as f32;
-                triangle_rows(mesh, (piece, size), atlas, triangle, working_from_model, seed)
+                triangle_rows(mesh, piece, size, atlas, triangle, working_from_model, seed)
             })
             .collect();
         let piece_rows = pieces.boxes.iter().flat_map(|piece| {
@@ -106,7 +106,8 @@ fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
 
 fn triangle_rows(
     mesh: &Mesh,
-    (piece, piece_size): (u32, f32),
+    piece: u32,
+    piece_size: f32,
     atlas: &Atlas,
     triangle: usize,
     working_from_model: f64,

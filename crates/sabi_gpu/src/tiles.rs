@@ -58,7 +58,7 @@ impl<'a> Slices<'a> {
 
     /// Slices with other links in place of those of the ghosts.
     pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
-        Slices::of(gpu, surface, (&surface.tiles, surface.tile_count), links, target)
+        Slices::of(gpu, surface, &surface.tiles, surface.tile_count, links, target)
     }
 
     /// Slices of the shown tiles of a surface; of all where any texel may be read.
@@ -81,14 +81,22 @@ impl<'a> Slices<'a> {
         tiles: &TileSet,
         target: Duration,
     ) -> Result<Slices<'a>, GpuError> {
-        let list = (&tiles.upload(gpu)?, tiles.count());
-        Ok(Slices::of(gpu, surface, list, &surface.ghosts.all, target))
+        let list = tiles.upload(gpu)?;
+        Ok(Slices::of(
+            gpu,
+            surface,
+            &list,
+            tiles.count(),
+            &surface.ghosts.all,
+            target,
+        ))
     }
 
     fn of(
         gpu: &'a Gpu,
         surface: &'a GpuSurface,
-        (tiles, tile_count): (&wgpu::Buffer, u32),
+        tiles: &wgpu::Buffer,
+        tile_count: u32,
         links: &Links,
         target: Duration,
     ) -> Slices<'a> {
@@ -122,6 +130,11 @@ impl<'a> Slices<'a> {
     pub(crate) fn of_groups(mut self, groups: u32) -> Slices<'a> {
         self.tile_count = groups.div_ceil(64);
         self
+    }
+
+    /// The surface that the tiles are of.
+    pub(crate) fn surface(&self) -> &'a GpuSurface {
+        self.surface
     }
 
     /// Target time of a slice.

@@ -56,7 +56,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     file::store(
         &sabi_files::Disk::default(),
         target,
-        (&loaded.stem, &book),
+        &loaded.stem,
+        &book,
         version,
         &mut BTreeSet::new(),
     )?;

@@ -164,7 +164,8 @@ fn time_artist(scene: &Scene<'_>, count: usize) -> Result<(), Box<dyn Error>> {
     file::store(
         &sabi_files::Disk::default(),
         &path,
-        ("model", &written),
+        "model",
+        &written,
         last,
         &mut BTreeSet::new(),
     )?;
@@ -218,8 +219,10 @@ impl Scene<'_> {
         let started = Instant::now();
         canvases.painted(
             self.surface,
-            (self.atlas, [0; 32]),
-            (list, Supplies::of_pictures(&StampPictures::new())),
+            self.atlas,
+            [0; 32],
+            list,
+            Supplies::of_pictures(&StampPictures::new()),
             LAYERS,
             budget,
         );

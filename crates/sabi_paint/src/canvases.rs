@@ -65,8 +65,10 @@ impl Canvases {
     pub fn painted(
         &mut self,
         surface: &PaintSurface<'_>,
-        (atlas, key): (&Atlas, [u8; 32]),
-        (list, supplies): (&StrokeList, Supplies<'_>),
+        atlas: &Atlas,
+        key: [u8; 32],
+        list: &StrokeList,
+        supplies: Supplies<'_>,
         layers: Layers,
         budget: usize,
     ) -> Painted {
@@ -74,8 +76,8 @@ impl Canvases {
         let before = self
             .kept
             .iter()
-            .filter(|kept| kept.atlas == key && starts_with(list, kept));
-        let before = before.max_by_key(|kept| kept.strokes.len());
+            .filter(|kept| kept.atlas == key && starts_with(list, kept))
+            .max_by_key(|kept| kept.strokes.len());
         let layers = before.map_or(layers, |before| layers.and(before.shown.layers()));
         let best = self.best(key, list, layers);
         if let Some(best) = best.filter(|best| best.strokes.len() == list.strokes.len()) {
@@ -99,7 +101,7 @@ impl Canvases {
             // Only the topmost stroke may be one that is drawn and goes on.
             match strokes {
                 [top] if count + 1 == list.strokes.len() && can_grow(top) => {
-                    self.paint_growing(&mut painters, &mut canvas.full, (top, key), &mut lost);
+                    self.paint_growing(&mut painters, &mut canvas.full, top, key, &mut lost);
                 }
                 _ => painters.paint(&mut canvas.full, strokes, &mut lost),
             }
@@ -143,7 +145,8 @@ impl Canvases {
         &mut self,
         painters: &mut Painters<'_>,
         canvas: &mut Canvas,
-        (stroke, atlas): (&Arc<Stroke>, [u8; 32]),
+        stroke: &Arc<Stroke>,
+        atlas: [u8; 32],
         lost: &mut LostPlaces,
     ) {
         let known = self.growing.iter().position(|(own, _)| *own == atlas);

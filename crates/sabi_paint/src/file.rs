@@ -96,7 +96,8 @@ pub fn whole(model: &str, book: &StrokeBook, versions: &[Version]) -> Vec<u8> {
 pub fn store(
     disk: &Disk,
     file: &Path,
-    (model, book): (&str, &StrokeBook),
+    model: &str,
+    book: &StrokeBook,
     version: Version,
     stored: &mut std::collections::BTreeSet<Version>,
 ) -> Result<(), StoreError> {

@@ -55,7 +55,7 @@ impl StrokeBook {
         // What a file would give back, so that a stroke is the same before and after it was stored.
         match decode_step(&bytes, version) {
             Some(step) => {
-                self.insert(version, before, (step, bytes.into()));
+                self.insert(version, before, step, bytes.into());
                 version
             }
             // A step that no file could hold changes nothing.
@@ -64,7 +64,7 @@ impl StrokeBook {
     }
 
     /// Adds a step that was read, with its bytes.
-    pub(crate) fn insert(&mut self, version: Version, before: Version, (step, bytes): (Step, Arc<[u8]>)) {
+    pub(crate) fn insert(&mut self, version: Version, before: Version, step: Step, bytes: Arc<[u8]>) {
         self.steps.entry(version).or_insert(KnownStep { before, step, bytes });
     }
 

@@ -124,8 +124,9 @@ fn text_of(point: &StrokePoint) -> PointText {
     )
 }
 
-fn point_of((triangle, triangle_key, position, normal, pressure, starts): PointText) -> Option<StrokePoint> {
-    let position = DVec3::from(position.map(f64::from));
+fn point_of(text: PointText) -> Option<StrokePoint> {
+    let (triangle, triangle_key, stored_position, normal, pressure, starts) = text;
+    let position = DVec3::from(stored_position.map(f64::from));
     let is_finite = position.is_finite() && normal.iter().all(|number| number.is_finite()) && pressure.is_finite();
     is_finite.then(|| StrokePoint {
         site: Site { triangle, position },

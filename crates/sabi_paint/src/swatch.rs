@@ -37,7 +37,7 @@ pub fn swatch(brush: &Brush, pictures: &StampPictures, size: [usize; 2]) -> Vec<
         let count = (width / (2.15 * radius)).floor().clamp(1.0, 64.0);
         let step = width / count;
         let places = (0..count as usize).map(|index| ([step * (index as f64 + 0.5), 0.5 * height], 1.0));
-        return painted((brush, pictures), size, (radius, Area::Way), places.collect(), true);
+        return painted(brush, pictures, size, radius, Area::Way, places.collect(), true);
     }
     let area = if is_band { Area::Ribbon } else { Area::Way };
     let radius = (0.34 * height).min(0.3 * width);
@@ -49,7 +49,7 @@ pub fn swatch(brush: &Brush, pictures: &StampPictures, size: [usize; 2]) -> Vec<
         let pressure = 0.25 + 3.0 * t * (1.0 - t);
         ([x, 0.5 * height - 0.13 * height * bend], pressure.min(1.0))
     });
-    painted((brush, pictures), size, (radius, area), places.collect(), false)
+    painted(brush, pictures, size, radius, area, places.collect(), false)
 }
 
 /// A picture of a single stamp of a brush on a flat wall, in full strength, with the same number of pixels on each side: row by row.
@@ -62,9 +62,11 @@ pub fn stamp_swatch(brush: &Brush, pictures: &StampPictures, side: usize) -> Vec
         ..brush.clone()
     };
     painted(
-        (&still, pictures),
+        &still,
+        pictures,
         [side; 2],
-        (0.97 * middle, Area::Way),
+        0.97 * middle,
+        Area::Way,
         vec![([middle; 2], 1.0)],
         true,
     )
@@ -72,9 +74,11 @@ pub fn stamp_swatch(brush: &Brush, pictures: &StampPictures, side: usize) -> Vec
 
 /// Pixels of a stroke through places of a picture, given in pixels, each with a pressure.
 fn painted(
-    (brush, pictures): (&Brush, &StampPictures),
+    brush: &Brush,
+    pictures: &StampPictures,
     size: [usize; 2],
-    (radius, area): (f64, Area),
+    radius: f64,
+    area: Area,
     places: Vec<([f64; 2], f64)>,
     is_separate: bool,
 ) -> Vec<SwatchPixel> {

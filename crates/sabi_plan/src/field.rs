@@ -166,7 +166,7 @@ impl StepBuilder<'_, '_> {
         } else {
             Vec::new()
         };
-        let call = kernel.call_function(node, kind, function, (inputs, param_masks, block));
+        let call = kernel.call_function(node, kind, function, inputs, param_masks, block);
         kernel.spec.calls[call].passes = passes;
         store_result(&mut kernel, resource, function.ty);
         let run_count = self.run_count(ready, kind, function, resource.level);
@@ -253,7 +253,7 @@ impl StepBuilder<'_, '_> {
                 .level_widths
                 .moves(level, resource.level)
                 .into_iter()
-                .map(|levels| self.level_move(node, (resource.content, *plane), levels, None))
+                .map(|levels| self.level_move(node, resource.content, *plane, levels, None))
                 .collect::<Vec<_>>()
         });
         moved.collect()
@@ -267,7 +267,8 @@ impl StepBuilder<'_, '_> {
         let moved = |plane| {
             self.level_move(
                 value.0,
-                (Content::Result(value), plane),
+                Content::Result(value),
+                plane,
                 [level, Level::FINEST],
                 Some((key, plane)),
             )
@@ -278,7 +279,8 @@ impl StepBuilder<'_, '_> {
     fn level_move(
         &self,
         node: usize,
-        (content, plane): (Content, Plane),
+        content: Content,
+        plane: Plane,
         levels: [Level; 2],
         result: Option<([u8; 32], Plane)>,
     ) -> UnassignedStep {

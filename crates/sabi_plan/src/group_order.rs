@@ -31,7 +31,7 @@ impl StepBuilder<'_, '_> {
             .into_iter()
             .min_by_key(|order| self.memory_use(built, order, wanted).peak());
         let least = least.unwrap_or_else(|| unreachable!("there are two orders"));
-        self.better(least, (built, &inputs), wanted)
+        self.better(least, built, &inputs, wanted)
     }
 
     /// Lets the group that needs most memory run earlier, with all that it needs: before one of those whose results are stored
@@ -39,7 +39,8 @@ impl StepBuilder<'_, '_> {
     fn better(
         &self,
         mut order: Vec<usize>,
-        (built, inputs): (&[Vec<UnassignedStep>], &[Vec<usize>]),
+        built: &[Vec<UnassignedStep>],
+        inputs: &[Vec<usize>],
         wanted: &[Value],
     ) -> Vec<usize> {
         let mut known = self.memory_use(built, &order, wanted);

@@ -173,7 +173,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         let Behavior::Shader(kind) = self.builder.node(node).behavior else {
             unreachable!("only shaders are called")
         };
-        self.call_function(node, kind, &kind.outputs[output], (inputs, param_masks, block))
+        self.call_function(node, kind, &kind.outputs[output], inputs, param_masks, block)
     }
 
     /// Adds the call of a result or a pass with these inputs, masks of parameters, and block; returns its index.
@@ -182,7 +182,9 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         node: usize,
         kind: &Kind,
         function: &Output,
-        (inputs, param_masks, block): (Vec<Binding>, Vec<(usize, Operand)>, usize),
+        inputs: Vec<Binding>,
+        param_masks: Vec<(usize, Operand)>,
+        block: usize,
     ) -> usize {
         self.spec.calls.push(Call {
             kind: kind.id.clone(),

@@ -36,7 +36,7 @@ impl StepBuilder<'_, '_> {
             let function = &kind.passes[*pass].function;
             let inputs = self.values(node, &mut kernel);
             let masks = kernel.param_masks(node, |_| None);
-            let call = kernel.call_function(node, kind, function, (inputs, masks, block));
+            let call = kernel.call_function(node, kind, function, inputs, masks, block);
             let content = Content::Pass(node, *pass);
             kernel.store_resource(
                 Operand::Call(call, Convert::None),
@@ -44,18 +44,15 @@ impl StepBuilder<'_, '_> {
                 function.ty,
             );
         }
-        kernel.rays = Some(Box::new(self.planner.step_rays(
-            node,
-            ready,
-            (kind, rays),
-            (level, outputs),
-        )));
+        kernel.rays = Some(Box::new(
+            self.planner.step_rays(node, ready, kind, rays, level, outputs),
+        ));
         let step = kernel.finish();
         let mut steps = self.level_moves(node, &step, &[]);
         steps.push(step);
         if let Some(denoise) = kind.denoise().filter(|_| !means.is_empty()) {
             steps.push(self.normals(node, denoise, level));
-            let denoised = self.denoised(node, kind, (&of_denoised, &means), level);
+            let denoised = self.denoised(node, kind, &of_denoised, &means, level);
             for moved in self.moves_of_denoised(node, &denoised, &means, level) {
                 // The rays may read the same inputs.
                 if steps.iter().all(|step| step.writes != moved.writes) {
@@ -107,13 +104,7 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Builds results of stored means over rays, which are denoised as they are read.
-    fn denoised(
-        &self,
-        node: usize,
-        kind: &Kind,
-        (outputs, means): (&[usize], &[usize]),
-        level: Level,
-    ) -> UnassignedStep {
+    fn denoised(&self, node: usize, kind: &Kind, outputs: &[usize], means: &[usize], level: Level) -> UnassignedStep {
         let mut kernel = KernelBuilder::new(self, Domain::OwnedTexels);
         kernel.level = level;
         let block = kernel.block(node);

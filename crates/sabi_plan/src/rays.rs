@@ -15,8 +15,10 @@ impl Planner<'_> {
         &self,
         index: usize,
         ready: &ResolvedNode<'_>,
-        (kind, rays): (&Kind, &Rays),
-        (level, outputs): (Level, &[usize]),
+        kind: &Kind,
+        rays: &Rays,
+        level: Level,
+        outputs: &[usize],
     ) -> StepRays {
         let ParamValue::Unsigned(count) = ready.values[rays.count] else {
             unreachable!("the number of rays of '{}' is a whole number", kind.id)
@@ -28,7 +30,7 @@ impl Planner<'_> {
         StepRays {
             count,
             finds: rays.finds,
-            key: (!depends_on_inputs).then(|| self.rays_key(ready, (kind, rays), reach, level)),
+            key: (!depends_on_inputs).then(|| self.rays_key(ready, kind, rays, reach, level)),
             reach,
             least_turn: rays
                 .turn
@@ -70,7 +72,8 @@ impl Planner<'_> {
     fn rays_key(
         &self,
         ready: &ResolvedNode<'_>,
-        (kind, rays): (&Kind, &Rays),
+        kind: &Kind,
+        rays: &Rays,
         reach: Option<Reach>,
         level: Level,
     ) -> [u8; 32] {

@@ -159,7 +159,8 @@ impl Surroundings {
         &mut self,
         bvh: &Bvh,
         near: &NearTriangles,
-        (triangle, rays): (u32, impl Iterator<Item = PlaceRay>),
+        triangle: u32,
+        rays: impl Iterator<Item = PlaceRay>,
         least_turn: Option<f32>,
     ) {
         let normal_of = |plane: &Triangle| (plane.v1 - plane.v0).cross(plane.v2 - plane.v0).try_normalize();

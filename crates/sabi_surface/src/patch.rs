@@ -204,7 +204,6 @@ impl Unfolder {
     }
 
     /// Places a triangle, and opens `count` of its edges from `first` on.
-    #[expect(clippy::too_many_arguments, reason = "the state of one step of the search")]
     fn place(
         &mut self,
         surface: ConnectedMesh<'_>,

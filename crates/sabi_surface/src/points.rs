@@ -122,7 +122,7 @@ impl SurfacePoints {
         let cells = spread::cells(&graph, spacing);
         let around = rings::around(&graph, &cells.point_of_texel, cells.centers.len());
         let members = cells.members();
-        let flows = flow::flows(&graph, (&cells, &members), &around, spacing);
+        let flows = flow::flows(&graph, &cells, &members, &around, spacing);
         let mut point_of_texel = vec![EMPTY; atlas.owners.len()];
         for (texel, point) in graph.texels.iter().zip(&cells.point_of_texel) {
             point_of_texel[texel.index as usize] = *point;

@@ -192,7 +192,7 @@ impl ViewModel {
     pub fn new(gpu: &Gpu, parts: ViewModelParts<'_>) -> Result<ViewModel, ViewError> {
         let ViewModelParts { model, atlas, .. } = parts;
         let made = DrawMesh::of(model, atlas, &Placement::of(&model.mesh));
-        ViewModel::upload(gpu, parts, (made, half_edges(&model.mesh, atlas)))
+        ViewModel::upload(gpu, parts, made, half_edges(&model.mesh, atlas))
     }
 
     /// Uploads a displaced copy of a model, with the placement of the model. Lines over it are the displaced edges and seams of
@@ -200,7 +200,7 @@ impl ViewModel {
     pub fn displaced(gpu: &Gpu, displaced: &Displaced, parts: ViewModelParts<'_>) -> Result<ViewModel, ViewError> {
         let ViewModelParts { model, atlas, .. } = parts;
         let made = DrawMesh::of_displaced(displaced, model, atlas, &Placement::of(&model.mesh));
-        ViewModel::upload(gpu, parts, (made, displaced_half_edges(displaced, atlas)))
+        ViewModel::upload(gpu, parts, made, displaced_half_edges(displaced, atlas))
     }
 
     /// Adds the shade of the model on the ground and on itself, which takes longer to find than a first picture may take. The
@@ -244,7 +244,8 @@ impl ViewModel {
             surface,
             model_from_working,
         }: ViewModelParts<'_>,
-        (made, half_edges): (DrawMesh, Vec<HalfEdge>),
+        mesh: DrawMesh,
+        half_edges: Vec<HalfEdge>,
     ) -> Result<ViewModel, ViewError> {
         let placement = Placement::of(&model.mesh);
         let line_buffer = |lines: &[Line]| -> Result<(wgpu::Buffer, u32), ViewError> {
@@ -259,16 +260,16 @@ impl ViewModel {
                 gpu,
                 "the vertices of the model",
                 wgpu::BufferUsages::VERTEX,
-                bytemuck::cast_slice(&made.vertices),
+                bytemuck::cast_slice(&mesh.vertices),
             )?,
             indices: buffer_of(
                 gpu,
                 "the triangles of the model",
                 wgpu::BufferUsages::INDEX,
-                bytemuck::cast_slice(&made.indices),
+                bytemuck::cast_slice(&mesh.indices),
             )?,
-            index_count: made.indices.len() as u32,
-            ranges: made.ranges,
+            index_count: mesh.indices.len() as u32,
+            ranges: mesh.ranges,
             surface: gpu.surface_bindings(surface),
             view_from_working: (model_from_working * placement.scale) as f32,
             charts: table_of(gpu, "the charts of the model", &rows)?,

@@ -22,9 +22,6 @@ use options::{
 };
 pub(crate) use switches::{MAP_BITS, RasterVariant, SHOWN_COLOR, SHOWN_VECTOR, Switches};
 
-/// The device, and the module whose entry points a pipeline runs.
-type DeviceModule<'a> = (&'a wgpu::Device, &'a wgpu::ShaderModule);
-
 /// All pipelines of a renderer, each made when it is first used.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
@@ -78,26 +75,31 @@ impl Pipelines {
     }
 
     fn make(&self, device: &wgpu::Device, module: &wgpu::ShaderModule, key: PipelineKey) -> wgpu::RenderPipeline {
-        let part: DeviceModule<'_> = (device, module);
         match key {
             PipelineKey::Raster {
                 is_double_sided,
                 variant,
                 switches,
-            } => self.raster(part, is_double_sided, variant, switches),
-            PipelineKey::Shade(shading, switches) => self.shade(part, shading, switches),
-            PipelineKey::Background(backing) => self.background(part, backing),
-            PipelineKey::Lines => self.lines(part),
-            PipelineKey::Shadow(veiled) => self.shadow(part, veiled),
-            PipelineKey::Bloom(step) => self.bloom(part, step),
-            PipelineKey::Accumulate(development) => self.display(part, ("gather", SUM_FORMAT), development, None),
-            PipelineKey::Encode(development) => self.display(part, ("encode", PICTURE_FORMAT), development, None),
+            } => self.raster(device, module, is_double_sided, variant, switches),
+            PipelineKey::Shade(shading, switches) => self.shade(device, module, shading, switches),
+            PipelineKey::Background(backing) => self.background(device, module, backing),
+            PipelineKey::Lines => self.lines(device, module),
+            PipelineKey::Shadow(veiled) => self.shadow(device, module, veiled),
+            PipelineKey::Bloom(step) => self.bloom(device, module, step),
+            PipelineKey::Accumulate(development) => {
+                self.display(device, module, "gather", SUM_FORMAT, development, None)
+            }
+            PipelineKey::Encode(development) => {
+                self.display(device, module, "encode", PICTURE_FORMAT, development, None)
+            }
             PipelineKey::EncodeModel(development) => {
                 let on_model = depth(wgpu::CompareFunction::Always, wgpu::CompareFunction::NotEqual, false);
-                self.display(part, ("encode", PICTURE_FORMAT), development, Some(on_model))
+                self.display(device, module, "encode", PICTURE_FORMAT, development, Some(on_model))
             }
             // Samples are transformed before they are summed.
-            PipelineKey::EncodeMean => self.display(part, ("encode_sum", PICTURE_FORMAT), Development::DONE, None),
+            PipelineKey::EncodeMean => {
+                self.display(device, module, "encode_sum", PICTURE_FORMAT, Development::DONE, None)
+            }
         }
     }
 
@@ -117,7 +119,8 @@ impl Pipelines {
 
     fn raster(
         &self,
-        (device, module): DeviceModule<'_>,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
         is_double_sided: bool,
         variant: RasterVariant,
         switches: Switches,
@@ -158,7 +161,13 @@ impl Pipelines {
         )
     }
 
-    fn shade(&self, (device, module): DeviceModule<'_>, shading: Shading, switches: Switches) -> wgpu::RenderPipeline {
+    fn shade(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        shading: Shading,
+        switches: Switches,
+    ) -> wgpu::RenderPipeline {
         let Layouts {
             frame,
             material,
@@ -191,7 +200,7 @@ impl Pipelines {
         )
     }
 
-    fn background(&self, (device, module): DeviceModule<'_>, backing: Backing) -> wgpu::RenderPipeline {
+    fn background(&self, device: &wgpu::Device, module: &wgpu::ShaderModule, backing: Backing) -> wgpu::RenderPipeline {
         let Backdrop(backdrop) = backing.backdrop;
         let mut switches = vec![
             ("BACKDROP", f64::from(backdrop)),
@@ -218,7 +227,7 @@ impl Pipelines {
         )
     }
 
-    fn lines(&self, (device, module): DeviceModule<'_>) -> wgpu::RenderPipeline {
+    fn lines(&self, device: &wgpu::Device, module: &wgpu::ShaderModule) -> wgpu::RenderPipeline {
         pipeline(
             device,
             &PipelineOptions {
@@ -239,7 +248,12 @@ impl Pipelines {
         )
     }
 
-    fn shadow(&self, (device, module): DeviceModule<'_>, veiled: Option<Switches>) -> wgpu::RenderPipeline {
+    fn shadow(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        veiled: Option<Switches>,
+    ) -> wgpu::RenderPipeline {
         let groups = [&self.layouts.uniform, &self.layouts.material, &self.layouts.charts];
         let (entries, groups, attributes) = match veiled {
             Some(_) => (
@@ -272,7 +286,7 @@ impl Pipelines {
         )
     }
 
-    fn bloom(&self, (device, module): DeviceModule<'_>, step: BloomStep) -> wgpu::RenderPipeline {
+    fn bloom(&self, device: &wgpu::Device, module: &wgpu::ShaderModule, step: BloomStep) -> wgpu::RenderPipeline {
         pipeline(
             device,
             &PipelineOptions {
@@ -291,8 +305,10 @@ impl Pipelines {
 
     fn display(
         &self,
-        (device, module): DeviceModule<'_>,
-        (entry, target): (&str, wgpu::TextureFormat),
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        entry: &str,
+        target: wgpu::TextureFormat,
         development: Development,
         depth: Option<wgpu::DepthStencilState>,
     ) -> wgpu::RenderPipeline {

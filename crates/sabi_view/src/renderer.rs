@@ -159,7 +159,7 @@ impl Renderer {
             bound,
             visibility,
         } = prepared;
-        self.cast_again(gpu, scene, (shot, sample.number), bound, shadows)?;
+        self.cast_again(gpu, scene, shot, sample.number, bound, shadows)?;
         let values = Frame::new(scene, shot, target.size, sample.number);
         let frame = self.frame_group(gpu, shadows, scene, &values)?;
         let mut encoder = gpu
@@ -169,9 +169,11 @@ impl Renderer {
         draw_light(
             &mut encoder,
             &target.light,
-            (&target.visibility, visibility),
+            &target.visibility,
+            visibility,
             scene,
-            (&frame, bound),
+            &frame,
+            bound,
             None,
         );
         self.finish_sample(gpu, &mut encoder, target, shot, sample)?;
@@ -188,7 +190,8 @@ impl Renderer {
         scene: &Scene<'_>,
         shot: &Shot,
         prepared: &mut Prepared,
-        (parts, is_rastered): (&[Part], bool),
+        parts: &[Part],
+        is_rastered: bool,
     ) -> Result<(), ViewError> {
         let Prepared {
             shadows,
@@ -206,9 +209,11 @@ impl Renderer {
         draw_light(
             &mut encoder,
             &target.light,
-            (&target.visibility, visibility),
+            &target.visibility,
+            visibility,
             scene,
-            (&frame, bound),
+            &frame,
+            bound,
             Some(parts),
         );
         // The glow of the whole picture stays as it was until it is drawn anew.
@@ -225,8 +230,8 @@ impl Renderer {
             .visibility
             .depth
             .create_view(&wgpu::TextureViewDescriptor::default());
-        let within = Some((parts, &depth));
-        self.display(gpu, &mut encoder, key, views, (display(shot, 1), within))?;
+        let within = Some(ModelParts { parts, depth: &depth });
+        self.display(gpu, &mut encoder, key, views, display(shot, 1), within)?;
         gpu.queue().submit([encoder.finish()]);
         Ok(())
     }
@@ -259,7 +264,8 @@ impl Renderer {
                 encoder,
                 PipelineKey::Encode(development(shot)),
                 views,
-                (display(shot, 1), None),
+                display(shot, 1),
+                None,
             );
         }
         let sums = target.sums(gpu)?;
@@ -272,7 +278,8 @@ impl Renderer {
             encoder,
             accumulate,
             [&light, earlier, &spread, &sums[now]],
-            (values, None),
+            values,
+            None,
         )?;
         if is_shown {
             self.display(
@@ -280,7 +287,8 @@ impl Renderer {
                 encoder,
                 PipelineKey::EncodeMean,
                 [&light, &sums[now], &spread, &shown],
-                (values, None),
+                values,
+                None,
             )?;
         }
         Ok(())
@@ -328,7 +336,8 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         key: PipelineKey,
         [light, earlier, spread, target]: [&wgpu::TextureView; 4],
-        (values, within): (Display, Option<(&[Part], &wgpu::TextureView)>),
+        values: Display,
+        within: Option<ModelParts<'_>>,
     ) -> Result<(), ViewError> {
         let uniform = self.uniform(gpu, &values)?;
         let view = wgpu::BindingResource::TextureView;
@@ -341,13 +350,13 @@ impl Renderer {
         ];
         let group = self.bind(gpu, &self.layouts().display, resources);
         let pipeline = self.pipelines.get(gpu, key)?;
-        let parts = within.map(|(parts, _)| parts);
+        let parts = within.map(|within| within.parts);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
             color_attachments: &[Some(part_attachment(target, parts))],
             // Only read: 0 in the stencil is no look of the model.
-            depth_stencil_attachment: within.map(|(_, view)| wgpu::RenderPassDepthStencilAttachment {
-                view,
+            depth_stencil_attachment: within.map(|within| wgpu::RenderPassDepthStencilAttachment {
+                view: within.depth,
                 depth_ops: None,
                 stencil_ops: None,
             }),
@@ -359,6 +368,14 @@ impl Renderer {
         for_parts(&mut pass, parts, |pass| pass.draw(0..3, 0..1));
         Ok(())
     }
+}
+
+/// Parts of a picture that are drawn again where they show the model.
+#[derive(Clone, Copy)]
+struct ModelParts<'a> {
+    parts: &'a [Part],
+    /// Depth of the picture, whose stencil is 0 beside the model.
+    depth: &'a wgpu::TextureView,
 }
 
 fn development(shot: &Shot) -> Development {

@@ -125,7 +125,7 @@ impl Viewport {
             return Ok(false);
         }
         let inputs = self.inputs(revision.number, shot, size, is_moving);
-        if is_moving && let Some(drawn) = self.show_part(gpu, scene, (revision, &inputs), size)? {
+        if is_moving && let Some(drawn) = self.show_part(gpu, scene, revision, &inputs, size)? {
             return Ok(drawn);
         }
         let mut target = match self.target.take().filter(|target| target.size() == inputs.size) {
@@ -185,7 +185,8 @@ impl Viewport {
         &mut self,
         gpu: &Gpu,
         scene: &Scene<'_>,
-        (revision, inputs): (&SceneRevision, &PictureInputs),
+        revision: &SceneRevision,
+        inputs: &PictureInputs,
         size: [u32; 2],
     ) -> Result<Option<bool>, ViewError> {
         let (Some(progress), Some(target)) = (&self.progress, &self.target) else {
@@ -202,7 +203,7 @@ impl Viewport {
         if before.revision == revision.number {
             return Ok(Some(false));
         }
-        let Some(parts) = changed_parts(scene, revision, (before, &inputs.shot)) else {
+        let Some(parts) = changed_parts(scene, revision, before, &inputs.shot) else {
             return Ok(None);
         };
         let inputs = PictureInputs {
@@ -222,7 +223,8 @@ impl Viewport {
             scene,
             &inputs.shot,
             &mut prepared,
-            (&parts, is_rastered),
+            &parts,
+            is_rastered,
         )?;
         self.target = Some(target);
         self.progress = Some(PictureProgress {
@@ -239,7 +241,8 @@ impl Viewport {
 fn changed_parts(
     scene: &Scene<'_>,
     revision: &SceneRevision,
-    (before, shot): (&PictureInputs, &Shot),
+    before: &PictureInputs,
+    shot: &Shot,
 ) -> Option<Vec<Part>> {
     // Relief shifts what is seen, and clear places show what lies behind them.
     let is_plain = !shot.has_relief && scene.looks.iter().all(|look| look.is_opaque);

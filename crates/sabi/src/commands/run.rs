@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &RunArguments, trusted: &TrustedPaths, terminal: &T
     let plan = BakePlan::open(&arguments.plan)?;
     let chosen = chosen(arguments, &plan)?;
     if arguments.alone {
-        return alone::run((arguments, trusted), &plan, &chosen, terminal);
+        return alone::run(arguments, trusted, &plan, &chosen, terminal);
     }
     listen_for_signals(*terminal);
     let mut run = Run {
@@ -108,7 +108,7 @@ impl Run<'_> {
     }
 
     fn bake(&mut self, waiting: &[usize]) -> Result<(), Failure> {
-        let mut queue = Queue::new((self.arguments, self.trusted), waiting);
+        let mut queue = Queue::new(self.arguments, self.trusted, waiting);
         while let Some((at, happened)) = queue.next(is_canceled) {
             match happened {
                 Happened::Step { phase, done, of } => self.progress.step(at, phase, done, of)?,

@@ -56,7 +56,7 @@ fn paint(document: &mut OpenDocument, command: PaintCommand) -> Outcome {
             before,
             title,
             steps,
-        } => painting::take_steps(document, &node, (&model, &before), &title, &steps).into(),
+        } => painting::take_steps(document, &node, &model, &before, &title, &steps).into(),
         PaintCommand::Over(node) => added_as(painting::paint_over(document, &node)),
     }
 }
@@ -344,13 +344,13 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
             place,
             has_normal_map,
         } => {
-            return added_as(drop_layer(document, &source, |document, layer| {
-                dropped_layers::on_model(document, layer, &place, has_normal_map)
+            return added_as(drop_layer(document, &source, |document, kind, group| {
+                dropped_layers::on_model(document, kind, group, &place, has_normal_map)
             }));
         }
         LayerCommand::AddOnNode { source, node } => {
-            return added_as(drop_layer(document, &source, |document, layer| {
-                dropped_layers::on_node(document, layer, &node)
+            return added_as(drop_layer(document, &source, |document, kind, group| {
+                dropped_layers::on_node(document, kind, group, &node)
             }));
         }
     };
@@ -361,14 +361,14 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
 fn drop_layer(
     document: &mut OpenDocument,
     source: &NodeSource,
-    add: impl FnOnce(&mut OpenDocument, (&str, Option<&str>)) -> Option<NodeId>,
+    add: impl FnOnce(&mut OpenDocument, &str, Option<&str>) -> Option<NodeId>,
 ) -> Option<NodeId> {
     let step = format!("Add layer {}", name_of(document, source));
     as_one_step(document, &step, |document| match source {
-        NodeSource::Kind(kind) => add(document, (kind, None)),
-        NodeSource::Group(group) => add(document, (GROUP_KIND, Some(group))),
+        NodeSource::Kind(kind) => add(document, kind, None),
+        NodeSource::Group(group) => add(document, GROUP_KIND, Some(group)),
         NodeSource::Library(file) => {
-            library::import(document, file).and_then(|group| add(document, (GROUP_KIND, Some(&group))))
+            library::import(document, file).and_then(|group| add(document, GROUP_KIND, Some(&group)))
         }
     })
 }

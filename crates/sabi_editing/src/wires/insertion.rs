@@ -58,8 +58,8 @@ fn making_room(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Vec<Edit> 
     let Some((source, own)) = connections::wire_into(document, to).zip(document.node(id)) else {
         return Vec::new();
     };
-    let own_box = (own.pos, node_size::of(document, id));
-    let (place, mut edits) = room_between(document, own_box, Some(&source.node), &to.node, Some(id));
+    let size = node_size::of(document, id);
+    let (place, mut edits) = room_between(document, own.pos, size, Some(&source.node), &to.node, Some(id));
     if place != own.pos {
         edits.push(Edit::Move {
             body: document.body(),
@@ -74,7 +74,8 @@ fn making_room(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Vec<Edit> 
 /// that depend on it to the right, as far as they would overlap. `own` is the node of the box, if it exists.
 pub(crate) fn room_between(
     document: &OpenDocument,
-    (mut place, size): ([f32; 2], [f32; 2]),
+    mut place: [f32; 2],
+    size: [f32; 2],
     source: Option<&NodeId>,
     reader: &NodeId,
     own: Option<&NodeId>,
@@ -88,8 +89,8 @@ pub(crate) fn room_between(
         let is_over = right_of(document, other, place, size).is_some();
         Some(document.node(other)?.pos[0]).filter(|_| is_over)
     });
-    let shift = lefts.map(|left| end - left).fold(0.0, f32::max);
-    let shift = (shift / GRID).ceil() * GRID;
+    let overlap = lefts.map(|left| end - left).fold(0.0, f32::max);
+    let shift = (overlap / GRID).ceil() * GRID;
     let moved = downstream.iter().filter(|other| shift > 0.0 && Some(*other) != own);
     let places = moved.filter_map(|other| document.node(other).map(|node| (other.clone(), node.pos)));
     let moves = places.map(|(node, pos)| Edit::Move {

@@ -134,7 +134,7 @@ impl HeldDecal {
 
     fn moved(&self, to: Pos2, canvas: &impl Canvas) -> Option<Step> {
         let touch = self.stroke.points.first()?.touch();
-        let point = point_at(&self.model, canvas, to, (touch, true))?;
+        let point = point_at(&self.model, canvas, to, touch, true)?;
         let from = self.stroke.points.first()?;
         let (carried, _) = on_surface(&self.model, |surface| {
             carried(surface, &self.stroke, [from, &point], 0.0)

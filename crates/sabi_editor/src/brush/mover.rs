@@ -135,7 +135,7 @@ impl HeldStrokes {
         let Mover { held, middle } = &self.mover;
         let (to, turn_degrees) = match self.handle {
             Handle::Move => {
-                let to = point_at(&self.model, canvas, *middle + (pointer - self.pressed), (1.0, false))?;
+                let to = point_at(&self.model, canvas, *middle + (pointer - self.pressed), 1.0, false)?;
                 (to, 0.0)
             }
             Handle::Turn => {

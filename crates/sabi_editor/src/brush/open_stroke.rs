@@ -51,7 +51,8 @@ impl OpenStroke {
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
         action: BrushAction,
-        (at, pen): (Pos2, PenState),
+        at: Pos2,
+        pen: PenState,
     ) -> OpenStroke {
         OpenStroke {
             node: painted.node.clone(),
@@ -142,7 +143,7 @@ impl OpenStroke {
 
     /// Looks at the model under a place of the screen.
     fn look(&mut self, at: Pos2, canvas: &impl Canvas) {
-        let point = touched_at(&self.model, canvas, at, (self.pen, self.starts));
+        let point = touched_at(&self.model, canvas, at, self.pen, self.starts);
         if let Some(first) = point.as_ref().filter(|_| self.points.is_empty()) {
             self.brush = sized(&self.brush, &self.model, canvas, first);
         }

@@ -62,12 +62,14 @@ pub(super) struct PressKind {
 impl HeldKnot {
     /// A new path whose first knot is under the pointer.
     pub(super) fn begun(
-        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
         canvas: &impl Canvas,
-        (at, pen): (Pos2, PenState),
+        at: Pos2,
+        pen: PenState,
         stroke: Stroke,
     ) -> Option<HeldKnot> {
-        let place = touched_at(model, canvas, at, (pen, true))?;
+        let place = touched_at(model, canvas, at, pen, true)?;
         let knot = Knot {
             place,
             bend: Bend::Smooth,
@@ -77,39 +79,53 @@ impl HeldKnot {
             is_closed: false,
         };
         Some(HeldKnot::new(
-            (painted, model),
-            (Arc::new(stroke), true),
+            painted,
+            model,
+            Arc::new(stroke),
+            true,
             path,
-            (Part::Pull(0), at, Vec2::ZERO),
+            Part::Pull(0),
+            at,
+            Vec2::ZERO,
         ))
     }
 
     /// The marked path with one more knot at its end, under the pointer.
     pub(super) fn extended(
-        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
         canvas: &impl Canvas,
-        (at, pen): (Pos2, PenState),
+        at: Pos2,
+        pen: PenState,
     ) -> Option<HeldKnot> {
         let stroke = painted.path.as_ref()?;
         let mut path = on_surface(model, |surface| relocate(surface, stroke).0.as_path())?;
         path.knots.push(Knot {
-            place: touched_at(model, canvas, at, (pen, false))?,
+            place: touched_at(model, canvas, at, pen, false)?,
             bend: Bend::Smooth,
         });
         let last = Part::Pull(path.knots.len() - 1);
         Some(HeldKnot::new(
-            (painted, model),
-            (stroke.clone(), false),
+            painted,
+            model,
+            stroke.clone(),
+            false,
             path,
-            (last, at, Vec2::ZERO),
+            last,
+            at,
+            Vec2::ZERO,
         ))
     }
 
     fn new(
-        (painted, model): (&PaintSubject, &Arc<LiveModel>),
-        (stroke, is_new): (Arc<Stroke>, bool),
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
+        stroke: Arc<Stroke>,
+        is_new: bool,
         path: Path,
-        (part, pressed, grip): (Part, Pos2, Vec2),
+        part: Part,
+        pressed: Pos2,
+        grip: Vec2,
     ) -> HeldKnot {
         HeldKnot {
             node: painted.node.clone(),
@@ -144,12 +160,12 @@ impl HeldKnot {
         match self.part {
             Part::Pull(_) if pointer.distance(self.pressed) < PULL => {}
             Part::Pull(index) => {
-                let handle = point_at(model, canvas, at, (1.0, false))?;
+                let handle = point_at(model, canvas, at, 1.0, false)?;
                 path.knots[index].bend = Bend::Handles([mirrored(model, &path.knots[index], &handle)?, handle]);
             }
             Part::Knot(index) => {
                 let knot = &mut path.knots[index];
-                let place = point_at(model, canvas, at, (knot.place.touch(), false))?;
+                let place = point_at(model, canvas, at, knot.place.touch(), false)?;
                 if let Bend::Handles(handles) = knot.bend {
                     let way = place.site.position - knot.place.site.position;
                     let moved = handles.map(|handle| led(model, &place, handle.site.position + way));
@@ -161,7 +177,7 @@ impl HeldKnot {
                 knot.place = place;
             }
             Part::Handle(index, side) => {
-                let handle = point_at(model, canvas, at, (1.0, false))?;
+                let handle = point_at(model, canvas, at, 1.0, false)?;
                 let other = mirrored(model, &path.knots[index], &handle)?;
                 path.knots[index].bend = Bend::Handles(if side == 0 { [handle, other] } else { [other, handle] });
             }
@@ -203,7 +219,8 @@ impl HeldKnot {
 /// removed, a second click turns it into a corner or back, with Shift handles are pulled out of it. `extends` is true while clicks
 /// add knots to the path: one on the first knot then closes it.
 pub(super) fn press(
-    (painted, model): (&PaintSubject, &Arc<LiveModel>),
+    painted: &PaintSubject,
+    model: &Arc<LiveModel>,
     canvas: &impl Canvas,
     at: Pos2,
     PressKind {
@@ -216,9 +233,8 @@ pub(super) fn press(
     let stroke = painted.path.as_ref()?;
     let shown = ShownPath::of(model, canvas, stroke)?;
     let mut path = shown.path.clone();
-    let held = |path: Path, part: Part, grip: Vec2| {
-        HeldKnot::new((painted, model), (stroke.clone(), false), path, (part, at, grip))
-    };
+    let held =
+        |path: Path, part: Part, grip: Vec2| HeldKnot::new(painted, model, stroke.clone(), false, path, part, at, grip);
     let changed = |path: Path| {
         let held = held(path.clone(), Part::Knot(0), Vec2::ZERO);
         Some(Press::Changed(held.laid(&path, canvas)))
@@ -248,7 +264,7 @@ pub(super) fn press(
         Some((part, grip)) => Some(Press::Hold(held(path, part, grip).known())),
         None => {
             let span = shown.span_at(at).filter(|_| splits && !extends)?;
-            let place = point_at(model, canvas, at, (1.0, false))?;
+            let place = point_at(model, canvas, at, 1.0, false)?;
             let knot = Knot {
                 place,
                 bend: Bend::Smooth,

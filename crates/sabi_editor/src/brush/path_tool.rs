@@ -55,15 +55,18 @@ impl BrushTool {
     pub(super) fn press_path(
         &mut self,
         ui: &Ui,
-        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
         canvas: &impl Canvas,
-        (at, pen, is_second): (Pos2, PenState, bool),
+        at: Pos2,
+        pen: PenState,
+        is_second: bool,
         actions: &mut Vec<Action>,
     ) -> bool {
         let modifiers = ui.input(|input| input.modifiers);
         let hand = painted.brush.used_hand();
         if hand != Hand::Free && self.takes_source(&painted.brush, model, modifiers) {
-            self.take_source((&painted.brush, model), canvas, (at, has_ctrl(modifiers)), actions);
+            self.take_source(&painted.brush, model, canvas, at, has_ctrl(modifiers), actions);
             return true;
         }
         let extends = matches!(self.extended, Extended::Path(_));
@@ -73,7 +76,7 @@ impl BrushTool {
             extends,
             splits: hand == Hand::Path,
         };
-        let held = match press((painted, model), canvas, at, kind) {
+        let held = match press(painted, model, canvas, at, kind) {
             Some(Press::Hold(held)) => Some(held),
             Some(Press::Changed(action)) => {
                 self.extended = Extended::None;
@@ -85,12 +88,12 @@ impl BrushTool {
                 self.extended = Extended::None;
                 return true;
             }
-            None if hand == Hand::Path && extends => HeldKnot::extended((painted, model), canvas, (at, pen)),
+            None if hand == Hand::Path && extends => HeldKnot::extended(painted, model, canvas, at, pen),
             None if hand == Hand::Path => {
-                let stroke = self.template((painted, model), canvas, (at, modifiers));
-                HeldKnot::begun((painted, model), canvas, (at, pen), stroke)
+                let stroke = self.template(painted, model, canvas, at, modifiers);
+                HeldKnot::begun(painted, model, canvas, at, pen, stroke)
             }
-            None => return self.lay_along_edges((painted, model), canvas, (at, modifiers), actions),
+            None => return self.lay_along_edges(painted, model, canvas, at, modifiers, actions),
         };
         let Some(held) = held else { return hand == Hand::Path };
         actions.push(Action::Paint(PaintAction::Begin));
@@ -103,9 +106,11 @@ impl BrushTool {
     /// Lays a path along the edges under the pointer, if the brush follows edges. Returns whether it does.
     fn lay_along_edges(
         &mut self,
-        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
         canvas: &impl Canvas,
-        (at, modifiers): (Pos2, Modifiers),
+        at: Pos2,
+        modifiers: Modifiers,
         actions: &mut Vec<Action>,
     ) -> bool {
         let Some(kind) = painted.brush.used_hand().edges() else {
@@ -125,9 +130,9 @@ impl BrushTool {
             path: Some(form),
             points,
             eye: canvas.eye(model),
-            ..self.template((painted, model), canvas, (at, modifiers))
+            ..self.template(painted, model, canvas, at, modifiers)
         };
-        let laid = PaintCommand::Steps {
+        let command = PaintCommand::Steps {
             node: painted.node.clone(),
             model: model.linked.model.stem.clone(),
             before: painted.strokes.clone(),
@@ -136,7 +141,7 @@ impl BrushTool {
         };
         let laid = [
             PaintAction::Begin,
-            PaintAction::Lay(laid),
+            PaintAction::Lay(command),
             PaintAction::End,
             PaintAction::MarkNew,
         ];
@@ -147,11 +152,13 @@ impl BrushTool {
     /// A stroke of the brush, in the size that it has under the pointer, without places.
     fn template(
         &self,
-        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
         canvas: &impl Canvas,
-        (at, modifiers): (Pos2, Modifiers),
+        at: Pos2,
+        modifiers: Modifiers,
     ) -> Stroke {
-        let under = point_at(model, canvas, at, (1.0, true));
+        let under = point_at(model, canvas, at, 1.0, true);
         let brush = &match under {
             Some(point) => sized(&painted.brush, model, canvas, &point),
             None => painted.brush.clone(),

@@ -14,9 +14,10 @@ pub(super) fn touched_at(
     model: &LiveModel,
     canvas: &impl Canvas,
     at: Pos2,
-    (pen, starts): (PenState, bool),
+    pen: PenState,
+    starts: bool,
 ) -> Option<StrokePoint> {
-    let point = point_at(model, canvas, at, (pen.pressure, starts))?;
+    let point = point_at(model, canvas, at, pen.pressure, starts)?;
     let shaft = pen
         .tilt_degrees
         .and_then(|tilt| shaft_over(model, canvas, &point, tilt));
@@ -28,7 +29,8 @@ pub(super) fn point_at(
     model: &LiveModel,
     canvas: &impl Canvas,
     at: Pos2,
-    (touch, starts): (impl Into<Touch>, bool),
+    touch: impl Into<Touch>,
+    starts: bool,
 ) -> Option<StrokePoint> {
     let site = canvas.site(model, at)?;
     on_surface(model, |surface| surface.point(site, touch, starts))

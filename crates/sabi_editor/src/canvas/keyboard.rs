@@ -17,7 +17,7 @@ pub(super) fn wire(canvas: &mut Canvas, document: &OpenDocument) -> Vec<Action> 
     match std::mem::take(&mut canvas.gesture) {
         Gesture::Wire { pending, off, .. } => {
             let at = canvas.camera.panel.map_or(egui::Pos2::ZERO, |panel| panel.center());
-            connect(&mut canvas.popups, document, (pending, off), &port, at, &mut actions);
+            connect(&mut canvas.popups, document, pending, off, &port, at, &mut actions);
         }
         _ => {
             canvas.gesture = Gesture::Wire {

@@ -27,7 +27,8 @@ pub(super) fn choices(
     canvas: &Canvas,
     document: &OpenDocument,
     panel: Rect,
-    (from, pointer): (&OutputRef, Pos2),
+    from: &OutputRef,
+    pointer: Pos2,
 ) -> Option<PortChoices> {
     let here = canvas.camera.view.place(panel, pointer);
     let is_under = |id: &&NodeId| node_rect(document, id).is_some_and(|rect| rect.contains(pos2(here[0], here[1])));
@@ -39,9 +40,10 @@ pub(super) fn choices(
     })?;
     let [plain, params] = wires::accepting(document, from, node);
     let down = here[1] - document.node(node)?.pos[1];
-    let knob = rows_of(document, node)?.knob_at(down);
-    let knob = knob.filter(|_| canvas.camera.view.zoom >= CARD_ZOOM);
-    let knob = knob.and_then(|at| own_knobs(document.face(node)?).nth(at));
+    let knob = rows_of(document, node)?
+        .knob_at(down)
+        .filter(|_| canvas.camera.view.zoom >= CARD_ZOOM)
+        .and_then(|at| own_knobs(document.face(node)?).nth(at));
     let pointed = knob.and_then(|knob| params.iter().position(|slot| slot.name == knob.name));
     let aimed = match pointed {
         Some(at) => plain.len() + at,

@@ -47,7 +47,7 @@ pub(super) fn show(
         }
         let is_wired = is_wired(document, &place);
         let size = DOT * zoom * if is_hot { 1.35 } else { 1.0 };
-        dot(ui.painter(), context.theme, center, size, (port.ty, color), is_wired);
+        dot(ui.painter(), context.theme, center, size, port.ty, color, is_wired);
         if port.is_required && !is_wired && is_input && zoom > 0.6 {
             ui.painter()
                 .circle_stroke(center, size + 2.5 * zoom, Stroke::new(1.0, context.theme.warning));
@@ -123,7 +123,8 @@ pub(super) fn dot(
     theme: &Theme,
     center: Pos2,
     size: f32,
-    (ty, color): (Option<PortType>, Color32),
+    ty: Option<PortType>,
+    color: Color32,
     is_wired: bool,
 ) {
     let fill = if is_wired { color } else { theme.canvas };

@@ -56,7 +56,7 @@ impl RequestedModel {
     pub(super) fn new(file: &Path, import: ImportOptions, size: u32, cache_dir: Option<&Path>) -> RequestedModel {
         let trusted = TrustedPaths::default();
         RequestedModel {
-            options: Arc::new(import.options((file, &trusted), size, cache_dir)),
+            options: Arc::new(import.options(file, &trusted, size, cache_dir)),
             trusted,
             import,
             cache_dir: cache_dir.map(Path::to_owned),
@@ -102,7 +102,7 @@ impl RequestedModel {
     /// Options for reading the model at a size, texels.
     pub(crate) fn options_of_size(&self, size: u32) -> ModelOptions {
         self.import
-            .options((self.file(), &self.trusted), size, self.cache_dir.as_deref())
+            .options(self.file(), &self.trusted, size, self.cache_dir.as_deref())
     }
 
     /// First revision of the requested file and how it is read, whatever its size.
@@ -122,7 +122,7 @@ impl RequestedModel {
         if file != self.file() {
             self.refused = None;
         }
-        self.set_options(import.options((file, &self.trusted), self.size(), self.cache_dir.as_deref()));
+        self.set_options(import.options(file, &self.trusted, self.size(), self.cache_dir.as_deref()));
         self.file_since = self.revision;
         self.import = import;
         self.failure = None;

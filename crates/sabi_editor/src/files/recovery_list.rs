@@ -66,7 +66,7 @@ impl RecoveryList {
                     if let Some(drawing) = drawing {
                         drawing.show(ui, theme);
                     }
-                    ui.vertical(|ui| chosen = row(ui, theme, (at, recovery, drawing), actions).or(chosen.take()));
+                    ui.vertical(|ui| chosen = row(ui, theme, at, recovery, drawing, actions).or(chosen.take()));
                 });
                 ui.add_space(space::USUAL);
             }
@@ -80,7 +80,9 @@ impl RecoveryList {
 fn row(
     ui: &mut Ui,
     theme: &Theme,
-    (at, recovery, drawing): (usize, &Recovery, &Option<Drawing>),
+    at: usize,
+    recovery: &Recovery,
+    drawing: &Option<Drawing>,
     actions: &mut Vec<Action>,
 ) -> Option<Action> {
     if let Some(fault) = recovery.fault() {

@@ -33,13 +33,7 @@ struct Drawing {
 
 impl Wires {
     /// Draws the wires of a model's texture set over a texture, once they are made.
-    pub(super) fn draw(
-        &mut self,
-        painter: &Painter,
-        (model, set): (&Arc<LiveModel>, SetKey),
-        square: Rect,
-        theme: &Theme,
-    ) {
+    pub(super) fn draw(&mut self, painter: &Painter, model: &Arc<LiveModel>, set: SetKey, square: Rect, theme: &Theme) {
         self.poll(painter.ctx(), model, set);
         let place = |at: Pos2| square.min + at.to_vec2() * square.size();
         let color = theme.accent.gamma_multiply(0.5);

@@ -24,7 +24,8 @@ pub(crate) fn curve_ui(
     ui: &mut Ui,
     theme: &Theme,
     memory: &mut CurveMemory,
-    (label, room): (&str, usize),
+    label: &str,
+    room: usize,
     points: &[[f64; 2]],
 ) -> Option<Vec<[f64; 2]>> {
     let knob = knob_of(label, room);

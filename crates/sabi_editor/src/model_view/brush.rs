@@ -108,8 +108,8 @@ impl ModelView {
             camera: self.navigation.camera,
             rect,
         };
-        let painted = (subject.painted, &picture.model);
-        self.brush.paint(ui, response, painted, &canvas, actions)
+        self.brush
+            .paint(ui, response, subject.painted, &picture.model, &canvas, actions)
     }
 
     /// Draws the frame and the handles of a marked decal. Returns whether the pointer is on a handle.

@@ -27,7 +27,8 @@ impl ModelView {
         document: &OpenDocument,
         evaluation: &Evaluation,
         shown: &ViewSubject,
-        (face, at): (&Entry, Pos2),
+        face: &Entry,
+        at: Pos2,
     ) -> Option<DropPlace> {
         let gives_material = face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
         if !gives_material || !self.area.is_some_and(|area| area.contains(at)) {

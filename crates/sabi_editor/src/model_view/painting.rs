@@ -35,15 +35,15 @@ impl ModelView {
             lighting: &lighting,
             is_moving,
         };
-        let device = (evaluation.gpu(), render);
-        let first = self.pictures.refresh(0, ui, rect, device, &request(picture));
+        let gpu = evaluation.gpu();
+        let first = self.pictures.refresh(0, ui, rect, gpu, render, &request(picture));
         self.pictures.fault = first.as_ref().err().cloned();
         let Ok(Some(first)) = first else {
             return false;
         };
         let pinned = subject.pinned.and_then(|seen| evaluation.results.picture(seen));
         let other = self.comparison.share.zip(pinned).and_then(|(share, pinned)| {
-            match self.pictures.refresh(1, ui, rect, device, &request(pinned)) {
+            match self.pictures.refresh(1, ui, rect, gpu, render, &request(pinned)) {
                 Ok(other) => Some((share, other?)),
                 Err(fault) => {
                     self.pictures.fault = Some(fault);

@@ -147,7 +147,8 @@ impl Pictures {
         at: usize,
         ui: &Ui,
         rect: Rect,
-        (gpu, render): (&Arc<Gpu>, &RenderState),
+        gpu: &Arc<Gpu>,
+        render: &RenderState,
         request: &PictureRequest<'_>,
     ) -> Result<Option<TextureId>, String> {
         let scale = ui.ctx().pixels_per_point();
@@ -189,7 +190,7 @@ impl Pictures {
         };
         let scene = request.lighting.scene(request.picture, environment);
         let missing = screen.viewport.missing(&scene, &request.shot);
-        self.renderer_loader.is_ready(context, (gpu, &renderer), missing)
+        self.renderer_loader.is_ready(context, gpu, &renderer, missing)
     }
 
     /// Draws one picture of a size in pixels if it has changed. Returns whether it had.

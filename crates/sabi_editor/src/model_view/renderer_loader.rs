@@ -57,7 +57,8 @@ impl RendererLoader {
     pub(super) fn is_ready(
         &mut self,
         context: &Context,
-        (gpu, renderer): (&Arc<Gpu>, &Arc<Renderer>),
+        gpu: &Arc<Gpu>,
+        renderer: &Arc<Renderer>,
         missing: Option<MissingPipelines>,
     ) -> Result<bool, String> {
         let Some(missing) = missing else {

@@ -182,8 +182,8 @@ impl ModelView {
         };
         let line = egui::Stroke::new(1.0, subject.theme.background);
         if let Some(main) = main {
-            let name = main.model.linked.model.files.first();
-            let name = name.map_or_else(String::new, |file| file_stem(file).into_owned());
+            let file = main.model.linked.model.files.first();
+            let name = file.map_or_else(String::new, |file| file_stem(file).into_owned());
             let place = showing::CaptionPlace {
                 at: pos2(first.left() + 10.0, first.bottom() - 10.0),
                 align: Align2::LEFT_CENTER,
@@ -201,7 +201,7 @@ impl ModelView {
                     None
                 }
                 (None, Some(render), Some(main)) => {
-                    self.paint_cell(ui, (at, *cell), (evaluation, render), (main, *first), subject)
+                    self.paint_cell(ui, at, *cell, evaluation, render, main, *first, subject)
                 }
                 _ => None,
             };
@@ -217,9 +217,12 @@ impl ModelView {
     fn paint_cell(
         &mut self,
         ui: &Ui,
-        (at, cell): (usize, Rect),
-        (evaluation, render): (&Evaluation, &RenderState),
-        (main, first): (&Picture, Rect),
+        at: usize,
+        cell: Rect,
+        evaluation: &Evaluation,
+        render: &RenderState,
+        main: &Picture,
+        first: Rect,
         subject: &Subject<'_>,
     ) -> Option<String> {
         let newest = evaluation.results.picture(subject.shown).cloned();
@@ -233,8 +236,8 @@ impl ModelView {
             return None;
         };
         let framing = own.framing(&picture.model, aspect(cell));
-        let of_main = self.row.cells.entry(PathBuf::new()).or_default();
-        let of_main = of_main.framing(&main.model, aspect(first));
+        let main_cell = self.row.cells.entry(PathBuf::new()).or_default();
+        let of_main = main_cell.framing(&main.model, aspect(first));
         let camera = camera_beside(self.navigation.camera, of_main, framing);
         if let Some(own) = self.row.cells.get_mut(evaluation.model.file()) {
             own.seen = Some((cell, camera));
@@ -245,8 +248,10 @@ impl ModelView {
             lighting: &Lighting::of(&self.environment, &self.lights),
             is_moving: self.navigation.is_moving(),
         };
-        let device = (evaluation.gpu(), render);
-        match self.pictures.refresh(FIRST_BESIDE + at, ui, cell, device, &request) {
+        let drawn = self
+            .pictures
+            .refresh(FIRST_BESIDE + at, ui, cell, evaluation.gpu(), render, &request);
+        match drawn {
             Ok(Some(texture)) => {
                 let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                 ui.painter().image(texture, cell, whole, Color32::WHITE);

@@ -96,7 +96,7 @@ impl ExportPanel {
                 // Above the files, since a long list would hide them.
                 let warnings = written.warnings.iter().filter_map(|warning| {
                     let sentence = context.said(&warning.sentence);
-                    remedies::show(ui, theme.warning, (&sentence, &warning.remedies), request, import)
+                    remedies::show(ui, theme.warning, &sentence, &warning.remedies, request, import)
                 });
                 let chosen = warnings.collect();
                 for memory in &written.memory {
@@ -114,7 +114,7 @@ impl ExportPanel {
             }
             Some(Err(error)) => {
                 let sentences = context.said(&error.messages.join("\n"));
-                let action = remedies::show(ui, theme.fault, (&sentences, &error.remedies), request, import);
+                let action = remedies::show(ui, theme.fault, &sentences, &error.remedies, request, import);
                 if error.remedies.contains(&Remedy::OtherFolder) && ui.button("Choose a folder").clicked() {
                     self.dialog = Some(SystemDialog::folder(ui.ctx()));
                 }

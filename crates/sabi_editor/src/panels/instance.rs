@@ -56,7 +56,7 @@ pub(super) fn show(
         return Vec::new();
     };
     let mut commands = Vec::new();
-    commands.extend(variants(ui, context, (id, face), &mut state.cards));
+    commands.extend(variants(ui, context, id, face, &mut state.cards));
     let linked = document
         .contents()
         .groups
@@ -81,7 +81,8 @@ pub(super) struct InstanceState {
 fn variants(
     ui: &mut Ui,
     context: &ViewContext<'_>,
-    (id, face): (&NodeId, &Entry),
+    id: &NodeId,
+    face: &Entry,
     size: &mut CardSize,
 ) -> Option<GroupCommand> {
     let knob = face.knobs.iter().find(|knob| knob.name == VARIANT)?;

@@ -82,7 +82,9 @@ impl Painting {
                 let mut actions = brush_settings::show(
                     ui,
                     context,
-                    (&mut self.swatches, &mut self.text, &mut self.curve),
+                    &mut self.swatches,
+                    &mut self.text,
+                    &mut self.curve,
                     &mut brush,
                 );
                 if brush != *chosen {

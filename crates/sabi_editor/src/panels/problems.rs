@@ -69,7 +69,8 @@ impl View for Problems {
                 actions.extend(remedies::show(
                     ui,
                     theme.fault,
-                    (&sentences, &error.remedies),
+                    &sentences,
+                    &error.remedies,
                     request,
                     import,
                 ));
@@ -85,7 +86,7 @@ impl View for Problems {
                         RichText::new(context.said(&warning.to_string())).color(theme.warning),
                         node,
                     ),
-                    None => remedies::show(ui, theme.warning, (&sentence, &warning.remedies), request, import),
+                    None => remedies::show(ui, theme.warning, &sentence, &warning.remedies, request, import),
                 });
             }
             for beside in context.row.beside() {

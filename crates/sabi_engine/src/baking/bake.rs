@@ -51,7 +51,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     set_options(request)?;
     let (graph, trusted) = (request.graph.clone(), request.evaluator.trusted_with(&request.graph));
     let (open, kinds) = OpenGraph::open_with_kinds(graph, trusted, progress)?;
-    bake_open(&open, kinds, (clock, None), request, progress)
+    bake_open(&open, kinds, clock, None, request, progress)
 }
 
 /// Bakes a graph in memory, saved or not.
@@ -63,7 +63,7 @@ pub fn bake_graph(
 ) -> Result<BakeReport, EngineError> {
     let clock = PhaseClock::start();
     let document = open.unsaved_text();
-    bake_open(open, kinds.clone(), (clock, document), request, progress)
+    bake_open(open, kinds.clone(), clock, document, request, progress)
 }
 
 /// Checks a request as a bake does before it reads the model.
@@ -81,7 +81,8 @@ pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest)
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
-    (mut clock, document): (PhaseClock, Option<String>),
+    mut clock: PhaseClock,
+    document: Option<String>,
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
@@ -100,7 +101,7 @@ fn bake_open(
     writer.protect(read);
     let linked = evaluator.linked().clone();
     evaluator.warn(materials_without_maps(&linked.model, &linked.atlas));
-    let sets = checked_sets(&evaluator, request, (&options, &map_channels), &writer)?;
+    let sets = checked_sets(&evaluator, request, &options, &map_channels, &writer)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, &linked.model, &linked.atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
@@ -113,12 +114,12 @@ fn bake_open(
     let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
     times.compile.add(clock.lap());
     let evaluate = || evaluator.run_once(&plan, SUBMISSION, progress);
-    let (mut run, pixels) = SetPixels::new_while(&linked, (sets.first(), request.map_padding()), evaluate)?;
+    let (mut run, pixels) = SetPixels::new_while(&linked, sets.first(), request.map_padding(), evaluate)?;
     let evaluated = clock.lap();
     let compiled = run.report.compile.min(evaluated);
     times.compile.add(compiled);
     times.run.add(evaluated - compiled);
-    let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
+    let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes, &mesh_targets);
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
@@ -128,16 +129,16 @@ fn bake_open(
         seams: ModelSeams::new(request.seams, &linked),
         run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
-    let mut written = map_writer.write(&mut run, (&sets, pixels), &mut writer, progress)?;
+    let mut written = map_writer.write(&mut run, &sets, pixels, &mut writer, progress)?;
     stop_if_canceled(progress)?;
     write_copy(copy, &mut writer, &mut written)?;
-    write_documents((request, &map_writer.options), &linked, &mut writer, &mut written)?;
+    write_documents(request, &map_writer.options, &linked, &mut writer, &mut written)?;
     tell_losses(request, &map_writer.options, &writer, &mut written);
     let warnings = evaluator.warnings().iter().chain(&written.warnings);
     let report = BakeReport {
         maps_cached: writer.kept().to_vec(),
         warnings: warnings.cloned().collect(),
-        ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
+        ..report(request, &evaluator, &plan, &run, written, made_of, conventions)
     };
     // The record in the folder has the times up to here.
     times.encode.add(clock.lap());
@@ -163,7 +164,8 @@ fn times_of_loading(evaluator: &Evaluator, taken: Duration) -> PhaseTimes {
 fn checked_sets(
     evaluator: &Evaluator,
     request: &BakeRequest,
-    (options, map_channels): (&SetOptions, &[Channel]),
+    options: &SetOptions,
+    map_channels: &[Channel],
     writer: &BakeWriter,
 ) -> Result<Vec<TextureSet>, EngineError> {
     let linked = evaluator.linked();
@@ -348,9 +350,11 @@ fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), Eng
 fn report(
     request: &BakeRequest,
     evaluator: &Evaluator,
-    (plan, run): (&Plan, &Run),
+    plan: &Plan,
+    run: &Run,
     written: WrittenMaps,
-    (made_of, conventions): (MadeOf, Conventions),
+    made_of: MadeOf,
+    conventions: Conventions,
 ) -> BakeReport {
     let adapter = evaluator.gpu().summary();
     let linked = evaluator.linked();

@@ -17,7 +17,8 @@ pub(crate) fn check_documents(options: &SetOptions, writer: &BakeWriter) -> Resu
 
 /// Stages the documents that presets ask for, with the maps that they need in addition, and adds them to what was written.
 pub(crate) fn write_documents(
-    (request, options): (&BakeRequest, &SetOptions),
+    request: &BakeRequest,
+    options: &SetOptions,
     linked: &LinkedModel,
     writer: &mut BakeWriter,
     written: &mut WrittenMaps,

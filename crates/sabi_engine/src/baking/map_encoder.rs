@@ -136,7 +136,7 @@ impl MapEncoder<'_> {
                 if let Some(seams) = &seams {
                     seams.settle(layout, &channel, &mut pixels);
                 }
-                self.write(layout, set, &channel, (pixels, seams.is_some()))?;
+                self.write(layout, set, &channel, pixels, seams.is_some())?;
                 drop(memory);
             }
             MapStep::LeaveOut { layout, set, channel } => {
@@ -160,7 +160,8 @@ impl MapEncoder<'_> {
         layout: &SetLayout,
         set: &str,
         channel: &Channel,
-        (pixels, is_connected): (ChannelPixels, bool),
+        pixels: ChannelPixels,
+        is_connected: bool,
     ) -> Result<(), EngineError> {
         let _span = tracing::debug_span!("encode", set, channel = %channel.name()).entered();
         let mut writer = self.writer.set(layout, set, self.options);

@@ -71,7 +71,8 @@ impl MapWriter<'_> {
     pub(crate) fn write(
         &self,
         run: &mut Run,
-        (sets, mut first): (&[SetWork<'_>], Option<SetPixels>),
+        sets: &[SetWork<'_>],
+        mut first: Option<SetPixels>,
         writer: &mut BakeWriter,
         progress: &dyn Progress,
     ) -> Result<WrittenMaps, EngineError> {
@@ -207,7 +208,7 @@ impl<'s> Maps<'_, 's> {
                 // A mask, color or vector has one plane.
                 let slot = result.slots[0];
                 if set.layout.shared.is_empty() {
-                    self.channel_in_bands((&*run, Some(slot)), (set, channel), 0, value)?;
+                    self.channel_in_bands(run, Some(slot), set, channel, 0, value)?;
                 } else {
                     if planes.is_empty() {
                         planes.push(Some(self.from.read(run, slot)?));
@@ -270,7 +271,7 @@ impl<'s> Maps<'_, 's> {
             }
         }
         drop(span);
-        self.send(set, channel, pixels, (planes.iter().any(Option::is_some), memory))
+        self.send(set, channel, pixels, planes.iter().any(Option::is_some), memory)
     }
 
     /// Hands over the pixels of a channel.
@@ -279,7 +280,8 @@ impl<'s> Maps<'_, 's> {
         set: &'s OpenSet<'s>,
         channel: Channel,
         pixels: ChannelPixels,
-        (is_connected, memory): (bool, Reserved<'s>),
+        is_connected: bool,
+        memory: Reserved<'s>,
     ) -> Result<(), EngineError> {
         let seams = is_connected.then_some(SetSeams {
             of_model: &self.from.seams,

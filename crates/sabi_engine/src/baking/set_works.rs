@@ -29,7 +29,8 @@ fn own_maps<'p>(
 
 /// Assigns the planned results to the texture sets.
 pub(super) fn set_works<'p>(
-    (graph, plan): (&FlatGraph, &'p Plan),
+    graph: &FlatGraph,
+    plan: &'p Plan,
     sets: Vec<TextureSet>,
     nodes: &[BTreeMap<u32, usize>],
     mesh_targets: &[(MeshMap, Target)],

@@ -28,7 +28,7 @@ impl BakePlan {
     pub fn open(path: &Path) -> Result<BakePlan, EngineError> {
         let said = |why: &str| format!("{}: {why}", path.display());
         let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
-            let why = why_unread(&unread, (".jsonl", "plans"), SIZE_LIMIT_BYTES);
+            let why = why_unread(&unread, ".jsonl", "plans", SIZE_LIMIT_BYTES);
             EngineError::new(kind_of_unread(&unread), said(&why))
         })?;
         let bad = |why: &str| EngineError::new(ErrorKind::BadInput, said(why));

@@ -35,7 +35,8 @@ impl EvaluatedGraph {
         open: &OpenGraph,
         flat: FlatGraph,
         kinds: Kinds,
-        (model, memory_bytes): (&Model, u64),
+        model: &Model,
+        memory_bytes: u64,
     ) -> EvaluatedGraph {
         let mut graph = EvaluatedGraph {
             path: open.path.clone(),
@@ -113,8 +114,8 @@ impl EvaluatedGraph {
 
     /// Returns the contents of the files that the targets need: of pictures, and of strokes on this model.
     pub(crate) fn contents(&self, targets: &[Target], model: &Model) -> FileContents {
-        let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
-        let wanted: Vec<usize> = self.flat.upstream(&wanted).into_iter().collect();
+        let nodes: Vec<usize> = targets.iter().map(|target| target.node).collect();
+        let wanted: Vec<usize> = self.flat.upstream(&nodes).into_iter().collect();
         let files = self.files();
         let strokes = wanted.iter().filter_map(|index| {
             let node = self.flat.nodes.get(*index)?;
@@ -122,10 +123,12 @@ impl EvaluatedGraph {
         });
         let strokes: FileContents = strokes.collect();
         let pictures = self.pictures.contents(
-            (&self.base(), &self.trusted),
+            &self.base(),
+            &self.trusted,
             &self.flat,
             &self.kinds.sources,
-            (wanted, self.memory_bytes),
+            wanted,
+            self.memory_bytes,
         );
         pictures.into_iter().chain(strokes).collect()
     }
@@ -142,9 +145,13 @@ impl EvaluatedGraph {
     /// Lists the files of the graph: its own, its groups and its pictures.
     pub(crate) fn read_files(&self, open: &OpenGraph) -> Vec<PathBuf> {
         let base = open.base();
-        let groups = self.flat.nodes.iter().filter_map(|node| node.file.as_ref());
-        let groups = groups.map(|file| base.resolve(file));
-        let named = files((&base, &open.trusted), &self.flat, &self.kinds.sources);
+        let groups = self
+            .flat
+            .nodes
+            .iter()
+            .filter_map(|node| node.file.as_ref())
+            .map(|file| base.resolve(file));
+        let named = files(&base, &open.trusted, &self.flat, &self.kinds.sources);
         let own = std::iter::once(open.path.clone()).chain(groups);
         own.chain(named).collect()
     }

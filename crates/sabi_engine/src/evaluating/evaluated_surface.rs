@@ -42,7 +42,8 @@ impl EvaluatedSurface {
     pub(crate) fn upload(
         gpu: &Gpu,
         linked: Arc<LinkedModel>,
-        (fit, seed): (Fit, u32),
+        fit: Fit,
+        seed: u32,
         times: &mut PhaseTimes,
     ) -> Result<EvaluatedSurface, EngineError> {
         let _span = tracing::debug_span!("upload surface", seed).entered();
@@ -74,7 +75,7 @@ impl EvaluatedSurface {
             return Ok(());
         }
         let linked = self.linked.clone();
-        let uploaded = EvaluatedSurface::upload(gpu, linked, (fit, seed), &mut PhaseTimes::default())?;
+        let uploaded = EvaluatedSurface::upload(gpu, linked, fit, seed, &mut PhaseTimes::default())?;
         // Shared texels, borders and shown tiles depend on the atlas alone.
         let shares = std::mem::take(&mut self.shares);
         let borders = std::mem::take(&mut self.borders);

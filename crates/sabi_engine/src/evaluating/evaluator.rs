@@ -208,11 +208,12 @@ impl Evaluator {
     ) -> Result<Evaluator, EngineError> {
         let mut times = PhaseTimes::default();
         let fixed = FixedSettings::new(options);
-        let surface = EvaluatedSurface::upload(&gpu, linked.into(), fixed.of(&open.document), &mut times)?;
+        let (fit, seed) = fixed.of(&open.document);
+        let surface = EvaluatedSurface::upload(&gpu, linked.into(), fit, seed, &mut times)?;
         let model = &surface.linked().model;
         let memory_bytes = options.model.memory_bytes.saturating_sub(model.file_bytes);
         let budget = options.texture_budget(gpu.summary().kind, surface.linked().memory_bytes());
-        let graph = EvaluatedGraph::new(open, graph, kinds, (model, memory_bytes));
+        let graph = EvaluatedGraph::new(open, graph, kinds, model, memory_bytes);
         let mut evaluator = Evaluator {
             graph,
             surface,

@@ -80,18 +80,19 @@ pub fn evaluate_looks(
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let is_canceled = || progress.is_canceled();
     let options = evaluator.run_options(SUBMISSION, &is_canceled);
-    looks_of_run(evaluator, (&plan, &mut run), &assignment, &options, None)
+    looks_of_run(evaluator, &plan, &mut run, &assignment, &options, None)
 }
 
 /// Makes the looks of all materials from the results of a run. With a cache, only what has changed is made again.
 pub(crate) fn looks_of_run(
     evaluator: &Evaluator,
-    (plan, run): (&Plan, &mut Run),
+    plan: &Plan,
+    run: &mut Run,
     assignment: &LookAssignment,
     options: &RunOptions<'_>,
     mut cache: Option<&mut ResultCache>,
 ) -> Result<ModelLooks, EngineError> {
-    let (are_opaque, height_range) = value_extents(evaluator, (plan, run), options, cache.as_deref_mut())?;
+    let (are_opaque, height_range) = value_extents(evaluator, plan, run, options, cache.as_deref_mut())?;
     let exported = Exported {
         // Results that are not kept are drawn, and nothing else; two of them may have a plane in common.
         changes_results: cache.is_none() && plan.results.len() == 1,
@@ -102,7 +103,7 @@ pub(crate) fn looks_of_run(
     for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
         looks.push(MaterialLook {
             is_opaque,
-            ..look(evaluator, run, (result, exported), options, cache.as_deref_mut())?
+            ..look(evaluator, run, result, exported, options, cache.as_deref_mut())?
         });
     }
     let of_material = |material: u32| match assignment {
@@ -118,7 +119,7 @@ pub(crate) fn looks_of_run(
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),
         height_range,
-        identity: identity(evaluator, (plan, run), assignment, &looks)?,
+        identity: identity(evaluator, plan, run, assignment, &looks)?,
         looks,
     })
 }
@@ -126,7 +127,8 @@ pub(crate) fn looks_of_run(
 /// Identity of looks.
 fn identity(
     evaluator: &Evaluator,
-    (plan, run): (&Plan, &Run),
+    plan: &Plan,
+    run: &Run,
     assignment: &LookAssignment,
     looks: &[MaterialLook],
 ) -> Result<Option<LooksIdentity>, EngineError> {
@@ -159,7 +161,8 @@ fn identity(
 /// heights.
 fn value_extents(
     evaluator: &Evaluator,
-    (plan, run): (&Plan, &Run),
+    plan: &Plan,
+    run: &Run,
     options: &RunOptions<'_>,
     cache: Option<&mut ResultCache>,
 ) -> Result<(Vec<bool>, [f32; 2]), EngineError> {
@@ -192,7 +195,8 @@ fn value_extents(
 fn look(
     evaluator: &Evaluator,
     run: &mut Run,
-    (result, exported): (&PlannedResult, Exported<'_>),
+    result: &PlannedResult,
+    exported: Exported<'_>,
     options: &RunOptions<'_>,
     mut cache: Option<&mut ResultCache>,
 ) -> Result<MaterialLook, EngineError> {
@@ -207,13 +211,14 @@ fn look(
                 run,
                 material_slots(result),
                 exported,
-                (options, cache.as_deref_mut()),
+                options,
+                cache.as_deref_mut(),
             )?;
             return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };
-    let plane = (result.slots[0], result.stored.planes()[0]);
-    let texture = gpu.shown_result(surface, run, plane, exported, cache)?;
+    let (slot, plane) = (result.slots[0], result.stored.planes()[0]);
+    let texture = gpu.shown_result(surface, run, slot, plane, exported, cache)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, value_type }),
         ..neutral_look()

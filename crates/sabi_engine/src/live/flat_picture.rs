@@ -13,7 +13,8 @@ impl SizedModel {
     /// Draws a result in texture space as a square picture, transparent where no chart lies.
     pub(super) fn flat_picture(
         &mut self,
-        (plan, run): (&Plan, &Run),
+        plan: &Plan,
+        run: &Run,
         result: &PlannedResult,
         side: u32,
         set: Option<SetKey>,

@@ -35,7 +35,8 @@ impl FlattenedRequest {
         &self,
         failed_nodes: &mut BTreeMap<String, FailedNode>,
         node: &str,
-        (why, is_too_long): (&str, bool),
+        why: &str,
+        is_too_long: bool,
     ) -> bool {
         let Some(index) = self.graph.find(node) else {
             return false;

@@ -77,8 +77,10 @@ impl SizedModel {
     pub(super) fn new(
         gpu: &Arc<Gpu>,
         options: &LiveOptions,
-        (request, open): (&LiveRequest, &OpenGraph),
-        (linked, model_revision): (Arc<LinkedModel>, u64),
+        request: &LiveRequest,
+        open: &OpenGraph,
+        linked: Arc<LinkedModel>,
+        model_revision: u64,
         is_coarse: bool,
     ) -> Result<SizedModel, EngineError> {
         let evaluator_options = EvaluatorOptions {
@@ -193,7 +195,7 @@ impl SizedModel {
     pub(super) fn runs_in_part(&mut self, targets: &[Target]) -> bool {
         let plan = self.plan(targets);
         self.cache
-            .would_run_in_part((&plan, self.evaluator.shown()), &|before, now| {
+            .would_run_in_part(&plan, self.evaluator.shown(), &|before, now| {
                 is_plainly_painted_on(before, now)
             })
     }
@@ -264,7 +266,7 @@ impl SizedModel {
     ) -> Result<ModelLooks, EvaluationError> {
         let is_canceled = || progress.is_canceled();
         let options = self.evaluator.run_options(self.submission, &is_canceled);
-        let looks = looks_of_run(&self.evaluator, (plan, run), shows, &options, Some(&mut self.cache));
+        let looks = looks_of_run(&self.evaluator, plan, run, shows, &options, Some(&mut self.cache));
         looks.map_err(|error| EvaluationError::of_results(self.evaluator.gpu(), self.model.size, error))
     }
 }

@@ -168,7 +168,7 @@ impl OpenGraph {
         nodes: impl IntoIterator<Item = usize>,
     ) -> FileContents {
         self.pictures
-            .contents((&self.base(), &self.trusted), graph, &kinds.sources, (nodes, u64::MAX))
+            .contents(&self.base(), &self.trusted, graph, &kinds.sources, nodes, u64::MAX)
     }
 
     /// Lists the keys of the file that nothing reads, as sentences with the file's path, line and column before them.
@@ -326,7 +326,7 @@ fn read_text(path: &Path) -> Result<String, EngineError> {
 }
 
 fn unread_graph(unread: &Unread) -> EngineError {
-    let why = why_unread(unread, (".sabi", "graphs"), SIZE_LIMIT_BYTES);
+    let why = why_unread(unread, ".sabi", "graphs", SIZE_LIMIT_BYTES);
     EngineError::new(kind_of_unread(unread), why)
 }
 

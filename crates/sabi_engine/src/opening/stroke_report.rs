@@ -43,7 +43,7 @@ pub struct VersionReport {
 pub fn describe_strokes(path: &Path) -> Result<StrokeReport, EngineError> {
     let shown = path.display();
     let bytes = read_plain(path, FILE_LIMIT_BYTES).map_err(|unread| {
-        let why = why_unread(&unread, (".strokes", "files of strokes"), FILE_LIMIT_BYTES);
+        let why = why_unread(&unread, ".strokes", "files of strokes", FILE_LIMIT_BYTES);
         EngineError::new(ErrorKind::MissingInput, format!("{shown}: {why}"))
     })?;
     let mut book = StrokeBook::default();

@@ -18,7 +18,7 @@ const SIZE_LIMIT_BYTES: u64 = 16 << 20;
 pub(crate) fn read_table(path: &Path, plural: &str) -> Result<Table, EngineError> {
     let said = |why: &str| format!("{}: {why}", path.display());
     let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
-        let why = why_unread(&unread, (".toml", plural), SIZE_LIMIT_BYTES);
+        let why = why_unread(&unread, ".toml", plural, SIZE_LIMIT_BYTES);
         EngineError::new(kind_of_unread(&unread), said(&why))
     })?;
     let text = String::from_utf8(bytes).map_err(|error| {

@@ -12,9 +12,9 @@ pub(crate) fn kind_of_unread(unread: &Unread) -> ErrorKind {
     }
 }
 
-/// Why a file is not read. `(ending, plural)` are the ending and the name of the files that are, and `limit_bytes` their largest
-/// size.
-pub(crate) fn why_unread(unread: &Unread, (ending, plural): (&str, &str), limit_bytes: u64) -> String {
+/// Why a file is not read. `ending` and `plural` are the ending and the name of the files that are, and `limit_bytes` their
+/// largest size.
+pub(crate) fn why_unread(unread: &Unread, ending: &str, plural: &str, limit_bytes: u64) -> String {
     match unread {
         Unread::Missing => "there is no such file; check the path".to_owned(),
         Unread::Folder => format!("this is a folder; name a {ending} file"),

@@ -165,7 +165,7 @@ pub fn render_graph(
     };
     let mode = if shown.is_lit { mode } else { Mode::Node };
     let range = shown.height_range;
-    draw(request, &evaluator, &scene, (mode, range), &mut files, progress)?;
+    draw(request, &evaluator, &scene, mode, range, &mut files, progress)?;
     stop_if_canceled(progress)?;
     files.commit()?;
     Ok(Rendered {
@@ -234,7 +234,8 @@ fn draw(
     request: &RenderRequest,
     evaluator: &Evaluator,
     scene: &Scene<'_>,
-    (mode, height_range): (Mode, [f32; 2]),
+    mode: Mode,
+    height_range: [f32; 2],
     files: &mut PictureFiles,
     progress: &dyn Progress,
 ) -> Result<(), EngineError> {

@@ -42,7 +42,8 @@ pub struct StampSquare {
 pub fn stamp_square(
     open: &OpenGraph,
     kinds: Kinds,
-    (gpu, adapter): (Arc<Gpu>, sabi_gpu::AdapterChoice),
+    gpu: Arc<Gpu>,
+    adapter: sabi_gpu::AdapterChoice,
     node: &str,
     side: u32,
 ) -> Result<StampSquare, EngineError> {

@@ -137,7 +137,8 @@ impl Output {
 pub(super) fn draw(
     surface: &SourceSurface<'_>,
     canvas: &SourceCanvas<'_>,
-    (step, output): (&SourceStep, &str),
+    step: &SourceStep,
+    output: &str,
     open: &Arc<OpenPicture>,
     warnings: &mut Vec<String>,
 ) -> Result<(), GpuError> {

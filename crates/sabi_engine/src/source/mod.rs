@@ -127,7 +127,8 @@ impl<'a> Sources<'a> {
     pub(crate) fn new(
         surface: SourceSurface<'a>,
         files: Files<'a>,
-        (ray_cache, kept_results): (&'a RayCache, Option<&'a ProgramCache>),
+        ray_cache: &'a RayCache,
+        kept_results: Option<&'a ProgramCache>,
         progress: &'a dyn Progress,
     ) -> Sources<'a> {
         Sources {
@@ -193,16 +194,20 @@ impl SourceFill for Sources<'_> {
                 let picture = watched(self.progress, || self.files.picture(step));
                 let picture = picture.map_err(|Canceled| GpuError::Canceled)?;
                 let picture = picture.map_err(|why| of_node(step, why))?;
-                image::draw(surface, canvas, (step, output), &picture, warnings)?;
+                image::draw(surface, canvas, step, output, &picture, warnings)?;
             }
             model::NAME => {
-                let pictures = (self.files.pictures, self.files.memory_bytes);
-                let opened = watched(self.progress, || self.model.open(surface, pictures, warnings));
+                let Files {
+                    pictures, memory_bytes, ..
+                } = self.files;
+                let opened = watched(self.progress, || {
+                    self.model.open(surface, pictures, memory_bytes, warnings)
+                });
                 opened.map_err(|Canceled| GpuError::Canceled)?;
-                self.model.draw(surface, canvas, (output, plane), warnings)?;
+                self.model.draw(surface, canvas, output, plane, warnings)?;
             }
-            surface_id::NAME => surface_id::draw(surface, canvas, (step, output), warnings)?,
-            vertex_color::NAME => vertex_color::draw(surface, canvas, (&step.id, plane), warnings)?,
+            surface_id::NAME => surface_id::draw(surface, canvas, step, output, warnings)?,
+            vertex_color::NAME => vertex_color::draw(surface, canvas, &step.id, plane, warnings)?,
             _ => return Ok(false),
         }
         Ok(true)
@@ -224,8 +229,8 @@ impl SourceFill for Sources<'_> {
         }
         let surface = &SourceSurface { tiles, ..self.surface };
         let graph = self.files.file_of(&self.files.graph.nodes[step.node]);
-        let strokes = (self.files.strokes, graph.as_path());
-        let painted = PaintedNode::of(surface, strokes, (step, output, inputs), &mut self.warnings);
+        let strokes = self.files.strokes;
+        let painted = PaintedNode::of(surface, strokes, &graph, step, output, inputs, &mut self.warnings);
         painted
             .map(|painted| painted.plane(plane))
             .map_err(|error| unread(step, &error))
@@ -236,8 +241,8 @@ impl SourceFill for Sources<'_> {
             return None;
         }
         let graph = self.files.file_of(&self.files.graph.nodes[now.node]);
-        let strokes = (self.files.strokes, graph.as_path());
-        paint::changed_tiles(&self.surface, strokes, [before, now], &mut self.warnings)
+        let strokes = self.files.strokes;
+        paint::changed_tiles(&self.surface, strokes, &graph, [before, now], &mut self.warnings)
     }
 
     fn plane_tiles(
@@ -249,8 +254,8 @@ impl SourceFill for Sources<'_> {
         tiles: &TileSet,
     ) -> Result<Vec<u8>, String> {
         let graph = self.files.file_of(&self.files.graph.nodes[step.node]);
-        let strokes = (self.files.strokes, graph.as_path());
-        let painted = PaintedNode::of(&self.surface, strokes, (step, output, inputs), &mut self.warnings);
+        let strokes = self.files.strokes;
+        let painted = PaintedNode::of(&self.surface, strokes, &graph, step, output, inputs, &mut self.warnings);
         painted
             .map(|painted| painted.tiles(plane, tiles))
             .map_err(|error| unread(step, &error))

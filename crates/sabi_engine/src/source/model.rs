@@ -190,7 +190,8 @@ fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
 /// Opens the pictures that the materials use. Adds what cannot be shown to `warnings`.
 fn open_materials<'a>(
     model: &'a Model,
-    (pictures, memory_bytes): (&Pictures, u64),
+    pictures: &Pictures,
+    memory_bytes: u64,
     size: u32,
     warnings: &mut Vec<String>,
 ) -> Vec<MaterialTextures<'a>> {
@@ -222,10 +223,13 @@ fn open_materials<'a>(
                  there the factor is used alone"
             ));
         }
-        let picture = decoded.get(&texture.image)?;
-        let picture = picture.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
+        let picture = decoded
+            .get(&texture.image)?
+            .as_ref()
+            .map_err(|why| warnings.push(why.clone()))
+            .ok()?;
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let mut texture = Texture::new((name, picture), texture, other, reading, size);
+        let mut texture = Texture::new(name, picture, texture, other, reading, size);
         texture.missing = missing;
         Some(texture)
     };
@@ -261,10 +265,15 @@ pub(crate) struct ModelSource<'a> {
 }
 
 impl<'a> ModelSource<'a> {
-    /// Opens the pictures of the materials, which come with the memory that they may take, bytes; once. Adds what cannot be shown to
-    /// `warnings`.
-    pub(crate) fn open(&mut self, surface: &SourceSurface<'a>, pictures: (&Pictures, u64), warnings: &mut Vec<String>) {
-        let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
+    /// Opens the pictures of the materials, once; they may take `memory_bytes`. Adds what cannot be shown to `warnings`.
+    pub(crate) fn open(
+        &mut self,
+        surface: &SourceSurface<'a>,
+        pictures: &Pictures,
+        memory_bytes: u64,
+        warnings: &mut Vec<String>,
+    ) {
+        let open = || open_materials(surface.model, pictures, memory_bytes, surface.atlas.size, warnings);
         self.materials.get_or_insert_with(open);
     }
 
@@ -276,7 +285,8 @@ impl<'a> ModelSource<'a> {
         &mut self,
         surface: &SourceSurface<'a>,
         canvas: &SourceCanvas<'_>,
-        (output, plane): (&str, Plane),
+        output: &str,
+        plane: Plane,
         warnings: &mut Vec<String>,
     ) -> Result<(), GpuError> {
         let materials = self.materials.as_deref().unwrap_or_default();

@@ -26,7 +26,8 @@ pub(super) struct Texture<'a> {
 impl<'a> Texture<'a> {
     /// Prepares a texture for an atlas of `size` texels per UV unit.
     pub(super) fn new(
-        (name, picture): (&'a str, &OpenPicture),
+        name: &'a str,
+        picture: &OpenPicture,
         texture: &TextureRef,
         other: Option<&'a TextureUvs>,
         reading: Reading,

@@ -7,12 +7,12 @@ use sabi_gpu::{PlaneData, TileSet, tile_of};
 use sabi_graph::{FlatNode, PortType, Value};
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
-use sabi_paint::{Canvas, Layers, PaintSurface, SurfaceIndex, Version};
+use sabi_paint::{Canvas, Layers, Version};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Model;
 
 use super::Files;
-use super::strokes::{Found, Strokes, paint_folder, picture_folder};
+use super::strokes::{Found, PaintedNodePlace, Strokes, paint_folder, picture_folder};
 use super::texels::SourceSurface;
 
 /// Id of the kind.
@@ -113,19 +113,24 @@ impl<'a> PaintedNode<'a> {
     /// The paint of a node for a result. `graph` is the file that the node is in. Adds a warning where strokes are missing.
     pub(crate) fn of(
         surface: &'a SourceSurface<'a>,
-        (strokes, graph): (&Strokes, &Path),
-        (step, output, inputs): (&'a SourceStep, &'a str, &'a [Option<PlaneData>]),
+        strokes: &Strokes,
+        graph: &Path,
+        step: &'a SourceStep,
+        output: &'a str,
+        inputs: &'a [Option<PlaneData>],
         warnings: &mut Vec<String>,
     ) -> Result<PaintedNode<'a>, NoSuchValue> {
         let (written, empty) = (step.values.text("strokes")?, step.values.number("empty")?);
-        let node = (step.id.as_str(), written);
         let input = |port: usize| inputs.get(port).and_then(Option::as_ref);
         Ok(PaintedNode {
             canvas: canvas(
                 surface,
-                (strokes, graph),
-                node,
-                (layers_of(output), input(FROM)),
+                strokes,
+                graph,
+                &step.id,
+                written,
+                layers_of(output),
+                input(FROM),
                 warnings,
             ),
             base: input(BASE),
@@ -186,7 +191,8 @@ fn is_painted_on(before: &SourceStep, now: &SourceStep) -> bool {
 /// Tiles in which the paint of a node differs from that of the same node before; none where that is not known.
 pub(crate) fn changed_tiles(
     surface: &SourceSurface<'_>,
-    (strokes, graph): (&Strokes, &Path),
+    strokes: &Strokes,
+    graph: &Path,
     [before, now]: [&SourceStep; 2],
     warnings: &mut Vec<String>,
 ) -> Option<TileSet> {
@@ -202,10 +208,13 @@ pub(crate) fn changed_tiles(
     if strokes.copy_input(graph, &surface.model.stem, &new) {
         return None;
     }
-    canvas(surface, (strokes, graph), (&now.id, &new), (layers, None), warnings)?;
+    canvas(surface, strokes, graph, &now.id, &new, layers, None, warnings)?;
     let version = strokes.find(graph, &surface.model.stem, &new).version()?;
-    let place = (surface.key, now.id.clone());
-    let texels = strokes.changed_texels(&place, (Strokes::first_version(&old), version))?;
+    let place = PaintedNodePlace {
+        surface_key: surface.key,
+        node: now.id.clone(),
+    };
+    let texels = strokes.changed_texels(&place, Strokes::first_version(&old), version)?;
     let tile = |texel: &u32| tile_of(*texel, surface.atlas.page_size);
     Some(TileSet::new(texels.iter().map(tile)))
 }
@@ -222,9 +231,12 @@ fn layers_of(output: &str) -> Layers {
 /// The canvas of a node; none where nothing is painted on this model.
 fn canvas(
     surface: &SourceSurface<'_>,
-    (strokes, graph): (&Strokes, &Path),
-    (node, written): (&str, &str),
-    (layers, from): (Layers, Option<&PlaneData>),
+    strokes: &Strokes,
+    graph: &Path,
+    node: &str,
+    written: &str,
+    layers: Layers,
+    from: Option<&PlaneData>,
     warnings: &mut Vec<String>,
 ) -> Option<Arc<Canvas>> {
     let model = &surface.model.stem;
@@ -246,11 +258,6 @@ fn canvas(
             return None;
         }
     };
-    let mesh = &surface.model.mesh;
-    let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
-    let progress = surface.progress;
-    let is_canceled = || progress.is_canceled();
-    let paint_surface = PaintSurface::new(mesh, index).stopped_by(&is_canceled);
     if from.is_none() && strokes.copy_input(graph, model, written) {
         let why = "has strokes that copy from another node, and nothing is connected to From: connect a node to it, or remove them";
         warn(why.to_owned());
@@ -262,12 +269,7 @@ fn canvas(
             folder.display()
         ));
     }
-    let painted = strokes.painted(
-        &paint_surface,
-        (surface.atlas, surface.key),
-        (graph, node, version),
-        (layers, from),
-    )?;
+    let painted = strokes.painted(surface, graph, node, version, layers, from)?;
     if !painted.lost.is_empty() {
         let count: usize = painted.lost.values().sum();
         let which = strokes.lost_places(version, &painted.lost);

@@ -215,10 +215,12 @@ impl Pictures {
     /// `memory_bytes`; muted nodes name none.
     pub(crate) fn contents(
         &self,
-        (base, trusted): (&PathBase, &TrustedPaths),
+        base: &PathBase,
+        trusted: &TrustedPaths,
         graph: &FlatGraph,
         sources: &SourceKinds,
-        (nodes, memory_bytes): (impl IntoIterator<Item = usize>, u64),
+        nodes: impl IntoIterator<Item = usize>,
+        memory_bytes: u64,
     ) -> FileContents {
         let named = nodes.into_iter().filter_map(|index| {
             let node = graph.nodes.get(index).filter(|node| !node.muted)?;
@@ -228,10 +230,10 @@ impl Pictures {
                 why,
                 kind,
             };
-            let content = allowed_path(base, trusted, node, path)
+            let read = allowed_path(base, trusted, node, path)
                 .and_then(|file| Ok((self.content(&file, path)?, file)))
                 .map_err(|why| fault(param, why));
-            let content = content.and_then(|(content, file)| {
+            let content = read.and_then(|(content, file)| {
                 self.check_layer(&file, path, named_layer(node))
                     .map_err(|why| fault(LAYER, why))?;
                 self.check_memory(&file, path, memory_bytes)
@@ -399,11 +401,7 @@ fn unusable(error: ImageError) -> Fault {
 }
 
 /// Lists the files that the nodes of a graph name and may open.
-pub(crate) fn files(
-    (base, trusted): (&PathBase, &TrustedPaths),
-    graph: &FlatGraph,
-    sources: &SourceKinds,
-) -> Vec<PathBuf> {
+pub(crate) fn files(base: &PathBase, trusted: &TrustedPaths, graph: &FlatGraph, sources: &SourceKinds) -> Vec<PathBuf> {
     let named = graph.nodes.iter().filter_map(|node| {
         let (_, path) = named_file(node, sources)?;
         (!path.is_empty()).then(|| allowed_path(base, trusted, node, path).ok())?
@@ -413,7 +411,8 @@ pub(crate) fn files(
 
 /// Lists the refusals of files that the nodes of a graph name and may not open.
 pub(crate) fn refused(
-    (base, trusted): (&PathBase, &TrustedPaths),
+    base: &PathBase,
+    trusted: &TrustedPaths,
     graph: &FlatGraph,
     sources: &SourceKinds,
 ) -> Vec<Refusal> {

@@ -18,18 +18,20 @@ use sabi_files::{Disk, PathBase, TrustedPaths, Unread};
 use sabi_gpu::PlaneData;
 use sabi_paint::{
     Canvases, InputColors, Layers, PaintSurface, Painted, PictureName, Step, Stroke, StrokeBook, StrokeList, Supplies,
-    Version,
+    SurfaceIndex, Version,
 };
-use sabi_surface::atlas::Atlas;
 
 pub(crate) use beside::files_beside;
 use changed::LatestCanvas;
+pub(crate) use changed::PaintedNodePlace;
 pub(crate) use lost::title;
 use pictures::KeptPicture;
 pub(crate) use pictures::picture_folder;
 use retired::Retired;
 pub(crate) use rewriting::Flattened;
 pub use rewriting::FlattenedFile;
+
+use super::texels::SourceSurface;
 
 /// Size limit of the canvases that are kept.
 const CANVAS_LIMIT_BYTES: usize = 1 << 30;
@@ -286,21 +288,24 @@ impl Strokes {
         list.is_some_and(|list| list.strokes.iter().any(copies))
     }
 
-    /// The canvas of a version that a node has, with at least these layers; none if the version is not known, or the work was stopped. Strokes whose picture is not beside
-    /// the graph leave nothing, nor do those that copy the result that is connected to the node, if there is none.
+    /// The canvas of a version that a node has, with at least these layers; none if the version is not known, or the work was canceled.
+    /// Strokes whose picture is not beside the graph leave nothing, nor do those that copy the result that is connected to the node, if
+    /// there is none.
     pub(crate) fn painted(
         &self,
-        surface: &PaintSurface<'_>,
-        (atlas, surface_key): (&Atlas, [u8; 32]),
-        (graph, node, version): (&Path, &str, Version),
-        (layers, from): (Layers, Option<&PlaneData>),
+        surface: &SourceSurface<'_>,
+        graph: &Path,
+        node: &str,
+        version: Version,
+        layers: Layers,
+        from: Option<&PlaneData>,
     ) -> Option<Painted> {
         let list = self.lock().list(version)?;
         let found = self.pictures_of(graph, &list);
         let from = from.filter(|_| list.strokes.iter().any(copies));
         // A canvas that lacks pictures or copies another result is another one.
         let mut hash = blake3::Hasher::new();
-        hash.update(&surface_key);
+        hash.update(&surface.key);
         for name in &found.missing {
             hash.update(name.as_str().as_bytes());
         }
@@ -308,18 +313,35 @@ impl Strokes {
             hash.update(from.bytes());
         }
         let key = *hash.finalize().as_bytes();
+        let mesh = &surface.model.mesh;
+        let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
+        let progress = surface.progress;
+        let is_canceled = || progress.is_canceled();
+        let paint_surface = PaintSurface::new(mesh, index).stopped_by(&is_canceled);
         let mut canvases = self.canvases.lock().unwrap_or_else(PoisonError::into_inner);
         let colors = from.map(|from| |texel: usize| color_of(from, texel));
         let supplies = Supplies {
             pictures: &found.pictures,
             input: colors.as_ref().map(|colors| colors as &InputColors<'_>),
         };
-        let painted = canvases.painted(surface, (atlas, key), (&list, supplies), layers, CANVAS_LIMIT_BYTES);
+        let painted = canvases.painted(
+            &paint_surface,
+            surface.atlas,
+            key,
+            &list,
+            supplies,
+            layers,
+            CANVAS_LIMIT_BYTES,
+        );
         drop(canvases);
-        if surface.is_stopped() {
+        if paint_surface.is_stopped() {
             return None;
         }
-        self.remember_canvas((surface_key, node.to_owned()), version, &painted.canvas);
+        let place = PaintedNodePlace {
+            surface_key: surface.key,
+            node: node.to_owned(),
+        };
+        self.remember_canvas(place, version, &painted.canvas);
         Some(painted)
     }
 

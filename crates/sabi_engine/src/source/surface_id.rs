@@ -108,7 +108,8 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
 pub(super) fn draw(
     surface: &SourceSurface<'_>,
     canvas: &SourceCanvas<'_>,
-    (step, output): (&SourceStep, &str),
+    step: &SourceStep,
+    output: &str,
     warnings: &mut Vec<String>,
 ) -> Result<(), GpuError> {
     let value = |known: Result<usize, NoSuchValue>| known.map_err(|error| unreadable(step, &error));

@@ -57,7 +57,8 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
 pub(super) fn draw(
     surface: &SourceSurface<'_>,
     canvas: &SourceCanvas<'_>,
-    (node, plane): (&str, Plane),
+    node: &str,
+    plane: Plane,
     warnings: &mut Vec<String>,
 ) -> Result<(), GpuError> {
     let mesh = &surface.model.mesh;

@@ -103,7 +103,7 @@ fn write_material(text: &mut String, material: &DocumentMaterial) {
         lines.close();
     }
     for (at, map) in material.maps.iter().enumerate() {
-        texture(&mut lines, material, (at, map), &path);
+        texture(&mut lines, material, at, map, &path);
     }
     lines.close();
 }
@@ -140,7 +140,7 @@ fn surface(lines: &mut Lines<'_>, material: &DocumentMaterial, path: &str) {
 }
 
 /// A file of a material, if the surface reads it.
-fn texture(lines: &mut Lines<'_>, material: &DocumentMaterial, (at, map): (usize, &DocumentMap), path: &str) {
+fn texture(lines: &mut Lines<'_>, material: &DocumentMaterial, at: usize, map: &DocumentMap, path: &str) {
     let outputs = outputs(material, at);
     if outputs.is_empty() {
         return;

@@ -66,7 +66,8 @@ impl Code for [u8; 2] {
 /// of two or four go through the sRGB curve.
 pub(super) fn code_rows<C: Code>(
     planes: &[Plane<'_>],
-    (size, is_srgb): ([u32; 2], bool),
+    size: [u32; 2],
+    is_srgb: bool,
     rows: Range<usize>,
     codes: &mut [C],
 ) {

@@ -78,15 +78,17 @@ impl Plane<'_> {
         else {
             return self.floats(range, units);
         };
-        let (of, at) = ((*pixels, range), *index);
+        let at = *index;
         match *codes {
-            Codes::Unit => map_values(of, units, |values| values[at]),
-            Codes::Scaled(by) => map_values(of, units, |values| values[at] / by),
-            Codes::Direction => map_values(of, units, |values| direction(values)[at] * 0.5 + 0.5),
-            Codes::Signed => map_values(of, units, |values| values[at] * 0.5 + 0.5),
-            Codes::Normal { is_down } => map_values(of, units, |values| normal(values, is_down)[at] * 0.5 + 0.5),
+            Codes::Unit => map_values(pixels, range, units, |values| values[at]),
+            Codes::Scaled(by) => map_values(pixels, range, units, |values| values[at] / by),
+            Codes::Direction => map_values(pixels, range, units, |values| direction(values)[at] * 0.5 + 0.5),
+            Codes::Signed => map_values(pixels, range, units, |values| values[at] * 0.5 + 0.5),
+            Codes::Normal { is_down } => {
+                map_values(pixels, range, units, |values| normal(values, is_down)[at] * 0.5 + 0.5)
+            }
             Codes::Range([low, high]) | Codes::Normalized([low, high]) if high > low => {
-                map_values(of, units, |values| (values[at] - low) / (high - low))
+                map_values(pixels, range, units, |values| (values[at] - low) / (high - low))
             }
             Codes::Range(_) | Codes::Normalized(_) => units.fill(0.0),
         }
@@ -108,7 +110,7 @@ impl Plane<'_> {
             let Plane::Constant(value) = self else { return };
             return floats.fill(*value);
         };
-        let (of, at) = ((*pixels, range.clone()), *index);
+        let at = *index;
         let inverted = match *codes {
             Codes::Unit | Codes::Normal { .. } => return self.units(range, floats),
             Codes::Normalized(_) | Codes::Scaled(_) => {
@@ -117,15 +119,15 @@ impl Plane<'_> {
                 return floats.iter_mut().for_each(|value| *value = value.clamp(0.0, 1.0));
             }
             Codes::Range([low, high]) => {
-                map_values(of, floats, |values| values[at]);
+                map_values(pixels, range, floats, |values| values[at]);
                 low + high
             }
             Codes::Direction => {
-                map_values(of, floats, |values| direction(values)[at]);
+                map_values(pixels, range, floats, |values| direction(values)[at]);
                 0.0
             }
             Codes::Signed => {
-                map_values(of, floats, |values| values[at]);
+                map_values(pixels, range, floats, |values| values[at]);
                 0.0
             }
         };
@@ -136,7 +138,7 @@ impl Plane<'_> {
 }
 
 /// Fills in what is made of the values of some pixels.
-fn map_values((pixels, range): (&ChannelPixels, Range<usize>), out: &mut [f32], make: impl Fn(&[f32]) -> f32) {
+fn map_values(pixels: &ChannelPixels, range: Range<usize>, out: &mut [f32], make: impl Fn(&[f32]) -> f32) {
     let components = pixels.components;
     let values = &pixels.data[range.start * components..range.end * components];
     // A number of values that the compiler knows makes this many times as fast.

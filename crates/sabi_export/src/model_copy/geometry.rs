@@ -194,7 +194,8 @@ impl GeometryEdits<'_> {
                 }
                 let mut rewriter = Rewriter {
                     edits: self,
-                    file: (bytes, container),
+                    file: bytes,
+                    container,
                     arrays: &mut arrays,
                     edited: &mut edited,
                 };

@@ -87,8 +87,9 @@ impl BakeWriter {
         }
         let members = document::usd_files(materials);
         let first = format!("{}.{}", path.trim_end_matches(".usdz"), Document::Usda.ending());
-        let package = (first.as_str(), text.as_bytes());
-        Ok(self.staged.stage_package(path, package, &members, PACKAGE_ALIGNMENT)?)
+        Ok(self
+            .staged
+            .stage_package(path, &first, text.as_bytes(), &members, PACKAGE_ALIGNMENT)?)
     }
 
     /// BLAKE3 of a staged file.

@@ -46,7 +46,8 @@ impl WantedFile<'_> {
     pub(super) fn encode(
         &self,
         set: FileSet<'_>,
-        (dither_seed, keeps_bytes): (u32, bool),
+        dither_seed: u32,
+        keeps_bytes: bool,
         kept: Option<&dyn EncodedFiles>,
     ) -> Result<EncodedFile, ExportError> {
         let WantedFile { map, sources, .. } = self;
@@ -58,8 +59,9 @@ impl WantedFile<'_> {
                 _ => None,
             })
             .collect();
-        let planes = sources.iter().zip(&fitted);
-        let planes: Vec<Plane<'_>> = planes
+        let planes: Vec<Plane<'_>> = sources
+            .iter()
+            .zip(&fitted)
             .map(|((component, values), fitted)| match values {
                 Values::Pixels(held) => {
                     let pixels = fitted.as_ref().unwrap_or(&held.pixels);
@@ -241,8 +243,8 @@ pub(super) fn sources<'a>(
     };
     let mut found: Vec<(Component, Values<'_>)> = components.iter().map(source).collect();
     // Programs take a map with an alpha channel for one that is cut out.
-    if let [_, _, _, alpha] = &found[..]
-        && is_opaque(alpha)
+    if let [_, _, _, (component, values)] = &found[..]
+        && is_opaque(component, values)
     {
         found.pop();
     }
@@ -270,7 +272,7 @@ pub(super) struct WrittenFile {
 }
 
 /// Returns true if a component is an opacity of 1 everywhere.
-fn is_opaque((component, values): &(Component, Values<'_>)) -> bool {
+fn is_opaque(component: &Component, values: &Values<'_>) -> bool {
     let constant = match values {
         Values::Pixels(held) => held.constant,
         Values::Same(value) => Some(*value),

@@ -108,8 +108,7 @@ impl BakeWriter {
             scale,
         };
         // One value everywhere, and no copy of the model reads it.
-        let for_all = (0, false);
-        let (encoded, bytes) = wanted.encode(file_set, for_all, self.encoded_files.as_deref())?;
+        let (encoded, bytes) = wanted.encode(file_set, 0, false, self.encoded_files.as_deref())?;
         set.files.insert(index, file);
         self.skipped.remove(&encoded.record.path);
         self.staged.stage(&encoded.record.path, &bytes)?;

@@ -98,7 +98,7 @@ fn write_entries(
 ) -> Result<(), ArchiveError> {
     let mut archive = ZipWriter::new(BufWriter::new(to));
     for ((name, content), size) in entries.iter().zip(sizes) {
-        write_entry(&mut archive, name, (content, *size), is_stopped).map_err(|failure| match failure {
+        write_entry(&mut archive, name, content, *size, is_stopped).map_err(|failure| match failure {
             Failure::Archive(error) => error,
             Failure::Zip(error) => unmade(error),
         })?;
@@ -136,7 +136,8 @@ impl From<ZipError> for Failure {
 fn write_entry<W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,
-    (content, size): (&EntryContent, u64),
+    content: &EntryContent,
+    size: u64,
     is_canceled: &dyn Fn() -> bool,
 ) -> Result<(), Failure> {
     archive.start_file(name, options(name, size))?;

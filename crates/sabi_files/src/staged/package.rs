@@ -30,7 +30,8 @@ impl StagedSet {
     pub fn stage_package(
         &mut self,
         file_name: &str,
-        (first, bytes): (&str, &[u8]),
+        first_name: &str,
+        first_bytes: &[u8],
         members: &[&str],
         alignment: u16,
     ) -> Result<bool, StagedError> {
@@ -41,7 +42,7 @@ impl StagedSet {
             .map(|member| self.staged_file(member))
             .collect::<io::Result<_>>()
             .map_err(failed)?;
-        let mut total = bytes.len() as u64 + 2 * first.len() as u64 + RECORD_BYTES;
+        let mut total = first_bytes.len() as u64 + 2 * first_name.len() as u64 + RECORD_BYTES;
         for (name, file) in members.iter().zip(&files) {
             total += file.metadata().map_err(failed)?.len() + 2 * name.len() as u64 + RECORD_BYTES;
         }
@@ -55,8 +56,8 @@ impl StagedSet {
             .with_alignment(alignment);
         let packed = |to: PartWriter<'_>| -> Result<(), ZipError> {
             let mut archive = ZipWriter::new(BufWriter::new(to));
-            archive.start_file(first, options)?;
-            archive.write_all(bytes)?;
+            archive.start_file(first_name, options)?;
+            archive.write_all(first_bytes)?;
             for (name, mut file) in members.iter().zip(files) {
                 archive.start_file(*name, options)?;
                 io::copy(&mut file, &mut archive)?;

@@ -306,10 +306,7 @@ fn the_files_of_a_package_are_aligned_and_unchanged() {
             set.stage(name, bytes).unwrap();
         }
         let members: Vec<&str> = contents.iter().map(|(name, _)| name.as_str()).collect();
-        assert!(
-            set.stage_package("all.usdz", ("a.usda", b"first"), &members, 64)
-                .unwrap()
-        );
+        assert!(set.stage_package("all.usdz", "a.usda", b"first", &members, 64).unwrap());
         assert!(set.contains("ALL.usdz"));
         let mut copied = Vec::new();
         set.copy_staged("all.usdz", &mut copied).unwrap();
@@ -331,9 +328,9 @@ fn a_package_refuses_duplicate_and_missing_files() {
     let folder = tempfile::tempdir().unwrap();
     let mut set = StagedSet::create(folder.path()).unwrap();
     set.stage("a.usdz", b"1").unwrap();
-    let twice = set.stage_package("A.usdz", ("a.usda", b""), &[], 64).unwrap_err();
+    let twice = set.stage_package("A.usdz", "a.usda", b"", &[], 64).unwrap_err();
     assert_eq!(twice.to_string(), "two files would be written to A.usdz");
-    set.stage_package("b.usdz", ("a.usda", b""), &["gone.png"], 64)
+    set.stage_package("b.usdz", "a.usda", b"", &["gone.png"], 64)
         .unwrap_err();
     assert!(!set.contains("b.usdz"));
 }
@@ -347,7 +344,7 @@ fn a_package_with_the_same_bytes_keeps_its_time_stamp() {
         let mut set = StagedSet::create(root.path()).unwrap();
         // A file that is unchanged is read from its final place.
         set.stage("a.png", content).unwrap();
-        assert!(set.stage_package("all.usdz", ("a.usda", b""), &["a.png"], 64).unwrap());
+        assert!(set.stage_package("all.usdz", "a.usda", b"", &["a.png"], 64).unwrap());
         set.commit().unwrap();
         fs::metadata(&path).unwrap().modified().unwrap()
     };

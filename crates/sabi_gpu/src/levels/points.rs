@@ -309,7 +309,8 @@ impl Gpu {
     /// Brings a plane from points to the finest texels, and fills the linked texels there.
     pub(crate) fn spread_from_points(
         &self,
-        (surfaces, points): (Surfaces<'_>, &PointSurface),
+        surfaces: Surfaces<'_>,
+        points: &PointSurface,
         step: &MoveStep,
         [source, target]: [&wgpu::Texture; 2],
         options: &RunOptions<'_>,
@@ -336,8 +337,8 @@ impl Gpu {
             &points.around,
             &source,
             &written,
-        ];
-        let views = views.map(wgpu::BindingResource::TextureView);
+        ]
+        .map(wgpu::BindingResource::TextureView);
         let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
         let slices = Slices::new(self, surfaces.finest, options.submission);
         slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;

@@ -49,7 +49,7 @@ impl<'a> ProcessorCaster<'a> {
         self.hits.resize(rays, HitRow::MISS);
         let (scene, known, hits) = (&self.scene, self.rays, &mut self.hits);
         gpu.finish_mapping(mapping, &set.staging, |bytes| {
-            cast(scene, (bytemuck::cast_slice(bytes), known), finds, hits);
+            cast(scene, bytemuck::cast_slice(bytes), known, finds, hits);
         })?;
         gpu.queue.write_buffer(&set.hits, 0, bytemuck::cast_slice(&self.hits));
         Ok(())
@@ -57,11 +57,11 @@ impl<'a> ProcessorCaster<'a> {
 }
 
 /// Casts rays, tile by tile. Rays and hits are in working units, the hierarchy is in model units.
-fn cast(scene: &RayScene<'_>, (rays, known): (&[RayRow], CastRays), finds: Finds, hits: &mut [HitRow]) {
+fn cast(scene: &RayScene<'_>, rays: &[RayRow], known: CastRays, finds: Finds, hits: &mut [HitRow]) {
     rays.par_chunks(known.of_tile)
         .zip(hits.par_chunks_mut(known.of_tile))
         .with_min_len(RAYS_PER_TASK.div_ceil(known.of_tile))
         .for_each_init(TileCaster::default, |caster, (rays, hits)| {
-            caster.cast(scene, (rays, known.least_turn), finds, hits);
+            caster.cast(scene, rays, known.least_turn, finds, hits);
         });
 }

@@ -24,7 +24,8 @@ impl TileCaster {
     pub(super) fn cast(
         &mut self,
         scene: &RayScene<'_>,
-        (rays, least_turn): (&[RayRow], Option<f32>),
+        rays: &[RayRow],
+        least_turn: Option<f32>,
         finds: Finds,
         hits: &mut [HitRow],
     ) {
@@ -34,8 +35,9 @@ impl TileCaster {
         let is_near_known = self.near.find(scene.bvh, shot(rays, scale), most);
         for (rays, hits) in rays.chunks(of_texel.max(1)).zip(hits.chunks_mut(of_texel.max(1))) {
             if is_near_known {
-                let place = (rays[0].triangle, shot(rays, scale));
-                self.around.look(scene.bvh, &self.near, place, least_turn);
+                let shot = shot(rays, scale);
+                self.around
+                    .look(scene.bvh, &self.near, rays[0].triangle, shot, least_turn);
             } else {
                 self.around.give_up();
             }

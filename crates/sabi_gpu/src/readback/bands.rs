@@ -76,7 +76,9 @@ impl Gpu {
     pub fn read_in_bands(
         &self,
         surface: &GpuSurface,
-        (plan, run, slot): (&Plan, &Run, SlotRef),
+        plan: &Plan,
+        run: &Run,
+        slot: SlotRef,
         texels: &Range<usize>,
         mut visit: impl FnMut(&Range<usize>, &BandData<'_>),
     ) -> Result<(), GpuError> {
@@ -114,7 +116,8 @@ impl Gpu {
         &self,
         texture: &wgpu::Texture,
         format: Format,
-        (rows, staging): (&LayerRows, &wgpu::Buffer),
+        rows: &LayerRows,
+        staging: &wgpu::Buffer,
         look: impl FnOnce(&BandData<'_>),
     ) -> Result<(), GpuError> {
         let row = RowBytes::of(texture, rows.level)?;

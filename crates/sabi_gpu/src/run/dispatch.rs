@@ -48,11 +48,11 @@ impl Runner<'_> {
         let bound = self.bound(compiled, slots)?;
         let surface = self.surfaces.at(step.level)?;
         let covered = self.coverages.tiles(self.at);
-        let slices = match self.part.as_ref().or(covered) {
+        let slices_of_one = match self.part.as_ref().or(covered) {
             Some(tiles) => Slices::over(self.gpu, surface, tiles, self.options.submission)?,
             None => Slices::new(self.gpu, surface, self.options.submission),
         };
-        let slices = slices.in_repetition(repetition.index, repetition.count);
+        let slices = slices_of_one.in_repetition(repetition.index, repetition.count);
         let mut taken = None;
         if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref(), &compiled.ray_generation) {
             self.report.texels += texels_of(slices.tile_count());
@@ -78,7 +78,7 @@ impl Runner<'_> {
             let rounds = repetition.fill_rounds(!step.keys.is_empty());
             let started = self.measured_time()?;
             for (texture, format) in &bound.written {
-                self.gpu.fill_ghosts(surface, (texture, *format), rounds)?;
+                self.gpu.fill_ghosts(surface, texture, *format, rounds)?;
             }
             if let (Some(started), Some(ended)) = (started, self.measured_time()?) {
                 self.report.ghosts += ended - started;

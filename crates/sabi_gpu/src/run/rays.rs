@@ -17,7 +17,6 @@ fn scene(sources: &mut dyn SourceFill) -> Result<RayScene<'_>, GpuError> {
 }
 
 impl Runner<'_> {
-    #[expect(clippy::too_many_arguments, reason = "a step, its kernel, and what both run on")]
     pub(super) fn rays(
         &mut self,
         step: &KernelStep,

@@ -47,12 +47,13 @@ impl Runner<'_> {
     pub(super) fn kernel_over(
         &mut self,
         step: &KernelStep,
-        (compiled, block): (&CompiledKernel, &wgpu::Buffer),
+        compiled: &CompiledKernel,
+        block: &wgpu::Buffer,
         over: &BTreeMap<SlotRef, SlotRef>,
     ) -> Result<Duration, GpuError> {
         let surface = self.surfaces.at(step.level)?;
         let rows = band_rows(surface.extent, self.bytes_of_row(step, surface));
-        let (resources, filled) = self.filled(step, over, (surface, rows))?;
+        let (resources, filled) = self.filled(step, over, surface, rows)?;
         let resources = resources.iter().map(wgpu::BindingResource::TextureView);
         let group = {
             let block = std::iter::once(block.as_entire_binding());
@@ -96,7 +97,8 @@ impl Runner<'_> {
         &mut self,
         step: &KernelStep,
         over: &BTreeMap<SlotRef, SlotRef>,
-        (surface, rows): (&GpuSurface, u32),
+        surface: &GpuSurface,
+        rows: u32,
     ) -> Result<(Vec<wgpu::TextureView>, Vec<Filled>), GpuError> {
         let (mut views, mut filled) = (Vec::new(), Vec::new());
         for slot in step.reads.iter().flatten() {

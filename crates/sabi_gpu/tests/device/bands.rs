@@ -28,7 +28,7 @@ fn bands_have_the_texels_of_the_whole_and_none_is_larger_than_its_limit() {
     let is_covered = |texel: &usize| atlas.owners[*texel] != sabi_surface::atlas::EMPTY;
     let mut counts = [Vec::new(), Vec::new()];
     let texels = 0..whole.len();
-    gpu.read_in_bands(surface, (&plan, &run, slot), &texels, |band, data| {
+    gpu.read_in_bands(surface, &plan, &run, slot, &texels, |band, data| {
         assert!(4 * band.len() <= 16 << 20);
         let same = band.clone().map(|texel| whole.texel(texel)).eq(texels_of(band, data));
         assert!(same, "{band:?}");
@@ -37,7 +37,8 @@ fn bands_have_the_texels_of_the_whole_and_none_is_larger_than_its_limit() {
     .unwrap();
     gpu.normals_in_bands(
         surface,
-        (&mut run, [Some(slot), None]),
+        &mut run,
+        [Some(slot), None],
         &texels,
         &options(),
         |band, data| {
@@ -66,7 +67,7 @@ fn bands_without_a_texel_of_the_range_are_not_read() {
     let slot = plan.results[0].slots[0];
     bench
         .gpu
-        .read_in_bands(&bench.surface, (&plan, &run, slot), &(5..6), |band, _| {
+        .read_in_bands(&bench.surface, &plan, &run, slot, &(5..6), |band, _| {
             bands.push(band.start)
         })
         .unwrap();

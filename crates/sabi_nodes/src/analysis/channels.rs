@@ -310,7 +310,7 @@ impl<'m> Reader<'m> {
                 let reject = self.value(frame, reject, member, depth).map(|toggles| &toggles | &off);
                 either(accept, reject)
             }
-            Expression::Math { fun, arg, arg1, .. } => self.math((fun, arg, arg1), frame, member, depth),
+            Expression::Math { fun, arg, arg1, .. } => self.math(fun, arg, arg1, frame, member, depth),
             Expression::Binary { op, left, right } if zero_is_plain => {
                 let mut of = |side| self.value(frame, side, member, depth);
                 match op {

@@ -103,9 +103,9 @@ impl Painter<'_> {
             input,
         };
         self.strengths.forget_grains();
-        for copy in self.with_copies((points, source), stroke, &used.brush) {
+        for copy in self.with_copies(points, source, stroke, &used.brush) {
             self.sight.clear();
-            self.adjust_along(canvas, change, (&copy.points, copy.source), &used.on(&copy));
+            self.adjust_along(canvas, change, &copy.points, copy.source, &used.on(&copy));
         }
         lost
     }
@@ -114,7 +114,8 @@ impl Painter<'_> {
         &mut self,
         canvas: &mut Canvas,
         change: Change<'_>,
-        (points, source): (&[StrokePoint], Option<StrokePoint>),
+        points: &[StrokePoint],
+        source: Option<StrokePoint>,
         used: &UsedBrush,
     ) {
         let way = self.way_of(points, &used.brush);
@@ -140,7 +141,7 @@ impl Painter<'_> {
                 let target = from.site.position + from.turn * way;
                 from.site = walk(self.surface.connected(), from.site, target);
             }
-            self.adjust_under(canvas, change, (&stamp, pulled, from), used);
+            self.adjust_under(canvas, change, &stamp, pulled, from, used);
             before = Some(stamp);
         }
     }
@@ -149,7 +150,9 @@ impl Painter<'_> {
         &mut self,
         canvas: &mut Canvas,
         change: Change<'_>,
-        (stamp, moved, source): (&StampPlace, f64, Option<Source>),
+        stamp: &StampPlace,
+        moved: f64,
+        source: Option<Source>,
         used: &UsedBrush,
     ) {
         let radius = used.brush.radius_at(&stamp.point.pose);
@@ -166,7 +169,7 @@ impl Painter<'_> {
         let touched = self.touched(stamp, radius, used);
         let action = change.action;
         let pulled = DVec2::new(moved.min(SMEAR_LIMIT * radius), 0.0);
-        let grid = self.values_for((canvas, change), (source, wanted, plane.reach), radius);
+        let grid = self.values_for(canvas, change, source, wanted, plane.reach, radius);
         let offset = if action == Action::Smear { pulled } else { DVec2::ZERO };
         let mut found = vec![0.0; canvas.channel_count()];
         let mut own = found.clone();
@@ -181,8 +184,8 @@ impl Painter<'_> {
             if change.input.is_some() {
                 canvas.keep_relief(&own, &mut found);
             }
-            let share = touched.strength as f32;
-            let share = if action == Action::Sharpen { -share } else { share };
+            let strength = touched.strength as f32;
+            let share = if action == Action::Sharpen { -strength } else { strength };
             for ((own, found), range) in own.iter_mut().zip(&found).zip(&ranges) {
                 *own = (*own + share * (found - *own)).clamp(range[0], range[1]);
             }
@@ -193,11 +196,14 @@ impl Painter<'_> {
     /// Values that come to a stamp, around its middle; none where they are those at each texel itself, which need no grid.
     fn values_for(
         &mut self,
-        changed: (&Canvas, Change<'_>),
-        (source, wanted, reach): (Option<Source>, Wanted, f64),
+        canvas: &Canvas,
+        change: Change<'_>,
+        source: Option<Source>,
+        wanted: Wanted,
+        reach: f64,
         radius: f64,
     ) -> Option<Grid> {
-        match (changed.1.action, source) {
+        match (change.action, source) {
             (Action::Clone, None) => None,
             (Action::Clone, Some(source)) => {
                 let laid = self.patches.laid.clone();
@@ -206,13 +212,13 @@ impl Painter<'_> {
                     ahead: source.turn * wanted.ahead,
                     ..wanted
                 });
-                let grid = self.grid(changed, plane.reach, radius, SIDE_LIMIT);
+                let grid = self.grid(canvas, change, plane.reach, radius, SIDE_LIMIT);
                 self.patches.laid = laid;
                 Some(grid)
             }
-            (Action::Smear, _) => Some(self.grid(changed, reach, radius, SIDE_LIMIT)),
+            (Action::Smear, _) => Some(self.grid(canvas, change, reach, radius, SIDE_LIMIT)),
             (Action::Paint | Action::Erase | Action::Blur | Action::Sharpen, _) => {
-                let grid = self.grid(changed, reach, radius, BLURRED_SIDE_LIMIT);
+                let grid = self.grid(canvas, change, reach, radius, BLURRED_SIDE_LIMIT);
                 Some(grid.blurred(BLUR * radius))
             }
         }
@@ -228,7 +234,7 @@ impl Painter<'_> {
     }
 
     /// Values of what a change copies or changes, on the patch that was laid last.
-    fn grid(&self, (canvas, change): (&Canvas, Change<'_>), reach: f64, radius: f64, side_limit: f64) -> Grid {
+    fn grid(&self, canvas: &Canvas, change: Change<'_>, reach: f64, radius: f64, side_limit: f64) -> Grid {
         let mut width = f64::INFINITY;
         let mut values = vec![0.0; canvas.channel_count()];
         let mut texels: Vec<(usize, DVec2)> = Vec::new();
@@ -251,8 +257,7 @@ impl Painter<'_> {
     /// Calls `visit` for the texels of a triangle within `reach`, without ghosts, with their places and widths.
     fn for_own_texels(&self, laid: &LaidTriangle, reach: f64, mut visit: impl FnMut(usize, DVec2, f64)) {
         let within = [DVec2::splat(-reach), DVec2::splat(reach)];
-        let surface = (self.surface.connected(), self.atlas, &self.ghosts);
-        for_texels(surface, &laid.placed, within, |texel, at| {
+        for_texels(self.texels(), &laid.placed, within, |texel, at| {
             if self.atlas.owners[texel] == laid.placed.triangle {
                 visit(texel, at.plane, at.width);
             }

@@ -3,22 +3,22 @@
 use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
+use sabi_surface::NO_TWIN;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::patch::PlacedTriangle;
-use sabi_surface::{Groups, NO_TWIN};
 
 use super::left::{Left, left_of};
 use super::painter::Painter;
 use super::sight::Sight;
 use super::strengths::{Added, Strengths};
-use super::texels::{At, for_texels};
+use super::texels::{At, SurfaceTexels, for_texels};
 use super::used_brush::UsedBrush;
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::PaintSurface;
 
 /// Fill of texels by a stroke.
 pub(super) struct Filler<'a> {
-    pub(super) place: (&'a PaintSurface<'a>, &'a Atlas, &'a Groups),
+    pub(super) texels: SurfaceTexels<'a>,
     strengths: &'a mut Strengths,
     sight: &'a mut Sight,
     used: &'a UsedBrush,
@@ -32,8 +32,8 @@ impl Filler<'_> {
         let count = self.strengths.texel_count();
         let left = match at.filter(|_| strength > 0.0) {
             Some(at) => {
-                let place = (self.place.0, &mut *self.sight);
-                left_of(place, (texel, count), at, (self.used, self.normal))
+                let surface = self.texels.surface;
+                left_of(surface, self.sight, texel, count, at, self.used, self.normal)
             }
             None => Left::ALL,
         };
@@ -50,7 +50,11 @@ impl<'a> Painter<'a> {
     pub(super) fn filler<'b>(&'b mut self, points: &[StrokePoint], used: &'b UsedBrush) -> Filler<'b> {
         let normal = points.first().map_or(DVec3::Y, |first| self.normal_under(first.site)); // None fill nothing.
         Filler {
-            place: (self.surface, self.atlas, &self.ghosts),
+            texels: SurfaceTexels {
+                surface: self.surface,
+                atlas: self.atlas,
+                ghosts: &self.ghosts,
+            },
             strengths: &mut self.strengths,
             sight: &mut self.sight,
             used,
@@ -61,15 +65,15 @@ impl<'a> Painter<'a> {
     /// Fills the area that places touch.
     pub(super) fn fill(&mut self, points: &[StrokePoint], area: Area, used: &UsedBrush) {
         let (surface, atlas) = (self.surface, self.atlas);
-        let filled = triangles(surface, atlas, points, (area, used.brush.side_degrees));
+        let filled = triangles(surface, atlas, points, area, used.brush.side_degrees);
         let mut filler = self.filler(points, used);
         if area == Area::Gradient {
             let gradient = Gradient::new(points);
-            for_places(filler.place, &filled, |texel, at| {
+            for_places(filler.texels, &filled, |texel, at| {
                 filler.add(texel, gradient.at(at.position), Some(at));
             });
         } else if used.has_limits() {
-            for_places(filler.place, &filled, |texel, at| filler.add(texel, 1.0, Some(at)));
+            for_places(filler.texels, &filled, |texel, at| filler.add(texel, 1.0, Some(at)));
         } else {
             for_texels_of(atlas, &filled, |texel| filler.add(texel, 1.0, None));
         }
@@ -85,7 +89,7 @@ impl<'a> Painter<'a> {
             }
             return;
         }
-        for_places(filler.place, &all, |texel, at| {
+        for_places(filler.texels, &all, |texel, at| {
             if texels.binary_search(&texel).is_ok() {
                 filler.add(texel, 1.0, Some(at));
             }
@@ -119,11 +123,8 @@ impl Gradient {
 }
 
 /// Calls `visit` for all texels of some triangles, ghosts that show them included, with their places.
-fn for_places(
-    (surface, atlas, ghosts): (&PaintSurface<'_>, &Atlas, &Groups),
-    filled: &[bool],
-    mut visit: impl FnMut(usize, &At),
-) {
+fn for_places(texels: SurfaceTexels<'_>, filled: &[bool], mut visit: impl FnMut(usize, &At)) {
+    let surface = texels.surface;
     for triangle in 0..surface.triangle_count() as u32 {
         // Any plane will do, since places in space are asked for.
         let [a, b, c] = surface.connected().corners(triangle);
@@ -140,7 +141,7 @@ fn for_places(
             ],
         };
         let all = [DVec2::NEG_INFINITY, DVec2::INFINITY];
-        for_texels((surface.connected(), atlas, ghosts), &placed, all, &mut visit);
+        for_texels(texels, &placed, all, &mut visit);
     }
 }
 
@@ -165,7 +166,8 @@ fn triangles(
     surface: &PaintSurface<'_>,
     atlas: &Atlas,
     points: &[StrokePoint],
-    (area, side_degrees): (Area, f32),
+    area: Area,
+    side_degrees: f32,
 ) -> Vec<bool> {
     let mesh = surface.mesh();
     let group = |triangle: usize| match area {

@@ -102,16 +102,16 @@ impl Painter<'_> {
     ) -> LaidStroke {
         let before = growth.take();
         let (points, lost) = passed(self.surface, stroke);
-        let kept = Kept {
+        let wanted = Kept {
             directions: keeps_direction,
             colors: false,
         };
-        let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) else {
-            return self.laid(stroke, kept, lost);
+        let Some(used) = self.used(stroke, wanted).filter(|_| !points.is_empty()) else {
+            return self.laid(stroke, wanted, lost);
         };
         let kept = used.kept;
         self.begin(kept);
-        let copies = self.with_copies((points, None), stroke, &used.brush);
+        let copies = self.with_copies(points, None, stroke, &used.brush);
         let used = used.on(&copies[0]);
         let way = self.way_of(&copies[0].points, &used.brush);
         let pieces = Pieces::of(way, &used);

@@ -28,10 +28,13 @@ impl Left {
 /// Share and color of a stroke at a texel. `normal` is that of the surface under the middle of the stamp, `count` the number of texels of
 /// the atlas.
 pub(super) fn left_of(
-    (surface, sight): (&PaintSurface<'_>, &mut Sight),
-    (texel, count): (usize, usize),
+    surface: &PaintSurface<'_>,
+    sight: &mut Sight,
+    texel: usize,
+    count: usize,
     at: &At,
-    (used, normal): (&UsedBrush, DVec3),
+    used: &UsedBrush,
+    normal: DVec3,
 ) -> Left {
     let limits = used.brush.limits;
     let mut left = Left::ALL;
@@ -43,7 +46,7 @@ pub(super) fn left_of(
         left.share *= limits.of_angle(own.dot(normal));
     }
     if let Some(watched) = used.watched.as_ref().filter(|_| left.share > 0.0) {
-        left.share *= sight.share(surface, (texel, count), at, watched);
+        left.share *= sight.share(surface, texel, count, at, watched);
     }
     left
 }

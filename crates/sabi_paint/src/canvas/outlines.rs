@@ -1,14 +1,11 @@
 //! The area inside of an outline, as the artist saw it.
 
 use glam::{DVec2, DVec3};
-use sabi_surface::Groups;
-use sabi_surface::atlas::Atlas;
 use sabi_surface::patch::{PlacedTriangle, axes};
 
-use super::texels::{At, for_texels};
+use super::texels::{At, SurfaceTexels, for_texels};
 use crate::limits::Eye;
 use crate::stroke::StrokePoint;
-use crate::surface::PaintSurface;
 
 /// Depth before and behind the outline that is filled, as a share of its width.
 const DEPTH: f64 = 0.25;
@@ -137,13 +134,15 @@ impl Outline {
 /// Calls `fill` for all texels inside of the outline through some places, as it is seen from an eye, with their strength there: on
 /// what faces the eye and lies not much before or behind the outline.
 pub(super) fn for_outline(
-    (surface, atlas, ghosts): (&PaintSurface<'_>, &Atlas, &Groups),
-    (points, eye): (&[StrokePoint], Option<Eye>),
+    texels: SurfaceTexels<'_>,
+    points: &[StrokePoint],
+    eye: Option<Eye>,
     mut fill: impl FnMut(usize, f64, &At),
 ) {
     let Some(outline) = Outline::new(points, eye) else {
         return;
     };
+    let surface = texels.surface;
     let view = &outline.view;
     for triangle in 0..surface.triangle_count() as u32 {
         let corners = surface.connected().corners(triangle);
@@ -162,7 +161,7 @@ pub(super) fn for_outline(
             corners: [a, b, c],
         };
         let all = [DVec2::NEG_INFINITY, DVec2::INFINITY];
-        for_texels((surface.connected(), atlas, ghosts), &placed, all, |texel, at| {
+        for_texels(texels, &placed, all, |texel, at| {
             let depth = view.depth_of(at.position);
             let is_near = outline.depths[0] <= depth && depth <= outline.depths[1];
             if let Some(place) = view.seen(at.position).filter(|_| is_near) {

@@ -12,7 +12,7 @@ use super::patches::Patches;
 use super::sight::Sight;
 use super::similar::similar_texels;
 use super::strengths::{Kept, LaidStroke, Strengths};
-use super::texels::ghosts_of_triangles;
+use super::texels::{SurfaceTexels, ghosts_of_triangles};
 use super::used_brush::{UsedBrush, UsedStencil};
 use crate::brush::Brush;
 use crate::picture::PicturePart;
@@ -75,7 +75,7 @@ impl<'a> Painter<'a> {
         if let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
             kept = used.kept;
             self.begin(kept);
-            for copy in self.with_copies((points, None), stroke, &used.brush) {
+            for copy in self.with_copies(points, None, stroke, &used.brush) {
                 self.sight.clear();
                 self.draw(&copy, stroke.area, &used.on(&copy));
             }
@@ -141,7 +141,8 @@ impl<'a> Painter<'a> {
     /// A stroke with its copies on other sides of the model.
     pub(super) fn with_copies(
         &self,
-        (points, source): (Vec<StrokePoint>, Option<StrokePoint>),
+        points: Vec<StrokePoint>,
+        source: Option<StrokePoint>,
         stroke: &Stroke,
         brush: &Brush,
     ) -> Vec<LocatedStroke> {
@@ -183,10 +184,9 @@ impl<'a> Painter<'a> {
         if let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
             kept = used.kept;
             self.strengths.prepare(kept);
-            let place = (self.surface, self.atlas);
-            for copy in self.with_copies((points, None), stroke, &used.brush) {
+            for copy in self.with_copies(points, None, stroke, &used.brush) {
                 self.sight.clear();
-                let texels = similar_texels(place, canvas, &copy.points, used.brush.tolerance);
+                let texels = similar_texels(self.surface, self.atlas, canvas, &copy.points, used.brush.tolerance);
                 self.fill_texels(&copy.points, &texels, &used.on(&copy));
             }
         }
@@ -197,11 +197,19 @@ impl<'a> Painter<'a> {
 
     /// Fills what lies inside of the way of a stroke.
     fn draw_inside(&mut self, stroke: &LocatedStroke, used: &UsedBrush) {
-        let outline = (stroke.points.as_slice(), stroke.eye);
         let mut filler = self.filler(&stroke.points, used);
-        for_outline(filler.place, outline, |texel, cover, at| {
+        for_outline(filler.texels, &stroke.points, stroke.eye, |texel, cover, at| {
             filler.add(texel, cover, Some(at));
         });
+    }
+
+    /// The surface with its texels and their ghosts.
+    pub(super) fn texels(&self) -> SurfaceTexels<'_> {
+        SurfaceTexels {
+            surface: self.surface,
+            atlas: self.atlas,
+            ghosts: &self.ghosts,
+        }
     }
 
     pub(super) fn way_of(&self, points: &[StrokePoint], brush: &Brush) -> Vec<WayPoint> {

@@ -169,12 +169,12 @@ impl Painter<'_> {
             let (from, to) = (&run.points[part], &run.points[part + 1]);
             let at = at_of(surface, beside);
             let normal = surface.connected().normal(at.triangle);
-            let drawn = drawn(run, (beside, at.position, normal), used, &mut stamps);
+            let drawn = drawn(run, beside, at.position, normal, used, &mut stamps);
             if drawn.strength <= 0.0 {
                 continue;
             }
             let texel = beside.texel as usize;
-            let left = left_of((surface, sight), (texel, count), &at, (used, normals[part]));
+            let left = left_of(surface, sight, texel, count, &at, used, normals[part]);
             let added = Added {
                 direction: used.kept.directions.then(|| direction(from, to).as_vec3().to_array()),
                 color: left.color.or(drawn.color).filter(|_| used.kept.colors),
@@ -218,8 +218,7 @@ impl Painter<'_> {
             ends: [from, to].map(|point| point.site.position),
         };
         for laid in &self.patches.laid {
-            let place = (self.surface.connected(), self.atlas, &self.ghosts);
-            for_texels(place, &laid.placed, within, |texel, at| {
+            for_texels(self.texels(), &laid.placed, within, |texel, at| {
                 let beside = part.beside(texel as u32, at, laid);
                 found.extend((beside.distance <= radius + 0.5 * at.width).then_some(beside));
             });
@@ -291,7 +290,9 @@ fn at_of(surface: &PaintSurface<'_>, beside: &Beside) -> At {
 /// Stamp of a ribbon at a texel on a surface with this normal.
 fn drawn(
     run: &Run<'_>,
-    (beside, position, normal): (&Beside, DVec3, DVec3),
+    beside: &Beside,
+    position: DVec3,
+    normal: DVec3,
     used: &UsedBrush,
     stamps: &mut BTreeMap<u32, Stamp>,
 ) -> Stamped {
@@ -320,7 +321,7 @@ fn drawn(
         normal,
         grain: grain_at(brush, position, beside.width),
         texel: (beside.width / radius).max(LEAST_TEXEL),
-        fall: faded(beside.distance, radius, beside.width, (brush, brush.hardness_at(&pose))),
+        fall: faded(beside.distance, radius, beside.width, brush, brush.hardness_at(&pose)),
     };
     let stamp = stamps
         .entry(number as u32)

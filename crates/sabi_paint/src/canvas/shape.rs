@@ -107,7 +107,7 @@ impl Shape {
                 };
                 let mix = |[start, end]: [f64; 2]| start + t * (end - start);
                 let distance = beside(place.plane.distance_squared(t * *end), place.rise).max(place.apart);
-                faded(distance, mix(*radii), place.texel, (brush, mix(*hardnesses))) * mix(*strengths)
+                faded(distance, mix(*radii), place.texel, brush, mix(*hardnesses)) * mix(*strengths)
             }
             Shape::Stamp {
                 middle,
@@ -118,12 +118,12 @@ impl Shape {
                 stamp,
             } => {
                 let way = *tip_from_plane * (place.plane - *middle);
-                let distance = match brush.tip {
+                let to_middle = match brush.tip {
                     Tip::Square => beside(way.abs().max_element().powi(2), place.rise),
                     _ => beside(way.length_squared(), place.rise),
                 };
-                let distance = distance.max(place.apart);
-                let fall = faded(distance, *radius, place.texel, (brush, *hardness));
+                let distance = to_middle.max(place.apart);
+                let fall = faded(distance, *radius, place.texel, brush, *hardness);
                 let spot = Spot {
                     q: way / *radius,
                     model: place.position / f64::from(brush.radius),
@@ -146,7 +146,7 @@ fn beside(square: f64, rise: f64) -> f64 {
 
 /// Strength by the distance from the middle. A border that is harder than texels can show becomes one texel wide, and a brush that
 /// is thinner than a texel becomes faint.
-pub(super) fn faded(distance: f64, radius: f64, texel: f64, (brush, hardness): (&Brush, f64)) -> f64 {
+pub(super) fn faded(distance: f64, radius: f64, texel: f64, brush: &Brush, hardness: f64) -> f64 {
     let band = (1.0 - hardness) * radius;
     let fall = if band >= texel {
         let fall = brush.falloff_of(distance / radius, hardness);

@@ -67,7 +67,8 @@ impl Sight {
     pub(super) fn share(
         &mut self,
         surface: &PaintSurface<'_>,
-        (texel, texels): (usize, usize),
+        texel: usize,
+        texels: usize,
         at: &At,
         watched: &Watched,
     ) -> f64 {

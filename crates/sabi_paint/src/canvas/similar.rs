@@ -9,7 +9,8 @@ use crate::surface::PaintSurface;
 /// Texels of the connected area around some places whose cover differs from theirs by no more than a tolerance, ghosts that show
 /// them included. It goes on over seams through ghosts.
 pub(super) fn similar_texels(
-    (surface, atlas): (&PaintSurface<'_>, &Atlas),
+    surface: &PaintSurface<'_>,
+    atlas: &Atlas,
     canvas: &Canvas,
     points: &[StrokePoint],
     tolerance: f32,

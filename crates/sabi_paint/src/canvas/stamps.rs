@@ -10,7 +10,7 @@ use super::painter::{Painter, direction};
 use super::patches::Wanted;
 use super::shape::{Place, Shape, grain_at, random};
 use super::strengths::{Added, Strengths};
-use super::texels::{At, for_texels};
+use super::texels::{At, SurfaceTexels, for_texels};
 use super::used_brush::UsedBrush;
 use crate::brush::{Brush, Turn};
 use crate::pen::Pose;
@@ -248,42 +248,38 @@ impl Painter<'_> {
         let direction = used.kept.directions.then(|| laying.direction.as_vec3().to_array());
         let count = strengths.texel_count();
         let most = shape.most() as f32;
+        let texels = SurfaceTexels { surface, atlas, ghosts };
         for laid in &patches.laid {
             let normal = surface.connected().normal(laid.placed.triangle);
-            for_texels(
-                (surface.connected(), atlas, ghosts),
-                &laid.placed,
-                within,
-                |texel, at| {
-                    // Places in the middle of a line lie under many of its parts.
-                    if !laying.builds_up && strengths.at(texel) >= most {
-                        return;
-                    }
-                    let place = Place {
-                        grain: grain_of(strengths, texel, at, used),
-                        plane: at.plane,
-                        rise: laid.rise,
-                        apart: laying.apart(laid.is_other, at.position),
-                        position: at.position,
-                        normal,
-                        texel: at.width,
-                    };
-                    let drawn = shape.drawn(&place, used);
-                    if drawn.strength <= 0.0 {
-                        return;
-                    }
-                    let left = left_of((surface, sight), (texel, count), at, (used, laying.normal));
-                    let color = left.color.or(drawn.color).or(laying.color);
-                    let added = Added {
-                        strength: drawn.strength * left.share,
-                        flow: laying.flow,
-                        builds_up: laying.builds_up,
-                        direction,
-                        color: color.filter(|_| used.kept.colors),
-                    };
-                    visit(strengths, texel, at.plane, &added);
-                },
-            );
+            for_texels(texels, &laid.placed, within, |texel, at| {
+                // Places in the middle of a line lie under many of its parts.
+                if !laying.builds_up && strengths.at(texel) >= most {
+                    return;
+                }
+                let place = Place {
+                    grain: grain_of(strengths, texel, at, used),
+                    plane: at.plane,
+                    rise: laid.rise,
+                    apart: laying.apart(laid.is_other, at.position),
+                    position: at.position,
+                    normal,
+                    texel: at.width,
+                };
+                let drawn = shape.drawn(&place, used);
+                if drawn.strength <= 0.0 {
+                    return;
+                }
+                let left = left_of(surface, sight, texel, count, at, used, laying.normal);
+                let color = left.color.or(drawn.color).or(laying.color);
+                let added = Added {
+                    strength: drawn.strength * left.share,
+                    flow: laying.flow,
+                    builds_up: laying.builds_up,
+                    direction,
+                    color: color.filter(|_| used.kept.colors),
+                };
+                visit(strengths, texel, at.plane, &added);
+            });
         }
     }
 

@@ -55,13 +55,14 @@ fn size_of(mesh: &Mesh) -> f64 {
 }
 
 fn painted(surface: &PaintSurface<'_>, atlas: &Atlas, strokes: &[Stroke]) -> Canvas {
-    painted_with(surface, atlas, (strokes, &StampPictures::new()), VALUE)
+    painted_with(surface, atlas, strokes, &StampPictures::new(), VALUE)
 }
 
 fn painted_with(
     surface: &PaintSurface<'_>,
     atlas: &Atlas,
-    (strokes, pictures): (&[Stroke], &StampPictures),
+    strokes: &[Stroke],
+    pictures: &StampPictures,
     layers: Layers,
 ) -> Canvas {
     let mut canvas = Canvas::empty(atlas.owners.len(), layers);

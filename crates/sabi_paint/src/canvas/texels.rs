@@ -4,7 +4,9 @@ use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::Groups;
 use sabi_surface::atlas::Atlas;
 use sabi_surface::model::Mesh;
-use sabi_surface::patch::{ConnectedMesh, PlacedTriangle};
+use sabi_surface::patch::PlacedTriangle;
+
+use crate::surface::PaintSurface;
 
 /// Texels around a triangle's own corners that it may own: a texel's middle lies in its triangle but for rounding and thin
 /// charts.
@@ -95,14 +97,24 @@ pub(super) struct At {
     pub(super) weights: DVec2,
 }
 
+/// A surface with its texels: those that each triangle owns, and the ghosts that show it.
+#[derive(Clone, Copy)]
+pub(super) struct SurfaceTexels<'a> {
+    pub(super) surface: &'a PaintSurface<'a>,
+    pub(super) atlas: &'a Atlas,
+    /// Ghosts that show each triangle ([`ghosts_of_triangles`]).
+    pub(super) ghosts: &'a Groups,
+}
+
 /// Calls `paint` for each texel that a placed triangle owns, and each ghost that shows it, within a box of the plane, with the
 /// index of the texel.
 pub(super) fn for_texels(
-    (surface, atlas, ghosts): (ConnectedMesh<'_>, &Atlas, &Groups),
+    texels: SurfaceTexels<'_>,
     placed: &PlacedTriangle,
     [low, high]: [DVec2; 2],
     mut paint: impl FnMut(usize, &At),
 ) {
+    let (surface, atlas) = (texels.surface.connected(), texels.atlas);
     let [a, b, c] = placed.corners;
     let (least, most) = (a.min(b).min(c), a.max(b).max(c));
     if least.cmpgt(high).any() || most.cmplt(low).any() {
@@ -130,9 +142,9 @@ pub(super) fn for_texels(
         .max(corners[0].min(corners[1]).min(corners[2]) - MARGIN)
         .floor()
         .max(DVec2::ZERO);
-    let to = in_high.min(corners[0].max(corners[1]).max(corners[2]) + MARGIN).ceil();
+    let far = in_high.min(corners[0].max(corners[1]).max(corners[2]) + MARGIN).ceil();
     let [columns, rows] = atlas.page_size;
-    let to = to.min(DVec2::new(f64::from(columns), f64::from(rows)));
+    let to = far.min(DVec2::new(f64::from(columns), f64::from(rows)));
     for row in from.y as u32..to.y.max(0.0) as u32 {
         let start = (page as usize * rows as usize + row as usize) * columns as usize;
         for column in from.x as u32..to.x.max(0.0) as u32 {
@@ -143,7 +155,7 @@ pub(super) fn for_texels(
             }
         }
     }
-    for ghost in ghosts.members(placed.triangle as usize) {
+    for ghost in texels.ghosts.members(placed.triangle as usize) {
         let ghost = &atlas.ghosts[*ghost as usize];
         let [x, y, page] = ghost.texel.map(|number| number as usize);
         let target = DVec2::new(f64::from(ghost.target_texel[0]), f64::from(ghost.target_texel[1]));

@@ -198,7 +198,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
             3 if dice.below(12) == 0 && history[at] != Version::EMPTY => {
                 // The steps to the last one lead over all of them.
                 let last = history[history.len() - 1];
-                file::store(&Disk::default(), &file, ("square", &book), last, &mut stored).unwrap();
+                file::store(&Disk::default(), &file, "square", &book, last, &mut stored).unwrap();
                 (book, canvases) = (StrokeBook::default(), Canvases::default());
                 let bytes = std::fs::read(&file).unwrap();
                 assert_eq!(file::read(&bytes, &mut book).unwrap().damaged_bytes, 0);
@@ -214,7 +214,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
         }
         let list = book.list(history[at]).unwrap();
         let layers = ALL;
-        let painted = canvases.painted(&surface, (&atlas, [0; 32]), (&list, supplies), layers, BUDGET);
+        let painted = canvases.painted(&surface, &atlas, [0; 32], &list, supplies, layers, BUDGET);
         let found = hash(&painted.canvas);
         assert_eq!(
             *seen.entry(history[at]).or_insert(found),
@@ -222,7 +222,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
             "operation {operation}"
         );
         if operation % 97 == 0 {
-            let anew = Canvases::default().painted(&surface, (&atlas, [0; 32]), (&list, supplies), ALL, BUDGET);
+            let anew = Canvases::default().painted(&surface, &atlas, [0; 32], &list, supplies, ALL, BUDGET);
             assert_eq!(hash(&anew.canvas), found, "operation {operation}, painted anew");
         }
     }
@@ -250,7 +250,7 @@ fn strokes_end_wherever_they_are_stopped_and_nothing_of_them_is_kept() {
     let pictures = StampPictures::new();
     let painted = |canvases: &mut Canvases, surface: &PaintSurface<'_>| {
         let supplies = Supplies::of_pictures(&pictures);
-        let painted = canvases.painted(surface, (&atlas, [0; 32]), (&list, supplies), ALL, BUDGET);
+        let painted = canvases.painted(surface, &atlas, [0; 32], &list, supplies, ALL, BUDGET);
         hash(&painted.canvas)
     };
     let wanted = painted(&mut Canvases::default(), &whole);
@@ -302,8 +302,10 @@ fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
         }));
         canvases.painted(
             &surface,
-            (&atlas, [0; 32]),
-            (&list, Supplies::of_pictures(&StampPictures::new())),
+            &atlas,
+            [0; 32],
+            &list,
+            Supplies::of_pictures(&StampPictures::new()),
             layers,
             budget,
         );
@@ -350,8 +352,10 @@ fn cover_under(fills: &[(Action, f32)], group: &StrokeGroup) -> f32 {
     };
     let painted = Canvases::default().painted(
         &surface,
-        (&atlas, [0; 32]),
-        (&list, Supplies::of_pictures(&StampPictures::new())),
+        &atlas,
+        [0; 32],
+        &list,
+        Supplies::of_pictures(&StampPictures::new()),
         ALL,
         BUDGET,
     );

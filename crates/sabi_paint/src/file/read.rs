@@ -53,7 +53,7 @@ pub fn read(bytes: &[u8], book: &mut StrokeBook) -> Result<ReadStrokes, StrokeFi
                 // A step of a kind that this version does not know keeps its bytes in the file, but leads nowhere.
                 match decode_step(step, after) {
                     Some(decoded) => {
-                        book.insert(after, before, (decoded, step.into()));
+                        book.insert(after, before, decoded, step.into());
                         read.versions.insert(after);
                         read.last = Some(after);
                     }

@@ -72,7 +72,7 @@ fn stored() -> (Vec<u8>, [Version; 3]) {
     let mut known = BTreeSet::new();
     // One after another, so that the later ones are appended.
     for version in versions {
-        store(&Disk::default(), &file, ("crate", &book), version, &mut known).unwrap();
+        store(&Disk::default(), &file, "crate", &book, version, &mut known).unwrap();
     }
     (std::fs::read(&file).unwrap(), versions)
 }
@@ -113,7 +113,7 @@ fn strokes_whose_brushes_lack_newer_values_are_stored_elsewhere_under_the_same_n
     assert!(read(&bytes, &mut book).unwrap().versions.contains(&version));
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("crate.strokes");
-    store(&Disk::default(), &file, ("crate", &book), version, &mut BTreeSet::new()).unwrap();
+    store(&Disk::default(), &file, "crate", &book, version, &mut BTreeSet::new()).unwrap();
     assert_eq!(std::fs::read(&file).unwrap(), bytes);
 }
 
@@ -271,7 +271,8 @@ fn a_version_whose_steps_are_unknown_is_not_stored() {
     let error = store(
         &Disk::default(),
         &file,
-        ("crate", &StrokeBook::default()),
+        "crate",
+        &StrokeBook::default(),
         unknown,
         &mut BTreeSet::new(),
     )

@@ -161,7 +161,7 @@ impl Gaps<'_> {
             for &triangle in self.partition.triangles(chart).iter().rev() {
                 spans(
                     self.plan.uvs.fixed(triangle),
-                    (i64::MIN / 4, i64::MAX / 4),
+                    i64::MIN / 4..i64::MAX / 4,
                     |y, x0, x1| {
                         owners.paint(y, [x0, x1], triangle);
                     },

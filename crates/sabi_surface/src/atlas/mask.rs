@@ -42,7 +42,7 @@ impl Mask {
         let mut mask = Mask::empty([x0, y0], (x1 - x0) as u32, (y1 - y0) as u32);
         let mut twice = false;
         for &triangle in triangles.iter().looking() {
-            spans(uvs.fixed(triangle), (i64::MIN / 4, i64::MAX / 4), |y, x0, x1| {
+            spans(uvs.fixed(triangle), i64::MIN / 4..i64::MAX / 4, |y, x0, x1| {
                 let [left, top] = mask.origin;
                 twice |= mask.set(y - top, x0 - left, x1 - left);
             });

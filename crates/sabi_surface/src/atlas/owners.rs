@@ -38,7 +38,7 @@ pub(super) fn texel_owners(uvs: &Uvs, partition: &Partition, placement: &Placeme
             // Backwards, so that the lowest number is written last.
             for &triangle in bands.members(band).iter().rev() {
                 cancel.look();
-                spans(corners(triangle), (top, bottom), |y, x0, x1| {
+                spans(corners(triangle), top..bottom, |y, x0, x1| {
                     let start = (y - top) as usize * width;
                     owners[start + x0 as usize..start + x1 as usize].fill(triangle);
                 });

@@ -1,5 +1,7 @@
 //! Texel centers that a triangle covers, in integers only: every center belongs to exactly one of two neighbors.
 
+use std::ops::Range;
+
 use super::fixed::UNIT;
 
 const HALF: i64 = UNIT / 2;
@@ -7,9 +9,9 @@ const HALF: i64 = UNIT / 2;
 /// Calls `paint(y, x0, x1)` for each row of texels, `x1` excluded, whose centers lie inside a triangle.
 ///
 /// Corners are in parts of a texel ([`UNIT`]), within ±2³⁸. A center on an edge belongs to the triangle whose top or
-/// left edge it is. Only rows `rows.0 ≤ y < rows.1` are visited. Triangles of either winding are painted; those
-/// without area paint nothing.
-pub(crate) fn spans(corners: [[i64; 2]; 3], rows: (i64, i64), mut paint: impl FnMut(i64, i64, i64)) {
+/// left edge it is. Only `rows` are visited. Triangles of either winding are painted; those without area paint
+/// nothing.
+pub(crate) fn spans(corners: [[i64; 2]; 3], rows: Range<i64>, mut paint: impl FnMut(i64, i64, i64)) {
     let origin = [corners[0][0] & -UNIT, corners[0][1] & -UNIT];
     // Relative to the origin of the triangle, products stay far below 2⁶³ for any triangle that fits on a page.
     let mut c = corners.map(|corner| [corner[0] - origin[0], corner[1] - origin[1]]);
@@ -23,8 +25,8 @@ pub(crate) fn spans(corners: [[i64; 2]; 3], rows: (i64, i64), mut paint: impl Fn
     let (x_origin, y_origin) = (origin[0] / UNIT, origin[1] / UNIT);
     let low = c[0][1].min(c[1][1]).min(c[2][1]);
     let high = c[0][1].max(c[1][1]).max(c[2][1]);
-    let first = ceil_center(low).max(rows.0 - y_origin);
-    let last = floor_center(high).min(rows.1 - 1 - y_origin);
+    let first = ceil_center(low).max(rows.start - y_origin);
+    let last = floor_center(high).min(rows.end - 1 - y_origin);
     let edges = [Edge::new(c[0], c[1]), Edge::new(c[1], c[2]), Edge::new(c[2], c[0])];
     for y in first..=last {
         let center = y * UNIT + HALF;

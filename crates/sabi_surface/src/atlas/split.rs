@@ -70,7 +70,7 @@ impl Splitter<'_> {
         let mut fits = true;
         spans(
             self.plan.uvs.fixed(triangle),
-            (i64::MIN / 4, i64::MAX / 4),
+            i64::MIN / 4..i64::MAX / 4,
             |y, x0, x1| {
                 fits = fits
                     && grid
@@ -127,7 +127,7 @@ impl Grid {
     }
 
     fn paint(&mut self, corners: [[i64; 2]; 3], owner: u32) {
-        spans(corners, (i64::MIN / 4, i64::MAX / 4), |y, x0, x1| {
+        spans(corners, i64::MIN / 4..i64::MAX / 4, |y, x0, x1| {
             let place = self.place(y, x0, x1);
             self.owners[place].fill(owner);
         });

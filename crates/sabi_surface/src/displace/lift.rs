@@ -71,7 +71,7 @@ pub(super) fn lift(
                 return from.to_array();
             }
             let members = members(group);
-            let displacement = displacement(&members, from.as_dvec3(), (mean_height, limit), &rounding, &height);
+            let displacement = displacement(&members, from.as_dvec3(), mean_height, limit, &rounding, &height);
             let to = (from.as_dvec3() + displacement).as_vec3();
             if to.is_finite() { to } else { from }.to_array()
         })
@@ -99,7 +99,8 @@ fn starts(splits: &[Split]) -> Vec<usize> {
 fn displacement(
     members: &[Member<'_>],
     place: DVec3,
-    (mean_height, limit): (f64, f64),
+    mean_height: f64,
+    limit: f64,
     rounding: &Rounding<'_>,
     height: impl Fn(u32, [f32; 2]) -> Option<f32>,
 ) -> DVec3 {

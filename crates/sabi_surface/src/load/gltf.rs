@@ -54,7 +54,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let mut warnings = Warnings::default();
     let (document, binary) = Document::parse(bytes, options.memory_bytes, &mut warnings)?;
     document.check_extensions(&mut warnings)?;
-    let buffers = Buffers::gather(&document, binary, (resolve, options.memory_bytes), &mut warnings)?;
+    let buffers = Buffers::gather(&document, binary, resolve, options.memory_bytes, &mut warnings)?;
     let source = Source {
         document: &document,
         buffers: &buffers,

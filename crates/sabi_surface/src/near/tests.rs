@@ -65,7 +65,7 @@ fn known(mesh: &Mesh, least_turn: Option<f32>) -> ([usize; 3], usize) {
     for triangle in 0..mesh.triangles.len() as u32 {
         let rays = rays(mesh, triangle, &mut state);
         assert!(near.find(&bvh, rays.iter().copied(), 512));
-        around.look(&bvh, &near, (triangle, rays.iter().copied()), least_turn);
+        around.look(&bvh, &near, triangle, rays.iter().copied(), least_turn);
         for ray in rays {
             let found = bvh.closest(ray.origin, ray.direction, ray.reach);
             let found = found.map(|hit| hit.triangle);
@@ -118,7 +118,7 @@ fn a_place_among_too_many_triangles_knows_nothing() {
         .map(|ray| PlaceRay { reach: 2.0, ..ray });
     assert!(!near.find(&bvh, far.clone(), 512));
     assert!(near.find(&bvh, far.clone(), 2048));
-    around.look(&bvh, &near, (500, far.clone()), None);
+    around.look(&bvh, &near, 500, far.clone(), None);
     assert!(far.into_iter().all(|ray| around.closest(&bvh, ray) == Known::Nothing));
 }
 
@@ -131,6 +131,6 @@ fn a_place_on_a_triangle_without_area_knows_nothing() {
     let (mut near, mut around) = (NearTriangles::default(), Surroundings::default());
     let rays = rays(&mesh, 500, &mut 1);
     assert!(near.find(&bvh, rays.iter().copied(), 512));
-    around.look(&bvh, &near, (line, rays.iter().copied()), None);
+    around.look(&bvh, &near, line, rays.iter().copied(), None);
     assert!(rays.iter().all(|ray| around.closest(&bvh, *ray) == Known::Nothing));
 }

@@ -24,7 +24,8 @@ struct Corner {
 /// Flows to each point.
 pub(super) fn flows(
     graph: &TexelGraph,
-    (cells, members): (&Cells, &Lists<u32>),
+    cells: &Cells,
+    members: &Lists<u32>,
     around: &Lists<u32>,
     spacing: f64,
 ) -> Lists<Flow> {

@@ -92,7 +92,7 @@ impl Shape<'_> {
         for triangle in &self.chart.corners {
             let corners = triangle.map(|corner| self.texel(corner, scale));
             let fixed = corners.map(|corner| (corner * UNIT as f64).round().as_i64vec2().to_array());
-            spans(fixed, (0, i64::from(height)), |y, x0, x1| {
+            spans(fixed, 0..i64::from(height), |y, x0, x1| {
                 mask.set(y, x0.max(0), x1.min(i64::from(width)));
             });
         }

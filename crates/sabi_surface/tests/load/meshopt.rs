@@ -56,7 +56,7 @@ fn packed_view(
 }
 
 /// Adds an accessor over a packed view of vertices.
-fn attribute(file: &mut Gltf, extension: &str, filter: &str, (stride, component): (usize, u32), bytes: &[u8]) -> usize {
+fn attribute(file: &mut Gltf, extension: &str, filter: &str, stride: usize, component: u32, bytes: &[u8]) -> usize {
     let version = u8::from(extension == KHR);
     let encoding = VertexEncoding::new(version, 2).unwrap();
     let packed = encode_vertex_buffer(bytes, 4, stride, encoding, &mut Workspace::default()).unwrap();
@@ -80,19 +80,19 @@ fn quad(extension: &str, indices: fn(&mut Gltf, &str) -> usize) -> Gltf {
     let work = &mut Workspace::default();
     let positions: Vec<f32> = CORNERS.iter().flat_map(|(position, ..)| *position).collect();
     let positions = encode_filter_exp(4, 12, 20, &positions, ExpMode::Separate, work).unwrap();
-    let position = attribute(&mut file, extension, "EXPONENTIAL", (12, F32), &positions);
+    let position = attribute(&mut file, extension, "EXPONENTIAL", 12, F32, &positions);
     let normals = encode_filter_oct(4, 8, 12, &[0.0, 0.0, 1.0, 0.0].repeat(4), work).unwrap();
-    let normal = attribute(&mut file, extension, "OCTAHEDRAL", (8, I16), &normals);
+    let normal = attribute(&mut file, extension, "OCTAHEDRAL", 8, I16, &normals);
     shaped(&mut file, normal, "VEC3", true);
     let uvs: Vec<f32> = CORNERS.iter().flat_map(|(_, uv, _)| *uv).collect();
-    let uv = attribute(&mut file, extension, "NONE", (8, F32), &floats(&uvs));
+    let uv = attribute(&mut file, extension, "NONE", 8, F32, &floats(&uvs));
     shaped(&mut file, uv, "VEC2", false);
     let colors: Vec<f32> = CORNERS.iter().flat_map(|(.., color)| *color).collect();
     let (filter, colors) = match extension {
         KHR => ("COLOR", encode_filter_color(4, 4, 8, &colors, work).unwrap()),
         _ => ("NONE", colors.iter().map(|part| (part * 255.0).round() as u8).collect()),
     };
-    let color = attribute(&mut file, extension, filter, (4, U8), &colors);
+    let color = attribute(&mut file, extension, filter, 4, U8, &colors);
     shaped(&mut file, color, "VEC4", true);
     let indices = indices(&mut file, extension);
     file.place(
@@ -105,7 +105,7 @@ fn quad(extension: &str, indices: fn(&mut Gltf, &str) -> usize) -> Gltf {
 
 const INDICES: [u32; 6] = [0, 1, 2, 0, 2, 3];
 
-fn indices_of(file: &mut Gltf, extension: &str, mode: &str, (stride, component): (usize, u32), bytes: &[u8]) -> usize {
+fn indices_of(file: &mut Gltf, extension: &str, mode: &str, stride: usize, component: u32, bytes: &[u8]) -> usize {
     let view = packed_view(file, extension, json!({ "mode": mode }), 6, stride, bytes);
     file.push(
         "accessors",
@@ -116,13 +116,13 @@ fn indices_of(file: &mut Gltf, extension: &str, mode: &str, (stride, component):
 fn triangles(file: &mut Gltf, extension: &str) -> usize {
     let encoding = IndexEncoding::new(1).unwrap();
     let bytes = encode_index_buffer(&INDICES, encoding, &mut Workspace::default()).unwrap();
-    indices_of(file, extension, "TRIANGLES", (2, U16), &bytes)
+    indices_of(file, extension, "TRIANGLES", 2, U16, &bytes)
 }
 
 fn sequence(file: &mut Gltf, extension: &str) -> usize {
     let encoding = IndexEncoding::new(1).unwrap();
     let bytes = encode_index_sequence(&INDICES, encoding, &mut Workspace::default()).unwrap();
-    indices_of(file, extension, "INDICES", (4, U32), &bytes)
+    indices_of(file, extension, "INDICES", 4, U32, &bytes)
 }
 
 #[test]

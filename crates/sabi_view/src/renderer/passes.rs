@@ -39,7 +39,7 @@ impl Renderer {
             Some(known) => known,
             None => ShadowMaps::new(gpu, layers)?,
         };
-        self.cast_shadows(gpu, scene, (shot, 0), bound, &mut maps)?;
+        self.cast_shadows(gpu, scene, shot, 0, bound, &mut maps)?;
         Ok(maps)
     }
 
@@ -48,13 +48,14 @@ impl Renderer {
         &self,
         gpu: &Gpu,
         scene: &Scene<'_>,
-        (shot, sample): (&Shot, u32),
+        shot: &Shot,
+        sample: u32,
         bound: &Bound,
         maps: &mut ShadowMaps,
     ) -> Result<(), ViewError> {
         let is_lit = sample > 0 && shot.mode == Mode::Material;
         if is_lit && (move_between_samples(scene, shot) || bound.is_veiled()) {
-            self.cast_shadows(gpu, scene, (shot, sample), bound, maps)?;
+            self.cast_shadows(gpu, scene, shot, sample, bound, maps)?;
         }
         Ok(())
     }
@@ -64,7 +65,8 @@ impl Renderer {
         &self,
         gpu: &Gpu,
         scene: &Scene<'_>,
-        (shot, sample): (&Shot, u32),
+        shot: &Shot,
+        sample: u32,
         bound: &Bound,
         maps: &mut ShadowMaps,
     ) -> Result<(), ViewError> {
@@ -172,9 +174,11 @@ pub(super) fn draw_raster(
 pub(super) fn draw_light(
     encoder: &mut wgpu::CommandEncoder,
     light: &wgpu::Texture,
-    (visibility, visibility_group): (&VisibilityBuffer, &wgpu::BindGroup),
+    visibility: &VisibilityBuffer,
+    visibility_group: &wgpu::BindGroup,
     scene: &Scene<'_>,
-    (frame, bound): (&wgpu::BindGroup, &Bound),
+    frame: &wgpu::BindGroup,
+    bound: &Bound,
     parts: Option<&[Part]>,
 ) {
     let light = light.create_view(&wgpu::TextureViewDescriptor::default());

@@ -149,9 +149,11 @@ impl Renderer {
             draw_light(
                 &mut encoder,
                 &pose.target.light,
-                (visibility, group),
+                visibility,
+                group,
                 &scene,
-                (&frame, &bound),
+                &frame,
+                &bound,
                 None,
             );
             let sample = Sample {

@@ -14,13 +14,14 @@ use crate::terminal::{Terminal, json_failure};
 
 /// Bakes the first of the chosen items. A failure is told by the process that started this one.
 pub(super) fn run(
-    asked: (&RunArguments, &TrustedPaths),
+    arguments: &RunArguments,
+    trusted: &TrustedPaths,
     plan: &BakePlan,
     chosen: &[usize],
     terminal: &Terminal,
 ) -> Result<Exit, Failure> {
     cancel_when_input_ends();
-    match baked(asked, plan, chosen, terminal) {
+    match baked(arguments, trusted, plan, chosen, terminal) {
         Ok(baked) => terminal.json(&baked).map(|()| Exit::Done),
         Err(failure) => {
             json_failure(&failure, terminal.command());
@@ -30,14 +31,17 @@ pub(super) fn run(
 }
 
 fn baked(
-    (arguments, trusted): (&RunArguments, &TrustedPaths),
+    arguments: &RunArguments,
+    trusted: &TrustedPaths,
     plan: &BakePlan,
     chosen: &[usize],
     terminal: &Terminal,
 ) -> Result<BakedItem, Failure> {
     let started = Instant::now();
-    let item = chosen.first().and_then(|at| plan.items.get(*at));
-    let item = item.ok_or_else(|| Failure::new(Exit::Usage, "there is no item to bake".to_owned()))?;
+    let item = chosen
+        .first()
+        .and_then(|at| plan.items.get(*at))
+        .ok_or_else(|| Failure::new(Exit::Usage, "there is no item to bake".to_owned()))?;
     let request = item.request(&plan.base, &arguments.item_machine(trusted));
     let report = bake(&request, &ShownProgress::new(terminal))?;
     let warnings = report.warnings.iter();

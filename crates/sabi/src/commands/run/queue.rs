@@ -39,7 +39,7 @@ pub(super) struct Queue<'a> {
 }
 
 impl<'a> Queue<'a> {
-    pub(super) fn new((arguments, trusted): (&'a RunArguments, &'a TrustedPaths), waiting: &[usize]) -> Queue<'a> {
+    pub(super) fn new(arguments: &'a RunArguments, trusted: &'a TrustedPaths, waiting: &[usize]) -> Queue<'a> {
         let (sender, happened) = mpsc::channel();
         Queue {
             arguments,

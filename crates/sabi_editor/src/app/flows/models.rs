@@ -23,7 +23,7 @@ impl Editor {
         let path = in_canonical_folder(path);
         // The model that was the first one takes the place of the one that becomes it.
         let before = self.evaluation.model.file().to_owned();
-        self.row.replace(&path, (&before, self.reading(&before)));
+        self.row.replace(&path, &before, self.reading(&before));
         self.evaluation.model.replace(&path, self.reading(&path));
     }
 
@@ -142,8 +142,8 @@ impl Editor {
             let sentence = format!("{} could not be written: {}", path.display(), io_reason(&error));
             return self.shell.fail(sentence);
         }
-        let model = (path.as_path(), self.reading(&path));
-        let added = self.row.add(&self.evaluation, model, &self.shell.context);
+        let reading = self.reading(&path);
+        let added = self.row.add(&self.evaluation, &path, reading, &self.shell.context);
         self.shell.allow(added);
     }
 

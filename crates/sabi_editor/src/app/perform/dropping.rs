@@ -38,7 +38,7 @@ impl Editor {
         if is_shown(Panel::Viewport) {
             let subject = self.looks.on_model(document, &self.shell.settings);
             let model = &self.views.model;
-            if let Some(place) = model.drop_place(document, &self.evaluation, &subject, (face, at)) {
+            if let Some(place) = model.drop_place(document, &self.evaluation, &subject, face, at) {
                 return Some(DropTarget::Model(place));
             }
         }

@@ -8,8 +8,8 @@ fn a_graph_is_built_from_nothing_by_clicks_and_keys_and_taken_back_to_nothing() 
     let paint = window.add([0.05, 0.1], "source material");
     let noise = window.add([0.05, 0.55], "clouds");
     let layer = window.add([0.4, 0.1], "effect layer");
-    window.wire((&paint, "material"), (&layer, "base"));
-    window.wire((&noise, "mask"), (&layer, "mask"));
+    window.wire(&paint, "material", &layer, "base");
+    window.wire(&noise, "mask", &layer, "mask");
     assert_eq!(window.reads(&layer, "base"), paint.to_string());
     assert_eq!(window.reads(&layer, "mask"), noise.to_string());
     let built = window.text();

@@ -39,7 +39,7 @@ fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictu
     window.click_at(window.title(&id("blur")));
     assert!(window.says(&fault), "in the panel of parameters too");
     // Tied, all is well.
-    window.wire((&id("clouds"), "mask"), (&id("blur"), "source"));
+    window.wire(&id("clouds"), "mask", &id("blur"), "source");
     window.until("a picture of what waited", |editor| {
         editor.thumbnail_of(&id("invert")).is_some()
     });

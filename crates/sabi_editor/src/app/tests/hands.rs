@@ -247,14 +247,14 @@ impl Window {
     }
 
     /// Drags a wire from one port to another.
-    pub(super) fn wire(&mut self, from: (&NodeId, &str), to: (&NodeId, &str)) {
-        let face = self.document().face(from.0).expect("a node");
-        let side = if face.output(Some(from.1)).is_some() {
+    pub(super) fn wire(&mut self, from: &NodeId, output: &str, to: &NodeId, input: &str) {
+        let face = self.document().face(from).expect("a node");
+        let side = if face.output(Some(output)).is_some() {
             "output"
         } else {
             "input"
         };
-        let ends = [self.port_at(from.0, side, from.1), self.port(to.0, to.1)];
+        let ends = [self.port_at(from, side, output), self.port(to, input)];
         self.drag_from(ends[0], ends[1]);
     }
 

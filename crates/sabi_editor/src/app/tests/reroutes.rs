@@ -66,7 +66,7 @@ fn a_reroute_is_dragged_selected_and_wired_as_a_node_is() {
         "{before:?} {after:?}"
     );
     assert_eq!(window.reads(&id("invert"), "source"), reroute.to_string());
-    window.wire((&reroute, "source"), (&id("blur"), "source"));
+    window.wire(&reroute, "source", &id("blur"), "source");
     assert_eq!(window.reads(&id("blur"), "source"), reroute.to_string());
 }
 

@@ -53,11 +53,11 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
     let worn = add_at(window, [260.0, 150.0], "blend mask");
     let rust = add_at(window, [520.0, 60.0], "effect layer");
     let out = add_at(window, [780.0, 60.0], "material output");
-    window.wire((&edges, "mask"), (&worn, "below"));
-    window.wire((&grain, "mask"), (&worn, "above"));
-    window.wire((&paint, "material"), (&rust, "base"));
-    window.wire((&worn, "mask"), (&rust, "mask"));
-    window.wire((&rust, "material"), (&out, "material"));
+    window.wire(&edges, "mask", &worn, "below");
+    window.wire(&grain, "mask", &worn, "above");
+    window.wire(&paint, "material", &rust, "base");
+    window.wire(&worn, "mask", &rust, "mask");
+    window.wire(&rust, "material", &out, "material");
     window.click_at(window.title(&edges));
     window.set_number("Width", "0.03");
     // New nodes get seeds of their own; Backspace gives a knob its default back.

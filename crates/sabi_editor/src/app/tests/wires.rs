@@ -25,7 +25,7 @@ const WIRED: &str = r#"
 #[test]
 fn a_wire_is_dropped_at_a_port_or_anywhere_on_a_node_that_takes_it() {
     let mut window = Window::opened(LOOSE);
-    window.wire((&id("clouds"), "mask"), (&id("layer"), "mask"));
+    window.wire(&id("clouds"), "mask", &id("layer"), "mask");
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
     assert_eq!(window.steps(), 1);
     let from = window.port(&id("paint"), "material");
@@ -40,7 +40,7 @@ fn a_wire_is_dropped_at_a_port_or_anywhere_on_a_node_that_takes_it() {
 #[test]
 fn a_wire_is_pulled_backwards_from_an_input_too() {
     let mut window = Window::opened(LOOSE);
-    window.wire((&id("layer"), "mask"), (&id("dots"), "mask"));
+    window.wire(&id("layer"), "mask", &id("dots"), "mask");
     assert_eq!(window.reads(&id("layer"), "mask"), "dots");
     let from = window.port(&id("layer"), "base");
     window.drag_from(from, beside(window.title(&id("paint")), [0.0, 0.0]));
@@ -86,7 +86,7 @@ fn a_wire_taken_off_an_input_is_gone_or_tied_elsewhere_as_one_step() {
     assert_eq!(window.steps(), 1);
     window.undo(1);
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
-    window.wire((&id("layer"), "mask"), (&id("layer"), "roughness_map"));
+    window.wire(&id("layer"), "mask", &id("layer"), "roughness_map");
     assert_eq!(window.reads(&id("layer"), "mask"), "");
     assert_eq!(window.reads(&id("layer"), "roughness_map"), "clouds");
     assert_eq!(window.steps(), 1);
@@ -111,7 +111,7 @@ fn a_second_wire_on_a_taken_mask_asks_how_both_are_put_together() {
         ("Max", "max"),
         ("Subtract", "subtract"),
     ] {
-        window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
+        window.wire(&id("dots"), "mask", &id("layer"), "mask");
         assert!(window.says("The input has a mask already. Combine both by:"));
         assert_eq!(
             window.reads(&id("layer"), "mask"),
@@ -134,11 +134,11 @@ fn a_second_wire_on_a_taken_mask_asks_how_both_are_put_together() {
 #[test]
 fn a_second_wire_may_replace_the_first_or_be_let_go() {
     let mut window = Window::opened(WIRED);
-    window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
+    window.wire(&id("dots"), "mask", &id("layer"), "mask");
     window.key(Key::Escape);
     assert!(!window.says("The input has a mask already. Combine both by:"));
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
-    window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
+    window.wire(&id("dots"), "mask", &id("layer"), "mask");
     window.press("Replace");
     assert_eq!(window.reads(&id("layer"), "mask"), "dots");
 }
@@ -146,12 +146,12 @@ fn a_second_wire_may_replace_the_first_or_be_let_go() {
 #[test]
 fn a_port_that_refuses_a_wire_says_why_and_nothing_changes() {
     let mut window = Window::opened(WIRED);
-    window.wire((&id("layer"), "material"), (&id("invert"), "source"));
+    window.wire(&id("layer"), "material", &id("invert"), "source");
     assert!(window.says("this wire carries a material"));
     assert_eq!(window.reads(&id("invert"), "source"), "");
     assert_eq!(window.steps(), 0);
     let mut window = Window::opened(CHAIN);
-    window.wire((&id("invert"), "mask"), (&id("invert"), "source"));
+    window.wire(&id("invert"), "mask", &id("invert"), "source");
     assert!(window.says("'Invert' cannot read its own result"));
     assert_eq!(window.reads(&id("invert"), "source"), "clouds");
     assert_eq!(window.steps(), 0);

@@ -125,7 +125,7 @@ fn choices(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2)
     else {
         return None;
     };
-    port_question::choices(canvas, document, panel, (from, pointer))
+    port_question::choices(canvas, document, panel, from, pointer)
 }
 
 /// Drops the dragged wire: connects it to the port there, asks on a node's body which of its parameters it multiplies, says why a
@@ -145,7 +145,7 @@ pub(super) fn drop_wire(
         return;
     };
     if let Some(port) = target {
-        return connect(&mut canvas.popups, document, (pending, off), &port, pointer, actions);
+        return connect(&mut canvas.popups, document, pending, off, &port, pointer, actions);
     }
     if let Some(reason) = aimed.and_then(|port| refusal(document, &pending, &port)) {
         return actions.push(Action::Notice(reason));
@@ -178,7 +178,8 @@ fn refusal(document: &OpenDocument, pending: &PendingWire, port: &PortRef) -> Op
 pub(in crate::canvas) fn connect(
     popups: &mut Popups,
     document: &OpenDocument,
-    (pending, off): (PendingWire, Option<SlotRef>),
+    pending: PendingWire,
+    off: Option<SlotRef>,
     port: &PortRef,
     at: Pos2,
     actions: &mut Vec<Action>,

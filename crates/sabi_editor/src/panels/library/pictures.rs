@@ -61,7 +61,7 @@ impl Pictures {
         if !kinds.is_empty() {
             self.started.extend(kinds.iter().cloned());
             self.coming = Some(Task::start(context, move || {
-                kinds.into_iter().filter_map(drawn).collect()
+                kinds.into_iter().filter_map(|(kind, side)| drawn(kind, side)).collect()
             }));
         }
     }
@@ -77,7 +77,7 @@ impl Pictures {
     }
 }
 
-fn drawn((kind, side): (String, Side)) -> Option<((String, Side), ColorImage)> {
+fn drawn(kind: String, side: Side) -> Option<((String, Side), ColorImage)> {
     let picture = match Path::new(&kind) {
         file if file.is_absolute() => group_picture(file, side.pixels())?,
         _ => picture_of(&kind, side.pixels())?,

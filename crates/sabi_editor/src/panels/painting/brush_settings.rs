@@ -38,7 +38,9 @@ const ACTIONS: [(BrushAction, &str, &str); 6] = [
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
-    (swatches, text, curve): (&mut Swatches, &mut String, &mut CurveMemory),
+    swatches: &mut Swatches,
+    text: &mut String,
+    curve: &mut CurveMemory,
     brush: &mut BrushChoices,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
@@ -61,7 +63,7 @@ pub(super) fn show(
         }
     });
     details(ui, brush);
-    actions.extend(tips::show(ui, context, (swatches, text), brush));
+    actions.extend(tips::show(ui, context, swatches, text, brush));
     if let Some(tip) = &mut brush.picture {
         ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));
     }
@@ -229,8 +231,8 @@ fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
 fn fade(ui: &mut Ui, context: &ViewContext<'_>, memory: &mut CurveMemory, brush: &mut BrushChoices) {
     let Fade::Curve(curve) = brush.fade else { return };
     ui.weak("From the hard part to the border");
-    let shown = ("Fade", FadeCurve::ROOM);
-    let changed = curve_ui(ui, context.theme, memory, shown, &curve.points());
+    let points = curve.points();
+    let changed = curve_ui(ui, context.theme, memory, "Fade", FadeCurve::ROOM, &points);
     if let Some(points) = changed {
         brush.fade = Fade::Curve(FadeCurve::new(points));
     }

@@ -122,7 +122,7 @@ impl StrokeRows {
                     }
                     Row::Stroke(index) => {
                         let id = list.strokes[*index].id;
-                        ui.push_id(id.0, |ui| self.row(ui, context, swatches, (list, *index)))
+                        ui.push_id(id.0, |ui| self.row(ui, context, swatches, list, *index))
                             .inner
                     }
                 });
@@ -192,7 +192,8 @@ impl StrokeRows {
         ui: &mut Ui,
         context: &ViewContext<'_>,
         swatches: &mut Swatches,
-        (list, index): (&StrokeList, usize),
+        list: &StrokeList,
+        index: usize,
     ) -> Option<Asked> {
         let stroke = &list.strokes[index];
         if stroke.group.is_some() {

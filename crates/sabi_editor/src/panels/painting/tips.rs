@@ -24,7 +24,8 @@ const MODEL: f64 = 1.0;
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
-    (swatches, text): (&mut Swatches, &mut String),
+    swatches: &mut Swatches,
+    text: &mut String,
     brush: &mut BrushChoices,
 ) -> Vec<Action> {
     let mut actions = Vec::new();

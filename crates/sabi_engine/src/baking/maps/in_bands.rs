@@ -37,8 +37,10 @@ impl<'s> Maps<'_, 's> {
     /// few materials have the channel.
     pub(super) fn channel_in_bands(
         &mut self,
-        (run, slot): (&Run, Option<SlotRef>),
-        (set, channel): (&'s OpenSet<'s>, &Channel),
+        run: &Run,
+        slot: Option<SlotRef>,
+        set: &'s OpenSet<'s>,
+        channel: &Channel,
         first: usize,
         value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
     ) -> Result<(), EngineError> {
@@ -53,16 +55,17 @@ impl<'s> Maps<'_, 's> {
         let (gpu, surface) = (from.evaluator.gpu(), from.evaluator.surface());
         let read = slot.map(|slot| {
             move |texels: &Range<usize>, visit: Visit<'_>| -> Result<(), EngineError> {
-                Ok(gpu.read_in_bands(surface, (from.plan, run, slot), texels, visit)?)
+                Ok(gpu.read_in_bands(surface, from.plan, run, slot, texels, visit)?)
             }
         });
-        self.gathered((set, channel), first, read, value)
+        self.gathered(set, channel, first, read, value)
     }
 
     /// Hands over one channel that has the same value in all texels that its set shows.
     pub(super) fn even_channel(
         &mut self,
-        (set, channel): (&'s OpenSet<'s>, &Channel),
+        set: &'s OpenSet<'s>,
+        channel: &Channel,
         first: usize,
         value: [f32; 4],
     ) -> Result<(), EngineError> {
@@ -73,7 +76,7 @@ impl<'s> Maps<'_, 's> {
                 tracing::debug_span!("lay out", set = set.work.name.as_str(), channel = %channel.name()).entered();
             set.padding.gather(&set.layout, channel, first, |_| value)
         };
-        self.send(set, channel.clone(), pixels, (true, memory))
+        self.send(set, channel.clone(), pixels, true, memory)
     }
 
     /// Computes and hands over the normals of a set; the neutral ones where its material has neither height nor slope.
@@ -89,16 +92,17 @@ impl<'s> Maps<'_, 's> {
         let from = self.from;
         let (gpu, surface) = (from.evaluator.gpu(), from.evaluator.surface());
         let read = (!is_flat).then_some(|texels: &Range<usize>, visit: Visit<'_>| -> Result<(), EngineError> {
-            Ok(gpu.normals_in_bands(surface, (run, slots), texels, &from.run_options, visit)?)
+            Ok(gpu.normals_in_bands(surface, run, slots, texels, &from.run_options, visit)?)
         });
-        self.gathered((set, &Channel::Normal), 0, read, |normal| normal)?;
+        self.gathered(set, &Channel::Normal, 0, read, |normal| normal)?;
         self.steps.send(MapStep::Advance)
     }
 
     /// Gathers the values of a channel from bands that `read` reads of a range of texels, and hands them over.
     fn gathered(
         &mut self,
-        (set, channel): (&'s OpenSet<'s>, &Channel),
+        set: &'s OpenSet<'s>,
+        channel: &Channel,
         first: usize,
         read: Option<impl FnOnce(&Range<usize>, Visit<'_>) -> Result<(), EngineError>>,
         value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
@@ -114,9 +118,12 @@ impl<'s> Maps<'_, 's> {
             let bands = set.bands();
             read(&bands.texels(), &mut |band, data| {
                 bands.add(
-                    (&set.padding, &set.layout),
-                    (channel, &mut pixels),
-                    (band, first),
+                    &set.padding,
+                    &set.layout,
+                    channel,
+                    &mut pixels,
+                    band,
+                    first,
                     |texels, out| {
                         data.copy_texels(texels.start - band.start..texels.end - band.start, out);
                         out.iter_mut().for_each(|texel| *texel = value(*texel));
@@ -125,6 +132,6 @@ impl<'s> Maps<'_, 's> {
             })?;
         }
         drop(entered);
-        self.send(set, channel.clone(), pixels, (is_connected, memory))
+        self.send(set, channel.clone(), pixels, is_connected, memory)
     }
 }

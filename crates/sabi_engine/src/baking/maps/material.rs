@@ -49,7 +49,7 @@ impl<'s> Maps<'_, 's> {
                 1.0
             };
             let value = |[x, y, z, w]: [f32; 4]| [x * scale, y * scale, z * scale, w * scale];
-            self.stored(run, (results, sets), (stored, channels), value)?;
+            self.stored(run, results, sets, stored, channels, value)?;
         }
         self.normal_maps(run, results, sets)?;
         let mut anisotropies = Vec::new();
@@ -69,8 +69,10 @@ impl<'s> Maps<'_, 's> {
     fn stored(
         &mut self,
         run: &mut Run,
-        (results, sets): (&[&PlannedResult], &[&'s OpenSet<'s>]),
-        (stored, channels): (Stored, &[(Channel, usize)]),
+        results: &[&PlannedResult],
+        sets: &[&'s OpenSet<'s>],
+        stored: Stored,
+        channels: &[(Channel, usize)],
         value: impl Fn([f32; 4]) -> [f32; 4] + Copy + Sync,
     ) -> Result<(), EngineError> {
         let slots: Vec<Option<SlotRef>> = results
@@ -84,11 +86,11 @@ impl<'s> Maps<'_, 's> {
                 let seen = Sameness::default();
                 for (at, (channel, first)) in channels.iter().enumerate() {
                     match seen.of(*first, channel.components()) {
-                        Some(texel) => self.even_channel((set, channel), *first, value(texel))?,
+                        Some(texel) => self.even_channel(set, channel, *first, value(texel))?,
                         None => {
                             let is_last = at + 1 == channels.len();
                             let noted = |texel| value(if is_last { texel } else { seen.noted(texel) });
-                            self.channel_in_bands((&*run, slot), (set, channel), *first, noted)?;
+                            self.channel_in_bands(run, slot, set, channel, *first, noted)?;
                         }
                     }
                 }
@@ -97,8 +99,8 @@ impl<'s> Maps<'_, 's> {
         } else {
             let planes = slots
                 .iter()
-                .map(|slot| slot.map(|slot| self.from.read(run, slot)).transpose());
-            let planes = planes.collect::<Result<Vec<_>, EngineError>>()?;
+                .map(|slot| slot.map(|slot| self.from.read(run, slot)).transpose())
+                .collect::<Result<Vec<_>, EngineError>>()?;
             for set in sets {
                 for (channel, first) in channels {
                     self.channel(set, channel, &planes, *first, value)?;

@@ -35,14 +35,15 @@ impl SetPixels {
     /// has time as long as the device compiles kernels.
     pub(crate) fn new_while<T>(
         linked: &LinkedModel,
-        (set, padding): (Option<&TextureSet>, Padding),
+        set: Option<&TextureSet>,
+        padding: Padding,
         evaluate: impl FnOnce() -> Result<T, EngineError>,
     ) -> Result<(T, Option<SetPixels>), EngineError> {
         let set = set.filter(|_| layout_bytes(linked.atlas.size) <= BYTES_BESIDE);
         thread::scope(|scope| {
-            let pixels = scope.spawn(|| set.map(|set| SetPixels::new(linked, set.key, padding)));
+            let task = scope.spawn(|| set.map(|set| SetPixels::new(linked, set.key, padding)));
             let evaluated = evaluate();
-            let pixels = pixels.join().unwrap_or_else(|payload| panic::resume_unwind(payload));
+            let pixels = task.join().unwrap_or_else(|payload| panic::resume_unwind(payload));
             Ok((evaluated?, pixels))
         })
     }

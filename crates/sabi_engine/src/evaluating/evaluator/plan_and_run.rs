@@ -124,7 +124,8 @@ impl Evaluator {
         let mut sources = Sources::new(
             self.surface.for_sources(progress),
             self.graph.files(),
-            (&self.ray_cache, self.kept_results.as_ref()),
+            &self.ray_cache,
+            self.kept_results.as_ref(),
             progress,
         );
         let options = RunOptions {

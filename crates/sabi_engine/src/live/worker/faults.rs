@@ -49,12 +49,14 @@ impl Worker {
             }
         };
         files.extend(pictures::files(
-            (&job.graph.base(), &job.graph.trusted),
+            &job.graph.base(),
+            &job.graph.trusted,
             &graph,
             &request.kinds.sources,
         ));
         refused.extend(pictures::refused(
-            (&job.graph.base(), &job.graph.trusted),
+            &job.graph.base(),
+            &job.graph.trusted,
             &graph,
             &request.kinds.sources,
         ));

@@ -77,13 +77,14 @@ impl Worker {
             queue,
             is_superseded_by_requests: true,
         };
-        let (plan, run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &work, &mut job.totals)?;
+        let (plan, run) = evaluate(sized, flattened, failed_nodes, wanted, plan, &work, &mut job.totals)?;
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
         let size = sized.model.size;
-        let values = sized.inspected((&plan, &run), result, set);
-        let values = values.map_err(|error| EvaluationError::of_results(gpu, size, error))?;
+        let values = sized
+            .inspected(&plan, &run, result, set)
+            .map_err(|error| EvaluationError::of_results(gpu, size, error))?;
         sent.inspected.insert(node.clone(), key);
         self.send(LiveEvent::Inspected {
             revision: job.request.revision,
@@ -97,7 +98,8 @@ impl Worker {
 impl SizedModel {
     fn inspected(
         &mut self,
-        (plan, run): (&Plan, &Run),
+        plan: &Plan,
+        run: &Run,
         result: &PlannedResult,
         set: Option<SetKey>,
     ) -> Result<Inspected, EngineError> {

@@ -37,13 +37,21 @@ impl Worker {
             ..(*request.model).clone()
         };
         let progress = Arc::new(LoadProgress::new(&self.queue, request.model_revision));
-        let opened = self
+        let linked = self
             .reading
             .read(&progress, move |progress| LinkedModel::open(&options, progress));
-        let opened = opened.and_then(|linked| {
+        let opened = linked.and_then(|linked| {
             progress.advance(Phase::Upload, 0, 1);
-            let model = (Arc::new(linked), request.model_revision);
-            SizedModel::new(&self.gpu, &self.options, (request, &job.graph), model, is_coarse)
+            let (linked, revision) = (Arc::new(linked), request.model_revision);
+            SizedModel::new(
+                &self.gpu,
+                &self.options,
+                request,
+                &job.graph,
+                linked,
+                revision,
+                is_coarse,
+            )
         });
         let sized = match opened {
             Ok(sized) => sized,
@@ -88,8 +96,16 @@ impl Worker {
             .read(&progress, move |progress| linked.resized(&options, progress));
         let sized = resized.and_then(|linked| {
             progress.advance(Phase::Upload, 0, 1);
-            let model = (Arc::new(linked), loaded.revision);
-            SizedModel::new(&self.gpu, &self.options, (&job.request, &job.graph), model, false)
+            let (linked, revision) = (Arc::new(linked), loaded.revision);
+            SizedModel::new(
+                &self.gpu,
+                &self.options,
+                &job.request,
+                &job.graph,
+                linked,
+                revision,
+                false,
+            )
         });
         match sized {
             Ok(sized) => {

@@ -145,7 +145,7 @@ impl Worker {
             queue,
             is_superseded_by_requests,
         };
-        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&wanted, plan), &work, &mut job.totals)?;
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, &wanted, plan, &work, &mut job.totals)?;
         if is_worse(&plan) {
             return Ok(());
         }
@@ -156,7 +156,7 @@ impl Worker {
             is_whole: is_whole(&plan),
         };
         sent.looks.insert(subject.clone(), now);
-        let event = looks_event((job, subject, is_coarse), (sized, flattened), looks);
+        let event = looks_event(job, subject, is_coarse, sized, flattened, looks);
         self.send(event);
         job.latency = Some(job.submitted.elapsed());
         Ok(())
@@ -174,8 +174,11 @@ impl Worker {
 
 /// Event with the looks of a subject.
 fn looks_event(
-    (job, subject, is_coarse): (&Job, &ViewSubject, bool),
-    (sized, flattened): (&SizedModel, &FlattenedRequest),
+    job: &Job,
+    subject: &ViewSubject,
+    is_coarse: bool,
+    sized: &SizedModel,
+    flattened: &FlattenedRequest,
     looks: ModelLooks,
 ) -> LiveEvent {
     LiveEvent::Looks {
@@ -217,7 +220,8 @@ pub(super) fn evaluate(
     sized: &mut SizedModel,
     flattened: &FlattenedRequest,
     failed_nodes: &mut BTreeMap<String, FailedNode>,
-    (wanted, mut plan): (&[Target], Plan),
+    wanted: &[Target],
+    mut plan: Plan,
     progress: &WorkProgress<'_>,
     totals: &mut RunTotals,
 ) -> Result<(Plan, Run), EvaluationError> {
@@ -225,7 +229,7 @@ pub(super) fn evaluate(
         match sized.run(&plan, progress, totals) {
             Ok(run) => return Ok((plan, run)),
             Err(EvaluationError::Node { node, why, is_too_long }) => {
-                if !flattened.record_failure(failed_nodes, &node, (&why, is_too_long)) {
+                if !flattened.record_failure(failed_nodes, &node, &why, is_too_long) {
                     return Err(EvaluationError::Failed(EngineError::new(ErrorKind::BadInput, why)));
                 }
                 plan = sized.plan(&flattened.without_failed(wanted, failed_nodes));

@@ -112,7 +112,7 @@ impl Worker {
             is_superseded_by_requests: true,
         };
         let plan = sized.plan(&flattened.without_failed(&targets, failed_nodes));
-        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&targets, plan), &work, &mut job.totals)?;
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, &targets, plan, &work, &mut job.totals)?;
         if plan.results.len() < targets.len() {
             return Ok(None);
         }
@@ -150,7 +150,7 @@ impl Worker {
         };
         let wanted = std::slice::from_ref(target);
         let plan = sized.plan(&flattened.without_failed(wanted, failed_nodes));
-        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &work, &mut job.totals)?;
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, wanted, plan, &work, &mut job.totals)?;
         let Some(result) = plan.results.first() else {
             return Ok(None);
         };
@@ -158,7 +158,7 @@ impl Worker {
         let error = |error: EngineError| EvaluationError::of_results(gpu, size, error);
         let side = options.thumbnail_px;
         if job.request.is_flat {
-            let picture = sized.flat_picture((&plan, &run), result, side, job.request.set);
+            let picture = sized.flat_picture(&plan, &run, result, side, job.request.set);
             return picture.map(Some).map_err(error);
         }
         let looks = sized.looks(&plan, &mut run, &LookAssignment::One, &work)?;

@@ -9,12 +9,18 @@ use super::Strokes;
 /// Nodes and atlases whose latest canvas is remembered: those of a graph in two sizes.
 const REMEMBERED: usize = 8;
 
-/// Atlas by its key, and node by its id.
-pub(super) type Place = ([u8; 32], String);
+/// A node on an atlas.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct PaintedNodePlace {
+    /// Key of the surface with its atlas.
+    pub(crate) surface_key: [u8; 32],
+    /// Id of the node.
+    pub(crate) node: String,
+}
 
 /// Canvas that a node had last on an atlas.
 pub(super) struct LatestCanvas {
-    place: Place,
+    place: PaintedNodePlace,
     version: Version,
     canvas: Arc<Canvas>,
     /// Version before, and the first texel of each eight in a row that differ since.
@@ -27,8 +33,9 @@ impl Strokes {
     /// Without a version before, nothing was painted.
     pub(crate) fn changed_texels(
         &self,
-        place: &Place,
-        (before, now): (Option<Version>, Version),
+        place: &PaintedNodePlace,
+        before: Option<Version>,
+        now: Version,
     ) -> Option<Arc<Vec<u32>>> {
         let latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
         let own = latest
@@ -43,7 +50,7 @@ impl Strokes {
     }
 
     /// Remembers the canvas of a node on an atlas, and how it differs from the one before.
-    pub(super) fn remember_canvas(&self, place: Place, version: Version, canvas: &Arc<Canvas>) {
+    pub(super) fn remember_canvas(&self, place: PaintedNodePlace, version: Version, canvas: &Arc<Canvas>) {
         let mut latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
         let known = latest.iter().position(|known| known.place == place);
         let before = known.and_then(|at| latest.remove(at));

@@ -55,7 +55,7 @@ impl State {
         if let Some(fault) = &file.fault {
             return Err(format!("strokes are not stored, since {fault}; move the file away"));
         }
-        let stored = store(disk, &path, (&model, book), version, &mut file.stored);
+        let stored = store(disk, &path, &model, book, version, &mut file.stored);
         // The rest of a write that failed is read before the next one.
         file.stamp = if stored.is_ok() { stamp(&path) } else { None };
         if stored.is_ok() {

@@ -18,7 +18,7 @@ impl Strokes {
         let lost: Vec<String> = strokes
             .filter_map(|(index, stroke)| {
                 let lost = lost.get(&stroke.id)?;
-                Some(format!("{}: {lost}", title(stroke, (index, list.strokes.len()))))
+                Some(format!("{}: {lost}", title(stroke, index, list.strokes.len())))
             })
             .collect();
         some_of(&lost)
@@ -26,7 +26,7 @@ impl Strokes {
 }
 
 /// Returns the name of a stroke for sentences, or its number from below.
-pub(crate) fn title(stroke: &Stroke, (index, count): (usize, usize)) -> String {
+pub(crate) fn title(stroke: &Stroke, index: usize, count: usize) -> String {
     if stroke.name.is_empty() {
         format!("stroke {} of {count}", index + 1)
     } else {
@@ -55,9 +55,9 @@ mod tests {
     #[test]
     fn a_stroke_is_told_by_its_name_or_its_number() {
         let mut stroke = Stroke::new(Brush::default(), Vec::new());
-        assert_eq!(title(&stroke, (2, 12)), "stroke 3 of 12");
+        assert_eq!(title(&stroke, 2, 12), "stroke 3 of 12");
         "label".clone_into(&mut stroke.name);
-        assert_eq!(title(&stroke, (2, 12)), "'label'");
+        assert_eq!(title(&stroke, 2, 12), "'label'");
     }
 
     #[test]

@@ -95,9 +95,11 @@ impl NewArrays {
     pub(super) fn gather(
         &mut self,
         document: &mut Json,
-        (file, container): (&FileBytes, &Container),
+        file: &FileBytes,
+        container: &Container,
         of: OfPrimitive,
-        (vertices, list): (&[u32], usize),
+        vertices: &[u32],
+        list: usize,
     ) -> Result<usize, String> {
         let packed = file.is_unpacked(of.primitive).then_some(of.primitive);
         let key = (of.accessor, packed, list);

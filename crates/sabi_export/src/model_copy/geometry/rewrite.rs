@@ -16,7 +16,8 @@ use crate::model_copy::tiles::in_tile;
 /// Rewriter of the meshes of a document.
 pub(super) struct Rewriter<'a> {
     pub(super) edits: &'a GeometryEdits<'a>,
-    pub(super) file: (&'a FileBytes, &'a Container),
+    pub(super) file: &'a FileBytes,
+    pub(super) container: &'a Container,
     pub(super) arrays: &'a mut NewArrays,
     pub(super) edited: &'a mut EditedGeometry,
 }
@@ -111,10 +112,7 @@ impl<'a> Rewriter<'a> {
         }
         let attributes = self.attributes(&primitive, placed, part);
         let set = self.set(placed, part);
-        match (
-            self.primitive(document, &mut primitive, (placed, part), attributes),
-            set,
-        ) {
+        match (self.primitive(document, &mut primitive, placed, part, attributes), set) {
             (Ok(()), Some(set)) => match attributes.tangents {
                 WrittenTangents::Removed => {
                     self.edited.tangents.entry(set).or_insert(false);
@@ -159,7 +157,8 @@ impl<'a> Rewriter<'a> {
         &mut self,
         document: &mut Json,
         primitive: &mut Json,
-        (placed, part): (&PlacedPrimitive, &Part),
+        placed: &PlacedPrimitive,
+        part: &Part,
         attributes: Attributes<'_>,
     ) -> Result<(), String> {
         if let WrittenTangents::Removed = attributes.tangents {
@@ -171,9 +170,10 @@ impl<'a> Rewriter<'a> {
         let frame = Frame::of(placed);
         let written = |vertex: usize| attributes.written(vertex);
         let slots = Slots::of(&part.triangles, self.edits.origins, frame.is_mirrored, &written);
-        let count = primitive["attributes"]["POSITION"].as_u64();
-        let count = count.and_then(|accessor| document["accessors"].get(accessor as usize)?["count"].as_u64());
-        let count = usize::try_from(count.ok_or_else(changed)?).map_err(|_| changed())?;
+        let positions = primitive["attributes"]["POSITION"].as_u64();
+        let stored_count =
+            positions.and_then(|accessor| document["accessors"].get(accessor as usize)?["count"].as_u64());
+        let count = usize::try_from(stored_count.ok_or_else(changed)?).map_err(|_| changed())?;
         if slots.sources.last().is_some_and(|last| *last as usize >= count) {
             return Err(changed());
         }
@@ -256,7 +256,7 @@ impl<'a> Rewriter<'a> {
         number: [usize; 2],
         slots: &Slots,
     ) -> Result<(), String> {
-        let is_unpacked = self.file.0.is_unpacked(number);
+        let is_unpacked = self.file.is_unpacked(number);
         accessors(primitive, is_unpacked)?;
         let list = self.arrays.list(slots.sources.clone());
         for (key, value) in primitive.as_object_mut().into_iter().flatten() {
@@ -271,7 +271,9 @@ impl<'a> Rewriter<'a> {
                     accessor: place.ok_or_else(changed)?,
                     primitive: number,
                 };
-                *accessor = json!(self.arrays.gather(document, self.file, of, (&slots.sources, list))?);
+                let arrays = &mut *self.arrays;
+                let gathered = arrays.gather(document, self.file, self.container, of, &slots.sources, list)?;
+                *accessor = json!(gathered);
             }
         }
         if let Some(extensions) = primitive.get_mut("extensions") {

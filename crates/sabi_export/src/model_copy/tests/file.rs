@@ -33,13 +33,7 @@ impl File {
         edit::push(&mut self.json, "bufferViews", view)
     }
 
-    pub(super) fn accessor(
-        &mut self,
-        (view, offset): (usize, usize),
-        component: u32,
-        kind: &str,
-        count: usize,
-    ) -> usize {
+    pub(super) fn accessor(&mut self, view: usize, offset: usize, component: u32, kind: &str, count: usize) -> usize {
         let accessor = json!({
             "bufferView": view, "byteOffset": offset, "componentType": component, "type": kind, "count": count
         });
@@ -48,7 +42,7 @@ impl File {
 
     pub(super) fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
         let view = self.view(&floats(values.as_flattened()), None);
-        let accessor = self.accessor((view, 0), F32, &format!("VEC{N}"), values.len());
+        let accessor = self.accessor(view, 0, F32, &format!("VEC{N}"), values.len());
         if N == 3 {
             let axis = |at: usize| values.iter().map(move |value| value[at]);
             let least: Vec<f32> = (0..3).map(|at| axis(at).fold(f32::INFINITY, f32::min)).collect();
@@ -68,7 +62,7 @@ impl File {
                 .as_slice(),
             None,
         );
-        self.accessor((view, 0), U16, "SCALAR", corners.len())
+        self.accessor(view, 0, U16, "SCALAR", corners.len())
     }
 
     /// Adds a mesh and a node that shows it.

@@ -132,7 +132,7 @@ fn primitive_of(file: &mut File, layout: &str, uvs: &[[f32; 2]; 6]) -> Json {
             let rows = (0..6).map(|at| [&POSITIONS[at][..], &uvs[at], &NORMALS[at]].concat());
             let view = file.view(&floats(&rows.collect::<Vec<_>>().concat()), Some(32));
             let [position, uv, normal] = [(0, "VEC3"), (12, "VEC2"), (20, "VEC3")]
-                .map(|(offset, kind)| file.accessor((view, offset), F32, kind, 6));
+                .map(|(offset, kind)| file.accessor(view, offset, F32, kind, 6));
             file.json["accessors"][position]["min"] = json!([0, 0, 0]);
             file.json["accessors"][position]["max"] = json!([2, 1, 0]);
             let indices = file.indices(&CORNERS);
@@ -203,11 +203,11 @@ fn a_split_vertex_keeps_all_that_the_file_has_of_it() {
     let mut primitive = primitive_of(&mut file, "separate", &MIRRORED);
     let numbers: Vec<u8> = (0..6).flat_map(|at| [at, 0, 0, 0]).collect();
     let view = file.view(&numbers, None);
-    let joints = file.accessor((view, 0), U8, "VEC4", 6);
+    let joints = file.accessor(view, 0, U8, "VEC4", 6);
     let weights = file.floats(&[[1.0, 0.0, 0.0, 0.0]; 6]);
     // Bytes at a stride of two, as quantized files have them.
     let view = file.view(&[0, 9, 1, 9, 2, 9, 3, 9, 4, 9, 5, 9], Some(2));
-    let own = file.accessor((view, 0), U8, "SCALAR", 6);
+    let own = file.accessor(view, 0, U8, "SCALAR", 6);
     let moves = file.floats(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|z| [0.0, 0.0, z]));
     let none = edit::push(
         &mut file.json,

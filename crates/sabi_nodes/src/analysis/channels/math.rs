@@ -10,7 +10,9 @@ impl<'m> Reader<'m> {
     /// Returns the conditions for the result of a function with one or two arguments.
     pub(super) fn math(
         &mut self,
-        (fun, arg, other): (MathFunction, Handle<Expression>, Option<Handle<Expression>>),
+        fun: MathFunction,
+        arg: Handle<Expression>,
+        other: Option<Handle<Expression>>,
         frame: &mut Frame<'m>,
         member: usize,
         depth: u32,

@@ -60,7 +60,7 @@ fn stamps_differ_in_color_within_their_limits_and_the_same_each_time() {
             ..Brush::default()
         };
         let stroke = Stroke::new(brush, way_on_plate(&surface, [-0.8, 0.0], [0.8, 0.0], 30));
-        let canvas = painted_with(&surface, &atlas, (&[stroke], &StampPictures::new()), layers);
+        let canvas = painted_with(&surface, &atlas, &[stroke], &StampPictures::new(), layers);
         let covered = canvas.texels().filter(|texel| texel.cover > 0.5);
         covered
             .map(|texel| {

@@ -101,12 +101,11 @@ fn a_stroke_that_grows_is_at_each_place_to_the_bit_what_is_laid_at_once() {
         let mut painter = Painter::new(&surface, &atlas, Supplies::of_pictures(&pictures));
         let mut growth = None;
         for count in 1..=points.len() {
-            let stroke = Stroke {
+            let stroke = Arc::new(Stroke {
                 eye: Some(Eye::Place([2.0, 1.0, 1.5])),
                 ..Stroke::new(brush.clone(), points[..count].to_vec())
-            };
-            let at_once = painted_with(&surface, &atlas, (std::slice::from_ref(&stroke), &pictures), ALL);
-            let stroke = Arc::new(stroke);
+            });
+            let at_once = painted_with(&surface, &atlas, std::slice::from_ref(&*stroke), &pictures, ALL);
             let mut canvas = Canvas::empty(atlas.owners.len(), ALL);
             painter
                 .lay_growing(&stroke, true, &mut growth)
@@ -138,10 +137,9 @@ fn another_stroke_does_not_go_on_with_the_growth_of_the_one_before() {
         ("elsewhere", 0.5, &points[4..]),
         ("fewer places", 0.5, &points[4..6]),
     ] {
-        let stroke = Stroke::new(brush(value), places.to_vec());
-        let at_once = painted_with(&surface, &atlas, (std::slice::from_ref(&stroke), &pictures), ALL);
+        let stroke = Arc::new(Stroke::new(brush(value), places.to_vec()));
+        let at_once = painted_with(&surface, &atlas, std::slice::from_ref(&*stroke), &pictures, ALL);
         let mut canvas = Canvas::empty(atlas.owners.len(), ALL);
-        let stroke = Arc::new(stroke);
         painter
             .lay_growing(&stroke, true, &mut growth)
             .onto(&mut canvas, &stroke);

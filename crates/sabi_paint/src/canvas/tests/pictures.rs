@@ -72,7 +72,7 @@ fn a_decal_stands_upright_keeps_its_sides_and_brings_its_colors() {
     let (tip, pictures) = flag();
     let canvas = |angle: f32| {
         let decal = [decal(&surface, tip.clone(), angle)];
-        painted_with(&surface, &atlas, (&decal, &pictures), COLORED)
+        painted_with(&surface, &atlas, &decal, &pictures, COLORED)
     };
     let upright = seen(
         &atlas,
@@ -98,7 +98,7 @@ fn a_decal_in_a_mirror_is_not_written_backward() {
     mirrored.brush.radius = 0.3;
     mirrored.brush.symmetry.mirrors[0] = true;
     mirrored.points = way_on_plate(&surface, [0.6, 0.0], [0.6, 0.0], 1);
-    let canvas = painted_with(&surface, &atlas, (&[mirrored], &pictures), COLORED);
+    let canvas = painted_with(&surface, &atlas, &[mirrored], &pictures, COLORED);
     let found = seen(&atlas, &canvas, [[0.45, 0.0], [0.75, 0.0], [-0.75, 0.0], [-0.45, 0.0]]);
     assert_eq!(found, [RED, BLUE, RED, BLUE]);
 }
@@ -190,7 +190,7 @@ fn a_stroke_without_its_picture_leaves_nothing() {
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 64));
     let surface = PaintSurface::new(&mesh, &index);
     let decal = [decal(&surface, flag().0, 0.0)];
-    let canvas = painted_with(&surface, &atlas, (&decal, &StampPictures::new()), COLORED);
+    let canvas = painted_with(&surface, &atlas, &decal, &StampPictures::new(), COLORED);
     assert!(canvas.texels().all(|texel| texel.cover == 0.0));
 }
 
@@ -209,7 +209,7 @@ fn stamps_of_a_picture_have_its_colors_or_the_color_of_the_brush() {
             ..Brush::default()
         };
         let stroke = [Stroke::new(brush, way_on_plate(&surface, [-0.5, 0.2], [0.5, 0.2], 12))];
-        let canvas = painted_with(&surface, &atlas, (&stroke, &pictures), COLORED);
+        let canvas = painted_with(&surface, &atlas, &stroke, &pictures, COLORED);
         let texel = texel_of_plate(&atlas, [0.62, 0.2]);
         (canvas.texel(texel).cover, canvas.texel(texel).color)
     };

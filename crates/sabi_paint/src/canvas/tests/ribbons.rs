@@ -89,7 +89,7 @@ fn a_picture_is_repeated_a_whole_number_of_times_along_a_ribbon() {
         part: PicturePart::Alpha,
     });
     let pictures = StampPictures::from([(name, std::sync::Arc::new(picture))]);
-    let canvas = painted_with(&surface, &atlas, (&[stroke], &pictures), VALUE);
+    let canvas = painted_with(&surface, &atlas, &[stroke], &pictures, VALUE);
     // A length of 1.3 takes 1.6 pictures of 0.8, so two of 0.65.
     for (x, expected) in [(-0.45, 1.0), (-0.1, 0.0), (0.2, 1.0), (0.55, 0.0)] {
         let cover = canvas.texel(texel_of_plate(&atlas, [x, 0.05])).cover;

@@ -54,7 +54,7 @@ fn strokes_fills_and_ribbons_through_a_stencil_leave_its_picture_and_nothing_bes
             stencil: stencil(PictureTip { part, ..tip.clone() }),
             ..Stroke::new(brush.clone(), points.clone())
         };
-        let canvas = |part| painted_with(&surface, &atlas, (&[stroke(part)], &pictures), COLORED);
+        let canvas = |part| painted_with(&surface, &atlas, &[stroke(part)], &pictures, COLORED);
         let colors = canvas(PicturePart::Colors);
         assert_eq!(at(&atlas, &colors, [-0.3, 0.1]), (1.0, [1.0, 0.0, 0.0]), "{area:?}");
         assert_eq!(at(&atlas, &colors, [0.3, -0.1]), (1.0, [0.0, 0.0, 1.0]), "{area:?}");
@@ -84,7 +84,7 @@ fn a_stencil_goes_along_with_the_copies_of_a_stroke() {
         stencil: stencil(tip),
         ..Stroke::new(brush, way_on_plate(&surface, [0.3, 0.0], [0.4, 0.0], 8))
     };
-    let canvas = painted_with(&surface, &atlas, (&[stroke], &pictures), COLORED);
+    let canvas = painted_with(&surface, &atlas, &[stroke], &pictures, COLORED);
     let blue = (1.0, [0.0, 0.0, 1.0]);
     assert_eq!(at(&atlas, &canvas, [0.3, 0.1]), blue);
     assert_eq!(at(&atlas, &canvas, [-0.3, 0.1]), blue, "as in a mirror");
@@ -99,7 +99,7 @@ fn a_stroke_without_the_picture_of_its_stencil_leaves_nothing() {
         stencil: stencil(flag().0),
         ..Stroke::new(Brush::default(), way_on_plate(&surface, [0.0, 0.0], [0.4, 0.0], 8))
     };
-    let canvas = painted_with(&surface, &atlas, (&[stroke], &StampPictures::new()), COLORED);
+    let canvas = painted_with(&surface, &atlas, &[stroke], &StampPictures::new(), COLORED);
     assert!(canvas.texels().all(|texel| texel.cover == 0.0));
 }
 
@@ -174,7 +174,7 @@ fn a_stencil_is_carried_along_with_its_stroke() {
     };
     let second = book.push(first, &moved);
     let list = book.list(second).expect("strokes");
-    let canvas = painted_with(&surface, &atlas, (&[(*list.strokes[0]).clone()], &pictures), COLORED);
+    let canvas = painted_with(&surface, &atlas, &[(*list.strokes[0]).clone()], &pictures, COLORED);
     assert_eq!(at(&atlas, &canvas, [0.3, 0.5]), (1.0, [0.0, 0.0, 1.0]));
     assert_eq!(at(&atlas, &canvas, [0.3, 0.0]).0, 0.0);
 }

@@ -7,7 +7,7 @@ use crate::atlas::{Atlas, AtlasOptions, EMPTY, GHOST_BIT, Owner};
 use crate::model::Mesh;
 
 fn painted(corners: [[i64; 2]; 3], side: usize, counts: &mut [u32]) {
-    spans(corners, (0, side as i64), |y, x0, x1| {
+    spans(corners, 0..side as i64, |y, x0, x1| {
         for x in x0..x1 {
             counts[y as usize * side + x as usize] += 1;
         }
@@ -86,7 +86,7 @@ fn every_covered_center_belongs_to_a_triangle_that_holds_it() {
             let chart = &atlas.charts[chart as usize];
             let [dx, dy] = chart.texel_from_uv.map(i64::from);
             let corners = uvs.fixed(triangle as u32).map(|[x, y]| [x + dx * UNIT, y + dy * UNIT]);
-            spans(corners, (0, i64::from(height)), |y, x0, x1| {
+            spans(corners, 0..i64::from(height), |y, x0, x1| {
                 let start = (i64::from(chart.page) * i64::from(height) + y) * i64::from(width);
                 expected[(start + x0) as usize..(start + x1) as usize].fill(triangle as u32);
             });

@@ -100,7 +100,7 @@ pub(super) fn shown<'d>(
             all.extend(mesh.and_then(|mesh| shown_mesh(visit, geometry, mesh)));
         }
         for controller in children(visit.node, "instance_controller") {
-            all.extend(controlled(document, visit, controller, (&joints, &mut skins), warnings));
+            all.extend(controlled(document, visit, controller, &joints, &mut skins, warnings));
         }
     }
     Ok(all)
@@ -160,7 +160,8 @@ fn controlled<'d>(
     document: &Document<'d>,
     visit: Visit<'d>,
     instance: Node<'d, 'd>,
-    (joints, skins): (&Joints<'d>, &mut Skins),
+    joints: &Joints<'d>,
+    skins: &mut Skins,
     warnings: &mut Warnings,
 ) -> Option<Shown<'d>> {
     let mut source = document.referenced(instance, "url")?;

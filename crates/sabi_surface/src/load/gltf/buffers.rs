@@ -60,12 +60,14 @@ impl<'a> Buffers<'a> {
     pub(super) fn gather(
         document: &Document,
         binary: Option<&'a [u8]>,
-        (resolve, memory_bytes): (&mut Resolve, u64),
+        resolve: &mut Resolve,
+        memory_bytes: u64,
         warnings: &mut Warnings,
     ) -> Result<Buffers<'a>, Fault> {
         let views = document.views.iter().enumerate();
-        let packed = views.filter_map(|(index, view)| Some((index, PackedView::of(view, index)?)));
-        let packed: BTreeMap<usize, PackedView> = packed.collect();
+        let packed: BTreeMap<usize, PackedView> = views
+            .filter_map(|(index, view)| Some((index, PackedView::of(view, index)?)))
+            .collect();
         let plain = document.views.iter().map(|view| view.buffer.value());
         let used: BTreeSet<usize> = plain.chain(packed.values().map(PackedView::buffer)).collect();
         let mut fetched = BTreeMap::new();

@@ -28,7 +28,7 @@ pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<Unp
     // They were told when the model was read.
     let warnings = &mut Warnings::default();
     let (document, binary) = Document::parse(bytes, u64::MAX, warnings)?;
-    let buffers = Buffers::gather(&document, binary, (resolve, u64::MAX), warnings)?;
+    let buffers = Buffers::gather(&document, binary, resolve, u64::MAX, warnings)?;
     let LoadOptions {
         uv_set,
         scene,

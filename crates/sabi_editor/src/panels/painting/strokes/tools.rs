@@ -34,7 +34,7 @@ impl Tools {
         let mut asked = None;
         ui.horizontal_wrapped(|ui| {
             if let Some(first) = marked.first() {
-                asked = brush_tools(ui, context, (&marked, first), largest_side, actions);
+                asked = brush_tools(ui, context, &marked, first, largest_side, actions);
                 asked = asked.take().or(group_tools(ui, context, list, &marked));
                 if tool(ui, icon::COPY, "Copy the strokes as text, for another Paint node") {
                     actions.push(Action::Paint(PaintAction::CopyStrokes(marked.clone())));
@@ -94,7 +94,8 @@ impl Tools {
 fn brush_tools(
     ui: &mut Ui,
     context: &ViewContext<'_>,
-    (marked, first): (&[Arc<Stroke>], &Stroke),
+    marked: &[Arc<Stroke>],
+    first: &Stroke,
     largest_side: f64,
     actions: &mut Vec<Action>,
 ) -> Option<Asked> {
