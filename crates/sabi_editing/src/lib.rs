@@ -10,7 +10,7 @@
 //! * A refused edit changes nothing and leaves its reason in the notices.
 //! * The shown graph exists, and all selected nodes are in it.
 //! * A graph that can be evaluated can still be evaluated after every edit: instances follow what their group publishes, and
-//! no wires form a cycle.
+//!   no wires form a cycle.
 //! * Nothing here knows a window, a device or a thread.
 //!
 //! ```

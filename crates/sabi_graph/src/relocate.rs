@@ -74,13 +74,9 @@ impl PathRewriter<'_> {
     }
 
     fn preview(&self, preview: Option<&mut Preview>) {
-        for path in preview
-            .into_iter()
-            .flat_map(|preview| [&mut preview.mesh, &mut preview.textures])
-        {
-            if let Some(path) = path {
-                *path = (self.relocation.moved)(path);
-            }
+        let Some(preview) = preview else { return };
+        for path in [&mut preview.mesh, &mut preview.textures].into_iter().flatten() {
+            *path = (self.relocation.moved)(path);
         }
     }
 

@@ -85,12 +85,12 @@ fn dae() -> Vec<u8> {
 
 fn glb() -> Vec<u8> {
     let asset = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/sphere.glb");
-    std::fs::read(asset).unwrap()
+    std::fs::read(asset).expect("an asset")
 }
 
 fn read(name: &str, bytes: &[u8]) -> Model {
     let mut resolve = |_: &str| Ok(b"newmtl it\nKd 1 0 0\n".to_vec());
-    load_bytes(name, bytes, &mut resolve, &LoadOptions::default()).unwrap()
+    load_bytes(name, bytes, &mut resolve, &LoadOptions::default()).expect("a model")
 }
 
 /// Runs work that is canceled before it begins.

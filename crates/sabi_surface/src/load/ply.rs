@@ -264,7 +264,10 @@ impl Reader<'_, '_> {
                 return Err(Fault::TooLarge(triangles));
             }
             for strip in corners.split(|corner| *corner < 0.0) {
-                if let Some(beyond) = strip.iter().find(|corner| !(**corner < self.vertices as f64)) {
+                if let Some(beyond) = strip
+                    .iter()
+                    .find(|corner| corner.is_nan() || **corner >= self.vertices as f64)
+                {
                     return damaged(format!("a strip names vertex {beyond} of {}", self.vertices));
                 }
                 for (number, triangle) in strip.windows(3).enumerate() {
