@@ -11,7 +11,7 @@ use super::mask::{Mask, for_each_run};
 use super::plan::ChartSet;
 use crate::model::Mesh;
 
-/// Most pairs whose shared texels are counted.
+/// Maximum number of pairs whose shared texels are counted.
 const CANDIDATES_LIMIT: usize = 200_000;
 
 /// Overlap of charts.
@@ -21,7 +21,7 @@ pub(super) struct Overlap {
     pub(super) texels: u64,
     /// Pairs with the number of texels that they share.
     pub(super) pairs: Vec<(u32, u32, u64)>,
-    /// Charts that coincide with an earlier one.
+    /// Number of charts that coincide with an earlier one.
     pub(super) stacked: u32,
 }
 
@@ -58,7 +58,7 @@ fn overlap_of_sheet(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: &[usize], 
     let pairs = pairs(&crowded, room);
     for &(a, b, shared) in &pairs {
         let texels = |chart: u32| masks[chart as usize].count();
-        // The charts cover the same texels with different triangles.
+        // The charts may cover the same texels with different triangles.
         if shared == texels(a) && shared == texels(b) {
             stacked.insert(b as usize);
         }
@@ -67,7 +67,7 @@ fn overlap_of_sheet(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: &[usize], 
     found.stacked += stacked.len() as u32;
 }
 
-/// Returns the pairs of charts that share texels, at most `room`.
+/// Returns the pairs of charts that share texels, at most `room` pairs.
 fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
     let mut candidates = Vec::new();
     'all: for (index, (_, a)) in crowded.iter().enumerate() {
@@ -123,7 +123,7 @@ fn coinciding(uvs: &Uvs, charts: &ChartSet, size: u32, numbers: impl Iterator<It
     stacked
 }
 
-/// A unit square of texels, a bit each: covered by a chart, and covered by more than one.
+/// Unit square of texels with two bits for each texel: covered by a chart, and covered by more than one.
 struct Square {
     words: usize,
     once: Vec<u64>,
@@ -241,7 +241,7 @@ impl Wrapped {
     }
 }
 
-/// A run of columns, cut at the borders of unit squares.
+/// A run of columns, cut at the borders of the unit square.
 struct WrappedRun {
     from: usize,
     to: usize,
@@ -250,7 +250,7 @@ struct WrappedRun {
 
 impl WrappedRun {
     fn new(from: usize, to: usize, size: usize) -> WrappedRun {
-        // A run as long as the square covers all of it.
+        // A run that is as long as the square covers all of it.
         WrappedRun {
             from,
             to: to.min(from + size),

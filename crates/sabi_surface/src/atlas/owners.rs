@@ -33,7 +33,7 @@ pub(super) fn texel_owners(uvs: &Uvs, partition: &Partition, placement: &Placeme
         .for_each(|(band, owners)| {
             let top = (band * BAND_ROWS) as i64;
             let bottom = top + (owners.len() / width) as i64;
-            // Backwards, so that the lowest number is written last.
+            // Iterate in reverse, so that the lowest number is written last.
             for &triangle in bands.members(band).iter().rev() {
                 spans(corners(triangle), (top, bottom), |y, x0, x1| {
                     let start = (y - top) as usize * width;

@@ -57,14 +57,14 @@ impl ReportInputs<'_> {
         report
     }
 
-    /// Counts charts in UV of which a placed part is as asked for.
+    /// Counts the charts in UV of which a placed part satisfies a condition.
     fn count_in_uv(&self, is_counted: impl Fn(&Chart) -> bool) -> u32 {
         let counted = self.charts.iter().filter(|chart| is_counted(chart));
         let in_uv: BTreeSet<u32> = counted.map(|chart| chart.uv_chart).collect();
         in_uv.len() as u32
     }
 
-    /// Counts thin charts; those without area in UV are none.
+    /// Counts thin charts. Charts without area in UV do not count.
     fn thin_charts(&self) -> u32 {
         let has_area = |chart: usize| {
             let mut triangles = self.in_uv.partition.triangles(chart).iter();

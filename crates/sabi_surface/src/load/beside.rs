@@ -1,4 +1,4 @@
-//! Files that a model names: each is read once, whatever its spellings, and all of them within one limit of memory.
+//! Files to which a model refers. Each is read only once, however its path is written, and all of them within one memory limit.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,30 +9,29 @@ use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, is_local, read_plain};
 use super::error::{Fault, mib};
 use super::{MAX_FILE_BYTES, reason, reason_beside};
 
-/// Most paths of missing files, and most refusals, that are recorded.
+/// Maximum number of recorded paths of missing files, and of recorded refusals.
 const MOST_RECORDED: usize = 256;
 
-/// Reader of the files that a model names.
+/// Reader of the files to which a model refers.
 pub(super) struct FilesBeside<'t> {
     base: PathBase,
     trusted: &'t TrustedPaths,
-    /// Files that were read, in their order, as they were found.
+    /// Paths of the files that were read, in order.
     pub(super) files: Vec<PathBuf>,
-    /// Places of files that do not exist.
+    /// Paths of files that do not exist.
     pub(super) absent: Vec<PathBuf>,
     /// Refusals of files that may not be opened.
     pub(super) refused: Vec<Refusal>,
     /// Content by canonical path.
     known: BTreeMap<PathBuf, Arc<[u8]>>,
-    /// Bytes that all files may have together, and those that are left of them.
+    /// Bytes that all files together may have, and how many of them remain.
     memory: [u64; 2],
-    /// Bytes that were needed for the last file that did not fit, with its reason.
+    /// Number of bytes that the last file that did not fit would have needed, with the message.
     too_large: Option<(u64, String)>,
 }
 
 impl<'t> FilesBeside<'t> {
-    /// Reads the model's own file first, which is returned with the reader of the others. All files together have at most
-    /// `memory_bytes`.
+    /// Reads the model's own file and returns it with a reader for the other files. All files together have at most `memory_bytes`.
     pub(super) fn of_model(
         path: &Path,
         trusted: &'t TrustedPaths,
@@ -66,7 +65,7 @@ impl<'t> FilesBeside<'t> {
         self.find(written).map_err(|unread| self.unread(written, unread))
     }
 
-    /// Turns a fault for which a file was missing into the reason that this reader knows.
+    /// Replaces a fault caused by a file that did not fit by a more precise fault.
     pub(super) fn explained(&self, fault: Fault) -> Fault {
         let Fault::NoBuffer { uri, reason } = fault else {
             return fault;

@@ -1,5 +1,5 @@
-//! Choice of the parts of a file that count. Collision hulls and coarser levels of detail lie in the same place as what is seen,
-//! and are told by the names that engines give a meaning.
+//! Choice of the parts of a file to load. Collision hulls and coarser levels of detail lie at the same place as the visible
+//! model. They are recognized by naming conventions of game engines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,20 +9,20 @@ use super::error::Fault;
 use super::warnings::Warnings;
 use crate::model::{FilePart, LeftOut};
 
-/// Parts of a file that count, by names in which `*` stands for any text and `?` for one letter.
+/// Choice of parts by name, where `*` stands for any text and `?` for one letter.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PartChoice {
-    /// Parts that are taken, whatever their names mean; none for all except hulls and coarser levels of detail.
+    /// Parts that are loaded, whatever their names mean. If empty, all parts except hulls and coarser levels of detail are loaded.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<String>,
-    /// Parts that are left out of these.
+    /// Parts that are excluded from these.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
 }
 
 impl PartChoice {
-    /// Name that stands for all parts, hulls and coarser levels of detail as well.
+    /// Name that stands for all parts, including hulls and coarser levels of detail.
     pub const ALL: &str = "*";
 
     /// All parts of a file.
@@ -33,7 +33,7 @@ impl PartChoice {
         }
     }
 
-    /// Returns true if nothing is chosen: what names mean decides.
+    /// Returns true if the user has chosen nothing, so that naming conventions decide.
     pub fn is_default(&self) -> bool {
         *self == PartChoice::default()
     }
@@ -41,7 +41,7 @@ impl PartChoice {
     /// Returns the parts of a file by their names, each with whether it is taken.
     ///
     /// # Errors
-    /// A name that is no part's, or a choice that leaves none.
+    /// No part has a chosen name, or the choice excludes all parts.
     pub(super) fn of_file<'n>(
         &self,
         names: impl Iterator<Item = &'n str>,
@@ -68,7 +68,7 @@ impl PartChoice {
         Ok(parts)
     }
 
-    /// Refuses names that are no part's. A pattern of parts that are left out may fit none.
+    /// Refuses names that no part has. A pattern of excluded parts may match nothing.
     fn check_names(&self, names: &[&str], warnings: &mut Warnings) -> Result<(), Fault> {
         let is_used = |pattern: &str| names.iter().any(|name| matches(pattern, name));
         let (patterns, plain): (Vec<&String>, Vec<&String>) = self.without.iter().partition(|name| is_pattern(name));
@@ -92,16 +92,17 @@ impl PartChoice {
     }
 }
 
-/// Returns true if a name has letters that stand for others.
+/// Returns true if a name contains wildcards.
 fn is_pattern(name: &str) -> bool {
     name.contains(['*', '?'])
 }
 
-/// Returns true if a pattern fits a whole name; case counts.
+/// Returns true if a pattern matches a whole name. Case matters.
 fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
     let (mut at, mut read) = (0, 0);
-    // Place after the last star, and what it stood for so far: only that star has to take more where the rest does not fit.
+    // Position after the last star, and the length of the text that it matched so far. If the rest does not match, only
+    // this star has to match more.
     let mut star: Option<(usize, usize)> = None;
     while read < name.len() {
         match pattern.get(at) {
@@ -120,7 +121,7 @@ fn matches(pattern: &str, name: &str) -> bool {
     pattern[at..].iter().all(|letter| *letter == '*')
 }
 
-/// Returns what leaves each part out by its name. Where that would be all, none is.
+/// Returns for each part why its name excludes it. If all parts would be excluded, none is.
 fn by_names(names: &[&str]) -> Vec<Option<LeftOut>> {
     let plain: Vec<&str> = names.iter().map(|name| without_number(name)).collect();
     let known: BTreeSet<String> = plain.iter().map(|name| name.to_lowercase()).collect();
@@ -129,7 +130,7 @@ fn by_names(names: &[&str]) -> Vec<Option<LeftOut>> {
     let mut finest: BTreeMap<&str, u32> = BTreeMap::new();
     let seen = levels.iter().zip(&is_hull).filter(|(_, is_hull)| !**is_hull);
     for (of, level) in seen.filter_map(|(level, _)| level.as_ref()) {
-        // A part of the bare name is finer than all levels.
+        // A part with the bare name is finer than all numbered levels.
         let level = if known.contains(of) { 0 } else { *level };
         let least = finest.entry(of).or_insert(level);
         *least = level.min(*least);
@@ -149,7 +150,7 @@ fn by_names(names: &[&str]) -> Vec<Option<LeftOut>> {
     found
 }
 
-/// Name without the number that programs append to a name that is taken: `.001`.
+/// Returns a name without the number that programs append to distinguish names: `.001`.
 fn without_number(name: &str) -> &str {
     match name.rsplit_once('.') {
         Some((before, digits)) if digits.len() == 3 && digits.bytes().all(|digit| digit.is_ascii_digit()) => before,
@@ -157,13 +158,13 @@ fn without_number(name: &str) -> &str {
     }
 }
 
-/// Prefixes of collision hulls of Unreal, lower case.
+/// Prefixes of collision hulls in Unreal, lower case.
 const HULL_PREFIXES: [&str; 4] = ["ucx_", "ubx_", "usp_", "ucp_"];
-/// Endings of what Godot and Unity use and do not draw, lower case.
+/// Endings of objects that Godot and Unity use but do not draw, lower case.
 const HULL_ENDINGS: [&str; 6] = ["colonly", "convcolonly", "occonly", "navmesh", "collider", "collision"];
-/// Endings by which Godot derives a hull from a part that it draws, unless there is a part of the bare name.
+/// Endings with which Godot makes a hull from a part that it also draws, unless a part with the bare name exists.
 const DRAWN_HULL_ENDINGS: [&str; 2] = ["col", "convcol"];
-/// Letters before these endings.
+/// Characters that may come before these endings.
 const BEFORE_ENDING: [char; 5] = ['-', '_', '$', '.', ' '];
 
 /// Returns true if a part is a collision hull by its name; `known` are the names of all parts, lower case.
@@ -172,7 +173,7 @@ fn is_hull(name: &str, known: &BTreeSet<String>) -> bool {
     if HULL_PREFIXES.iter().any(|prefix| name.starts_with(prefix)) {
         return true;
     }
-    // Godot looks past numbers at the end.
+    // Godot ignores digits at the end.
     let name = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
     let Some((bare, ending)) = name.rsplit_once(BEFORE_ENDING) else {
         return false;
@@ -180,7 +181,7 @@ fn is_hull(name: &str, known: &BTreeSet<String>) -> bool {
     HULL_ENDINGS.contains(&ending) || DRAWN_HULL_ENDINGS.contains(&ending) && known.contains(bare)
 }
 
-/// Level of detail that a name says, `Rock_LOD1`, with the rest of the name in lower case; none for other names.
+/// Returns the level of detail in a name such as `Rock_LOD1`, with the rest of the name in lower case; `None` for other names.
 fn level(name: &str) -> Option<(String, u32)> {
     let name = name.to_lowercase();
     let is_apart = |letter: Option<char>| letter.is_none_or(|letter| BEFORE_ENDING.contains(&letter));
@@ -208,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn the_finest_level_of_each_name_stays() {
+    fn only_the_finest_level_of_each_name_is_kept() {
         let cases: [(&[&str], &[&str]); 10] = [
             (&["Rock_LOD0", "Rock_LOD1", "Rock_LOD2"], &["Rock_LOD1", "Rock_LOD2"]),
             (&["Rock_LOD1", "Rock_LOD2", "Tree"], &["Rock_LOD2"]),
@@ -230,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn hulls_of_engines_are_no_parts_of_what_is_seen() {
+    fn collision_hulls_by_engine_conventions_are_left_out() {
         let cases: [(&[&str], &[&str]); 6] = [
             (
                 &["Rock", "UCX_Rock_00", "ubx_Rock", "USP_Rock", "UCP_Rock.001"],
@@ -250,7 +251,7 @@ mod tests {
                 &["Door", "Door_collider", "Door.Collision"],
                 &["Door_collider", "Door.Collision"],
             ),
-            // Godot draws `Door-col`, and makes a hull of it besides.
+            // Godot draws `Door-col` and also makes a hull from it.
             (&["Door-col", "Frame"], &[]),
             (&["Door-col", "Door"], &["Door-col"]),
             (&["ship_hull", "Protocol", "Collider", "UCXRock", "color"], &[]),
@@ -266,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn names_may_have_letters_that_stand_for_others() {
+    fn names_may_contain_wildcards() {
         for (pattern, name, fits) in [
             ("*", "", true),
             ("*", "Rock", true),
@@ -282,12 +283,12 @@ mod tests {
         ] {
             assert_eq!(matches(pattern, name), fits, "{pattern} {name}");
         }
-        // As many steps as letters times stars, not a power of them.
+        // The number of steps is letters times stars, not exponential.
         assert!(!matches(&"*a".repeat(100), &"a".repeat(99)));
     }
 
     #[test]
-    fn what_is_chosen_by_name_wins_over_what_names_mean() {
+    fn a_choice_by_name_overrides_naming_conventions() {
         let names = ["Rock", "Rock_LOD1", "UCX_Rock", "Moss"];
         let taken = |parts: &[&str], without: &[&str]| {
             let list = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();

@@ -1,23 +1,23 @@
-//! Parts that a file has, taken or left out.
+//! Parts of a file, loaded or left out.
 
-/// A part that a file has.
+/// A part of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilePart {
-    /// Its name. Several parts may have one.
+    /// Name, which several parts may share.
     pub name: String,
-    /// Reason that it is no part of the model; none for one that is.
+    /// Reason why it is not a part of the model; `None` if it is.
     pub left_out: Option<LeftOut>,
-    /// True if it is taken where no parts are chosen: what its name means does not leave it out.
+    /// True if it is loaded by default: naming conventions do not exclude it.
     pub is_usual: bool,
 }
 
 /// Reason that a part of a file is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeftOut {
-    /// Its name says that it is a collision hull.
+    /// Its name marks it as a collision hull.
     Hull,
-    /// Its name says that it is a coarser level of detail of another part.
+    /// Its name marks it as a coarser level of detail of another part.
     CoarserLevel,
-    /// The choice of parts does not have it.
+    /// The user's choice of parts excludes it.
     Chosen,
 }
