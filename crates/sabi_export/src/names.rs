@@ -59,8 +59,8 @@ fn is_device(stem: &str) -> bool {
     matches!(first.as_str(), "CON" | "PRN" | "AUX" | "NUL") || numbered("COM") || numbered("LPT")
 }
 
-/// A file name stem for each material of the model, all different even where upper and lower case count as the same. A
-/// lone unnamed material takes the model file's; among several, its number follows.
+/// Returns a file name stem for each material of the model. All are different, even if case is ignored. A single unnamed
+/// material is named after the model file; among several, its number is appended.
 pub fn set_names(model: &Model) -> Vec<String> {
     let model_stem = match file_stem(&model.stem) {
         stem if stem.is_empty() => "model".to_owned(),
@@ -77,10 +77,10 @@ pub fn set_names(model: &Model) -> Vec<String> {
             _ => format!("{model_stem}_{}", index + 1),
         })
         .collect();
-    // Names from the file are kept where possible, so a number is never one of them.
+    // Names from the file are kept if possible, so appending a number must not give one of them.
     let given: BTreeSet<String> = wanted.iter().map(|name| name.to_lowercase()).collect();
     let mut used = BTreeSet::new();
-    // Number from which each name is tried: one that was taken for it stays taken.
+    // Number to try first for each name, since lower ones are taken.
     let mut next: BTreeMap<String, u32> = BTreeMap::new();
     wanted
         .into_iter()
