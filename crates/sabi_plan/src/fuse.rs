@@ -41,7 +41,7 @@ impl Group {
     }
 }
 
-/// Nodes that read each value, once for each input.
+/// For each value, the nodes that read it, once for each input.
 pub(crate) type Readers = BTreeMap<Value, Vec<usize>>;
 
 /// Readers of each value in the wanted part of a graph.
@@ -58,7 +58,7 @@ pub(crate) fn readers(resolved: &Resolved<'_>) -> Readers {
     readers
 }
 
-/// Cuts the wanted part of a graph into groups, in evaluation order.
+/// Divides the wanted part of a graph into groups, in evaluation order.
 pub(crate) fn groups(
     resolved: &Resolved<'_>,
     readers: &Readers,
@@ -109,8 +109,8 @@ pub(crate) fn groups(
 
 /// Regions of point nodes that are connected without a stored result in between.
 ///
-/// Each node gets the largest number of stored results on a path from it to a wanted result. Nodes of the same number
-/// never depend on each other through a texture, so connected ones form a region.
+/// Each node gets the largest number of stored results on a path from it to a wanted result. Nodes with the same number
+/// never depend on each other through a texture, so connected nodes with the same number form a region.
 fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec<(usize, Vec<usize>)>> {
     let is_point: BTreeSet<usize> = points.iter().map(|(node, _)| *node).collect();
     let mut distance: BTreeMap<usize, u32> = BTreeMap::new();
@@ -157,7 +157,7 @@ fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec
         .collect()
 }
 
-/// Cuts a region that exceeds the limits of a kernel: the longest prefix that fits, then the rest.
+/// Divides a region that exceeds the limits of a kernel: the longest prefix that fits, then the rest.
 fn cut(
     resolved: &Resolved<'_>,
     readers: &Readers,
@@ -171,7 +171,7 @@ fn cut(
         let mut longest = 1;
         for (count, (node, _)) in region.iter().enumerate() {
             kernel.add(*node);
-            // Cost, work, parameters and loads only grow; the number of stores shrinks when the last reader of a result joins.
+            // Cost, work, parameters and loads only grow. The number of stores decreases when the last reader of a result is added.
             let is_too_long = !kernel.cost.is_within(limits.cost) || kernel.work > limits.work;
             let is_too_large = kernel.block_bytes > limits.block_bytes;
             if is_too_long || is_too_large || kernel.loads > limits.sampled_textures {
@@ -186,7 +186,7 @@ fn cut(
     }
 }
 
-/// Prefix of a region with the cost and the bindings of its kernel.
+/// Prefix of a region, with the cost and the bindings of its kernel.
 struct Prefix<'a, 'k> {
     resolved: &'a Resolved<'k>,
     readers: &'a Readers,

@@ -1,4 +1,4 @@
-//! Order of groups: producers before readers, such that little memory is in use at once.
+//! Order of groups: producers before readers, chosen so that little memory is in use at the same time.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,10 +16,10 @@ use crate::step_builder::StepBuilder;
 type StoredPlane = (Resource, Plane);
 
 impl StepBuilder<'_, '_> {
-    /// Orders groups from inputs to results, depth first, so that results are freed soon. While results are kept, inputs are followed
-    /// in their order. Otherwise that is compared with the order of Sethi and Ullman ("The generation of optimal code for arithmetic
-    /// expressions", 1970): what needs most memory besides its result comes first, while little else is stored. The order
-    /// that needs less is taken.
+    /// Orders groups from inputs to results, depth first, so that results are freed soon. If results are kept anyway,
+    /// inputs are followed in their order. Otherwise this order is compared with that of Sethi and Ullman ("The generation
+    /// of optimal code for arithmetic expressions", 1970), in which the input that needs the most memory in addition to its
+    /// result comes first, while little else is stored. The order that needs less memory is used.
     pub(crate) fn order(&self, groups: &[Group], built: &[Vec<UnassignedStep>], wanted: &[Value]) -> Vec<usize> {
         let inputs: Vec<Vec<usize>> = groups.iter().map(|group| self.producers_of(group)).collect();
         let as_written = self.depth_first(&inputs, wanted);
@@ -28,25 +28,25 @@ impl StepBuilder<'_, '_> {
         }
         let largest_first = self.depth_first(&largest_first(built, &inputs, &as_written), wanted);
         let orders = [as_written, largest_first];
-        // Of two orders with the same peak the first one is taken.
+        // If both orders have the same peak, the first one is used.
         let least = orders.into_iter().min_by_key(|order| self.peak(built, order, wanted));
         least.unwrap_or_else(|| unreachable!("there are two orders"))
     }
 
-    /// Groups that make what a group reads, in the order of inputs.
+    /// Returns the groups that produce what a group reads, in the order of inputs.
     fn producers_of(&self, group: &Group) -> Vec<usize> {
         let nodes: BTreeSet<usize> = group.values().into_iter().map(|(node, _)| node).collect();
         let inputs = nodes.iter().flat_map(|node| self.node(*node).inputs.iter().flatten());
         inputs.map(|input| self.producer[&(input.node, input.output)]).collect()
     }
 
-    /// Groups that the wanted values need, each behind all that it reads; `inputs` lists these for each group, in the order in which
-    /// they are followed.
+    /// Returns the groups that the wanted values need, each after all groups that it reads. `inputs` lists the groups that
+    /// each group reads, in the order in which they are followed.
     fn depth_first(&self, inputs: &[Vec<usize>], wanted: &[Value]) -> Vec<usize> {
         let mut seen = BTreeSet::new();
         let mut order = Vec::new();
         for value in wanted {
-            // An explicit stack: graphs may be deeper than the stack of a thread.
+            // An explicit stack is used, since graphs may be deeper than the stack of a thread allows.
             let mut stack = vec![(self.producer[value], false)];
             while let Some((group, inputs_done)) = stack.pop() {
                 if inputs_done {
@@ -62,25 +62,25 @@ impl StepBuilder<'_, '_> {
         order
     }
 
-    /// Most memory that is in use at once, in the unit of [`weight`], when groups run in an order.
+    /// Returns the peak of memory in use, in the unit of [`weight`], if groups run in this order.
     fn peak(&self, built: &[Vec<UnassignedStep>], order: &[usize], wanted: &[Value]) -> u64 {
         let is_wanted = |plane: &StoredPlane| {
             is_result(plane) && matches!(plane.0.content, Content::Result(value) if wanted.contains(&value))
         };
         let mut moved = BTreeSet::new();
         let steps = order.iter().flat_map(|group| &built[*group]);
-        // A plane is moved to a level once.
+        // Each plane is moved to a level only once.
         let steps =
             steps.filter(|step| !matches!(step.step, Step::Move(_)) || written(step).any(|plane| moved.insert(plane)));
         peak_of(&steps.collect::<Vec<_>>(), is_wanted)
     }
 }
 
-/// For each group those whose results it reads, the one first that needs most memory besides what it leaves behind. `order` has
-/// every group behind those that it reads.
+/// Returns for each group the groups that it reads, sorted so that the one that needs the most memory in addition to its
+/// results comes first. In `order`, every group comes after those that it reads.
 fn largest_first(built: &[Vec<UnassignedStep>], inputs: &[Vec<usize>], order: &[usize]) -> Vec<Vec<usize>> {
     let mut sorted: Vec<Vec<usize>> = inputs.to_vec();
-    // Most memory in use while a group and all that it needs run.
+    // Peak of memory while a group and everything that it needs run.
     let mut needs = vec![0_u64; built.len()];
     for &group in order {
         let steps: Vec<&UnassignedStep> = built[group].iter().collect();
@@ -106,7 +106,7 @@ fn largest_first(built: &[Vec<UnassignedStep>], inputs: &[Vec<usize>], order: &[
     sorted
 }
 
-/// Planes that a step writes, without the second texture of a repeated function.
+/// Returns the planes that a step writes, except the second texture of a repeated function.
 fn written(step: &UnassignedStep) -> impl Iterator<Item = StoredPlane> {
     step.writes.iter().flatten().copied()
 }
@@ -116,7 +116,7 @@ fn is_result((resource, _): &StoredPlane) -> bool {
     matches!(resource.content, Content::Result(_)) && resource.level == Level::FINEST
 }
 
-/// Memory of a plane: that of a number on the finest level is 2²².
+/// Returns the memory of a plane. A plane of single numbers on the finest level has weight 2²².
 fn weight((resource, plane): &StoredPlane) -> u64 {
     match resource.extent() {
         SlotExtent::Level(Level::Texels(number)) => (plane.format().texel_bytes() << 20) >> (2 * number).min(63),
@@ -129,8 +129,8 @@ fn weight((resource, plane): &StoredPlane) -> u64 {
     }
 }
 
-/// Most memory that is in use at once while steps run. Planes that are read and that none of them writes are stored all the time,
-/// and those that `stays` selects from when they are written.
+/// Returns the peak of memory while steps run. Planes that are read but written by none of the steps are in memory all the
+/// time, and planes selected by `stays` from when they are written.
 fn peak_of(steps: &[&UnassignedStep], stays: impl Fn(&StoredPlane) -> bool) -> u64 {
     let mut last_use: BTreeMap<StoredPlane, usize> = BTreeMap::new();
     let mut stored: BTreeSet<StoredPlane> = BTreeSet::new();
@@ -164,7 +164,8 @@ fn peak_of(steps: &[&UnassignedStep], stays: impl Fn(&StoredPlane) -> bool) -> u
     peak
 }
 
-/// The plane whose texture a repeated kernel takes for its second run, if nothing reads it later: what its first run reads.
+/// Returns the plane whose texture a repeated kernel reuses for its second run if nothing reads it later: the plane that
+/// its first run reads.
 fn start_of(step: &UnassignedStep) -> Option<StoredPlane> {
     let Step::Kernel(kernel) = &step.step else { return None };
     let start = (*step.reads.get(kernel.feedback.as_ref()?.read)?)?;

@@ -13,7 +13,7 @@ use crate::resources::{Content, Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 impl StepBuilder<'_, '_> {
-    /// Builds the survey, the passes of the node as kernels that run once, and all results in one kernel.
+    /// Builds the survey, the node's passes as kernels that run once, and all results in one kernel.
     pub(crate) fn survey(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("surveys are shaders")

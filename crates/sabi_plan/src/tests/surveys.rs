@@ -1,10 +1,10 @@
-//! Plans of nodes that read surveys, and of passes that are for an input.
+//! Plans of nodes that read surveys, and of passes that exist for an input.
 
 use super::{Bench, FUSED, graph};
 use crate::{Level, SlotExtent};
 
 #[test]
-fn a_survey_comes_before_what_asks_it_once_and_before_the_results() {
+fn a_survey_comes_before_the_pass_that_reads_it_and_before_the_results() {
     let lines = "
         a noise/simplex
         b adjust/coverage source=a
@@ -54,7 +54,7 @@ fn a_survey_of_pieces_has_a_table_and_a_value_for_each() {
 }
 
 #[test]
-fn a_pass_that_is_for_an_input_runs_once_something_is_connected_or_set_there() {
+fn a_pass_for_an_input_runs_only_if_the_input_is_connected_or_set() {
     let passes = |blur: &str| {
         let lines = format!("a noise/simplex\nm noise/dots\nb filter/blur source=a {blur}\nout output/mask source=b");
         let (plan, errors) = Bench::new().plan(&graph(&lines), FUSED);
