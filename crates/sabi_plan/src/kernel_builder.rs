@@ -155,7 +155,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         masks.into_iter().map(operand).collect()
     }
 
-    /// Adds the call of a shader's result function, where masks that multiply parameters are stored, and returns its index.
+    /// Adds the call of a shader's result function whose parameter masks are stored, and returns the index of the call.
     pub(crate) fn call(&mut self, node: usize, output: usize, inputs: Vec<Binding>, block: usize) -> usize {
         let param_masks = self.param_masks(node, |_| None);
         self.call_with(node, output, inputs, param_masks, block)

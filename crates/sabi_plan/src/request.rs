@@ -40,7 +40,7 @@ pub struct SourcePort {
     pub ty: PortType,
     /// Description for artists.
     pub doc: String,
-    /// For an input that need not be connected: what holds then, in words.
+    /// For an input that need not be connected, a description of what happens if it is not.
     pub unconnected: Option<String>,
     /// For a material result: the channels that it sets.
     pub channels: Vec<Channel>,

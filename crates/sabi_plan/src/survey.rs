@@ -93,7 +93,7 @@ impl StepBuilder<'_, '_> {
         self.grouping(node, kind) != Grouping::Whole
     }
 
-    /// Builds a pass, which reads the table once, or that of each group.
+    /// Builds a pass that reads the table of the whole surface, or the tables of all groups.
     fn survey_pass(&self, node: usize, kind: &Kind, pass: usize) -> UnassignedStep {
         let function = &kind.passes[pass].function;
         let has_groups = self.has_groups(node, kind);

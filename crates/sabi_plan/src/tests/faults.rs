@@ -79,7 +79,7 @@ fn a_parameter_that_is_not_a_number_for_each_place_refuses_a_mask() {
 }
 
 #[test]
-fn a_fault_does_not_affect_the_rest_of_the_graph() {
+fn a_fault_leaves_the_rest_of_the_graph_alone() {
     let lines = "
         a noise/simplex
         bad noise/simplx

@@ -20,7 +20,7 @@ fn key(lines: &str) -> [u8; 32] {
 }
 
 #[test]
-fn everything_that_changes_a_result_changes_its_key() {
+fn what_changes_the_result_changes_its_key() {
     let changes = [
         ("seed=1", "seed=2"),
         ("black=0.1", "black=0.2"),
@@ -140,7 +140,7 @@ fn a_knob_is_part_of_the_key_only_while_nothing_is_connected() {
 }
 
 #[test]
-fn dividing_into_passes_does_not_change_the_key() {
+fn how_passes_are_cut_does_not_change_the_key() {
     let graph = graph(LINES);
     let (fused, _) = Bench::new().plan(&graph, FUSED);
     let (single, _) = Bench::new().plan(&graph, UNFUSED);

@@ -61,7 +61,7 @@ fn a_slot_is_reused_once_its_last_reader_has_run() {
 }
 
 #[test]
-fn what_needs_the_most_memory_runs_while_little_else_is_stored() {
+fn what_needs_most_memory_runs_while_little_else_is_stored() {
     // The blur needs five textures of vectors while it runs. Each noise leaves only one texture of numbers.
     let lines = "
         a noise/simplex
@@ -92,7 +92,7 @@ fn what_needs_the_most_memory_runs_while_little_else_is_stored() {
 }
 
 #[test]
-fn a_pass_for_a_position_runs_only_if_something_changes_the_position() {
+fn a_pass_for_a_position_runs_once_something_moves_it() {
     let bench = Bench::new();
     let (still, errors) = bench.plan(&graph("net noise/cracks\nout output/mask source=net"), FUSED);
     assert_eq!(errors, []);
@@ -162,7 +162,7 @@ fn a_kernel_is_divided_at_the_number_of_textures_the_adapter_can_write() {
 }
 
 #[test]
-fn only_wanted_results_are_planned() {
+fn only_what_is_asked_for_is_planned() {
     let lines = "
         a noise/simplex
         idle noise/cells

@@ -327,7 +327,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_division_into_kernels_gives_the_results_of_the_graph(
+    fn every_way_of_cutting_gives_what_the_graph_says(
         numbers in prop::collection::vec((0..10_000_usize, prop::array::uniform4(0..1000_usize), 0..1000_usize), 1..24),
         narrow in any::<bool>(),
     ) {

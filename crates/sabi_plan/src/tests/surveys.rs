@@ -54,7 +54,7 @@ fn a_survey_of_pieces_has_a_table_and_a_value_for_each() {
 }
 
 #[test]
-fn a_pass_for_an_input_runs_only_if_the_input_is_connected_or_set() {
+fn a_pass_that_is_for_an_input_runs_once_something_is_connected_or_set_there() {
     let passes = |blur: &str| {
         let lines = format!("a noise/simplex\nm noise/dots\nb filter/blur source=a {blur}\nout output/mask source=b");
         let (plan, errors) = Bench::new().plan(&graph(&lines), FUSED);
