@@ -1,4 +1,4 @@
-//! Every operation of the nodes that calculate, against the same in Rust.
+//! Every operation of the nodes that calculate, compared with the same operation in Rust.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 use sabi_tests::{OnMesh, project};
 use serde_json::{Value, json};
 
-/// Three ramps over the cube, from -2 to 2, along directions of their own.
+/// Three ramps over the cube, from -2 to 2, in different directions.
 fn on_cube(
     kind: &str,
     params: &Value,
@@ -74,7 +74,7 @@ fn every_operation_on_masks_is_its_formula() {
         for (index, _) in on_mesh.owned() {
             let [a, b, c] = [&a, &b, &c].map(|ramp| f64::from(ramp[index]));
             let expected = formula(a, b, c);
-            // Where a formula jumps or runs off, the last bit of an input decides.
+            // Near a jump or a pole of a formula, the result depends on the last bit of an input.
             let around = [-1e-5, 1e-5].map(|step| formula(a + step, b - step, c + 0.5 * step));
             let is_smooth = around
                 .into_iter()
@@ -141,7 +141,7 @@ fn every_operation_on_vectors_is_its_formula() {
 }
 
 #[test]
-fn a_vector_is_turned_by_a_right_angle_unless_it_is_said_otherwise() {
+fn the_default_rotation_of_a_vector_is_a_right_angle() {
     for (params, expected) in [
         (
             json!({ "operation": "rotate", "a": [1, 0, 0], "b": [0, 2, 0] }),

@@ -108,7 +108,7 @@ fn every_mode_of_masks_is_its_formula_at_every_weight() {
 }
 
 #[test]
-fn every_mode_leaves_alone_what_its_neutral_value_is_blended_with() {
+fn every_mode_with_its_neutral_value_changes_nothing() {
     let mut on_mesh = on_cube(&graph("blend/mask", &json!({})));
     let varied = components(&mut on_mesh, "one", &["mask"]).remove(0);
     for (mode, neutral) in NEUTRAL {

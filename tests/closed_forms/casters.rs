@@ -1,4 +1,4 @@
-//! The two casters, each the other's oracle: the same rays followed by the processor and by a kernel.
+//! The two casters, which follow the same rays on the processor and in a kernel, compared with each other.
 
 use sabi_engine::{CasterChoice, Hits, Kinds, ModelOptions};
 use sabi_gpu::ResultCache;
@@ -51,7 +51,7 @@ fn both_casters_hit_the_same() {
 }
 
 #[test]
-fn one_triangle_and_one_without_area_are_no_matter_to_either() {
+fn both_casters_handle_one_triangle_and_a_triangle_without_area() {
     let one = Quad {
         corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         uvs: [[0.1, 0.9], [0.9, 0.9], [0.9, 0.1], [0.1, 0.1]],
@@ -81,7 +81,7 @@ fn one_triangle_and_one_without_area_are_no_matter_to_either() {
 }
 
 #[test]
-fn what_longer_rays_hit_says_what_shorter_ones_would() {
+fn hits_of_longer_rays_give_the_results_of_shorter_rays() {
     let path = project("assets/meshes/figure.glb");
     let mut on_mesh = OnMesh::new(&graph("occlusion", ""), &path, 128);
     let mut cache = ResultCache::new(1 << 30);
@@ -117,7 +117,7 @@ fn what_longer_rays_hit_says_what_shorter_ones_would() {
 }
 
 #[test]
-fn a_slider_that_only_makes_rays_shorter_shoots_none() {
+fn shorter_rays_reuse_the_hits_of_longer_ones() {
     let path = project("assets/meshes/figure.glb");
     let mut on_mesh = OnMesh::new(&graph("edges", ""), &path, 128);
     on_mesh.evaluator.rays_mut().hits = Hits::Cached;
@@ -131,7 +131,7 @@ fn a_slider_that_only_makes_rays_shorter_shoots_none() {
         on_mesh.evaluate_as("rays", asked);
         cache.bytes().0
     };
-    // Nothing is kept but hits: what is remembered is nobody's result.
+    // The cache keeps only hits here, no results of nodes.
     let first = held(r#""width": 0.02"#);
     assert!(first > 0);
     for same in [r#""width": 0.1"#, r#""width": 0.001, "angle": 70"#, r#""softness": 1"#] {
@@ -161,7 +161,7 @@ fn rays_are_shot_once_for_a_model_and_its_knobs_however_often_it_is_opened() {
     assert!(!was_found);
     assert_eq!(evaluate(""), (true, first.clone()));
     assert!(!evaluate(r#""distance": 0.2"#).0 && !evaluate(r#""seed": 1"#).0);
-    // A file that is cut short is no result.
+    // A truncated file is not used as a result.
     for file in std::fs::read_dir(cache.path().join("rays")).unwrap() {
         let path = file.unwrap().path();
         let bytes = std::fs::read(&path).unwrap();
@@ -172,7 +172,7 @@ fn rays_are_shot_once_for_a_model_and_its_knobs_however_often_it_is_opened() {
 }
 
 #[test]
-fn a_first_picture_of_a_few_rays_has_the_same_mean_and_is_nobodys_result() {
+fn a_first_picture_of_a_few_rays_has_the_same_mean_and_is_not_kept() {
     let path = project("assets/meshes/figure.glb");
     let mut on_mesh = OnMesh::new(&graph("occlusion", r#""rays": 64, "distance": 0.3"#), &path, 128);
     let mut cache = ResultCache::new(1 << 30);

@@ -1,4 +1,4 @@
-//! Adjusting colors: what stays, and what turns.
+//! Adjustments of colors: properties that stay unchanged, and rotations of the hue.
 
 use sabi_tests::{OnMesh, project};
 use serde_json::{Value as Json, json};
@@ -57,7 +57,7 @@ fn spread(color: Rgb) -> f32 {
 const ROUNDING: f32 = 1.0 / 1024.0;
 
 #[test]
-fn defaults_change_nothing_to_the_last_bit() {
+fn defaults_change_nothing() {
     for (was, is) in adjusted(&VIVID, json!({})) {
         assert_eq!(was, is);
     }

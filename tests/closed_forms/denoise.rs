@@ -1,4 +1,4 @@
-//! Grain of rays: taken out where nothing is, kept where something is.
+//! Noise of results of rays: removed from even areas, without a change of real borders.
 
 use sabi_tests::{OnMesh, project};
 
@@ -23,7 +23,7 @@ fn apart(on_mesh: &OnMesh, one: &[f32], other: &[f32]) -> f64 {
 }
 
 #[test]
-fn sunlight_of_a_few_rays_comes_as_near_to_that_of_many_as_four_times_as_many_would() {
+fn denoising_sunlight_is_as_good_as_four_times_as_many_rays() {
     let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/figure.glb"), 256);
     let mut of = |node: &str| on_mesh.evaluate(node).component("mask");
     let [few, many, clean] = ["few", "many", "clean"].map(&mut of);
@@ -32,7 +32,7 @@ fn sunlight_of_a_few_rays_comes_as_near_to_that_of_many_as_four_times_as_many_wo
 }
 
 #[test]
-fn a_border_that_is_no_grain_stays_where_it_is() {
+fn a_real_border_is_not_denoised() {
     let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/cube.glb"), 256);
     let mut of = |node: &str| on_mesh.evaluate(node).component("mask");
     let [edge, kept] = ["edge", "kept"].map(&mut of);
@@ -48,7 +48,7 @@ fn of_rays(kind: &str, rays: u32, seed: u32) -> String {
 }
 
 #[test]
-fn a_few_rays_come_nearer_to_a_thousand_than_two_or_three_times_as_many_that_are_not_denoised() {
+fn denoised_results_of_few_rays_are_as_good_as_those_of_two_or_three_times_as_many() {
     let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/figure.glb"), 512);
     // Root mean square errors of 16 rays of occlusion and of 32 of curvature that are not denoised.
     for (kind, rays, grain) in [("occlusion", 8, 0.0217), ("curvature", 12, 0.0472)] {

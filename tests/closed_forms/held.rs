@@ -1,4 +1,4 @@
-//! Means over rays, held to what is expected of each texel as closely as chance allows.
+//! Means over rays, compared with the expected value of each texel as exactly as their randomness allows.
 
 use glam::DVec3;
 use sabi_tests::OnMesh;
@@ -37,7 +37,7 @@ impl Held {
         }
     }
 
-    /// Fails unless the two are the same, but for chance and `slack`: what is known about the model itself.
+    /// Fails unless the two are equal within the random error and `slack`, the known error of the model itself.
     pub(crate) fn assert(&self, slack: f64, what: &str) {
         assert!(self.count > 100, "{what}: only {} texels", self.count);
         assert!(self.difference.abs() <= self.chance + slack, "{what}: {self:?}");

@@ -1,4 +1,4 @@
-//! Materials taken apart, put together, adjusted and dented.
+//! Materials that are split, combined, adjusted and dented.
 
 use sabi_plan::Mode;
 use sabi_tests::{Asked, Evaluated, OnMesh, project};
@@ -229,7 +229,7 @@ fn every_profile_of_a_relief_goes_from_nothing_to_its_depth_without_a_jump() {
 }
 
 #[test]
-fn a_relief_touches_nothing_but_height_and_what_it_adds_to_the_roughness() {
+fn a_relief_changes_only_the_height_and_the_roughness() {
     let node = json!({ "kind": "effect/relief", "inputs": { "base": "varied", "mask": "two", "height_map": "one" },
                        "params": { "depth": 0.1, "roughness": -0.25, "profile": "raised" } });
     let mut on_mesh = on_cube(json!({ "node": node }));

@@ -1,4 +1,4 @@
-//! Facts that stand in Rust and in WGSL are held against the modules that are linked.
+//! Facts that are written in both Rust and WGSL, compared with the linked modules.
 
 use std::collections::BTreeSet;
 
@@ -28,7 +28,7 @@ fn modules() -> Vec<(LinkedModule, Reflection)> {
 }
 
 #[test]
-fn what_rust_repeats_of_shaders_is_what_they_say() {
+fn values_repeated_in_rust_are_those_of_the_shaders() {
     let modules = modules();
     let mut faults = BTreeSet::new();
     for mirror in mirrors() {

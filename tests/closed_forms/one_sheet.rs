@@ -114,7 +114,7 @@ fn each_texel_is_read_from_the_output_of_its_material() {
 }
 
 #[test]
-fn a_material_that_no_output_serves_keeps_its_own_looks() {
+fn a_material_without_an_output_keeps_its_own_looks() {
     let folder = tempfile::tempdir().unwrap();
     let (report, layout, materials) = baked(folder.path(), WOOD);
     // The ring around a chart shows what the model has on the other side of the edge, where that is its own looks.

@@ -10,7 +10,7 @@ use sabi_surface::load::{LoadOptions, load};
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
 use serde_json::json;
 
-/// Where the graph of a test would lie.
+/// Path of the graph of a test; the file does not exist.
 const GRAPH: &str = "test.sabi";
 /// Radius of the brushes, model units.
 const RADIUS: f32 = 0.2;
@@ -228,7 +228,7 @@ fn the_direction_is_that_of_the_hand() {
 }
 
 #[test]
-fn a_node_without_its_strokes_says_so_and_gives_what_is_empty() {
+fn a_node_without_its_strokes_reports_this_and_gives_an_empty_result() {
     let made = fold(false);
     let known = points(made.path(), &[[0.5, 0.5]]);
     let (elsewhere, versions) = {

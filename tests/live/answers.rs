@@ -1,4 +1,4 @@
-//! Wishes are answered coarse first, evaluate what an edit changes, and make way for newer ones.
+//! Requests are answered with a coarse result first, evaluate only what an edit changes, and are replaced by newer ones.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use sabi_tests::{adapter, device};
 
 use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, request};
 
-/// A layer of rust over a base, where clouds are dense.
+/// Returns nodes of a layer of rust over a base; the rust is where clouds are dense.
 fn rusty(at: f32) -> String {
     format!(
         r##""base": {{ "kind": "source/material" }},
@@ -20,7 +20,7 @@ fn rusty(at: f32) -> String {
 }
 
 #[test]
-fn a_wish_is_answered_coarse_first_and_then_at_full_size() {
+fn a_request_is_answered_coarse_first_and_then_at_full_size() {
     let window = Window::new();
     let told = window.answer(request(1, graph(&rusty(0.5))));
     assert_eq!(told.coarse_and_full(), [true, false]);
@@ -45,7 +45,7 @@ fn a_size_that_is_no_larger_than_the_coarse_one_is_shown_at_once() {
 }
 
 #[test]
-fn a_coarse_picture_that_would_only_flicker_is_left_out() {
+fn a_coarse_picture_that_would_soon_be_replaced_is_left_out() {
     let gpu = device();
     let patient = LiveOptions {
         coarse_after: std::time::Duration::from_secs(3600),
@@ -65,7 +65,7 @@ fn a_coarse_picture_that_would_only_flicker_is_left_out() {
 }
 
 #[test]
-fn an_edit_evaluates_its_node_and_what_hangs_below_it() {
+fn an_edit_evaluates_its_node_and_those_that_depend_on_it() {
     let window = Window::new();
     let first = window.answer(request(1, graph(&rusty(0.5))));
     assert_eq!(first.evaluated(), ["base", "clouds", "cut", "rust"]);
@@ -80,7 +80,7 @@ fn an_edit_evaluates_its_node_and_what_hangs_below_it() {
 }
 
 #[test]
-fn an_edit_is_answered_as_the_whole_graph_with_it_would_be() {
+fn an_edited_graph_gives_the_same_bytes_as_one_opened_with_the_edit() {
     let set = |at: f64| sabi_graph::Edit::SetParam {
         body: sabi_graph::Body::Main,
         node: "cut".parse().expect("an id"),
@@ -98,7 +98,7 @@ fn an_edit_is_answered_as_the_whole_graph_with_it_would_be() {
     let edited = last(&window.answer(edited));
     let whole = last(&Window::new().answer(request(1, graph(&rusty(0.25)))));
     assert!(edited.is_some() && edited == whole);
-    // An edit that fits no graph is a fault that is told, and the next graph is evaluated.
+    // An edit that gives no valid graph is reported as a fault, and the next graph is evaluated.
     let stray = sabi_engine::LiveRequest {
         graph: vec![sabi_graph::Edit::SetMuted {
             body: sabi_graph::Body::Main,
@@ -118,7 +118,7 @@ fn an_edit_is_answered_as_the_whole_graph_with_it_would_be() {
 }
 
 #[test]
-fn what_changes_nothing_that_is_seen_is_not_shown_again() {
+fn an_edit_that_changes_no_shown_result_is_not_shown_again() {
     let window = Window::new();
     window.answer(request(1, graph(&rusty(0.5))));
     let more = rusty(0.5) + r#", "aside": { "kind": "noise/cells" }"#;
@@ -127,7 +127,7 @@ fn what_changes_nothing_that_is_seen_is_not_shown_again() {
 }
 
 #[test]
-fn a_node_is_shown_in_place_of_the_outputs_and_both_at_once() {
+fn a_node_is_shown_instead_of_the_outputs_or_beside_them() {
     let window = Window::new();
     let both = sabi_engine::LiveRequest {
         subjects: vec![
@@ -147,14 +147,14 @@ fn a_node_is_shown_in_place_of_the_outputs_and_both_at_once() {
 }
 
 #[test]
-fn a_graph_without_outputs_shows_the_model_as_it_came() {
+fn a_graph_without_outputs_shows_the_model_unchanged() {
     let window = Window::new();
     let told = window.answer(request(1, graph("")));
     assert_eq!(told.coarse_and_full(), [true, false]);
 }
 
 #[test]
-fn a_storm_of_wishes_ends_with_the_last_one_and_its_bytes() {
+fn many_fast_requests_end_with_the_last_one_and_its_bytes() {
     let window = Window::new();
     let last = 40;
     let at = |revision: u64| 0.3 + 0.01 * revision as f32;
@@ -175,10 +175,10 @@ fn a_storm_of_wishes_ends_with_the_last_one_and_its_bytes() {
 }
 
 #[test]
-fn every_wish_that_is_begun_shows_its_first_picture_however_many_follow() {
+fn every_started_request_shows_its_first_picture_however_many_follow() {
     let window = Window::new();
     window.answer(request(0, graph(&rusty(0.2))));
-    // The next wish comes as soon as there is any news of the last one: none of them is ever at rest.
+    // Each request follows as soon as any event about the previous one arrives, so that none is ever finished.
     let mut coarse = 0;
     for revision in 1..=8 {
         window
@@ -192,7 +192,7 @@ fn every_wish_that_is_begun_shows_its_first_picture_however_many_follow() {
 }
 
 #[test]
-fn a_newer_wish_ends_the_older_one() {
+fn a_newer_request_ends_the_older_one() {
     let window = Window::new();
     window.answer(request(0, graph(&rusty(0.2))));
     window.live.submit(request(1, graph(&rusty(0.4))));
@@ -214,7 +214,7 @@ fn a_newer_wish_ends_the_older_one() {
 }
 
 #[test]
-fn the_exact_values_of_a_node_are_told_once() {
+fn the_exact_values_of_a_node_are_reported_once() {
     let window = Window::new();
     let looking = |revision: u64, at: f32| sabi_engine::LiveRequest {
         inspected: vec![node("cut")],
@@ -237,7 +237,7 @@ fn the_exact_values_of_a_node_are_told_once() {
 }
 
 #[test]
-fn another_fit_is_told_with_a_model_of_its_lengths() {
+fn another_fit_is_reported_with_a_model_of_its_lengths() {
     let window = Window::new();
     window.answer(request(1, graph(&rusty(0.5))));
     let mut longer = graph(&rusty(0.5));
@@ -252,7 +252,7 @@ fn another_fit_is_told_with_a_model_of_its_lengths() {
 }
 
 #[test]
-fn dropping_in_the_middle_of_work_joins() {
+fn an_evaluator_dropped_during_its_work_waits_for_its_thread() {
     let window = Window::new();
     window.live.submit(request(1, graph(&rusty(0.5))));
     window.events();
@@ -260,7 +260,7 @@ fn dropping_in_the_middle_of_work_joins() {
 }
 
 #[test]
-fn a_lost_device_is_told_and_ends_the_work() {
+fn a_lost_device_is_reported_and_ends_the_work() {
     let gpu = Arc::new(Gpu::open(&adapter()).expect("an adapter, as all tests have"));
     let window = Window::on(gpu.clone(), options());
     window.answer(request(1, graph(&rusty(0.5))));
@@ -275,9 +275,9 @@ fn a_lost_device_is_told_and_ends_the_work() {
 }
 
 #[test]
-fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
+fn results_that_do_not_fit_are_reported_and_a_smaller_graph_is_evaluated() {
     let tight = LiveOptions {
-        // A full material alone takes more.
+        // The maps of a full material alone take more than this.
         budget_bytes: 128 << 10,
         cache_bytes: 1 << 20,
         ..options()
@@ -308,7 +308,7 @@ fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
 }
 
 #[test]
-fn an_evaluator_of_a_higher_rank_works_while_those_before_it_rest() {
+fn an_evaluator_of_a_higher_rank_works_while_those_before_it_are_idle() {
     let precedence = Precedence::default();
     let ranked = |rank| LiveOptions {
         precedence: precedence.clone(),
@@ -318,7 +318,7 @@ fn an_evaluator_of_a_higher_rank_works_while_those_before_it_rest() {
     let (first, beside) = (Window::on(device(), ranked(0)), Window::on(device(), ranked(1)));
     first.live.submit(request(1, graph(&rusty(0.5))));
     first.events();
-    // The first one is held in the middle of its work now.
+    // The first evaluator is now held in the middle of its work.
     beside.live.submit(request(1, graph(&rusty(0.5))));
     beside.live.submit(request(2, graph(&rusty(0.4))));
     std::thread::sleep(std::time::Duration::from_millis(200));

@@ -1,4 +1,4 @@
-//! A faulty node is told and leaves the others.
+//! A faulty node is reported and does not affect the others.
 
 use std::fs;
 use std::sync::Arc;
@@ -34,7 +34,7 @@ const HALF_WIRED: &str = r#"
     "out": { "kind": "output/material", "inputs": { "material": "plain" } }"#;
 
 #[test]
-fn a_faulty_node_leaves_the_others() {
+fn a_faulty_node_does_not_affect_the_others() {
     let window = Window::new();
     let all = LiveRequest {
         thumbnails: ["blurred", "sharp", "clouds", "plain"].map(node).to_vec(),
@@ -50,7 +50,7 @@ fn a_faulty_node_leaves_the_others() {
 }
 
 #[test]
-fn faults_are_told_when_they_change_and_only_then() {
+fn faults_are_reported_only_when_they_change() {
     let window = Window::new();
     let faults = |revision: u64, nodes: &str| window.answer(request(revision, graph(nodes))).faults().cloned();
     assert!(faults(1, HALF_WIRED).is_some());
@@ -60,7 +60,7 @@ fn faults_are_told_when_they_change_and_only_then() {
 }
 
 #[test]
-fn what_was_shown_stays_while_something_is_at_fault() {
+fn shown_results_stay_while_a_node_is_at_fault() {
     let window = Window::new();
     let wired = r#""plain": { "kind": "source/material" },
         "out": { "kind": "output/material", "inputs": { "material": "plain" } }"#;
@@ -69,20 +69,20 @@ fn what_was_shown_stays_while_something_is_at_fault() {
     let told = window.answer(request(2, graph(&loose)));
     assert!(told.shown().is_empty());
     assert_eq!(told.faults().map(|faults| faults.faults.len()), Some(1));
-    // Nothing has to be made for what is there already.
+    // Nothing is evaluated for results that exist already.
     let back = window.answer(request(3, graph(wired)));
     assert!(back.shown().is_empty() && back.evaluated().is_empty());
 }
 
 #[test]
-fn a_graph_that_is_at_fault_from_the_start_shows_the_model_all_the_same() {
+fn a_graph_that_is_at_fault_from_the_start_still_shows_the_model() {
     let window = Window::new();
     let told = window.answer(request(1, graph(r#""out": { "kind": "output/material" }"#)));
     assert_eq!(told.coarse_and_full(), [true, false]);
 }
 
 #[test]
-fn a_group_file_that_is_missing_is_told_and_the_rest_goes_on() {
+fn a_missing_group_file_is_reported_and_the_rest_is_evaluated() {
     let window = Window::new();
     let nodes = r#""i": { "kind": "graph/group", "group": "gone.sabi" }, "clouds": { "kind": "noise/simplex" },
         "after": { "kind": "adjust/invert", "inputs": { "source": "i.mask" } }"#;
@@ -102,7 +102,7 @@ fn a_group_file_that_is_missing_is_told_and_the_rest_goes_on() {
     assert_eq!(told.all.iter().filter(is_model).count(), 2);
 }
 
-/// A picture whose header is whole and whose pixels are not.
+/// Returns the bytes of a picture whose header is complete and whose pixels are not.
 fn torn_picture() -> Vec<u8> {
     let codes: Vec<u8> = (0..64 * 64 * 3).map(|at: u32| ((at * at) >> 3) as u8).collect();
     let options = PngOptions {
@@ -153,7 +153,7 @@ fn a_picture_that_cannot_be_decoded_is_the_fault_of_its_node() {
 }
 
 #[test]
-fn warnings_stay_as_long_as_what_they_are_about() {
+fn warnings_stay_as_long_as_their_cause() {
     let sheet = MeshFile::new(vec![Quad {
         corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         uvs: [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
@@ -190,7 +190,7 @@ fn warnings_stay_as_long_as_what_they_are_about() {
 }
 
 #[test]
-fn the_files_that_a_graph_hangs_on_are_told_when_they_change_whether_they_are_there_or_not() {
+fn the_files_that_a_graph_depends_on_are_reported_when_they_change() {
     let folder = tempfile::tempdir().expect("a folder");
     let window = Window::new();
     let files = |revision: u64, nodes: &str| {
@@ -231,12 +231,12 @@ fn the_files_that_a_graph_hangs_on_are_told_when_they_change_whether_they_are_th
 }
 
 #[test]
-fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
+fn a_defect_of_the_program_ends_one_answer_and_not_the_evaluation() {
     let has_failed = AtomicBool::new(false);
     let (wake, woken) = channel();
     let live = Live::start(device(), options(), move || {
         assert!(has_failed.swap(true, Ordering::SeqCst), "as this test wants");
-        // Nobody listens once the test is over.
+        // Sending fails once the test is over, which does not matter.
         let _ = wake.send(());
     });
     let answer = |revision: u64| {
@@ -259,8 +259,8 @@ fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
 }
 
 #[test]
-fn warnings_about_the_model_are_of_the_size_that_was_asked_for() {
-    // A strip of 2.5 texels at the full size, and of less at the coarse one.
+fn warnings_about_the_model_are_for_the_requested_size() {
+    // A strip that is 2.5 texels wide at the full size, and narrower at the coarse one.
     let wide = 2.5 / FULL as f32;
     let strip = MeshFile::new(vec![
         Quad {

@@ -55,7 +55,7 @@ fn a_model_that_cannot_be_read_keeps_the_last_one() {
 }
 
 #[test]
-fn without_any_model_faults_are_told_all_the_same() {
+fn faults_are_reported_even_without_a_model() {
     let window = Window::new();
     let mut without = on_model(1, 1, "assets/meshes/gone.glb");
     without.graph = Arc::new(graph(r#""blurred": { "kind": "filter/blur" }"#)).into();
@@ -63,7 +63,7 @@ fn without_any_model_faults_are_told_all_the_same() {
     assert_eq!(told.faults().map(|faults| faults.faults.len()), Some(1));
 }
 
-/// A mask of one value.
+/// Returns a node kind whose mask has one value everywhere.
 fn level(value: f32) -> String {
     format!(
         "//! Level\n//! One value everywhere.\n\n/// The value.\nfn mask(at: Surface) -> f32 {{\n    return {value:?};\n}}\n"

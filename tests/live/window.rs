@@ -1,4 +1,4 @@
-//! A window that is not there: it wishes, and takes down what it is told.
+//! Stand-in for the editor's window: sends requests to the live evaluator and records the events that it receives.
 
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use sabi_graph::Document;
 use sabi_tests::{device, project};
 use sabi_view::Pixels;
 
-/// Nobody waits longer for news: far more than any of these tests takes.
+/// Time limit for waiting for an event: far more than any of these tests takes.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Sizes of pictures.
@@ -23,7 +23,7 @@ pub(crate) const FULL: u32 = 64;
 
 /// A window and its evaluator.
 pub(crate) struct Window {
-    // Dropped first, so that the evaluator does not wait for a window that is gone.
+    // Dropped first, so that the evaluator does not wait for a window that no longer exists.
     woken: Receiver<()>,
     goes_on: Sender<()>,
     is_held: Cell<bool>,
@@ -36,14 +36,14 @@ pub(crate) struct Told {
     pub(crate) all: Vec<LiveEvent>,
 }
 
-/// A graph of these nodes, in a folder of no interest.
+/// Creates a graph of these nodes, in a folder that does not matter.
 pub(crate) fn graph(nodes: &str) -> OpenGraph {
     document(&format!(
         r#"{{ "format": "sabi", "version": 1, "name": "live", "nodes": {{ {nodes} }} }}"#
     ))
 }
 
-/// A graph of this text.
+/// Creates a graph of this text.
 pub(crate) fn document(text: &str) -> OpenGraph {
     OpenGraph {
         path: PathBuf::from("live.sabi"),
@@ -55,7 +55,7 @@ pub(crate) fn document(text: &str) -> OpenGraph {
     }
 }
 
-/// A node by its id.
+/// Returns a reference to the node with this id.
 pub(crate) fn node(id: &str) -> NodeRef {
     NodeRef {
         node: id.to_owned(),
@@ -63,7 +63,7 @@ pub(crate) fn node(id: &str) -> NodeRef {
     }
 }
 
-/// Request for the outputs of a graph on the cube.
+/// Returns a request for the outputs of a graph on the cube.
 pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
     LiveRequest {
         revision,
@@ -83,7 +83,7 @@ pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
     }
 }
 
-/// Options with which nothing hangs on how quick the machine is.
+/// Returns options with which no result depends on the speed of the machine.
 pub(crate) fn options() -> LiveOptions {
     LiveOptions {
         coarse_after: Duration::ZERO,
@@ -93,18 +93,18 @@ pub(crate) fn options() -> LiveOptions {
 }
 
 impl Window {
-    /// A window on the device that all tests share.
+    /// Creates a window on the device that all tests share.
     pub(crate) fn new() -> Window {
         Window::on(device(), options())
     }
 
     pub(crate) fn on(gpu: Arc<Gpu>, options: LiveOptions) -> Window {
-        // The evaluator goes on when the window looks for more news, and not before.
+        // The evaluator waits after each event until the window calls `events` again.
         let (wake, woken) = channel();
         let (goes_on, held) = channel();
         let held = Mutex::new(held);
         let live = Live::start(gpu, options, move || {
-            // Nobody listens once the window is closed.
+            // Once the window is closed, sending fails, which does not matter.
             let _ = wake.send(()).map(|()| held.lock().map(|held| held.recv()));
         });
         Window {
@@ -115,10 +115,10 @@ impl Window {
         }
     }
 
-    /// News, as soon as there are some. The evaluator does nothing until the next call.
+    /// Returns the next events once there are any. The evaluator does nothing until the next call.
     pub(crate) fn events(&self) -> Vec<LiveEvent> {
         if self.is_held.replace(false) {
-            // One that has ended does not care.
+            // Sending fails if the evaluator has ended, which does not matter.
             let _ = self.goes_on.send(());
         }
         self.woken.recv_timeout(PATIENCE).expect("somebody works");
@@ -126,7 +126,7 @@ impl Window {
         self.live.take_events()
     }
 
-    /// All news up to one that is meant.
+    /// Returns all events up to the first batch that ends with one that `is_meant` selects.
     pub(crate) fn until(&self, is_meant: impl Fn(&LiveEvent) -> bool) -> Told {
         let mut told = Told::default();
         while !told.all.last().is_some_and(&is_meant) {
@@ -135,7 +135,7 @@ impl Window {
         told
     }
 
-    /// Wishes, and waits until all of it was told.
+    /// Sends a request, and returns all events until it is answered.
     pub(crate) fn answer(&self, request: LiveRequest) -> Told {
         let asked = request.revision;
         self.live.submit(request);

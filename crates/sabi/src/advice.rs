@@ -1,22 +1,22 @@
-//! Remedies in words of the command line: each with the flag that applies it.
+//! Remedies in the words of the command line: each with the flag that applies it.
 
 use clap::{Arg, Command, CommandFactory};
 use sabi_engine::{Remedy, advised};
 
 use crate::arguments::Arguments;
 
-/// A sentence with its remedies, as far as `command` can apply them or the user can without a flag.
+/// Returns a sentence with those of its remedies that `command` can apply or that need no flag.
 pub(crate) fn with_flags(sentence: &str, remedies: &[Remedy], command: &str) -> String {
     advised(sentence, remedies_with_flags(remedies, command))
 }
 
-/// Remedies as far as `command` can apply them or the user can without a flag, each with its flag.
+/// Returns the remedies that `command` can apply or that need no flag, each with its flag.
 pub(crate) fn remedies_with_flags(remedies: &[Remedy], command: &str) -> Vec<String> {
     let with_flag = |remedy: &Remedy| with_flag(*remedy, command);
     remedies.iter().filter_map(with_flag).collect()
 }
 
-/// A remedy with the flag of `command` that applies it; none where the command has no such flag.
+/// Returns a remedy with the flag of `command` that applies it, or `None` if the command has no such flag.
 fn with_flag(remedy: Remedy, command: &str) -> Option<String> {
     let phrases = phrases(remedy);
     if phrases.is_empty() {
@@ -26,7 +26,7 @@ fn with_flag(remedy: Remedy, command: &str) -> Option<String> {
     Some(format!("{remedy} {phrase}"))
 }
 
-/// Phrases that name the flag which applies a remedy, the first that a command takes being the right one; none where no
+/// Returns phrases that name the flag which applies a remedy; the first one whose flag a command accepts is used. Empty if no
 /// command has such a flag.
 fn phrases(remedy: Remedy) -> &'static [&'static str] {
     match remedy {

@@ -1,4 +1,4 @@
-//! Bake that a command line asks for: a graph on a model, or one that a report records.
+//! Bake that a command line requests: of a graph on a model, or of a bake that a report records.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use crate::graph_argument::GraphArgument;
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
-/// Bake that a command line asks for.
+/// Bake that a command line requests.
 pub(crate) enum AskedBake<'a> {
     /// A graph on a model.
     New { graph: &'a GraphArgument, mesh: &'a Path },
@@ -23,14 +23,14 @@ pub(crate) enum AskedBake<'a> {
 
 /// Result of a bake.
 pub(crate) enum Baked {
-    /// The maps were made.
+    /// The maps were written.
     Now(Box<BakeReport>),
-    /// All maps were there already.
+    /// All maps existed already.
     Before(Box<FinishedBake>),
 }
 
 impl<'a> AskedBake<'a> {
-    /// Reads what a command line asks for.
+    /// Reads the request of a command line.
     pub(crate) fn of(arguments: &'a BakeArguments) -> Result<AskedBake<'a>, Failure> {
         match (&arguments.from, &arguments.graph, &arguments.mesh) {
             (Some(report), ..) => Ok(AskedBake::Recorded {
@@ -45,7 +45,7 @@ impl<'a> AskedBake<'a> {
         }
     }
 
-    /// The graph, for messages.
+    /// Returns the name of the graph for messages.
     pub(crate) fn graph(&self) -> PathBuf {
         match self {
             AskedBake::New { graph, .. } => graph.path().to_owned(),
@@ -53,7 +53,7 @@ impl<'a> AskedBake<'a> {
         }
     }
 
-    /// The model.
+    /// Returns the model.
     pub(crate) fn mesh(&self) -> PathBuf {
         match self {
             AskedBake::New { mesh, .. } => (*mesh).to_owned(),
@@ -61,7 +61,7 @@ impl<'a> AskedBake<'a> {
         }
     }
 
-    /// Texels along a side of the maps.
+    /// Returns the number of texels along a side of the maps.
     pub(crate) fn size(&self, arguments: &BakeArguments) -> u32 {
         match self {
             AskedBake::New { .. } => arguments.maps.size,
@@ -69,7 +69,7 @@ impl<'a> AskedBake<'a> {
         }
     }
 
-    /// Files that the command line names and that are read.
+    /// Returns the files that the command line names and that are read.
     pub(crate) fn inputs(&self, arguments: &BakeArguments) -> Vec<PathBuf> {
         let report = match self {
             AskedBake::New { .. } => None,
@@ -83,7 +83,7 @@ impl<'a> AskedBake<'a> {
             .collect()
     }
 
-    /// Bakes, unless all maps are there already.
+    /// Bakes, unless all maps exist already.
     pub(crate) fn bake(
         &self,
         arguments: &BakeArguments,
@@ -96,7 +96,7 @@ impl<'a> AskedBake<'a> {
             let progress = ShownProgress::new(terminal);
             return Ok(now(bake_graph(&open, &kinds, &request, &progress)?));
         }
-        // A bake of a report is a proof, which is not given by what is there.
+        // A bake of a report proves that its maps can be made again, so existing maps are not used.
         let may_be_finished = matches!(self, AskedBake::New { .. }) && !arguments.again;
         if let Some(finished) = may_be_finished.then(|| finished_bake(&request)).flatten() {
             return Ok(Baked::Before(Box::new(finished)));
@@ -105,7 +105,7 @@ impl<'a> AskedBake<'a> {
         Ok(now(bake(&request, &progress)?))
     }
 
-    /// The graph with its kinds, where it is no file.
+    /// Returns the graph with its kinds if it is not from a file.
     fn graph_in_memory(&self, trusted: &TrustedPaths) -> Result<Option<(OpenGraph, Kinds)>, Failure> {
         match self {
             AskedBake::New { graph, .. } => graph.piped(trusted),

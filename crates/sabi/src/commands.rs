@@ -24,7 +24,7 @@ use crate::arguments::Command;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
-/// Runs a command. Graphs and models may open what they name below `trusted`.
+/// Runs a command. Graphs and models may open the files that they name in folders below `trusted`.
 pub(crate) fn run(command: Command, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     match command {
         Command::Edit(arguments) => edit::run(&arguments, trusted),

@@ -1,4 +1,4 @@
-//! docs/report.md names exactly the keys of the JSON that only the command line writes.
+//! Tests that docs/report.md names exactly the keys of the JSON that only the command line writes.
 
 #[path = "../../sabi_engine/src/documented/keys.rs"]
 pub(crate) mod keys;

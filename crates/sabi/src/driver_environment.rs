@@ -1,7 +1,7 @@
-//! Variables of the environment that Mesa's drivers read when the process starts, so the process starts itself again with those that
-//! are missing.
+//! Environment variables that Mesa's drivers read when the process starts. If some are missing, the process sets them and starts
+//! itself again.
 
-/// Starts the process again where a variable is missing; otherwise does nothing.
+/// Starts the process again if a variable is missing; otherwise does nothing.
 pub(crate) fn start_again_if_needed() {
     #[cfg(unix)]
     {
@@ -13,7 +13,7 @@ pub(crate) fn start_again_if_needed() {
         if !variables.is_empty()
             && let Ok(own) = env::current_exe()
         {
-            // `exec` returns only if it fails, and then it goes on without them.
+            // `exec` returns only if it fails; the process then continues without the variables.
             let _ = Command::new(own).args(env::args_os().skip(1)).envs(variables).exec();
         }
     }
@@ -24,8 +24,8 @@ fn missing() -> impl Iterator<Item = (&'static str, std::ffi::OsString)> {
     quiet_layer().into_iter().chain(folder_of_kernels())
 }
 
-/// Without a desktop, Mesa's layer for device selection prints "error: XDG_RUNTIME_DIR is invalid or not set", which is none. This
-/// switches the layer off.
+/// Without a desktop, Mesa's layer for device selection prints "error: XDG_RUNTIME_DIR is invalid or not set", although nothing is wrong.
+/// This switches the layer off.
 #[cfg(unix)]
 fn quiet_layer() -> Option<(&'static str, std::ffi::OsString)> {
     const SWITCH: &str = "NODEVICE_SELECT";
@@ -33,11 +33,11 @@ fn quiet_layer() -> Option<(&'static str, std::ffi::OsString)> {
     (is_needed && std::env::var_os(SWITCH).is_none()).then(|| (SWITCH, "1".into()))
 }
 
-/// The software driver keeps compiled kernels in the user's folder for caches. Where there is none, as in many containers, it
-/// compiles large kernels again for every part of a map; it gets a folder of Sabi's then, or one for temporary files.
+/// The software driver keeps compiled kernels in the user's folder for caches. Without such a folder, as in many containers, it
+/// would compile large kernels again for every part of a map, so it gets a folder of Sabi's, or one for temporary files.
 #[cfg(unix)]
 fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
-    // Without Mesa there is nothing to keep.
+    // Without Mesa, there are no compiled kernels to keep.
     if cfg!(target_os = "macos") {
         return None;
     }
@@ -56,13 +56,13 @@ fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
     own.or_else(temporary_folder).map(|folder| (FOLDER, folder.into()))
 }
 
-/// A folder for temporary files that no other user can write to: kernels in it are run as they are.
+/// Returns a folder for temporary files that no other user can write to, since kernels in it are run without a check.
 #[cfg(unix)]
 fn temporary_folder() -> Option<std::path::PathBuf> {
     use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 
     let folder = std::env::temp_dir().join("sabi-kernels");
-    // Another run may have made it.
+    // Another process may have created the folder in the meantime.
     let _ = std::fs::DirBuilder::new().mode(0o700).create(&folder);
     let of_folder = std::fs::symlink_metadata(&folder).ok()?;
     let own = std::fs::metadata("/proc/self").ok()?.uid();
@@ -70,12 +70,12 @@ fn temporary_folder() -> Option<std::path::PathBuf> {
     (is_private && can_be_written(&folder)).then_some(folder)
 }
 
-/// Returns true if a file can be made in a folder, which is made if need be.
+/// Returns true if a file can be created in a folder, which is created if necessary.
 #[cfg(unix)]
 fn can_be_written(folder: &std::path::Path) -> bool {
     let probe = folder.join(format!(".sabi-{}", std::process::id()));
     let is_made = std::fs::create_dir_all(folder).is_ok() && std::fs::File::create(&probe).is_ok();
-    // It was not made if it cannot be removed.
+    // Removing fails if the file was not created, which does not matter.
     let _ = std::fs::remove_file(&probe);
     is_made
 }

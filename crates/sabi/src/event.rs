@@ -17,7 +17,7 @@ pub(crate) enum Event {
         done: usize,
         of: usize,
     },
-    /// An item of a plan has ended; so many of those that were asked for have.
+    /// An item of a plan has ended. Also gives how many of the requested items have ended.
     Item {
         item: usize,
         status: &'static str,
@@ -29,7 +29,7 @@ pub(crate) enum Event {
 }
 
 impl Event {
-    /// `done` of `of` steps of a phase are done.
+    /// Returns the event that `done` of `of` steps of a phase are done.
     pub(crate) fn phase(phase: Phase, done: usize, of: usize) -> Event {
         Event::Phase {
             item: None,
@@ -39,7 +39,7 @@ impl Event {
         }
     }
 
-    /// Steps of a phase of an item are done.
+    /// Returns the event that steps of a phase of an item are done.
     pub(crate) fn phase_of(item: usize, phase: Phase, done: usize, of: usize) -> Event {
         Event::Phase {
             item: Some(item),
@@ -49,7 +49,7 @@ impl Event {
         }
     }
 
-    /// The command has ended with this code.
+    /// Returns the event that the command has ended with this code.
     pub(crate) fn done(exit: Exit) -> Event {
         Event::Done { exit: exit as u8 }
     }

@@ -1,4 +1,4 @@
-//! Exit codes, and failures on their way to them.
+//! Exit codes, and failures that lead to them.
 
 use sabi_engine::{EngineError, ErrorKind, Remedy};
 
@@ -8,17 +8,17 @@ use crate::failed_bake::FailedBake;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Exit {
-    /// The command did what was asked.
+    /// The command succeeded.
     Done = 0,
     /// Some items of a plan failed.
     SomeFailed = 1,
     /// The command line cannot be understood.
     Usage = 2,
-    /// Files are not as they are recorded.
+    /// Files differ from their record.
     Mismatch = 3,
     /// No adapter can be used.
     NoAdapter = 4,
-    /// A file is damaged, or not what it should be.
+    /// A file is damaged or of the wrong kind.
     BadInput = 65,
     /// A file is missing or cannot be read.
     MissingInput = 66,
@@ -26,9 +26,9 @@ pub(crate) enum Exit {
     Defect = 70,
     /// Results cannot be written.
     CannotWrite = 73,
-    /// The user stopped it.
+    /// The user stopped the command.
     Interrupted = 130,
-    /// The system stopped it.
+    /// The system stopped the command.
     Terminated = 143,
 }
 
@@ -48,7 +48,7 @@ impl Exit {
         Exit::Terminated,
     ];
 
-    /// Word for it in JSON.
+    /// Returns the word for the exit code in JSON.
     pub(crate) fn kind(self) -> &'static str {
         match self {
             Exit::Done => "done",
@@ -70,7 +70,7 @@ impl From<ErrorKind> for Exit {
         match kind {
             ErrorKind::Usage => Exit::Usage,
             ErrorKind::NoAdapter => Exit::NoAdapter,
-            // Too much for the memory there is: another size or model can be given.
+            // More memory is needed than there is: the user can choose another size or model.
             ErrorKind::BadInput | ErrorKind::OutOfMemory => Exit::BadInput,
             ErrorKind::MissingInput => Exit::MissingInput,
             ErrorKind::CannotWrite => Exit::CannotWrite,
@@ -91,7 +91,7 @@ pub(crate) struct Failure {
     pub(crate) remedies: Vec<Remedy>,
     /// Advice on the command line, in words.
     pub(crate) tips: Vec<String>,
-    /// The bake that failed, if it was one.
+    /// The bake that failed, if the command was a bake.
     pub(crate) bake: Option<Box<FailedBake>>,
 }
 

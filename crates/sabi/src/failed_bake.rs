@@ -1,4 +1,4 @@
-//! What is known of a bake that failed.
+//! Facts about a bake that failed.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ struct FailedMesh {
 }
 
 impl FailedBake {
-    /// Describes a bake as far as it is known before it begins.
+    /// Describes a bake with the facts that are known before it begins.
     pub(crate) fn new(graph: &Path, mesh: &Path) -> FailedBake {
         FailedBake {
             sabi: env!("CARGO_PKG_VERSION"),

@@ -1,4 +1,4 @@
-//! Failures as scripts read them; docs/report.md lists the keys.
+//! Failures in JSON for scripts; docs/report.md lists the keys.
 
 use serde::Serialize;
 
@@ -27,7 +27,7 @@ pub(crate) struct ErrorReport {
 }
 
 impl FailureReport {
-    /// Describes a failure of the command with this name, whose flags the remedies have.
+    /// Describes a failure of the command with this name. The remedies name the flags of this command.
     pub(crate) fn new(failure: &Failure, command: &str) -> FailureReport {
         FailureReport {
             bake: failure.bake.clone(),
@@ -37,7 +37,7 @@ impl FailureReport {
 }
 
 impl ErrorReport {
-    /// Describes a failure of the command with this name, whose flags the remedies have.
+    /// Describes a failure of the command with this name. The remedies name the flags of this command.
     pub(crate) fn new(failure: &Failure, command: &str) -> ErrorReport {
         let mut remedies = remedies_with_flags(&failure.remedies, command);
         remedies.extend(failure.tips.iter().cloned());

@@ -31,12 +31,12 @@ impl From<OsString> for GraphArgument {
 }
 
 impl GraphArgument {
-    /// Path of the file as it was given, or words for standard input.
+    /// Returns the path of the file as given, or words for standard input.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Opens the graph, which may open what it names below `trusted`. One from standard input is read whole, and only once; relative
+    /// Opens the graph, which may open files that it names below `trusted`. Standard input is read completely, and only once; relative
     /// paths in it start from the current folder.
     pub(crate) fn open(&self, trusted: &TrustedPaths) -> Result<OpenGraph, Failure> {
         if !self.is_piped {
@@ -61,7 +61,7 @@ impl GraphArgument {
         Ok(Some((open, kinds)))
     }
 
-    /// Path of the graph's file. Refuses standard input for a command that needs a file; `need` is a clause that says why.
+    /// Returns the path of the graph's file. Refuses standard input for a command that needs a file; `need` is a clause that says why.
     pub(crate) fn file(&self, need: &str) -> Result<&Path, Failure> {
         if self.is_piped {
             let why = format!("{need}; name a file in place of -");

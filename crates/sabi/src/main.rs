@@ -50,14 +50,14 @@ fn start() -> Exit {
         Ok(arguments) => arguments,
         Err(error) => {
             if let Some(why) = usage::mistyped_command_line(error.kind()) {
-                // The standard streams may be closed, and then there is nowhere to say so.
+                // The standard streams may be closed; then the message is lost.
                 let _ = writeln!(io::stderr().lock(), "error: {why}");
                 if usage::asks_for_json() {
                     terminal::json_failure(&Failure::new(Exit::Usage, why), "");
                 }
                 return Exit::Usage;
             }
-            // The standard streams may be closed, and then there is nowhere to say so.
+            // The standard streams may be closed; then the message is lost.
             let _ = usage::print(&error);
             if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
                 return Exit::Done;
@@ -84,10 +84,11 @@ fn start() -> Exit {
     exit
 }
 
-/// Form of progress where `--progress` is not given.
+/// Environment variable with the form of progress, used if `--progress` is not given.
 const PROGRESS_VARIABLE: &str = "SABI_PROGRESS";
 
-/// Form in which progress is shown: that of the command line, else of the variable. Without both, only quiet work has none.
+/// Returns the form in which progress is shown: that of the command line, otherwise that of the variable. If neither is given, progress is
+/// shown unless the command is quiet.
 fn progress_choice(global: &Global) -> Result<ProgressChoice, Failure> {
     if global.no_progress {
         return Ok(ProgressChoice::None);
@@ -104,10 +105,10 @@ fn progress_choice(global: &Global) -> Result<ProgressChoice, Failure> {
     }
 }
 
-/// Filter of the log where `--log` is not given.
+/// Environment variable with the filter of the log, used if `--log` is not given.
 const LOG_VARIABLE: &str = "SABI_LOG";
 
-/// Starts the log on standard error, if `--log` or `SABI_LOG` gives a filter for it. Spans are logged with their times when they
+/// Starts the log on standard error if `--log` or `SABI_LOG` gives a filter for it. Spans are logged with their times when they
 /// close.
 fn start_log(argument: Option<&str>) -> Result<(), Failure> {
     let variable = std::env::var(LOG_VARIABLE).ok().filter(|filter| !filter.is_empty());

@@ -1,4 +1,4 @@
-//! Text on its way out of the program, in which nothing that came from a file controls a terminal, breaks a line, or is taken for a
+//! Makes text safe to print: nothing that came from a file controls a terminal, breaks a line, or is taken for a
 //! command by a system that reads the output of jobs.
 
 use std::borrow::Cow;
@@ -7,18 +7,18 @@ use std::io;
 
 use sabi_engine::is_invisible;
 
-/// Starts of lines by which a fault of a node file goes on below its sentence.
+/// Starts of the lines that follow the sentence of a fault in a node file.
 const CONTINUATIONS: [&str; 2] = ["   | ", "   = "];
-/// Starts of lines that Open Job Description and GitHub take for commands.
+/// Starts of lines that Open Job Description and GitHub treat as commands.
 const COMMANDS: [&str; 2] = ["openjd_", "::"];
-/// Marks that GitHub, Azure and TeamCity look for anywhere in a line.
+/// Marks that GitHub, Azure and TeamCity search for anywhere in a line.
 const MARKS: &str = "##";
-/// Longest line, bytes.
+/// Greatest length of a line, in bytes.
 const LONGEST_LINE: usize = 16 << 10;
-/// Bytes that are left of a longer line at its beginning and at its end.
+/// Number of bytes that are kept of a longer line at its beginning and at its end.
 const LEFT_OF_LINE: usize = 4 << 10;
 
-/// Returns a sentence as one line. The lines below a fault of a node file stay.
+/// Returns a sentence as one line. The lines that follow the sentence of a fault in a node file are kept.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     let text = shortened(text);
     let is_plain = |text: &str| {
@@ -51,7 +51,7 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Returns a text of several lines, such as a file, with its line breaks and tabs and without what controls a terminal.
+/// Returns a text of several lines, such as a file, with its line breaks and tabs but without characters that control a terminal.
 pub(crate) fn printable_lines(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -72,7 +72,7 @@ pub(crate) fn printable_json(json: &str) -> Cow<'_, str> {
     }
     let mut shown = String::with_capacity(json.len() + 16);
     for (at, letter) in json.char_indices() {
-        // Such characters are in strings alone; those outside of the first plane have two units there.
+        // Such characters occur only in strings; those above U+FFFF are written as two `\u` escapes.
         if is_odd(letter) || letter == '#' && json[at + 1..].starts_with('#') {
             for unit in letter.encode_utf16(&mut [0; 2]) {
                 let _ = write!(shown, "\\u{unit:04x}");
@@ -98,7 +98,7 @@ fn escape(shown: &mut String, letter: char) {
     };
 }
 
-/// Leaves out the middle of a line that nobody would read to its end.
+/// Leaves out the middle of a line that is too long to be read.
 fn shortened(text: &str) -> Cow<'_, str> {
     if text.len() <= LONGEST_LINE {
         return Cow::Borrowed(text);
@@ -129,7 +129,7 @@ impl Page {
         text.lines().for_each(|line| self.line(line));
     }
 
-    /// The page as text.
+    /// Returns the page as text.
     pub(crate) fn text(&self) -> &str {
         &self.0
     }
@@ -143,7 +143,7 @@ impl<L: fmt::Display> FromIterator<L> for Page {
     }
 }
 
-/// Writer of a log, each of whose writes is an entry.
+/// Writer of a log. Each of its writes is one entry.
 pub(crate) struct LogWriter<W>(pub(crate) W);
 
 impl<W: io::Write> io::Write for LogWriter<W> {

@@ -38,7 +38,7 @@ enum Display {
 }
 
 impl ShownProgress {
-    /// Listens for Ctrl-C, and begins to show progress.
+    /// Starts to listen for Ctrl-C and to show progress.
     pub(crate) fn new(terminal: &Terminal) -> ShownProgress {
         listen_for_signals(*terminal);
         ShownProgress {
@@ -65,7 +65,7 @@ impl Display {
 fn bar() -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
     let style = ProgressStyle::with_template("{msg:18} {bar:32} {pos}/{len}");
-    // A template that `indicatif` refuses costs the look of the bar only.
+    // If `indicatif` refuses the template, the bar only looks different.
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar
 }
@@ -82,7 +82,7 @@ impl Drop for ShownProgress {
 impl Progress for ShownProgress {
     fn advance(&self, phase: Phase, done: usize, of: usize) {
         tracing::debug!(phase = phase.label(), done, of);
-        // A pace that a panic left locked is still a pace.
+        // The pace is usable even if a thread panicked while it held the lock.
         let is_due = |pace: &Mutex<Pace>| {
             let mut pace = pace.lock().unwrap_or_else(PoisonError::into_inner);
             pace.is_due(self.started.elapsed(), phase, done, of)
@@ -98,7 +98,7 @@ impl Progress for ShownProgress {
             }
             Display::Events(pace) if is_due(pace) => self.terminal.event(&Event::phase(phase, done, of)),
             Display::Statuses(pace) if is_due(pace) => {
-                // A closed stream has no reader who would miss it.
+                // A closed stream has no reader, so a failure does not matter.
                 let _ = openjd::status(&self.terminal, &format!("{} {done}/{of}", phase.label()));
             }
             Display::Lines(_) | Display::Events(_) | Display::Statuses(_) | Display::None => {}

@@ -1,4 +1,4 @@
-//! Report of a bake, also of one that failed, as a file that is complete or does not exist.
+//! Report of a bake, including a failed one, as a file that is complete or does not exist.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use serde_json::Value as Json;
 use crate::exit::{Exit, Failure};
 use crate::terminal::{Terminal, pretty};
 
-/// A larger file is no report.
+/// Greatest size of a report; larger files are not reports.
 const LARGEST_REPORT_BYTES: u64 = 64 << 20;
 
 /// Destination of a report. Dropping it leaves an earlier report unchanged.
@@ -25,7 +25,7 @@ pub(crate) enum ReportFile {
 }
 
 impl ReportFile {
-    /// Checks early that the report can be written; it never replaces one of `inputs`. `output` is the folder of the maps,
+    /// Checks at the start that the report can be written and does not replace one of `inputs`. `output` is the folder of the maps,
     /// which the bake may create.
     pub(crate) fn create(path: &Path, output: &Path, inputs: &[PathBuf]) -> Result<ReportFile, Failure> {
         if path == Path::new("-") {
@@ -52,7 +52,7 @@ impl ReportFile {
         create_file(path).map(ReportFile::File)
     }
 
-    /// Base of relative paths in the report; standard output has the current folder.
+    /// Returns the folder from which relative paths in the report start; for standard output, the current folder.
     pub(crate) fn base(&self) -> PathBase {
         match self {
             ReportFile::Stdout => PathBase::of_folder(absolute(Path::new("."))),
@@ -66,7 +66,7 @@ impl ReportFile {
         matches!(self, ReportFile::Stdout)
     }
 
-    /// Writes the report of a bake that failed. A file of another kind stays as it is: the bake may have failed before it knew that it
+    /// Writes the report of a bake that failed. A file of another kind is not replaced: the bake may have failed before it knew that it
     /// reads this file.
     pub(crate) fn write_failure(self, report: &impl Serialize, terminal: &Terminal) -> Result<(), Failure> {
         if let ReportFile::File(file) = &self
@@ -81,7 +81,7 @@ impl ReportFile {
         self.write(report, terminal)
     }
 
-    /// Writes the report. A folder that the bake has not made is made.
+    /// Writes the report. Creates its folder if the bake has not.
     pub(crate) fn write(self, report: &impl Serialize, terminal: &Terminal) -> Result<(), Failure> {
         let mut file = match self {
             ReportFile::Stdout => return terminal.json(report),
@@ -115,7 +115,7 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 fn create_file(path: &Path) -> Result<WholeFile, Failure> {
-    // Reports that killed bakes had begun.
+    // Remove unfinished reports of bakes that were killed.
     sweep(folder_of(path));
     WholeFile::create(path).map_err(|FileError { source, .. }| write_failure(path, &source))
 }

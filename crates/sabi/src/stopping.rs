@@ -10,10 +10,10 @@ use crate::terminal::Terminal;
 
 /// True once the work is canceled.
 static CANCELED: AtomicBool = AtomicBool::new(false);
-/// Exit code of the signal that canceled it; 0 for none.
+/// Exit code of the signal that canceled the work; 0 without a signal.
 static SIGNALED: AtomicU8 = AtomicU8::new(0);
 static LISTENING: Once = Once::new();
-/// Time for an orderly end once all work is kept.
+/// Time that the process has to end normally after all results are saved.
 #[cfg(feature = "window")]
 const MOMENT: Duration = Duration::from_secs(1);
 
@@ -22,7 +22,7 @@ pub(crate) fn is_canceled() -> bool {
     CANCELED.load(Ordering::Relaxed)
 }
 
-/// Returns the exit code of a process that ends with this one: work that was interrupted ends as its signal says.
+/// Returns the exit code of a process whose work ends with this code: if a signal canceled the work, the code of the signal.
 pub(crate) fn exit_of(exit: Exit) -> Exit {
     match exit {
         Exit::Interrupted if SIGNALED.load(Ordering::Relaxed) == Exit::Terminated as u8 => Exit::Terminated,
@@ -30,16 +30,16 @@ pub(crate) fn exit_of(exit: Exit) -> Exit {
     }
 }
 
-/// Cancels the work once standard input ends, which is when the process that started this one has ended or closes it.
+/// Cancels the work once standard input ends: the process that started this one has ended or has closed it.
 pub(crate) fn cancel_when_input_ends() {
     thread::spawn(|| {
-        // Its bytes do not matter, nor does the reason for its end.
+        // The bytes are ignored, and so is the reason why the input ends.
         let _ = io::copy(&mut io::stdin().lock(), &mut io::sink());
         CANCELED.store(true, Ordering::Relaxed);
     });
 }
 
-/// Listens for Ctrl-C and signals to end: the first one cancels the work, which removes its unfinished files; the second one
+/// Handles Ctrl-C and signals to end: the first one cancels the work, which removes its unfinished files; the second one
 /// ends the process.
 pub(crate) fn listen_for_signals(terminal: Terminal) {
     LISTENING.call_once(|| {
@@ -51,13 +51,13 @@ pub(crate) fn listen_for_signals(terminal: Terminal) {
             terminal.note("stopping; press Ctrl-C again to quit at once");
         });
         if let Err(error) = listening {
-            // A signal then ends the process at once; unfinished files are hidden and replace no map.
+            // Without a handler, a signal ends the process at once; unfinished files are hidden and do not replace any map.
             tracing::warn!("Ctrl-C cannot be listened for: {error}");
         }
     });
 }
 
-/// Ends the process after a moment, unless it ends by itself before: what is left then is a driver at work.
+/// Ends the process after a short time unless it has ended by then: only a graphics driver can still be at work.
 #[cfg(feature = "window")]
 pub(crate) fn end_soon() {
     thread::spawn(|| {
@@ -66,7 +66,7 @@ pub(crate) fn end_soon() {
     });
 }
 
-/// Ends the process where the graphics driver holds up its threads for ever.
+/// Ends the process when threads of the graphics driver would block its normal end forever.
 #[cfg(feature = "window")]
 pub(crate) fn end_after_a_loss() {
     let why = "the graphics device was lost and its driver does not come back; what is not saved is offered at the next start";
@@ -74,7 +74,7 @@ pub(crate) fn end_after_a_loss() {
     end_at_once(Exit::NoAdapter)
 }
 
-/// Ends the process without waiting for any thread: drivers that still compile or compute would hold up an orderly exit. Files
+/// Ends the process without waiting for its threads: drivers that still compile or compute would delay a normal exit. Files
 /// are complete at every moment.
 fn end_at_once(exit: Exit) -> ! {
     #[cfg(unix)]

@@ -21,14 +21,14 @@ const MOST_WARNINGS: usize = 200;
 pub(crate) struct Terminal {
     quiet: bool,
     progress: ProgressChoice,
-    /// True if standard output is JSON, failures too.
+    /// True if standard output is JSON, even for failures.
     json: bool,
-    /// Name of the command that runs; remedies name its flags.
+    /// Name of the command that runs, whose flags remedies name.
     command: &'static str,
 }
 
 impl Terminal {
-    /// Output of a command.
+    /// Creates the output of a command.
     pub(crate) fn new(global: &Global, command: &Command, progress: ProgressChoice) -> Terminal {
         Terminal {
             command: command.name(),
@@ -38,14 +38,14 @@ impl Terminal {
         }
     }
 
-    /// Form in which progress is shown.
+    /// Returns the form in which progress is shown.
     pub(crate) fn progress(&self) -> ProgressChoice {
         self.progress
     }
 
-    /// Prints an event of the progress.
+    /// Prints a progress event.
     pub(crate) fn event(&self, event: &Event) {
-        // An event is plain data, which can be written.
+        // An event has only plain data, so writing it as JSON cannot fail.
         if let Ok(text) = serde_json::to_string(event) {
             self.line(format_args!("{text}"));
         }
@@ -109,19 +109,19 @@ impl Terminal {
         self.line(format_args!("error: {last}"));
     }
 
-    /// Prints the sentence of an error, of a command whose data tells of it as well.
+    /// Prints the sentence of an error of a command whose JSON output contains the error too.
     pub(crate) fn error(&self, sentence: &str) {
         self.line(format_args!("error: {sentence}"));
     }
 
-    /// Name of the command that runs.
+    /// Returns the name of the command that runs.
     pub(crate) fn command(&self) -> &'static str {
         self.command
     }
 
     /// Prints a line for people, even if the user wants errors only.
     pub(crate) fn line(&self, text: fmt::Arguments<'_>) {
-        // Standard error may be closed, and then there is nowhere to say so.
+        // Standard error may be closed; then the line is lost.
         let _ = writeln!(io::stderr().lock(), "{}", printable(&text.to_string()));
     }
 
@@ -135,11 +135,11 @@ impl Terminal {
         self.page(&[line].into_iter().collect())
     }
 
-    /// Prints text on standard output as it is: a document, or what another program runs.
+    /// Prints text on standard output unchanged: a document, or input for another program.
     pub(crate) fn data(&self, text: &str) -> Result<(), Failure> {
         let mut stdout = io::stdout().lock();
         match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-            // A reader of a pipe may stop when it has enough, as `head` does.
+            // The reader of a pipe may stop early, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             Err(error) => {
                 let why = format!("cannot write to standard output: {}", io_reason(&error));
@@ -159,12 +159,12 @@ impl Terminal {
 pub(crate) fn json_failure(failure: &Failure, command: &str) {
     if let Ok(text) = pretty(&FailureReport::new(failure, command)) {
         let mut stdout = io::stdout().lock();
-        // Standard output may be closed, and then people still read the sentence.
+        // If standard output is closed, people still see the sentence on standard error.
         let _ = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
     }
 }
 
-/// A JSON document as text, with a line break at its end.
+/// Returns a JSON document as text, with a line break at its end.
 pub(crate) fn pretty(document: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(document);
     let text = text.map_err(|error| Failure::new(Exit::Defect, format!("cannot write the report as JSON: {error}")))?;

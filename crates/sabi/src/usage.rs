@@ -11,13 +11,13 @@ use crate::arguments::command_names;
 use crate::exit::{Exit, Failure};
 use crate::printable::printable;
 
-/// Returns whether a command line asks for JSON, also where it cannot be understood otherwise.
+/// Returns whether a command line contains the flag for JSON, even if the rest of it cannot be understood.
 pub(crate) fn asks_for_json() -> bool {
     let options = env::args_os().skip(1).take_while(|argument| argument != "--");
     options.into_iter().any(|argument| argument == "--json")
 }
 
-/// Returns a sentence about a first word that is neither a file nor a command, but nearly one.
+/// Returns a sentence about a first word that is neither a file nor a command, but similar to a command.
 pub(crate) fn mistyped_command(typed: &Path) -> Option<String> {
     let word = typed.to_str().filter(|_| !typed.exists())?;
     let names = command_names();
@@ -27,8 +27,8 @@ pub(crate) fn mistyped_command(typed: &Path) -> Option<String> {
     ))
 }
 
-/// Returns the sentence about a mistyped command, if that may be why a command line cannot be understood: what follows it is then no
-/// argument of the editor.
+/// Returns the sentence about a mistyped command if that may be why a command line cannot be understood: the words after it are then not
+/// arguments of the editor.
 pub(crate) fn mistyped_command_line(kind: ErrorKind) -> Option<String> {
     if !matches!(
         kind,
@@ -42,7 +42,7 @@ pub(crate) fn mistyped_command_line(kind: ErrorKind) -> Option<String> {
     mistyped_command(Path::new(&first))
 }
 
-/// Prints what is wrong with a command line. Its arguments may be names of files, which do not control a terminal.
+/// Prints the error of a command line. Its arguments may be names of files, so characters that control a terminal are removed.
 pub(crate) fn print(error: &clap::Error) -> io::Result<()> {
     let is_odd = |argument: std::ffi::OsString| argument.to_string_lossy().chars().any(is_invisible);
     if !env::args_os().any(is_odd) {
@@ -53,7 +53,7 @@ pub(crate) fn print(error: &clap::Error) -> io::Result<()> {
     io::stderr().lock().write_all(lines.collect::<String>().as_bytes())
 }
 
-/// The failure of a command line, given the text that is printed for people: a sentence, tips, and where to read on.
+/// Returns the failure of a command line from the text that is printed for people: a sentence, tips, and where to read on.
 pub(crate) fn usage_failure(text: &str) -> Failure {
     let text = text.strip_prefix("error: ").unwrap_or(text); // It says nothing that the kind does not.
     let paragraphs = text.split("\n\n").map(|paragraph| {

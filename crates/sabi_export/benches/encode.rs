@@ -1,6 +1,6 @@
-//! `cargo bench -p sabi_export`: time and bytes of the files of a texture set of 4096².
+//! `cargo bench -p sabi_export` measures the time to encode the files of a texture set of 4096², and their sizes.
 //!
-//! `cargo bench -p sabi_export -- FOLDER` encodes the maps of an earlier bake again, beside their bytes in that folder.
+//! `cargo bench -p sabi_export -- FOLDER` encodes the maps of an earlier bake again and compares their sizes with those in that folder.
 
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
@@ -40,7 +40,7 @@ fn main() {
     }
 }
 
-/// Writes maps as one set, and prints for each channel its files and the median time of all of them.
+/// Writes maps as one set, and prints for each channel its files and the median time to write all of them.
 fn write_set(name: &str, maps: &[(Channel, ChannelPixels)], before: Option<&Path>) {
     let pixels = maps[0].1.data.len() / maps[0].1.components;
     let size = pixels.isqrt();
@@ -89,7 +89,7 @@ fn write_set(name: &str, maps: &[(Channel, ChannelPixels)], before: Option<&Path
     }
 }
 
-/// A map of an earlier bake with its channel and the stem of its name; none for other files.
+/// Returns a map of an earlier bake with its channel and the stem of its name; `None` for other files.
 fn earlier_map(file: &Path) -> Option<(String, (Channel, ChannelPixels))> {
     let name = file.file_name()?.to_str()?;
     let (stem, ending) = name.rsplit_once('.')?;

@@ -1,4 +1,4 @@
-//! Gathering of channels from an atlas that is read band by band.
+//! Gathers channels from an atlas that is read in bands.
 
 use std::ops::Range;
 
@@ -8,18 +8,18 @@ use crate::layout::{NONE, SetLayout};
 use crate::padding::{PART, PaddingMap};
 use crate::{Channel, ChannelPixels};
 
-/// Order in which the pixels of a texture set take their values from consecutive texels of the atlas, a band at a time: the
-/// atlas never has to be in memory as a whole.
+/// For each pixel of a texture set, the atlas texel that provides its value, in an order that allows the atlas to be read
+/// in bands of consecutive texels, so that it is never in memory as a whole.
 ///
-/// Only for layouts whose pixels have one texel each; the mean of several is gathered by [`PaddingMap::gather`].
+/// Only for layouts in which each pixel has one texel. The mean of several texels is gathered by [`PaddingMap::gather`].
 #[derive(Debug)]
 pub struct BandGather {
-    /// Texels that the pixels of each part take values from.
+    /// For each part of the pixels, the range of texels that provide its values.
     of_parts: Vec<Range<usize>>,
 }
 
 impl BandGather {
-    /// Finds the texels that each part of the pixels needs.
+    /// Finds the range of texels that each part of the pixels needs.
     pub fn new(padding: &PaddingMap, layout: &SetLayout) -> BandGather {
         debug_assert!(layout.shared.is_empty(), "a mean is taken of texels in several bands");
         let range = |part: usize| {
@@ -35,13 +35,13 @@ impl BandGather {
         }
     }
 
-    /// Texels that the pixels need, and others between them; an empty range if none.
+    /// Returns the range of texels that contains all that the pixels need; empty if they need none.
     pub fn texels(&self) -> Range<usize> {
         around(self.of_parts.iter().filter(|part| !part.is_empty()).cloned())
     }
 
-    /// Sets the pixels of the set whose texels are in a band. `copy` fills in the values of neighboring texels of the atlas, of which
-    /// the channel's begin at `first`; values beyond them are the channel's neutral ones.
+    /// Sets the pixels whose texels are in a band. `copy` fills in the values of neighboring texels of the atlas, in which
+    /// the values of the channel start at `first`; missing values are the channel's neutral ones.
     pub fn add(
         &self,
         padding: &PaddingMap,
@@ -103,10 +103,10 @@ impl BandGather {
 /// Most texels of a run.
 const LONGEST_RUN: usize = 64;
 
-/// Pixels of a part of a set, side by side, that take their values from neighboring texels.
+/// Adjacent pixels of a part of a set that take their values from adjacent texels.
 #[derive(Clone, Copy, Default)]
 struct Run {
-    /// The first of the pixels, and of the texels.
+    /// The first pixel, and the first texel.
     pixel: usize,
     texel: usize,
     length: usize,
@@ -117,13 +117,13 @@ impl Run {
     fn at(pixel: usize, texel: Option<usize>) -> Run {
         Run {
             pixel,
-            // Not read in an empty run.
+            // The default is not read in an empty run.
             texel: texel.unwrap_or_default(),
             length: usize::from(texel.is_some()),
         }
     }
 
-    /// Adds the next pixel if its texel is the next one, too; or if neither the run nor the pixel has a texel.
+    /// Adds the next pixel if its texel is the next one, or if neither the run nor the pixel has a texel.
     fn extend(&mut self, pixel: usize, texel: Option<usize>) -> bool {
         let Some(texel) = texel else { return self.length == 0 };
         let is_next = self.length > 0
@@ -141,7 +141,7 @@ fn around(ranges: impl Iterator<Item = Range<usize>>) -> Range<usize> {
     ranges.reduce(both).unwrap_or(0..0)
 }
 
-/// Returns the texel that gives a covered pixel its value; none for [`NONE`], which is no index.
+/// Returns the texel that provides the value of a covered pixel; `None` for [`NONE`], which is not an index.
 fn source(layout: &SetLayout, pixel: u32) -> Option<usize> {
     let texel = layout.source.get(pixel as usize).copied();
     texel.filter(|texel| *texel != NONE).map(|texel| texel as usize)

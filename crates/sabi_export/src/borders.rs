@@ -1,10 +1,10 @@
-//! Borders of charts: ghosts that repeat their own chart where the surface's data jumps.
+//! Borders of charts: ghosts that repeat their own chart where the data of the surface jumps.
 //!
-//! A ghost holds what lies beyond its seam, which is right for filters, and for maps of what goes on over the seam: a renderer then
-//! reads the same on both sides. Where the data jumps, at the border of a material, a part or a color, a renderer that interpolates
-//! near the border would read the neighbor's value, and padding and mip levels would spread it. There a ghost repeats the nearest texel
-//! of its own chart. A jump is told by the variation beside it, as limiters of finite volume schemes do (after Cockburn and Shu 1989,
-//! "TVB Runge-Kutta local projection discontinuous Galerkin finite element method").
+//! A ghost holds the value beyond its seam. That is right for filters, and for maps whose data continues over the seam, since a renderer
+//! then reads the same on both sides. Where the data jumps, at the border of a material, a part or a color, a renderer that interpolates
+//! near the border would read the neighbor's value, and padding and mip levels would spread it. In that case a ghost repeats the nearest
+//! texel of its own chart. A jump is detected by comparison with the variation beside it, as in limiters of finite volume schemes (after
+//! Cockburn and Shu 1989, "TVB Runge-Kutta local projection discontinuous Galerkin finite element method").
 
 use std::ops::Range;
 
@@ -14,15 +14,15 @@ use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, Ghost};
 use crate::layout::{Cover, NONE, SetLayout};
 use crate::{Channel, ChannelPixels, MeshMap};
 
-/// Texels on each side of a place that belong to its neighborhood: as many as there are rings of ghosts.
+/// Number of texels on each side of a place that belong to its neighborhood: the number of rings of ghosts.
 const REACH: i64 = sabi_surface::atlas::RINGS as i64;
 /// Texels along a side of a neighborhood.
 const SIDE: usize = 2 * REACH as usize + 1;
-/// Multiple of the largest step between neighboring texels of the chart up to which a ghost, for each texel of its distance, may differ
-/// from them: twice, since what is smooth may be steeper there.
+/// Limit for the difference between a ghost and its anchor, for each texel of distance, as a multiple of the largest step
+/// between neighboring texels of the chart. It is 2, since smooth data may be steeper at the ghost.
 pub const STEEPER: f32 = 2.0;
 
-/// Ghosts of a map with the texels of their charts around them. The map is a texture set, or the atlas itself.
+/// Ghosts of a texture set, with the texels of their charts around them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartBorders {
     /// Pixels of the map across and down, the pages of an atlas below each other.
@@ -30,7 +30,7 @@ pub struct ChartBorders {
     ghosts: Vec<BorderGhost>,
 }
 
-/// Ghost that gives a pixel its value.
+/// Ghost that provides the value of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BorderGhost {
     /// Its index among the ghosts of the atlas.
@@ -50,14 +50,14 @@ pub struct BorderGhost {
 pub enum BorderRule {
     /// Ghosts beyond a jump repeat the nearest texel of their chart.
     AtJumps,
-    /// As [`BorderRule::AtJumps`], except for the ghosts directly beside the chart: both sides of a seam have to meet.
+    /// Like [`BorderRule::AtJumps`], except for ghosts directly beside the chart, since both sides of a seam must have the same values.
     Meet,
-    /// All ghosts repeat the nearest texel of their chart: numbers that only mean themselves, and have nothing between them.
+    /// All ghosts repeat the nearest texel of their chart. For numbers such as ids, which must not be interpolated.
     Always,
 }
 
 impl BorderRule {
-    /// Returns the rule for a channel. Two sides that differ in height would be a crack.
+    /// Returns the rule for a channel. For heights, different values on both sides of a seam would cause a crack.
     pub fn of(channel: &Channel) -> BorderRule {
         match channel {
             Channel::Height => BorderRule::Meet,
@@ -68,7 +68,7 @@ impl BorderRule {
 }
 
 impl ChartBorders {
-    /// Finds the ghosts of a set; `layout` is made of `atlas`.
+    /// Finds the ghosts of a set. `layout` must be made from `atlas`.
     pub fn new(atlas: &Atlas, layout: &SetLayout) -> ChartBorders {
         let pages = Pages {
             atlas,
@@ -112,7 +112,7 @@ impl ChartBorders {
         self.repeat_values(BorderRule::of(channel), *components, 0..*components, data)
     }
 
-    /// Does the same to some of the values of pixels with several, which belong together.
+    /// Repeats charts like [`ChartBorders::repeat_charts`], for some components of pixels, which are changed together.
     pub fn repeat_values(&self, rule: BorderRule, components: usize, parts: Range<usize>, data: &mut [f32]) -> bool {
         let values = |pixel: usize| &data[pixel * components..][parts.clone()];
         let ghosts = self.ghosts.par_iter();
@@ -125,7 +125,7 @@ impl ChartBorders {
         !changed.is_empty()
     }
 
-    /// Returns whether a ghost repeats its chart in place of its own value.
+    /// Returns whether a ghost repeats its chart instead of its own value.
     fn is_changed<'v>(&self, ghost: &BorderGhost, rule: BorderRule, values: &impl Fn(usize) -> &'v [f32]) -> bool {
         let (own, nearest) = (values(ghost.pixel as usize), values(ghost.anchor as usize));
         let is_beside = ghost.step.iter().all(|step| step.abs() <= 1);
@@ -133,7 +133,7 @@ impl ChartBorders {
             return false;
         }
         let distance = f32::from(ghost.step[0]).hypot(f32::from(ghost.step[1]));
-        // One of the values that belong together is enough; one that is no number jumps nowhere.
+        // A jump in one component is enough. NaN never counts as a jump.
         let jumps = || {
             let steps = self.steepest(ghost, values);
             let mut parts = own.iter().zip(nearest).zip(steps);
@@ -142,7 +142,7 @@ impl ChartBorders {
         rule == BorderRule::Always || jumps()
     }
 
-    /// Returns the largest differences between texels of the chart that lie side by side around the anchor of a ghost.
+    /// Returns the largest differences between adjacent texels of the chart around the anchor of a ghost.
     fn steepest<'v>(&self, ghost: &BorderGhost, values: &impl Fn(usize) -> &'v [f32]) -> [f32; MOST_PARTS] {
         let mut steepest = [0.0_f32; MOST_PARTS];
         for [x, y] in offsets().filter(|offset| ghost.is_own(*offset)) {
@@ -163,7 +163,7 @@ impl ChartBorders {
     }
 }
 
-/// Most values of a pixel that belong together.
+/// Maximum number of components of a pixel that are changed together.
 const MOST_PARTS: usize = 4;
 
 impl BorderGhost {
@@ -181,7 +181,7 @@ struct Pages<'a> {
 }
 
 impl Pages<'_> {
-    /// Returns the ghost that gives a pixel its value, by texel and pixel; `None` where no texel of its chart is shown near it.
+    /// Returns the ghost that provides the value of a pixel; `None` if no texel of its chart is shown near it.
     fn ghost(&self, at: (usize, usize)) -> Option<BorderGhost> {
         let (texel, pixel) = at;
         let owner = *self.atlas.owners.get(texel)?;
@@ -206,15 +206,14 @@ impl Pages<'_> {
         })
     }
 
-    /// Returns whether a ghost lies beyond a border of the surface: it goes on with what its own chart has beside it, and shows no
-    /// neighbor.
+    /// Returns whether a ghost is beyond a border of the surface. Such a ghost continues its own chart and shows no neighbor.
     fn shows_own_border(&self, ghost: &Ghost) -> bool {
         let near = [0, 1].map(|axis| (ghost.target_texel[axis] - ghost.texel[axis] as f32 - 0.5).abs());
         self.atlas.triangle_chart.get(ghost.target_triangle as usize) == Some(&ghost.chart)
             && near.iter().all(|distance| *distance <= REACH as f32 + 1.0)
     }
 
-    /// Returns whether the texel at an offset from another is owned by a chart and shown by its pixel.
+    /// Returns whether the texel at an offset from another texel is owned by the chart and shown by its pixel.
     fn is_own(&self, chart: u32, texel: usize, pixel: usize, offset: [i64; 2]) -> bool {
         let Some(own_texel) = self.moved(texel, offset) else {
             return false;
@@ -255,7 +254,7 @@ fn bit([x, y]: [i64; 2]) -> usize {
     (y + REACH) as usize * SIDE + (x + REACH) as usize
 }
 
-/// Returns the pixel at an offset from another, in a map that repeats.
+/// Returns the pixel at an offset from another pixel, in a map that repeats.
 fn wrapped(pixel: usize, [x, y]: [i64; 2], size: [usize; 2]) -> usize {
     let [width, height] = size.map(|side| side as i64);
     let at = pixel as i64;

@@ -15,11 +15,11 @@ pub enum Channel {
     BaseColor,
     /// 0 clear, 1 opaque.
     Opacity,
-    /// 0 mirror, 1 chalk.
+    /// 0 mirror, 1 fully rough.
     Roughness,
     /// 0 or 1.
     Metallic,
-    /// 1 open, 0 buried.
+    /// 1 open, 0 fully occluded.
     Occlusion,
     /// Height in the model's own units.
     Height,
@@ -27,12 +27,12 @@ pub enum Channel {
     Normal,
     /// Linear RGB, may exceed 1.
     Emission,
-    /// Share below a clear coat, 0..1.
+    /// Strength of a clear coat, 0..1.
     Coat,
-    /// Roughness of the clear coat: 0 mirror, 1 chalk.
+    /// Roughness of the clear coat: 0 mirror, 1 fully rough.
     CoatRoughness,
-    /// As KHR_materials_anisotropy has it: the tangent-space unit direction along which highlights are drawn out, −1..1 as 0..1
-    /// in R and G, and the strength in B.
+    /// As in KHR_materials_anisotropy: the tangent-space unit direction along which highlights are stretched, −1..1 stored
+    /// as 0..1 in R and G, and the strength in B.
     Anisotropy,
     /// Color of a sheen, linear RGB, 0..1.
     Sheen,
@@ -40,7 +40,7 @@ pub enum Channel {
     SheenRoughness,
     /// Shares of the light that spread below the surface, linear RGB, 0..1.
     Subsurface,
-    /// Share of the light that goes through, 0..1.
+    /// Share of the light that passes through, 0..1.
     Transmission,
     /// A mask output of the graph, by its name.
     Mask(String),
@@ -52,7 +52,7 @@ pub enum Channel {
     Mesh(MeshMap),
 }
 
-/// Kind of an output of the graph beside its materials.
+/// Kind of an output of the graph other than materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OutputKind {
     /// One number.
@@ -67,7 +67,7 @@ impl OutputKind {
     /// All kinds.
     pub const ALL: [OutputKind; 3] = [OutputKind::Mask, OutputKind::Color, OutputKind::Vector];
 
-    /// Word for all outputs of the kind in preset files.
+    /// Returns the word in preset files for all outputs of the kind.
     pub fn plural(self) -> &'static str {
         match self {
             OutputKind::Mask => "masks",
@@ -77,7 +77,7 @@ impl OutputKind {
     }
 }
 
-/// Names that an output cannot take, because a channel's file has them.
+/// Names that an output cannot have, because files of channels have them.
 const TAKEN: [&str; 15] = [
     "base_color",
     "opacity",
@@ -122,7 +122,7 @@ impl Channel {
         Channel::Transmission,
     ];
 
-    /// True for channels that few materials have: sets of others do not mention them.
+    /// Returns true for channels that few materials have. Texture sets without them do not mention them.
     pub fn is_rare(&self) -> bool {
         matches!(
             self,
@@ -153,7 +153,7 @@ impl Channel {
         }
     }
 
-    /// Kind of output that it is; none for channels of materials and maps of the model.
+    /// Returns the kind of output; `None` for channels of materials and maps of the model.
     pub fn output_kind(&self) -> Option<OutputKind> {
         match self {
             Channel::Mask(_) => Some(OutputKind::Mask),
@@ -163,7 +163,7 @@ impl Channel {
         }
     }
 
-    /// Name of the output that it is.
+    /// Returns the name of the output; `None` for other channels.
     pub fn output_name(&self) -> Option<&str> {
         match self {
             Channel::Mask(name) | Channel::Color(name) | Channel::Vector(name) => Some(name),
@@ -171,18 +171,18 @@ impl Channel {
         }
     }
 
-    /// True for normals of the tangent frame, whose third component the others give.
+    /// Returns true for tangent-space normals, whose third component follows from the other two.
     pub(crate) fn is_tangent_normal(&self) -> bool {
         *self == Channel::Normal
     }
 
-    /// True for heights, whose steps show.
+    /// Returns true for heights, in which quantization steps are visible.
     pub(crate) fn is_height(&self) -> bool {
         *self == Channel::Height
     }
 
-    /// Name in reports and in file names: `base_color`; that of an output is its own, made fit for a file name and set apart
-    /// from those of channels.
+    /// Returns the name in reports and in file names, such as `base_color`. For an output it is the output's name, made
+    /// valid as a file name and different from the names of channels.
     pub fn name(&self) -> Cow<'_, str> {
         match self {
             Channel::BaseColor => "base_color".into(),
@@ -207,7 +207,7 @@ impl Channel {
         }
     }
 
-    /// Returns the noise of a component, the same one in each file that it is dithered in.
+    /// Returns the noise of a component. It is the same in each file in which the component is dithered.
     pub(crate) fn dither_pattern(&self, component: usize, seed: u32) -> DitherPattern {
         DitherPattern::new(seed, &self.name(), component)
     }
@@ -222,7 +222,7 @@ impl Channel {
         }
     }
 
-    /// Returns the neutral value: no metal, no relief, no occlusion, opaque, half rough, middle gray.
+    /// Returns the neutral value: not metallic, flat, not occluded, opaque, half rough, middle gray.
     pub fn neutral(&self) -> &'static [f32] {
         match self {
             // These are `PLAIN_MATERIAL` of `lib/core.wgsl`; a test compares them.
@@ -276,7 +276,7 @@ impl ChannelPixels {
         let neutral = channel.neutral();
         let components = neutral.len().max(1);
         let mut data = vec![0.0; pixels * components];
-        // On all cores: the system hands out memory as it is first written, which takes as long as the writing.
+        // In parallel: the system provides memory as it is first written, which takes as long as the writing.
         data.par_chunks_mut(components * NEUTRAL_PIXELS).for_each(|part| {
             let pixels = part.chunks_exact_mut(components);
             pixels.for_each(|pixel| pixel.copy_from_slice(neutral));

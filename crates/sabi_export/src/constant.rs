@@ -48,7 +48,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// Lowest and highest of each component.
+/// Lowest and highest value of each component.
 pub(crate) type Bounds = ([f32; 3], [f32; 3]);
 
 /// Bounds of a channel's pixels.
@@ -56,7 +56,7 @@ pub(crate) type Bounds = ([f32; 3], [f32; 3]);
 pub(crate) struct Survey {
     /// Bounds over the owned pixels; `None` if there are none.
     pub(crate) bounds: Option<Bounds>,
-    /// Values that were no numbers or infinite.
+    /// Number of values that were NaN or infinite.
     pub(crate) not_finite: u64,
 }
 
@@ -106,8 +106,8 @@ fn survey_of<const N: usize>(neutral: [f32; N], layout: &SetLayout, data: &mut [
     }
 }
 
-/// The value of a channel whose owned pixels are all within half a step of what its file could tell apart; of normals
-/// only the flat one counts. A set without owned pixels has the neutral value.
+/// Returns the value of a channel whose owned pixels all are within half a step of its file's precision. Of normals, only
+/// the flat one counts. A set without owned pixels has the neutral value.
 pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Option<Value> {
     let Some((low, high)) = bounds else {
         return Some(Value::neutral(channel));
@@ -126,7 +126,7 @@ pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Optio
             middle(index)
         }
         Channel::Mesh(map) if !map.is_color() => middle(index),
-        // All others were stored as half floats.
+        // All other channels were stored as half floats.
         _ => shortest_near(middle(index)),
     };
     match (same, channel, components) {
@@ -137,17 +137,17 @@ pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Optio
     }
 }
 
-/// The decimal number of fewest digits within one step of a half float: drivers may round either way when they store
-/// one, so 0.7 may come back as 0.69970703 or 0.70019531, and both mean 0.7.
+/// Returns the decimal number with the fewest digits within one step of a half float. Drivers may round either way when
+/// they store a half float, so 0.7 may be read back as 0.69970703 or 0.70019531, and both mean 0.7.
 fn shortest_near(value: f32) -> f32 {
     if value == 0.0 || !value.is_finite() {
         return value;
     }
-    // 10 bits behind the leading one; below 2⁻¹⁴ the steps get no smaller.
+    // A half float has 10 bits after the leading one. Below 2⁻¹⁴ the steps do not get smaller.
     let step = 2.0_f64.powi((f64::from(value).abs().log2().floor() as i32).max(-14) - 10);
     let decimal = |digits: usize| format!("{value:.digits$e}").parse::<f32>().ok();
     let near = |short: &f32| (f64::from(*short) - f64::from(value)).abs() <= step && *short != 0.0;
-    // The value itself is exact.
+    // If no short number is near, the exact value is used.
     (0..8).filter_map(decimal).find(near).unwrap_or(value)
 }
 
@@ -159,7 +159,7 @@ fn is_same(channel: &Channel, component: usize, low: f32, high: f32, all_high: [
             let step = 2.0 / 65535.0;
             return (low - flat).abs() <= step / 2.0 && (high - flat).abs() <= step / 2.0;
         }
-        // Files may hold floats: only rounding is forgiven.
+        // Files may contain floats, so only rounding differences are ignored.
         Channel::Height | Channel::Vector(_) => return is_same_float(low, high),
         Channel::Mesh(map) if !map.is_color() => return is_same_float(low, high),
         Channel::Emission | Channel::Color(_) if all_high.iter().any(|&value| value > 1.0) => {
@@ -172,7 +172,7 @@ fn is_same(channel: &Channel, component: usize, low: f32, high: f32, all_high: [
     spread <= 0.5 / 255.0
 }
 
-/// Returns true for bounds that rounding alone sets apart.
+/// Returns true if the bounds differ only by rounding.
 fn is_same_float(low: f32, high: f32) -> bool {
     high - low <= 1e-6 * low.abs().max(high.abs())
 }
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_is_told_as_it_was_set_however_a_driver_rounds_halves() {
+    fn a_value_is_reported_as_it_was_set_however_a_driver_rounds_halves() {
         // A half float keeps 10 of the 23 bits that an f32 has behind its leading one.
         let cut = |value: f32| f32::from_bits(value.to_bits() & !0x1fff);
         let rounded = |value: f32| f32::from_bits((value.to_bits() + 0x1000) & !0x1fff);

@@ -1,7 +1,7 @@
 //! Documents of materials beside the maps of a preset: MaterialX and USD.
 //!
-//! What a bake writes of each set is noted while it is written ([`SetFacts`]). At its end, the tiles of a material are one
-//! material whose channels are files or values ([`DocumentMaterial`]), and a writer for each format makes text of these.
+//! While a bake writes the sets, it records facts about them ([`SetFacts`]). At its end, the tiles of a material are combined into one
+//! material whose channels are files or values ([`DocumentMaterial`]), and a writer for each format converts these to text.
 
 mod facts;
 mod identifiers;
@@ -20,7 +20,7 @@ use crate::Channel;
 use crate::preset::Document;
 use crate::record::DocumentedMaterial;
 
-/// The text of a document; that of USDZ is its first file.
+/// Returns the text of a document. For USDZ it is the text of its first file.
 pub(crate) fn text(document: Document, materials: &[DocumentMaterial]) -> String {
     match document {
         Document::MaterialX => materialx::text(materials),
@@ -28,17 +28,18 @@ pub(crate) fn text(document: Document, materials: &[DocumentMaterial]) -> String
     }
 }
 
-/// Names of the files that a USD document of the materials names.
+/// Returns the names of the files to which a USD document of the materials refers.
 pub(crate) fn usd_files(materials: &[DocumentMaterial]) -> Vec<&str> {
     materials.iter().flat_map(usd::files).collect()
 }
 
-/// Channels of a material that vary, that the format has, and of which the preset has no file that the document can use.
+/// Returns the channels of a material that vary and that the format supports, but for which the preset has no file that the
+/// document can use.
 pub(crate) fn lacking(document: Document, material: &DocumentMaterial) -> impl Iterator<Item = &Channel> {
     material.missing.iter().filter(move |channel| has(document, channel))
 }
 
-/// A material of a document as reports list it.
+/// Returns the entry in the report for a material of a document.
 pub(crate) fn documented(document: Document, material: &DocumentMaterial) -> DocumentedMaterial {
     let untaken = material.channels.keys().filter(|channel| !has(document, channel));
     let mut left_out: Vec<Channel> = material.missing.iter().chain(untaken).cloned().collect();

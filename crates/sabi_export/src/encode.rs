@@ -12,7 +12,8 @@ use self::code_rows::code_rows;
 pub(crate) use self::plane::{Codes, Plane, planes};
 use crate::preset::Format;
 
-/// Rows that are made at once: enough that those around them, which dithering looks at, take little time.
+/// Number of rows that are encoded together. It is large enough that the rows above and below, which dithering needs, take
+/// little extra time.
 const BLOCK_ROWS: usize = 32;
 
 /// Encoding of a file.
@@ -21,7 +22,7 @@ pub(crate) struct Encoding {
     /// Pixels across and down.
     pub(crate) size: [u32; 2],
     pub(crate) format: Format,
-    /// True if components but the last of two or four go through the sRGB curve.
+    /// True if the sRGB curve is applied to all components, except the last of two or four.
     pub(crate) is_srgb: bool,
 }
 

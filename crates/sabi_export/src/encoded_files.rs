@@ -1,4 +1,4 @@
-//! Encoded files that are kept by what they were encoded from, so that none is encoded twice.
+//! Cache of encoded files by the data that they were encoded from, so that no file is encoded twice.
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -15,7 +15,7 @@ pub trait EncodedFiles: Debug + Send + Sync {
     fn keep(&self, key: &[u8; 32], file: &[u8]);
 }
 
-/// Hash of all that the bytes of a file depend on, besides the program.
+/// Returns a hash of everything except the program that determines the bytes of a file.
 pub(crate) fn key(planes: &[Plane<'_>], encoding: Encoding) -> [u8; 32] {
     let mut hash = blake3::Hasher::new_derive_key("sabi encoded files");
     // Channels are packed more than once.

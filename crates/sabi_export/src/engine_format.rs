@@ -25,7 +25,7 @@ pub enum EngineFormat {
     R16Float,
     /// Two components of floats.
     Rg16Float,
-    /// Vectors of 16 bits, and other things of three or four.
+    /// Vectors of 16 bits, and other data with three or four components.
     Rgba16,
     /// Vectors of floats.
     Rgba16Float,

@@ -1,27 +1,27 @@
-//! Channels of a texture set that wait for the others of their files.
+//! Channels of a texture set that are kept until all channels of their files have arrived.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::preset::{Component, ComponentSource, Content, Map, MapSize, Preset, When};
 use crate::{Channel, ChannelPixels, Value};
 
-/// A channel that was given.
+/// A channel that has arrived.
 #[derive(Debug)]
 pub(crate) struct HeldChannel {
-    /// Pixels, padded; none once no file needs them.
+    /// Pixels, padded; empty once no file needs them.
     pub(crate) pixels: ChannelPixels,
     pub(crate) constant: Option<Value>,
     /// Bounds of each component over the owned pixels.
     pub(crate) low: [f32; 3],
     pub(crate) high: [f32; 3],
-    /// Highest value of all components, over all tiles of the material where its tiles share a scale.
+    /// Highest value of all components; taken over all tiles of the material if its tiles share a scale.
     pub(crate) peak: f32,
-    /// True if the graph gives it, rather than the neutral value.
+    /// True if the graph provides the channel; false if it has the neutral value.
     pub(crate) is_connected: bool,
 }
 
 impl HeldChannel {
-    /// Returns true for values that whole numbers cannot hold.
+    /// Returns true if the channel has values that integers cannot represent.
     pub(crate) fn is_above_one(&self) -> bool {
         self.high.iter().any(|value| *value > 1.0)
     }
@@ -33,14 +33,14 @@ pub(crate) type MapIndex = [usize; 2];
 /// Channels of one texture set so far.
 #[derive(Debug, Default)]
 pub(crate) struct HeldSet {
-    /// None for a channel that the material does not have.
+    /// Channels that have arrived; `None` for a channel that the material does not have.
     channels: BTreeMap<Channel, Option<HeldChannel>>,
-    /// Maps that are decided.
+    /// Maps for which it is decided whether they are written.
     done: BTreeSet<MapIndex>,
 }
 
 impl HeldSet {
-    /// Adds a channel, or that the material does not have it; returns the packed maps that it completes.
+    /// Adds a channel, or the fact that the material does not have it. Returns the packed maps whose channels are now complete.
     pub(crate) fn add(&mut self, channel: &Channel, held: Option<HeldChannel>, presets: &[&Preset]) -> Vec<MapIndex> {
         self.channels.insert(channel.clone(), held);
         let is_complete =
@@ -49,13 +49,13 @@ impl HeldSet {
         found.map(|(index, _)| index).collect()
     }
 
-    /// The packed maps that still wait for channels, which never came.
+    /// Returns the packed maps that still wait for channels that have not arrived.
     pub(crate) fn waiting(&self, presets: &[&Preset]) -> Vec<MapIndex> {
         let waits = packed(presets).filter(|(index, _)| !self.done.contains(index));
         waits.map(|(index, _)| index).collect()
     }
 
-    /// Marks a map as decided, and drops the channels that no other one needs.
+    /// Marks a map as decided, and drops the channels that no other map needs.
     pub(crate) fn finish(&mut self, index: MapIndex, presets: &[&Preset]) {
         self.done.insert(index);
         let needed: BTreeSet<&Channel> = packed(presets)
@@ -78,10 +78,10 @@ impl HeldSet {
     pub(crate) fn constant(&self, component: &Component) -> Option<f32> {
         let value = match &component.source {
             ComponentSource::Constant(value) => *value,
-            // None, once the preset has the outputs of the graph.
+            // Outputs do not occur here any more, since the preset was adapted to the graph.
             ComponentSource::Output(..) => 0.0,
             ComponentSource::Channel(channel, index) => match self.channel(channel) {
-                // Without the channel, its neutral value.
+                // Without the channel, its neutral value is used.
                 None => channel.neutral().get(*index).copied()?,
                 Some(held) => held.constant?.component(*index),
             },
@@ -89,12 +89,12 @@ impl HeldSet {
         Some(if component.is_inverted { 1.0 - value } else { value })
     }
 
-    /// Divisor of the values of a map; 1 but for normalized emission above 1.
+    /// Returns the divisor of the values of a map: 1, except for normalized emission above 1.
     pub(crate) fn scale(&self, map: &Map) -> f32 {
         if !map.is_normalized {
             return 1.0;
         }
-        // A normalized height spans its range.
+        // A normalized height spans its range and needs no divisor.
         let emission = map
             .channels()
             .into_iter()

@@ -15,7 +15,7 @@ pub const NONE: u32 = u32::MAX;
 /// Source of a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cover {
-    /// None; padding may fill it.
+    /// Nothing; padding may fill it.
     Empty,
     /// Ghost of a chart: the surface beyond the seam.
     Ghost,
@@ -23,8 +23,7 @@ pub enum Cover {
     Owned,
 }
 
-/// One texture set of a model: a material, or one UV tile of a material that uses several, or the one sheet that all
-/// materials share.
+/// One texture set of a model: a material, or a UV tile of a material with several tiles, or the single sheet that all materials share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SetKey {
     /// An index into the model's materials, or 0 for their one sheet.
@@ -36,13 +35,13 @@ pub struct SetKey {
 }
 
 impl SetKey {
-    /// Returns whether a chart belongs to the set: it is on its sheet and, of several tiles, in its own.
+    /// Returns whether a chart belongs to the set: it is on the set's sheet and, if there are several tiles, in the set's tile.
     pub fn is_home_of(&self, chart: &Chart) -> bool {
         chart.sheet == self.material && (self.udim.is_none() || chart.uv_tile == self.uv_tile)
     }
 }
 
-/// Pixels of a texture set with the atlas texels that give them their values.
+/// Pixels of a texture set with the atlas texels that provide their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetLayout {
     /// Material and tile of the set.
@@ -53,10 +52,10 @@ pub struct SetLayout {
     pub source: Vec<u32>,
     /// Source of each pixel's value.
     pub cover: Vec<Cover>,
-    /// Further texels that claim a pixel like [`SetLayout::source`] does: pixel and texel, pixels rising. Filled by
-    /// [`SetLayout::merged`] only.
+    /// Further texels that claim a pixel in addition to [`SetLayout::source`]: pixel and texel, by ascending pixel. Only
+    /// filled by [`SetLayout::merged`].
     pub shared: Vec<(u32, u32)>,
-    /// Owned texels whose pixel another chart's owned texel claims as well: overlapping or tiling UVs.
+    /// Number of owned texels whose pixel is also claimed by another chart's owned texel: overlapping or tiling UVs.
     pub collisions: u64,
 }
 
@@ -103,14 +102,14 @@ pub fn layouts(atlas: &Atlas) -> Vec<SetLayout> {
 }
 
 impl SetLayout {
-    /// Builds the layout of one set. Owned texels take precedence over ghosts, the inner ring over the outer one, lower charts
-    /// over higher ones. Ghosts outside the tile are dropped; an owned texel outside belongs to the tile that it lies in if
-    /// that has a set, else it wraps.
+    /// Builds the layout of one set. Owned texels have precedence over ghosts, the inner ring over the outer one, and lower
+    /// charts over higher ones. Ghosts outside of the tile are dropped. An owned texel outside of it belongs to the tile in
+    /// which it lies if that tile has a set; otherwise it wraps around.
     pub fn new(atlas: &Atlas, key: SetKey) -> SetLayout {
         SetLayout::gather(atlas, key, false)
     }
 
-    /// Creates the layout like [`SetLayout::new`], with all texels of pixels that several charts claim, for their mean.
+    /// Creates a layout like [`SetLayout::new`], with all texels of pixels that several charts claim, so that their mean can be used.
     pub fn merged(atlas: &Atlas, key: SetKey) -> SetLayout {
         let mut layout = SetLayout::gather(atlas, key, true);
         let SetLayout { shared, cover, .. } = &mut layout;
@@ -176,8 +175,8 @@ impl SetLayout {
     }
 }
 
-/// Returns the rank of a texel among those that claim a pixel in the same way; the lowest gets it: the inner ring, which is
-/// read wherever its chart ends, before the outer one, then the lower chart.
+/// Returns the rank of a texel among those that claim a pixel in the same way. The lowest rank gets the pixel: the inner
+/// ring, which is read at the edge of its chart, before the outer one; then the lower chart.
 fn rank(atlas: &Atlas, texel: usize) -> (bool, u32) {
     match claim(atlas, texel) {
         Some((chart, Cover::Ghost)) => (!is_beside(atlas, texel, chart), chart),

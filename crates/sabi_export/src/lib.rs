@@ -1,8 +1,8 @@
-//! Texture sets and the files beside them.
+//! Writing of texture sets and of the files that belong to them.
 //!
-//! The way of a bake's numbers: [`set_keys`] says which texture sets a model has, [`SetLayout`] which texel feeds which
-//! pixel of one, [`PaddingMap`] what stands outside the charts, [`BakeWriter`] takes one channel after the other and
-//! puts complete files in place at the end. What was written comes back as records for the report.
+//! [`set_keys`] lists the texture sets of a model, [`SetLayout`] maps texels to the pixels of a set, and [`PaddingMap`]
+//! fills the space outside of the charts. [`BakeWriter`] receives one channel after the other, puts the complete files in
+//! place at the end, and returns records of what was written for the report.
 //!
 //! Invariants:
 //! * A set of files is written completely or not at all.

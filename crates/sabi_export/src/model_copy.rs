@@ -1,6 +1,6 @@
-//! A glTF copy of the model that uses the new maps: only what the baked materials look like is changed, on the JSON and
-//! the buffers themselves, so that animations, skins, extensions and everything else that Sabi does not read stay unchanged. UVs of
-//! an unwrapped model are one more set. The copy of a model that is no glTF is made from the loaded mesh.
+//! A glTF copy of the model that uses the new maps. Only the appearance of the baked materials is changed, in the JSON and the buffers
+//! themselves, so that animations, skins, extensions and everything else that Sabi does not read stay unchanged. UVs of an unwrapped model
+//! are added as another set. The copy of a model in another format is made from the loaded mesh.
 
 mod compact;
 mod companions;
@@ -62,15 +62,15 @@ pub struct CopiedFile {
 pub struct FinishedCopy {
     /// The `.gltf` or `.glb` file.
     pub copy: CopiedFile,
-    /// Files that it names and that are not maps of the bake.
+    /// Files to which the copy refers, except maps of the bake.
     pub beside: Vec<CopiedFile>,
     /// Changes of the properties of the materials that got maps.
     pub changes: Vec<LookChange>,
-    /// Warnings about what the copy lacks, as sentences.
+    /// Warnings about content that is missing in the copy, as sentences.
     pub warnings: Vec<String>,
 }
 
-/// A model, and its UV sets.
+/// A model and the numbers of its UV sets.
 #[derive(Clone, Copy, Debug)]
 pub struct CopySource<'m> {
     /// The model's file.
@@ -83,39 +83,39 @@ pub struct CopySource<'m> {
     pub unwrapped_uv_set: Option<u32>,
 }
 
-/// A model that is to be copied with new maps.
+/// A model that will be copied with new maps.
 pub struct ModelCopy<'m> {
     source: CopySource<'m>,
     options: CopyOptions,
     materials: Vec<CopiedMaterial>,
     tiles: Tiles,
-    /// Places in the document of the materials of UDIM tiles, as far as they are there.
+    /// Indices in the document of the materials of UDIM tiles, as far as they exist.
     tile_places: BTreeMap<SetKey, usize>,
     stem: String,
     container: Container,
     document: Json,
-    /// The file's buffers, where its own document is changed; none for a document that was made from the loaded mesh.
+    /// The file's buffers if its own document is changed; `None` for a document that was made from the loaded mesh.
     bytes: Option<FileBytes>,
     warnings: Vec<String>,
 }
 
-/// Material of the model, with what the copy needs of it.
+/// Material of the model, with the properties that the copy needs.
 struct CopiedMaterial {
     /// Name in reports.
     name: String,
-    /// Its place in the file; none for glTF's default material.
+    /// Its index in the file; `None` for glTF's default material.
     file_index: Option<usize>,
     /// UV set of its maps.
     uv_set: u32,
     /// Wrap mode of its maps outside 0..1.
     wrap: u32,
-    /// Transform that its textures need, since the copy keeps the coordinates as the file stores them.
+    /// Transform that its textures need, since the copy keeps coordinates as stored in the file.
     uv_decoding: Option<UvDecoding>,
 }
 
 impl<'m> ModelCopy<'m> {
-    /// Reads the file again. Models that are no glTF are copied as they were loaded: turned, scaled, triangulated; `baked` are
-    /// the sets that get maps.
+    /// Reads the file again. Models in other formats than glTF are copied as loaded: rotated, scaled, triangulated. `baked`
+    /// are the sets that get maps.
     pub fn open(
         source: CopySource<'m>,
         baked: &BTreeSet<SetKey>,
@@ -177,7 +177,7 @@ impl<'m> ModelCopy<'m> {
         })
     }
 
-    /// Name of the copy: the model's own, `.glb` or `.gltf` as the model was, `.glb` where it was neither.
+    /// Returns the name of the copy: the model's own name, with `.glb` or `.gltf` as in the model, or `.glb` for other formats.
     pub fn file_name(&self) -> String {
         let ending = if self.container.is_glb() { "glb" } else { "gltf" };
         format!("{}.{ending}", self.stem)
@@ -203,7 +203,7 @@ impl CopySource<'_> {
     }
 }
 
-/// Returns the materials of sets; one sheet is that of all.
+/// Returns the materials of sets. A single sheet belongs to all materials.
 pub fn baked_materials(model: &Model, baked: &BTreeSet<SetKey>) -> BTreeSet<u32> {
     if model.mesh.is_one_sheet && !baked.is_empty() {
         (0..model.materials.len() as u32).collect()
@@ -282,7 +282,7 @@ impl Edited {
     }
 }
 
-/// Returns why the file of a model that was loaded is not read again, as a clause.
+/// Returns why the file of a loaded model cannot be read again, as a clause.
 fn why_unread(unread: Unread) -> String {
     match unread {
         Unread::Missing => "it is not there any more".to_owned(),

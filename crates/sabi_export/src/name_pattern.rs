@@ -10,8 +10,8 @@ pub use folder::folder_name;
 use crate::ExportError;
 use crate::names::file_stem;
 
-/// Pattern of file names without their endings: text with tokens such as `$material` or `{material}`, and groups in
-/// parentheses that are left out where a token in them stands for nothing.
+/// Pattern of file names without extensions: text with tokens such as `$material` or `{material}`, and groups in
+/// parentheses that are omitted if a token in them has no value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamePattern {
     segments: Vec<Segment>,
@@ -21,13 +21,13 @@ pub struct NamePattern {
 enum Segment {
     Text(String),
     Token(Token),
-    /// A word of the whole bake that stands for nothing in it.
+    /// A token for the whole bake that has no value.
     Nothing,
-    /// Left out where a token in it stands for nothing.
+    /// Omitted if a token in it has no value.
     Optional(Vec<Segment>),
 }
 
-/// Token that stands for something else in each file.
+/// Token whose value differs from file to file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Token {
     Material,
@@ -36,7 +36,7 @@ enum Token {
     Size,
 }
 
-/// Tokens as they are written; `channel` is another word for `map`.
+/// Tokens as written; `channel` is another word for `map`.
 const TOKENS: [(&str, Token); 5] = [
     ("material", Token::Material),
     ("map", Token::Map),
@@ -73,13 +73,13 @@ impl Default for NamePattern {
 }
 
 impl NamePattern {
-    /// Pattern that is used where none is given.
+    /// Default pattern.
     pub const DEFAULT: &str = "$material_$map(.$udim)";
     /// Tokens for the whole bake that presets may use.
     pub const WORDS: [&str; 6] = ["project", "graph", "mesh", "variant", "seed", "preset"];
 
-    /// Parses a pattern. `words` are further tokens and their values for the whole bake, which are converted to file names;
-    /// one without a value stands for nothing. A pattern without `$udim` gets `(.$udim)` at its end.
+    /// Parses a pattern. `words` are further tokens with their values for the whole bake, which are converted to file
+    /// names. A token may have no value. A pattern without `$udim` gets `(.$udim)` at its end.
     ///
     /// # Errors
     /// It has no `$map`, an unknown token, an open group, or letters that no file name may have.
@@ -118,7 +118,7 @@ impl NamePattern {
         self.name_with(parts, udim.as_deref())
     }
 
-    /// The name with a text such as `<UDIM>` in place of the number of the tile.
+    /// Returns the name with a text such as `<UDIM>` in place of the tile number.
     pub(crate) fn name_of_tiles(&self, parts: &NameParts<'_>, udim: &str) -> String {
         self.name_with(parts, Some(udim))
     }
@@ -126,20 +126,20 @@ impl NamePattern {
     fn name_with(&self, parts: &NameParts<'_>, udim: Option<&str>) -> String {
         let mut name = String::new();
         for segment in &self.segments {
-            // Outside of groups, what stands for nothing is empty.
+            // Outside of groups, a token without a value is empty.
             push(&mut name, segment, parts, udim).unwrap_or_default();
         }
         name
     }
 
-    /// Returns true if this pattern gives a map of this name the file name, without its ending, for some material, tile and
-    /// size.
+    /// Returns true if this pattern can give a map with this name the file name `stem`, without extension, for some
+    /// material, tile and size.
     pub fn may_give(&self, stem: &str, map: &str) -> bool {
         may_give(&self.segments, vec![stem], map).contains(&"")
     }
 }
 
-/// Appends a segment; `None` where a token stands for nothing.
+/// Appends a segment; `None` if a token has no value.
 fn push(name: &mut String, segment: &Segment, parts: &NameParts<'_>, udim: Option<&str>) -> Option<()> {
     match segment {
         Segment::Text(text) => name.push_str(text),
@@ -169,8 +169,7 @@ fn has(segments: &[Segment], token: Token) -> bool {
     })
 }
 
-/// Returns what may be left of texts, which are ends of one text, once the segments were taken off their beginning. All of them are
-/// followed at once, so that groups within groups take no more time than as many segments.
+/// Returns the possible remainders of a text after the segments were matched at its start.
 fn may_give<'t>(segments: &[Segment], mut rests: Vec<&'t str>, map: &str) -> Vec<&'t str> {
     for segment in segments {
         let mut next: Vec<&str> = match segment {

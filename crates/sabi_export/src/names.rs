@@ -90,10 +90,10 @@ pub fn set_names(model: &Model) -> Vec<String> {
             _ => format!("{model_stem}_{}", index + 1),
         })
         .collect();
-    // Names from the file are kept where possible, so a number is never one of them.
+    // Names from the file are kept if possible, so appending a number must not give one of them.
     let given: BTreeSet<String> = wanted.iter().map(|name| name.to_lowercase()).collect();
     let mut used = BTreeSet::new();
-    // Number from which each name is tried: one that was taken for it stays taken.
+    // Number to try first for each name, since lower ones are taken.
     let mut next: BTreeMap<String, u32> = BTreeMap::new();
     wanted
         .into_iter()

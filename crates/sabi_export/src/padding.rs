@@ -1,4 +1,4 @@
-//! Padding outside the charts: the nearest covered pixel, found once for a texture set and used for every channel.
+//! Padding outside of the charts: the nearest covered pixel, determined once for a texture set and used for every channel.
 
 use std::iter;
 
@@ -17,8 +17,8 @@ pub enum Padding {
     Infinite,
 }
 
-/// For each pixel of a texture set the pixel that gives its value: itself where a chart or a ring covers it, else the nearest
-/// covered one.
+/// For each pixel of a texture set, the pixel that provides its value: the pixel itself if a chart or ring covers it,
+/// otherwise the nearest covered one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PaddingMap {
     pixels: usize,
@@ -49,7 +49,7 @@ impl PaddingMap {
             .enumerate()
             .for_each_init(Vec::new, |envelope, (y, row)| {
                 let rows = &nearest_row[y * size..(y + 1) * size];
-                // Many rows are covered completely and need no search.
+                // Many rows are completely covered and need no search.
                 if layout.cover[y * size..(y + 1) * size]
                     .iter()
                     .all(|&cover| cover != Cover::Empty)
@@ -64,7 +64,7 @@ impl PaddingMap {
         PaddingMap::of_sources(&source)
     }
 
-    /// Keeps the sources of the pixels that are not their own.
+    /// Keeps only the sources of pixels that have another pixel as their source.
     fn of_sources(source: &[u32]) -> PaddingMap {
         let is_own = |(pixel, from): (usize, &u32)| pixel == *from as usize;
         let bits = |(word, sources): (usize, &[u32])| {
@@ -140,7 +140,7 @@ impl PaddingMap {
                 Some(PART * part + WORD * word + bit)
             })
         });
-        // The last word may have bits beyond the last pixel.
+        // The last word may contain bits beyond the last pixel.
         pixels
             .take_while(move |pixel| *pixel < end)
             .zip(self.of_others[first..].iter().copied())
@@ -184,7 +184,7 @@ impl PaddingMap {
         let mut data = vec![0.0; self.pixels * N];
         data.par_chunks_mut(PART * N).enumerate().for_each(|(part, values)| {
             for (values, pixel) in values.as_chunks_mut::<N>().0.iter_mut().zip(self.sources_from(part)) {
-                // A pixel beyond the distance of the padding is `NONE`, which is no index.
+                // A pixel beyond the distance of the padding has `NONE`, which is not an index.
                 let from = layout.source.get(pixel as usize).copied().unwrap_or(NONE);
                 *values = if from == NONE { neutral } else { of_texel(from as usize) };
             }
@@ -226,7 +226,7 @@ impl PaddingMap {
             } else {
                 of(*from as usize)
             };
-            // Bits, which tell −0 from 0.
+            // Compare bits, which distinguish −0 from 0.
             let is_same = |(one, other): (&f32, &f32)| one.to_bits() == other.to_bits();
             let is_other = source
                 .zip(of(*to))

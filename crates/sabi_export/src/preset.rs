@@ -55,10 +55,10 @@ pub struct Map {
     pub format: Format,
     /// True if colors go through the sRGB curve; the file says so.
     pub is_srgb: bool,
-    /// True if gradients in whole numbers are dithered; areas of one value never are.
+    /// True if gradients in integer files are dithered. Areas of constant value never are.
     pub is_dithered: bool,
-    /// True if the file holds 0 to 1 whatever its channel holds: heights span their range, also in floats, and emission above 1 is
-    /// divided by its highest value. The report has the range and the divisor.
+    /// True if the file contains 0 to 1 whatever the range of its channel: heights span their range, also in float files,
+    /// and emission above 1 is divided by its highest value. The report contains range and divisor.
     pub is_normalized: bool,
     /// Size of the file.
     pub size: MapSize,
@@ -80,7 +80,7 @@ pub enum Content {
 pub struct Component {
     /// Source of its values.
     pub source: ComponentSource,
-    /// True for 1 minus the value; a height, which has a range, is turned upside down in it.
+    /// True for 1 minus the value. A height, which has a range, is turned upside down within that range.
     pub is_inverted: bool,
 }
 

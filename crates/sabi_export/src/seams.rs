@@ -21,18 +21,18 @@ use sabi_surface::seams::Seam;
 use self::readers::Readers;
 use crate::layout::SetLayout;
 
-/// Samples a texel along a seam: more than one, so that all texels beside the seam are sampled.
+/// Number of samples for each texel along a seam. It is more than one, so that all texels beside the seam are sampled.
 const SAMPLES_A_TEXEL: f64 = 3.0;
-/// About the most samples of all seams together; where that is too few for the length of the seams, samples lie further apart.
+/// Approximate maximum number of samples of all seams together. If the seams are longer, the samples are farther apart.
 const MOST_SAMPLES: f64 = (1 << 21) as f64;
 
 /// Samples of a texture set along its seams, with the texels that a renderer reads on both sides.
 ///
-/// Only seams within the set are sampled. A point is left out where either side reads a texel that does not belong to its
-/// chart: under overlapping charts, and beyond the border of the picture.
+/// Only seams within the set are sampled. A point is left out if either side reads a texel that does not belong to its
+/// chart, because charts overlap, or beyond the border of the image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeamSamples {
-    /// The set's pixels beside seams, rising.
+    /// The set's pixels beside seams, ascending.
     pixels: Vec<u32>,
     samples: Vec<Sample>,
     /// Samples of each pixel.
@@ -95,7 +95,7 @@ impl SeamSamples {
             .par_iter_mut()
             .flat_map_iter(|sample| &mut sample.sides)
             .for_each(|side| {
-                // All of them are among the pixels.
+                // All of these texels are in the list of pixels.
                 side.texels = side
                     .texels
                     .map(|pixel| pixels.partition_point(|&other| other < pixel) as u32);

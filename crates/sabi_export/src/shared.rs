@@ -1,14 +1,13 @@
-//! Texels that share a pixel of the maps with others, or have none, and the pixels shown for them.
+//! Texels that share a pixel of the maps with others, or have none, and the pixels that are shown in their place.
 
 use sabi_surface::atlas::Atlas;
 
 use crate::layout::{Cover, Grid, MappedTexel, NONE, SetLayout, claim};
 
-/// Atlas texels that show the values of other texels in an exported map: a map has one value for each pixel, even where
-/// several charts overlap. Charts that share no pixel do not appear here.
+/// Atlas texels that show the values of other texels in an exported map. A map has one value for each pixel, even where
+/// several charts overlap. Charts that share no pixel are not included.
 ///
-/// Texels are numbered page by page and row by row, and come in groups: each of a group's targets shows the mean of its
-/// sources.
+/// Texels are numbered page by page and row by row, and form groups: each target of a group shows the mean of its sources.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SharedTexels {
     /// End of each group's sources and of its targets in `texels`.
@@ -65,7 +64,7 @@ impl SharedTexels {
     }
 }
 
-/// Values that are shown in the place of a texel's own.
+/// Which values are shown in place of a texel's own.
 pub(crate) enum Shows {
     /// Value of its pixel.
     Pixel,

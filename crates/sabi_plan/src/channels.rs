@@ -1,11 +1,11 @@
-//! Channels that material results set; others take no storage.
+//! Channels that material results set. Other channels are not stored.
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Channel, ChannelWrite, ParamValue};
 
 use crate::resolved::{Behavior, Resolved, ResolvedNode};
 
-/// Channels that each result sets: color and surface always, others where the node writes them or passes them on.
+/// Returns the channels that each result sets: color and surface always, others if the node writes them or passes them on.
 pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<Vec<Channel>> {
     match node.behavior {
         Behavior::Source(kind) | Behavior::Sink(kind) => {
@@ -46,7 +46,7 @@ pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<
     }
 }
 
-/// Returns true if a parameter is on, or a number other than zero.
+/// Returns true if a toggle is on, or a number is not zero.
 fn is_on(node: &ResolvedNode<'_>, param: usize) -> bool {
     match node.values.get(param) {
         Some(ParamValue::Unsigned(0)) => false,
@@ -55,7 +55,7 @@ fn is_on(node: &ResolvedNode<'_>, param: usize) -> bool {
     }
 }
 
-/// Returns true if an input is connected, or its knob is other than zero.
+/// Returns true if an input is connected, or its knob is not zero.
 fn is_given(node: &ResolvedNode<'_>, input: usize) -> bool {
     match (node.inputs.get(input), node.knobs.get(input)) {
         (Some(None), Some(Some(knob))) => knob.iter().any(|number| *number != 0.0),

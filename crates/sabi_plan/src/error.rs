@@ -1,4 +1,4 @@
-//! Problems of a graph that are found once its kinds are known.
+//! Problems of a graph that can be found only when its kinds are known.
 
 use std::fmt;
 
@@ -44,7 +44,7 @@ pub enum Problem {
         /// The parameter.
         param: String,
     },
-    /// The node that an input names has no such result.
+    /// The node to which an input is linked has no result with this name.
     UnknownOutput {
         /// The input.
         port: String,
@@ -55,7 +55,7 @@ pub enum Problem {
         /// The most similar result.
         nearest: Option<String>,
     },
-    /// The output that an input is linked to has a type that the input does not take.
+    /// An input is linked to an output of a type that it does not accept.
     Mistyped {
         /// The input.
         port: String,
@@ -66,7 +66,7 @@ pub enum Problem {
         /// Port type of the output.
         found: PortType,
     },
-    /// An input that must be connected is not.
+    /// A required input is not connected.
     MissingInput {
         /// The input.
         port: String,
@@ -198,7 +198,7 @@ impl Sentence<'_> {
                     "input '{port}' of node '{node}' ({kind}) must be connected to a {expected}"
                 )
             }
-            // The others are no problems of inputs.
+            // The other problems do not concern inputs.
             _ => Ok(()),
         }
     }
@@ -224,7 +224,7 @@ impl Problem {
 impl std::error::Error for PlanError {}
 
 impl PlanError {
-    /// Returns true if the problem leaves the graph usable: the value stays in the file without effect.
+    /// Returns true if the graph can be used in spite of the problem: the value has no effect and stays in the file.
     pub fn is_warning(&self) -> bool {
         matches!(self.problem, Problem::UnknownParam { .. })
     }

@@ -14,11 +14,11 @@ use crate::resolved::{Behavior, ResolvedInput, ResolvedNode};
 use crate::resources::{Content, Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
-/// Most runs of a repeated function.
+/// Maximum number of runs of a repeated function.
 const RUN_LIMIT: f64 = 4096.0;
 
 impl StepBuilder<'_, '_> {
-    /// Builds the passes of a field node and its results, one kernel each.
+    /// Builds the passes and results of a field node, each as a kernel.
     pub(crate) fn field(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("fields are shaders")
@@ -51,8 +51,8 @@ impl StepBuilder<'_, '_> {
         built
     }
 
-    /// Returns whether a pass runs: one that is for an input does so once something is connected there, or the parameter of
-    /// the input has another value than its default.
+    /// Returns whether a pass runs. A pass that exists for an input runs only if something is connected to it, or if the
+    /// parameter of the input differs from its default.
     fn is_needed(&self, node: usize, kind: &Kind, pass: usize) -> bool {
         let Some(input) = kind.passes[pass].with else {
             return true;
@@ -66,7 +66,8 @@ impl StepBuilder<'_, '_> {
         ready.inputs[input].is_some() || knob != default
     }
 
-    /// Widest points with no more than the requested spacing, else the coarsest level with texels no wider than requested.
+    /// Returns the widest points that are not farther apart than requested; if there are none, the coarsest level whose
+    /// texels are not wider than requested.
     pub(crate) fn level(&self, ready: &ResolvedNode<'_>, kind: &Kind, [texel, points]: [&Option<Formula>; 2]) -> Level {
         let widths = self.planner.level_widths;
         let variables = Variables {
@@ -74,7 +75,8 @@ impl StepBuilder<'_, '_> {
             texel: widths.finest,
             finest: widths.finest,
         };
-        // Points are as dense on small pieces as on large ones: what is wide on the largest piece may be narrow on another.
+        // Points have the same density on small and large pieces, so a width that is large on the largest piece may be too
+        // small on another.
         let points = points.as_ref().filter(|_| !ready.is_by_piece);
         let points = points.map(|formula| formula.value(&variables));
         let points = points.and_then(|spacing| widths.widest_points_within(spacing));
@@ -83,8 +85,8 @@ impl StepBuilder<'_, '_> {
         points.or(texels).unwrap_or(Level::FINEST)
     }
 
-    /// Value of a parameter for the formulas of levels and repetitions, which are the same for the whole surface: a length
-    /// that is a share of each piece is that of the largest one.
+    /// Returns the value of a parameter for formulas of levels and repetitions, which are the same for the whole surface.
+    /// For a length that is a share of each piece, it is the length on the largest piece.
     fn largest_value(&self, ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
         let value = working_value(ready, kind, param);
         let of_piece = &kind.params[param];
@@ -108,7 +110,7 @@ impl StepBuilder<'_, '_> {
         if runs > 1.0 { runs.min(RUN_LIMIT) as u32 } else { 1 }
     }
 
-    /// Builds conversions of inputs of another type, since reading a texture does not convert.
+    /// Builds conversions of inputs of another type. They are needed since reading a texture does not convert.
     fn conversions(&self, node: usize) -> Vec<UnassignedStep> {
         let inputs = self.node(node).inputs.iter().enumerate();
         let converted = inputs.filter_map(|(index, input)| {
@@ -148,7 +150,7 @@ impl StepBuilder<'_, '_> {
             Argument::Input(input) => kind.inputs[*input].reads == Reads::Field,
             _ => false,
         });
-        // A function that reads no texture is evaluated on ghosts, too; otherwise they are filled over their links.
+        // A function that reads no texture is also evaluated for ghosts. Otherwise ghosts are filled across their links.
         let domain = if reads_textures {
             Domain::OwnedTexels
         } else {
@@ -181,8 +183,8 @@ impl StepBuilder<'_, '_> {
         kernel.finish()
     }
 
-    /// Loads of the passes that a function reads, and of the first texture that it reads, which stands in for passes that are
-    /// left out; where it reads no other, nothing does, and it finds 0.
+    /// Returns the loads of the passes that a function reads, and of the first texture that it reads. That texture replaces
+    /// passes that do not run; if there is none, the function reads 0.
     fn pass_loads(
         &self,
         node: usize,
@@ -238,8 +240,8 @@ impl StepBuilder<'_, '_> {
         inputs
     }
 
-    /// Builds moves of what a step reads from other levels; between two others by way of the finest. `written` is what the node
-    /// makes itself.
+    /// Builds moves of planes that a step reads from other levels. Between two other levels, planes are moved by way of the
+    /// finest one. `written` lists the planes that the node itself writes.
     pub(crate) fn level_moves(&self, node: usize, step: &UnassignedStep, written: &[Resource]) -> Vec<UnassignedStep> {
         let reads = step.reads.iter().flatten();
         let moved = reads.flat_map(|(resource, plane)| {
@@ -301,7 +303,7 @@ impl StepBuilder<'_, '_> {
     }
 }
 
-/// Stores the result of the only call: all planes of a material, as far as it sets them.
+/// Stores the result of the only call: for a material, all planes that it sets.
 fn store_result(kernel: &mut KernelBuilder<'_, '_, '_>, resource: Resource, ty: PortType) {
     match resource.content {
         Content::Result(value) => kernel.store(0, value),
@@ -326,7 +328,7 @@ fn passes_behind(kind: &Kind, outputs: &[usize]) -> Vec<usize> {
     found
 }
 
-/// Value of a parameter as its buffer holds it: lengths in working units or as shares of the piece, angles in radians.
+/// Returns the value of a parameter as in its buffer: lengths in working units or as shares of the piece, angles in radians.
 pub(crate) fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
     let param = &kind.params[param];
     let Some(bytes) = ready.params[param.offset as usize..].first_chunk() else {

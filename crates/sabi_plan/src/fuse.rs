@@ -44,7 +44,7 @@ impl Group {
     }
 }
 
-/// Nodes that read each value, once for each input.
+/// For each value, the nodes that read it, once for each input.
 pub(crate) type Readers = BTreeMap<Value, Vec<usize>>;
 
 /// Readers of each value in the wanted part of a graph.
@@ -61,7 +61,7 @@ pub(crate) fn readers(resolved: &Resolved<'_>) -> Readers {
     readers
 }
 
-/// Cuts the wanted part of a graph into groups, in evaluation order.
+/// Divides the wanted part of a graph into groups, in evaluation order.
 pub(crate) fn groups(
     resolved: &Resolved<'_>,
     readers: &Readers,
@@ -112,8 +112,8 @@ pub(crate) fn groups(
 
 /// Regions of point nodes that are connected without a stored result in between.
 ///
-/// Each node gets the largest number of stored results on a path from it to a wanted result. Nodes of the same number
-/// never depend on each other through a texture, so connected ones form a region.
+/// Each node gets the largest number of stored results on a path from it to a wanted result. Nodes with the same number
+/// never depend on each other through a texture, so connected nodes with the same number form a region.
 fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec<(usize, Vec<usize>)>> {
     let is_point: BTreeSet<usize> = points.iter().map(|(node, _)| *node).collect();
     let mut distance: BTreeMap<usize, u32> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Order of groups: producers before readers, such that little memory is in use at once.
+//! Order of groups: producers before readers, chosen so that little memory is in use at the same time.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,10 +14,10 @@ use crate::step_builder::StepBuilder;
 const MOST_ATTEMPTS: usize = 256;
 
 impl StepBuilder<'_, '_> {
-    /// Orders groups from inputs to results, depth first, so that results are freed soon. While results are kept, inputs are followed
-    /// in their order. Otherwise that is compared with the order of Sethi and Ullman ("The generation of optimal code for arithmetic
-    /// expressions", 1970): what needs most memory besides its result comes first, while little else is stored. The order
-    /// that needs less is taken, and made better where what needs most memory can run earlier.
+    /// Orders groups from inputs to results, depth first, so that results are freed soon. If results are kept anyway,
+    /// inputs are followed in their order. Otherwise this order is compared with that of Sethi and Ullman ("The generation
+    /// of optimal code for arithmetic expressions", 1970), in which the input that needs the most memory in addition to its
+    /// result comes first, while little else is stored. The order that needs less memory is used.
     pub(crate) fn order(&self, groups: &[Group], built: &[Vec<UnassignedStep>], wanted: &[Value]) -> Vec<usize> {
         let inputs: Vec<Vec<usize>> = groups.iter().map(|group| self.producers_of(group)).collect();
         let as_written = self.depth_first(&inputs, wanted);
@@ -93,20 +93,20 @@ impl StepBuilder<'_, '_> {
         first_moves(steps).nth(step).map(|(group, _)| group)
     }
 
-    /// Groups that make what a group reads, in the order of inputs.
+    /// Returns the groups that produce what a group reads, in the order of inputs.
     fn producers_of(&self, group: &Group) -> Vec<usize> {
         let nodes: BTreeSet<usize> = group.values().into_iter().map(|(node, _)| node).collect();
         let inputs = nodes.iter().flat_map(|node| self.node(*node).inputs.iter().flatten());
         inputs.map(|input| self.producer[&(input.node, input.output)]).collect()
     }
 
-    /// Groups that the wanted values need, each behind all that it reads; `inputs` lists these for each group, in the order in which
-    /// they are followed.
+    /// Returns the groups that the wanted values need, each after all groups that it reads. `inputs` lists the groups that
+    /// each group reads, in the order in which they are followed.
     fn depth_first(&self, inputs: &[Vec<usize>], wanted: &[Value]) -> Vec<usize> {
         let mut seen = BTreeSet::new();
         let mut order = Vec::new();
         for value in wanted {
-            // An explicit stack: graphs may be deeper than the stack of a thread.
+            // An explicit stack is used, since graphs may be deeper than the stack of a thread allows.
             let mut stack = vec![(self.producer[value], false)];
             while let Some((group, inputs_done)) = stack.pop() {
                 if inputs_done {
@@ -166,7 +166,7 @@ fn moved_to(place: usize, groups: &BTreeSet<usize>, order: &[usize]) -> Vec<usiz
 /// every group behind those that it reads.
 fn largest_first(built: &[Vec<UnassignedStep>], inputs: &[Vec<usize>], order: &[usize]) -> Vec<Vec<usize>> {
     let mut sorted: Vec<Vec<usize>> = inputs.to_vec();
-    // Most memory in use while a group and all that it needs run.
+    // Peak of memory while a group and everything that it needs run.
     let mut needs = vec![0_u64; built.len()];
     for &group in order {
         let steps: Vec<&UnassignedStep> = built[group].iter().collect();

@@ -1,4 +1,4 @@
-//! Inputs of a node: those of its kind and masks of its parameters, with what is linked to them.
+//! Inputs of a node, which are those of its kind and masks of its parameters, with the results that are linked to them.
 
 use sabi_graph::{FlatNode, PortType, nearest};
 use sabi_nodes::kind::{Input, InputDefault, Reads};
@@ -11,11 +11,11 @@ use crate::resolved::{Behavior, Resolved, ResolvedInput};
 
 /// Links of a node.
 pub(crate) struct LinkedInputs {
-    /// By input of the kind, `None` for an input that is not connected; then those of `masked_params`.
+    /// For each input of the kind the link, or `None` if it is not connected; then the links of `masked_params`.
     pub(crate) inputs: Vec<Option<ResolvedInput>>,
     /// Indices of the parameters that masks multiply.
     pub(crate) masked_params: Vec<usize>,
-    /// True if a node that it reads has a problem, or depends on one that has.
+    /// True if a node that it reads has a problem, or depends on a node with a problem.
     pub(crate) is_blocked: bool,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Planner<'a> {
                     linked.masked_params.extend(masked_param);
                 }
                 (Ok(InputLink::Unconnected), None) => linked.inputs.push(None),
-                // Nothing multiplies the parameter where the mask comes from a muted node that passes nothing on.
+                // If the mask comes from a muted node that passes nothing on, nothing multiplies the parameter.
                 (Ok(InputLink::Unconnected), Some(_)) => {}
                 (Ok(InputLink::Blocked), _) => linked.is_blocked = true,
                 (Err(problem), _) => problems.push(problem),
@@ -120,13 +120,13 @@ enum InputLink {
     Blocked,
 }
 
-/// Input of a kind of any behavior.
+/// Input of a kind, whatever its behavior.
 pub(crate) struct Port<'a> {
     pub(crate) name: &'a str,
     pub(crate) ty: PortType,
     reads: Reads,
     required: bool,
-    /// Index of the parameter that it multiplies, for the mask of a parameter.
+    /// For the mask of a parameter, the index of the parameter that it multiplies.
     masked_param: Option<usize>,
 }
 

@@ -12,12 +12,12 @@ use crate::resolved::{Behavior, ResolvedInput};
 use crate::resources::{Content, Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
-/// Repetition of a function, in which each run reads the result of the one before.
+/// Repetition of a function in which each run reads the result of the previous run.
 #[derive(Clone, Copy)]
 pub(crate) struct Repetition {
     /// Number of runs, at least 2.
     pub(crate) run_count: u32,
-    /// Index of the load that is replaced by the last result.
+    /// Index of the load that is replaced by the previous result.
     pub(crate) load: usize,
     /// Texture used alternately with the result.
     pub(crate) scratch: Resource,
@@ -141,7 +141,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         self.add_load(None, stored, planes)
     }
 
-    /// Masks that multiply parameters of a node; `made` finds those that a call of this kernel gives.
+    /// Returns the masks that multiply parameters of a node. `made` finds masks that a call of this kernel computes.
     pub(crate) fn param_masks(&mut self, node: usize, made: impl Fn(Value) -> Option<usize>) -> Vec<(usize, Operand)> {
         let masks: Vec<_> = self.builder.node(node).param_masks().collect();
         let operand = |(param, mask): (usize, ResolvedInput)| {
@@ -155,7 +155,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         masks.into_iter().map(operand).collect()
     }
 
-    /// Adds the call of a shader's result function, where masks that multiply parameters are stored, and returns its index.
+    /// Adds the call of a shader's result function whose parameter masks are stored, and returns the index of the call.
     pub(crate) fn call(&mut self, node: usize, output: usize, inputs: Vec<Binding>, block: usize) -> usize {
         let param_masks = self.param_masks(node, |_| None);
         self.call_with(node, output, inputs, param_masks, block)

@@ -1,4 +1,4 @@
-//! Keys: hashes of everything that can change a result, in place of dirty flags.
+//! Keys: hashes of everything that can change a result. They are used instead of dirty flags.
 
 use sabi_nodes::kind::Kind;
 
@@ -53,13 +53,13 @@ impl Planner<'_> {
     pub(crate) fn hash_text(&self, hash: &mut blake3::Hasher, kind: &Kind) {
         part(hash, kind.source.as_bytes());
         for name in std::iter::once("core").chain(kind.libraries.iter().map(String::as_str)) {
-            // Never empty: a kind is refused when a library that it uses is missing.
+            // The default is never used: a kind is refused if a library that it uses is missing.
             part(hash, self.library.libraries().text(name).unwrap_or_default().as_bytes());
         }
     }
 }
 
-/// Adds bytes with their length, so that parts cannot run into each other.
+/// Adds bytes with their length, so that different divisions into parts give different hashes.
 fn part(hash: &mut blake3::Hasher, bytes: &[u8]) {
     hash.update(&(bytes.len() as u64).to_le_bytes());
     hash.update(bytes);

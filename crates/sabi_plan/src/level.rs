@@ -1,13 +1,14 @@
-//! Levels of the surface that passes run on.
+//! Levels of the surface on which passes run.
 
 use std::fmt;
 
 /// Level of the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
-    /// Texels of an atlas; each number has half as many along a side of the maps as the one before, and 0 is the finest.
+    /// Texels of an atlas. Level 0 is the finest, and each further level has half as many texels along a side.
     Texels(u32),
-    /// Points spread evenly over the surface; each number has half the spacing of the one before, and 0 is the widest.
+    /// Points evenly distributed over the surface. Level 0 has the widest spacing, and each further level half the spacing
+    /// of the one before.
     Points(u32),
 }
 
@@ -15,7 +16,7 @@ impl Level {
     /// Texels of the maps themselves.
     pub const FINEST: Level = Level::Texels(0);
 
-    /// Bytes that differ between any two levels, for keys.
+    /// Returns bytes that are different for every level, for keys.
     pub fn bytes(self) -> [u8; 5] {
         let (kind, number) = match self {
             Level::Texels(number) => (0, number),
@@ -35,7 +36,7 @@ impl fmt::Display for Level {
     }
 }
 
-/// Texels for the spacing of points: a cell of fewer is no good measure of the surface around a point.
+/// Number of texels for the spacing of points. With fewer texels, a cell does not represent the surface around a point well.
 const TEXELS_ACROSS: f64 = 4.0;
 
 /// Widths of the levels of a surface that may be used, working units.
@@ -70,8 +71,8 @@ impl LevelWidths {
         }
     }
 
-    /// Moves that bring a plane from one level to another: by way of the finest, and to points by way of the texels that their
-    /// cells are made of.
+    /// Returns the moves that bring a plane from one level to another: by way of the finest level, and to points by way of
+    /// the texels that form their cells.
     pub(crate) fn moves(&self, from: Level, to: Level) -> Vec<[Level; 2]> {
         let cells = match to {
             Level::Points(number) => self.cells_of_points(number),
@@ -91,7 +92,7 @@ impl LevelWidths {
         self.coarsest_texels_within(self.of(Level::Points(number)) / TEXELS_ACROSS)
     }
 
-    /// Coarsest level with texels no wider than this; the finest where none is as fine.
+    /// Returns the coarsest level whose texels are not wider than this; the finest level if all are wider.
     pub(crate) fn coarsest_texels_within(&self, widest: f64) -> Level {
         let fits = |level: &Level| self.of(*level) <= widest;
         let levels = (0..=self.coarsest).map(Level::Texels);

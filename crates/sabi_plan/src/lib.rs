@@ -1,14 +1,13 @@
-//! A graph and its kinds become a list of passes: plain data that prints and compares.
+//! Converts a graph and its kinds to a list of passes: plain data that can be printed and compared.
 //!
-//! [`Planner::plan`] resolves the wanted part of a graph, gives every result a key that names its content, fuses
-//! connected regions of point nodes, and gives stored results slots from a pool. `docs/design/planner.md` goes through the
-//! steps.
+//! [`Planner::plan`] resolves the wanted part of a graph, computes a key for the content of every result, fuses connected
+//! regions of point nodes, and assigns slots from a pool to stored results. `docs/design/planner.md` explains the steps.
 //!
 //! Invariants:
 //! * The same inputs give the same plan; no order of a hash map, no clock and no device takes part.
 //! * A result's key changes with everything that can change the result, and with nothing else.
 //! * A step reads only slots that an earlier step wrote and that no step in between has written again.
-//! * A faulty node takes only its readers along: the rest of the graph is planned.
+//! * A faulty node only affects the nodes that depend on it: the rest of the graph is planned.
 //!
 //! ```
 //! use std::collections::BTreeMap;
@@ -18,23 +17,23 @@
 //! use sabi_plan::{FileContents, Lengths, LevelWidths, Limits, Mode, Planner, Target};
 //!
 //! let document = Document::from_json(
-//!     r#"{ "format": "sabi", "version": 1, "nodes": {
-//!          "clouds": { "kind": "noise/simplex" },
-//!          "dark": { "kind": "adjust/invert", "inputs": { "source": "clouds" } } } }"#,
+//! r#"{ "format": "sabi", "version": 1, "nodes": {
+//! "clouds": { "kind": "noise/simplex" },
+//! "dark": { "kind": "adjust/invert", "inputs": { "source": "clouds" } } } }"#,
 //! )?;
 //! let graph = flatten(&document, &Overrides::default(), &mut |_| Err("no group files".to_owned()))?;
 //! let planner = Planner {
-//!     graph: &graph,
-//!     library: &Library::builtin(),
-//!     sources: &BTreeMap::new(),
-//!     sinks: &BTreeMap::new(),
-//!     files: &FileContents::new(),
-//!     lengths: Lengths { working_from: &|_| 1.0, largest_piece: 1.0, extent: &|_| [0.0, 1.0] },
-//!     level_widths: LevelWidths::of_texels(0.001, 0),
-//!     surface_key: [0; 32],
-//!     mode: Mode::Bake { fuse: true },
-//!     most_rays: None,
-//!     limits: Limits::default(),
+//! graph: &graph,
+//! library: &Library::builtin(),
+//! sources: &BTreeMap::new(),
+//! sinks: &BTreeMap::new(),
+//! files: &FileContents::new(),
+//! lengths: Lengths { working_from: &|_| 1.0, largest_piece: 1.0, extent: &|_| [0.0, 1.0] },
+//! level_widths: LevelWidths::of_texels(0.001, 0),
+//! surface_key: [0; 32],
+//! mode: Mode::Bake { fuse: true },
+//! most_rays: None,
+//! limits: Limits::default(),
 //! };
 //! let node = graph.nodes.iter().position(|node| node.id == "dark").ok_or("no such node")?;
 //! let (plan, errors) = planner.plan(&[Target { node, port: None }]);

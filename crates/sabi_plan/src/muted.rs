@@ -1,10 +1,10 @@
-//! Muted nodes pass on their first fitting input.
+//! Muted nodes pass on their first input of a suitable type.
 
 use std::collections::BTreeSet;
 
 use sabi_graph::{FlatGraph, FlatRef, PortType};
 
-/// Ports of nodes, as muting needs them.
+/// Ports of nodes, as needed for muting.
 pub(crate) trait Ports {
     /// Type of a result; `None` where the node has no such result.
     fn output(&self, node: usize, port: Option<&str>) -> Option<PortType>;
@@ -12,7 +12,7 @@ pub(crate) trait Ports {
     fn inputs(&self, node: usize) -> Vec<(String, PortType)>;
 }
 
-/// Origin of a link once muted nodes pass on their inputs, and the muted nodes on the way.
+/// Returns the origin of a link when muted nodes pass on their inputs, and the muted nodes on the way.
 ///
 /// Follows the first input of the same type that leads to a node that is not muted; `None` where no input does.
 pub(crate) fn unmuted_origin(

@@ -15,8 +15,8 @@ impl Planner<'_> {
         unmuted_origin(self.graph, self, &from).0
     }
 
-    /// Nodes that the targets need, inputs before readers, depth first so that chains stay together. Muted nodes on the way
-    /// are included, so that their problems are reported.
+    /// Returns the nodes that the targets need, inputs before readers, depth first so that chains stay together. Muted
+    /// nodes on the way are included, so that their problems are reported.
     pub(crate) fn evaluation_order(&self, targets: &[Target]) -> Vec<usize> {
         let mut seen = vec![false; self.graph.nodes.len()];
         let mut order = Vec::new();
@@ -25,7 +25,7 @@ impl Planner<'_> {
                 node: target.node,
                 port: target.port.clone(),
             };
-            // An explicit stack: graphs may be deeper than the stack of a thread.
+            // An explicit stack is used, since graphs may be deeper than the stack of a thread allows.
             let mut stack = Vec::new();
             self.follow(&from, &mut seen, &mut order, &mut stack);
             while let Some((node, inputs_done)) = stack.pop() {
@@ -44,7 +44,7 @@ impl Planner<'_> {
         order
     }
 
-    /// Adds the origin of a link to `next`, and muted nodes on the way to `order`: they need no other node.
+    /// Adds the origin of a link to `next`. Muted nodes on the way are added to `order` directly, since they need no other node.
     fn follow(&self, from: &FlatRef, seen: &mut [bool], order: &mut Vec<usize>, next: &mut Vec<(usize, bool)>) {
         let (origin, muted) = unmuted_origin(self.graph, self, from);
         for node in muted {

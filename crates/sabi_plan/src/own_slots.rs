@@ -1,12 +1,12 @@
-//! Plans in which every stored plane has a slot of its own.
+//! Plans in which every stored plane has a separate slot.
 
 use std::collections::BTreeMap;
 
 use crate::plan::{Plan, Slot, SlotRef, Step};
 
 impl Plan {
-    /// Gives every stored plane a slot of its own, so that a slot stands for one result. The memory of a run stays the same:
-    /// textures are free again after the last step that reads them.
+    /// Assigns a separate slot to every stored plane, so that a slot stands for one result. The memory of a run stays the
+    /// same, since textures are freed after the last step that reads them.
     #[must_use]
     pub fn with_own_slots(mut self) -> Plan {
         let mut slots = OwnSlots {
@@ -28,7 +28,7 @@ impl Plan {
 struct OwnSlots {
     before: Vec<Slot>,
     now: Vec<Slot>,
-    /// New slots of the values that the old ones hold at present.
+    /// New slot for the current content of each old slot.
     current: BTreeMap<SlotRef, SlotRef>,
 }
 

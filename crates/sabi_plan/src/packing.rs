@@ -1,14 +1,14 @@
-//! Values of parameters become the bytes that a node's WGSL reads.
+//! Converts values of parameters to the bytes that a node's WGSL reads.
 
 use sabi_nodes::kind::{Kind, ParamValue, Role};
 
 /// Everything that the bytes of a node depend on besides its values.
 pub struct Packing<'a> {
-    /// Seeds of the document and the groups around, outermost first.
+    /// Seeds of the document and of the enclosing groups, outermost first.
     pub(crate) seeds: &'a [u32],
-    /// Factor from the lengths as written to working units.
+    /// Factor from lengths as written in the graph to working units.
     pub(crate) working_from_length: f64,
-    /// The same for lengths that are never shares of a piece.
+    /// The same factor for lengths that are never shares of a piece.
     pub(crate) working_from_absolute: f64,
     /// Lowest and highest `dot(vertex, direction)`.
     pub(crate) extent: &'a dyn Fn([f32; 3]) -> [f32; 2],

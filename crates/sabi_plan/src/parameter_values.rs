@@ -1,4 +1,4 @@
-//! Values of a node's parameters and knobs: as its file has them, else the defaults.
+//! Values of a node's parameters and knobs: those in its file, otherwise the defaults.
 
 use sabi_graph::{Fit, FlatNode, Value};
 use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamType, ParamValue};
@@ -6,19 +6,20 @@ use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamType, ParamValue};
 use crate::error::Problem;
 use crate::request::Planner;
 
-/// Parameter values of a node, in artist's units. A value that is not taken is a problem, for which the node is refused.
+/// Returns the parameter values of a node, in the units of artists. An invalid value is added to the problems, because of
+/// which the node is refused.
 pub(crate) fn read_params(params: &[Param], node: &FlatNode, problems: &mut Vec<Problem>) -> Vec<ParamValue> {
     let mut value = |param: &Param| {
         let former = param.formerly.iter().find_map(|old| node.params.get(old));
         let written = node.params.get(&param.name).or(former);
         let read = written.and_then(|written| read(&param.name, &param.ty, written, problems));
-        read.unwrap_or_else(|| param.default.clone()) // Not in the file, or a problem already.
+        read.unwrap_or_else(|| param.default.clone()) // The default is used if the file has no value, or if the value is already reported as a problem.
     };
     params.iter().map(&mut value).collect()
 }
 
 impl Planner<'_> {
-    /// Factor from a node's lengths that are shares of the model under the fit of pieces to working units.
+    /// Returns the factor from the node's lengths to working units, for lengths that are shares of the model even under the fit of pieces.
     pub(crate) fn working_from_absolute(&self, node: &FlatNode) -> f64 {
         let fit = match node.fit {
             Fit::Piece => Fit::Unit,
@@ -46,7 +47,7 @@ pub(crate) fn read_knobs(kind: &Kind, node: &FlatNode, problems: &mut Vec<Proble
         };
         match read {
             Some(ParamValue::Floats(numbers)) => Some(numbers),
-            _ => Some(default.clone()), // Not in the file, or a problem already.
+            _ => Some(default.clone()), // The default is used if the file has no value, or if the value is already reported as a problem.
         }
     };
     kind.inputs.iter().map(&mut value).collect()

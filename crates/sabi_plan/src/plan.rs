@@ -66,7 +66,7 @@ pub enum Step {
 pub struct SurveyStep {
     /// Id of the node that reads the survey.
     pub node: String,
-    /// Places that are measured together.
+    /// Which places are measured together.
     pub each: Grouping,
     /// Slot of the mask, on the finest level.
     pub from: SlotRef,
@@ -74,22 +74,22 @@ pub struct SurveyStep {
     pub to: SlotRef,
 }
 
-/// Places that a survey measures together.
+/// Places that a survey measures together: the whole surface, or the places of a group.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Grouping {
     /// All of the surface.
     #[default]
     Whole,
-    /// Those of one part.
+    /// The places of each part.
     Part,
-    /// Those of one piece.
+    /// The places of each piece.
     Piece,
-    /// Those of one chart.
+    /// The places of each chart.
     Chart,
 }
 
 impl Grouping {
-    /// Grouping of a choice, by its number among `SURVEY_GROUPINGS` of `sabi_nodes`.
+    /// Returns the grouping for a choice, given its index in `SURVEY_GROUPINGS` of `sabi_nodes`.
     pub(crate) fn of_choice(number: u32) -> Grouping {
         match number {
             1 => Grouping::Part,
@@ -102,12 +102,12 @@ impl Grouping {
 
 /// Move of a plane from one level of the surface to another.
 ///
-/// Coarser texels get the mean of what they cover in their chart, finer ones are interpolated in the chart. Ghosts are
-/// filled afterwards. Where the other level has no texel near, all components are 0. Points get the mean of their cells,
-/// and texels are interpolated between the points around them.
+/// Coarser texels get the mean of the finer texels of their chart that they cover; finer texels are interpolated within the
+/// chart. Ghosts are filled afterwards. If the other level has no texel near, all components are 0. Points get the mean of
+/// their cells, and texels are interpolated between the points around them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MoveStep {
-    /// Id of the first node that reads it on the new level.
+    /// Id of the first node that reads the plane on the new level.
     pub node: String,
     /// Slot that is read.
     pub from: SlotRef,
@@ -153,7 +153,7 @@ pub struct KernelStep {
     pub reads: Vec<Option<SlotRef>>,
     /// Slots of the spec's stores, plane by plane; `None` for channels that an interactive kernel does not set.
     pub writes: Vec<Option<SlotRef>>,
-    /// True if ghosts are filled over the links afterwards. Set for fields, whose kernels skip ghosts.
+    /// True if ghosts are filled across their links afterwards. Set for fields, whose kernels skip ghosts.
     pub fills_ghosts: bool,
     /// Repetition, in which each run reads the result of the one before.
     pub feedback: Option<Feedback>,
@@ -176,13 +176,14 @@ pub struct StepRays {
     pub count: u32,
     /// Hit that each ray looks for.
     pub finds: Finds,
-    /// Key of the hits of the longest rays, independent of other parameters; `None` where rays depend on inputs.
+    /// Key of the hits of the longest rays, which does not depend on other parameters; `None` if rays depend on inputs.
     pub key: Option<[u8; 32]>,
     /// Parameter that limits their length.
     pub reach: Option<Reach>,
-    /// Turn between the triangle that a ray starts on and the one that it hits, radians: below it the hit counts for nothing.
+    /// Minimum angle, in radians, between the triangle on which a ray starts and the triangle that it hits. At smaller
+    /// angles a hit is ignored.
     pub least_turn: Option<f32>,
-    /// Keys of the node's results that are made of what these rays hit, in this step or in later ones.
+    /// Keys of the node's results that are computed from the hits of these rays, in this step or in later ones.
     pub results: Vec<[u8; 32]>,
 }
 
@@ -200,7 +201,7 @@ pub struct Reach {
 pub struct Feedback {
     /// Number of runs, at least 1.
     pub run_count: u32,
-    /// Index into [`KernelStep::reads`] of the texture that is replaced by the last result from the second run on.
+    /// Index into [`KernelStep::reads`] of the texture that is replaced by the previous result from the second run on.
     pub read: usize,
     /// Slot used alternately with the slot of the result.
     pub scratch: SlotRef,

@@ -11,8 +11,9 @@ use crate::resources::{Content, Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 impl StepBuilder<'_, '_> {
-    /// Builds all results of a node that casts rays, from the same rays: on the level that suits their length, and moved to
-    /// the finest one. Results of means that are denoised take a step behind the rays, which reads the means of neighbors.
+    /// Builds all results of a node that casts rays from the same rays. They are cast on the level that suits their length,
+    /// and the results are moved to the finest level. Results of denoised means need another step after the rays, which
+    /// reads the means of neighbors.
     pub(crate) fn rays(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let ready = self.node(node);
         let Behavior::Shader(kind @ Kind { rays: Some(rays), .. }) = ready.behavior else {
@@ -54,7 +55,7 @@ impl StepBuilder<'_, '_> {
             steps.push(self.normals(node, denoise, level));
             let denoised = self.denoised(node, kind, &of_denoised, &means, level);
             for moved in self.moves_of_denoised(node, &denoised, &means, level) {
-                // The rays may read the same inputs.
+                // The rays may read the same inputs, so a move may be in the list already.
                 if steps.iter().all(|step| step.writes != moved.writes) {
                     steps.push(moved);
                 }
@@ -71,7 +72,7 @@ impl StepBuilder<'_, '_> {
         steps
     }
 
-    /// Moves of what the step of denoised means reads besides them.
+    /// Returns the moves of other planes that the step of denoised means reads.
     fn moves_of_denoised(
         &self,
         node: usize,
@@ -94,7 +95,7 @@ impl StepBuilder<'_, '_> {
         inputs.collect()
     }
 
-    /// Builds the normals of all texels of a level, by which neighbors are told alike.
+    /// Builds the normals of all texels of a level, with which similar neighbors are found.
     fn normals(&self, node: usize, denoise: Denoise, level: Level) -> UnassignedStep {
         let mut kernel = KernelBuilder::new(self, Domain::AllTexels);
         kernel.level = level;
@@ -103,7 +104,7 @@ impl StepBuilder<'_, '_> {
         kernel.finish()
     }
 
-    /// Builds results of stored means over rays, which are denoised as they are read.
+    /// Builds results of stored means over rays. The means are denoised when they are read.
     fn denoised(&self, node: usize, kind: &Kind, outputs: &[usize], means: &[usize], level: Level) -> UnassignedStep {
         let mut kernel = KernelBuilder::new(self, Domain::OwnedTexels);
         kernel.level = level;

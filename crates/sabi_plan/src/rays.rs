@@ -10,7 +10,7 @@ use crate::request::Planner;
 use crate::resolved::{Behavior, ResolvedNode};
 
 impl Planner<'_> {
-    /// The rays of a node from the places of a level, for some of its results.
+    /// Returns the rays of a node that are cast on a level, for some of its results.
     pub(crate) fn step_rays(
         &self,
         index: usize,
@@ -43,7 +43,7 @@ impl Planner<'_> {
         }
     }
 
-    /// A node's values with the number of rays limited for a first picture.
+    /// Returns a node's values with the number of rays limited for a first preview.
     pub(crate) fn with_limited_rays(&self, behavior: Behavior<'_>, mut values: Vec<ParamValue>) -> Vec<ParamValue> {
         if let Behavior::Shader(Kind { rays: Some(rays), .. }) = behavior
             && let (Some(most), Some(ParamValue::Unsigned(count))) = (self.most_rays, values.get_mut(rays.count))
@@ -85,11 +85,11 @@ impl Planner<'_> {
         let own = rays.reads.iter().filter(|param| rays.reach != Some(**param));
         for index in own.chain([&rays.count]) {
             let param = &kind.params[*index];
-            // Never the default: offsets lie inside of `struct Params`.
+            // The default is never used: offsets lie within `struct Params`.
             let bytes = ready.params.get(param.offset as usize..).unwrap_or_default();
             let size = 4 * param.ty.memory.components();
             hash.update(&(*index as u64).to_le_bytes());
-            hash.update(bytes.get(..size).unwrap_or(bytes)); // Never shorter.
+            hash.update(bytes.get(..size).unwrap_or(bytes)); // The bytes are never shorter than `size`.
         }
         if let Some(reach) = reach {
             hash.update(&reach.longest.to_le_bytes());

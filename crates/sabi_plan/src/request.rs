@@ -26,7 +26,8 @@ pub struct SourceKind {
     pub inputs: Vec<SourcePort>,
     /// Outputs.
     pub outputs: Vec<SourcePort>,
-    /// Hash of the content behind all nodes of the kind (the model's textures), which every key below them contains.
+    /// Hash of the content that all nodes of the kind read (such as the model's textures). It is part of every key that
+    /// depends on such a node.
     pub content: [u8; 32],
 }
 
@@ -39,7 +40,7 @@ pub struct SourcePort {
     pub ty: PortType,
     /// Description for artists.
     pub doc: String,
-    /// For an input that need not be connected: what holds then, in words.
+    /// For an input that need not be connected, a description of what happens if it is not.
     pub unconnected: Option<String>,
     /// For a material result: the channels that it sets.
     pub channels: Vec<Channel>,
@@ -62,7 +63,7 @@ impl SourcePort {
         }
     }
 
-    /// Makes an input one that need not be connected; `unconnected` says in words what holds then.
+    /// Makes an input optional. `unconnected` describes what happens if it is not connected.
     pub fn optional(mut self, unconnected: &str) -> SourcePort {
         self.unconnected = Some(unconnected.to_owned());
         self
@@ -78,12 +79,12 @@ pub struct Target {
     pub port: Option<String>,
 }
 
-/// Way to cut a graph into passes.
+/// How a graph is divided into passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// One pass for each node, with pipelines that survive rewiring; every result has its own slot.
+    /// One pass for each node. Pipelines stay valid when links change, and every result has its own slot.
     Interactive,
-    /// Results live until their last reader has run; with `fuse`, regions of point nodes share a pass.
+    /// Slots of results are reused after their last reader has run. With `fuse`, regions of point nodes share a pass.
     Bake {
         /// True if regions of point nodes are fused.
         fuse: bool,
@@ -97,12 +98,12 @@ pub struct Limits {
     pub sampled_textures: usize,
     /// Textures that a pass may write.
     pub storage_textures: usize,
-    /// Cost of a fused kernel. In all, that of about sixteen noises of eight octaves. Outside of loops, that of 125 *Levels*, since
-    /// llvmpipe compiles 400 of them in 2.9 s in kernels of this cost, and in 5 s in kernels of a fifth more, while the graphs of
-    /// the examples compile and run as fast in either.
+    /// Maximum cost of a fused kernel. The total is that of about sixteen noises with eight octaves. The cost outside of
+    /// loops is that of 125 *Levels* nodes, since llvmpipe compiles 400 of these in 2.9 s in kernels of this cost, and in 5
+    /// s in kernels that are a fifth larger, while the example graphs compile and run equally fast in both cases.
     pub cost: Cost,
-    /// Operations of a fused kernel for a texel at most, loops counted by their rounds: half of what one node may take, since a
-    /// tile is done as a whole.
+    /// Maximum number of operations of a fused kernel for a texel, counting the rounds of loops: half of the maximum of a
+    /// single node, since the work for a tile cannot be interrupted.
     pub work: u64,
     /// Bytes of the parameter block of a fused kernel.
     pub block_bytes: u64,
@@ -137,13 +138,13 @@ pub struct Lengths<'a> {
 /// Kinds without outputs: `output/material` and `output/mask`.
 pub type Sinks = BTreeMap<String, SourceKind>;
 
-/// Hashes of the files that nodes name, or their faults, by node. Other nodes name no file.
+/// For each node that refers to a file, the hash of the file or its fault. Other nodes refer to no file.
 pub type FileContents = BTreeMap<usize, Result<[u8; 32], FileFault>>;
 
-/// Fault of a file that a node names.
+/// Fault of a file to which a node refers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileFault {
-    /// The parameter that names the file.
+    /// The parameter with the path of the file.
     pub param: String,
     /// The file, its fault and advice, as a sentence without a full stop.
     pub why: String,
@@ -154,13 +155,13 @@ pub struct FileFault {
 /// Kind of a fault of a file that a node names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileFaultKind {
-    /// It does not exist, or cannot be read.
+    /// The file does not exist, or cannot be read.
     Missing,
-    /// The graph may not open it, unless the user trusts it.
+    /// The graph may not open the file unless the user trusts it.
     Refused,
-    /// No graph opens it, whatever is trusted: it is on another computer, an address or a device.
+    /// No graph may open the file, whatever is trusted: it is on another computer, a URL or a device.
     NeverOpened,
-    /// Its content cannot be used.
+    /// The content of the file cannot be used.
     Unusable,
     /// It takes more memory than there is for it.
     TooLarge,

@@ -127,7 +127,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Factor from a node's lengths to working units, or for lengths by the piece to shares of the piece.
+    /// Returns the factor from a node's lengths to working units; for lengths that are shares of a piece, to shares of the piece.
     pub(crate) fn working_from_length(&self, behavior: Behavior<'_>, node: &FlatNode) -> f64 {
         if is_by_piece(behavior, node) {
             return node.length_scale;
@@ -161,7 +161,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Problems of parameters that the kind does not have: they stay in the file without effect.
+    /// Returns the problems of parameters that the kind does not have. They stay in the file without effect.
     fn unknown_params(&self, index: usize) -> Vec<PlanError> {
         let node = &self.graph.nodes[index];
         let Ok(behavior) = self.behavior(node) else {
@@ -203,7 +203,7 @@ impl Ports for Planner<'_> {
 
     fn inputs(&self, node: usize) -> Vec<(String, PortType)> {
         let behavior = match self.behavior(&self.graph.nodes[node]) {
-            // An input of a source says where it is read and is nothing that a muted source could pass on.
+            // An input of a source is a position at which it is read, which a muted source cannot pass on.
             Err(_) | Ok(Behavior::Source(_)) => return Vec::new(),
             Ok(behavior) => behavior,
         };
@@ -222,9 +222,9 @@ fn knobs_of(behavior: Behavior<'_>, node: &FlatNode, problems: &mut Vec<Problem>
     }
 }
 
-/// Returns true if the lengths of a node are multiplied by the size of the piece at every place. Surveys and sources are made
-/// for the whole surface at once, so their lengths are multiplied by the mean size of the pieces instead; so are the
-/// formulas of fields by the size of the largest one.
+/// Returns true if the lengths of a node are multiplied by the size of the piece at every place. Surveys and sources are
+/// evaluated for the whole surface at once, so their lengths are multiplied by the mean size of the pieces instead.
+/// Formulas of fields use the size of the largest piece.
 fn is_by_piece(behavior: Behavior<'_>, node: &FlatNode) -> bool {
     let Behavior::Shader(kind) = behavior else {
         return false;

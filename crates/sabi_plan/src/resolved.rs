@@ -8,7 +8,7 @@ use crate::error::PlanError;
 use crate::request::SourceKind;
 use crate::source_values::SourceValues;
 
-/// Way to evaluate a node.
+/// How a node is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub enum Behavior<'a> {
     /// By a kernel.
@@ -42,9 +42,9 @@ impl<'a> Behavior<'a> {
 /// A node whose ports and values were checked.
 #[derive(Clone, Debug)]
 pub struct ResolvedNode<'a> {
-    /// Way to evaluate it.
+    /// How it is evaluated.
     pub behavior: Behavior<'a>,
-    /// Connections by input of the kind, `None` for an input that is not connected; then those of `masked_params`.
+    /// Connections by input of the kind, or `None` if it is not connected; then those of `masked_params`.
     pub inputs: Vec<Option<ResolvedInput>>,
     /// Indices of the parameters that masks multiply, in the order of their connections.
     pub masked_params: Vec<usize>,
@@ -52,7 +52,7 @@ pub struct ResolvedNode<'a> {
     pub values: Vec<ParamValue>,
     /// Bytes of `struct Params`; empty for sources and sinks.
     pub params: Vec<u8>,
-    /// True if lengths among its parameters are shares of the piece that a place belongs to.
+    /// True if lengths among its parameters are shares of the piece that contains a place.
     pub is_by_piece: bool,
     /// Values for a source or sink; empty for shaders.
     pub source_values: SourceValues,
@@ -89,7 +89,7 @@ pub struct ResolvedInput {
     pub ty: PortType,
     /// Conversion on the way.
     pub convert: Convert,
-    /// Form in which the value is read: at this place, or as a stored texture.
+    /// How the value is read: at this place, or as a stored texture.
     pub reads: Reads,
 }
 

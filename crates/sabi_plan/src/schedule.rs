@@ -1,4 +1,4 @@
-//! Planning: orders groups of nodes such that few results are alive at a time, and builds the steps of each.
+//! Planning: orders groups of nodes so that few results are stored at the same time, and builds the steps of each group.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +16,7 @@ use crate::resources::{Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 impl Planner<'_> {
-    /// Plans what the targets need, without nodes that have problems and nodes that depend on them. Gives the problems, too.
+    /// Plans everything that the targets need, except nodes with problems and nodes that depend on them. Also returns the problems.
     pub fn plan(&self, targets: &[Target]) -> (Plan, Vec<PlanError>) {
         let mut resolved = self.resolve(targets);
         let mut errors = std::mem::take(&mut resolved.errors);
@@ -78,7 +78,7 @@ impl Planner<'_> {
     }
 }
 
-/// The steps of groups in an order of the groups; those of groups that are not in it are left out.
+/// Returns the steps of groups in this order. Groups that are not in the order are left out.
 fn in_order(built: Vec<Vec<UnassignedStep>>, order: &[usize]) -> Vec<UnassignedStep> {
     let mut built: Vec<Option<Vec<UnassignedStep>>> = built.into_iter().map(Some).collect();
     order
@@ -88,7 +88,7 @@ fn in_order(built: Vec<Vec<UnassignedStep>>, order: &[usize]) -> Vec<UnassignedS
         .collect()
 }
 
-/// Removes moves of the same plane to the same level but the first.
+/// Keeps only the first of several moves of the same plane to the same level.
 fn keep_first_moves(steps: &mut Vec<UnassignedStep>) {
     let mut moved = BTreeSet::new();
     steps.retain(|unassigned| match unassigned.step {
@@ -162,7 +162,7 @@ impl StepBuilder<'_, '_> {
         steps
     }
 
-    /// Plane of an input of a source; `None` for a material, which has several and which no source reads.
+    /// Returns the plane of an input of a source; `None` for a material, which has several planes and which no source reads.
     fn read_plane(&self, node: usize, input: usize) -> Option<Plane> {
         let Behavior::Source(kind) = self.node(node).behavior else {
             return None;
@@ -203,7 +203,7 @@ impl StepBuilder<'_, '_> {
         kernel.finish()
     }
 
-    /// Builds a result of a point node as a kernel that does not depend on the links of the node.
+    /// Builds a result of a point node as a kernel that is independent of the node's links.
     fn single(&self, node: usize, output: usize) -> UnassignedStep {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("points are shaders")

@@ -1,4 +1,4 @@
-//! StepBuilder of steps: the resolved graph and its groups, which all steps are built from.
+//! Builder of steps from the resolved graph and its groups.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use crate::fuse::{Group, Readers, Value};
 use crate::request::Planner;
 use crate::resolved::{Resolved, ResolvedNode};
 
-/// StepBuilder of the steps of a plan.
+/// Builder of the steps of a plan.
 pub(crate) struct StepBuilder<'p, 'a> {
     pub(crate) planner: &'p Planner<'a>,
     pub(crate) resolved: &'p Resolved<'a>,
-    /// Index of the group that makes each value.
+    /// Index of the group that produces each value.
     pub(crate) producer: BTreeMap<Value, usize>,
     readers: Readers,
     /// Channels of materials in kernels that do not depend on links.

@@ -13,7 +13,7 @@ use crate::resources::{Content, Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 impl StepBuilder<'_, '_> {
-    /// Builds the survey, the passes of the node as kernels that run once, and all results in one kernel.
+    /// Builds the survey, the node's passes as kernels that run once, and all results in one kernel.
     pub(crate) fn survey(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("surveys are shaders")
@@ -93,7 +93,7 @@ impl StepBuilder<'_, '_> {
         self.grouping(node, kind) != Grouping::Whole
     }
 
-    /// Builds a pass, which reads the table once, or that of each group.
+    /// Builds a pass that reads the table of the whole surface, or the tables of all groups.
     fn survey_pass(&self, node: usize, kind: &Kind, pass: usize) -> UnassignedStep {
         let function = &kind.passes[pass].function;
         let has_groups = self.has_groups(node, kind);

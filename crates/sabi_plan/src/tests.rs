@@ -89,7 +89,7 @@ fn mask(at: Surface, back: texture_2d_array<f32>, lower: texture_2d_array<f32>, 
 }
 ";
 
-/// The built-in nodes and the stairs, read once: random tests need them hundreds of times.
+/// Returns the built-in nodes and the stairs. They are read only once, since random tests need them hundreds of times.
 fn library() -> Library {
     let mut library = Library::builtin();
     let stairs = SourceFile {
@@ -103,7 +103,7 @@ fn library() -> Library {
 
 static LIBRARY: OnceLock<Library> = OnceLock::new();
 
-/// A bench of its own: the built-in nodes, one source and the two sinks.
+/// A planner for tests: the built-in nodes, one source and the two sinks.
 struct Bench {
     library: &'static Library,
     sources: BTreeMap<String, SourceKind>,
@@ -177,7 +177,7 @@ fn flat(document: &Document) -> FlatGraph {
     .expect("a sound document")
 }
 
-/// A graph from lines of the form `id kind input=node input=node …`; a value that names no node is a parameter.
+/// Creates a graph from lines of the form `id kind input=node input=node …`. A value that is not the id of a node is a parameter.
 fn graph(lines: &str) -> FlatGraph {
     let lines = lines.lines().map(str::trim).filter(|line| !line.is_empty());
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split_whitespace().collect()).collect();

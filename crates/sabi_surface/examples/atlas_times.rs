@@ -1,6 +1,6 @@
-//! Build times of an atlas: `cargo run --release -p sabi_surface --example atlas_times -- [MODEL] [SIZE]`.
+//! Measures the time to build an atlas: `cargo run --release -p sabi_surface --example atlas_times -- [MODEL] [SIZE]`.
 //!
-//! Without a model a ball of 30 000 triangles in 24 charts is used.
+//! Without a model, a ball of 30 000 triangles in 24 charts is used.
 
 use std::path::Path;
 use std::time::Instant;

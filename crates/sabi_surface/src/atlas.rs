@@ -46,27 +46,27 @@ pub use level::{AtlasLevel, Orphan};
 pub use repeats::{Repeats, repeats};
 pub use udim::udim_number;
 
-/// A texel that nothing owns.
+/// Value of a texel that belongs to nothing.
 pub const EMPTY: u32 = u32::MAX;
-/// Set in [`Atlas::owners`] when the texel is a ghost; the other bits are then its index in [`Atlas::ghosts`].
+/// Bit that marks a ghost in [`Atlas::owners`]. The other bits are then the ghost's index in [`Atlas::ghosts`].
 pub const GHOST_BIT: u32 = 1 << 31;
-/// Side of the square tiles that work is cut into, texels.
+/// Side length, in texels, of the square tiles into which work is divided.
 pub const TILE: u32 = 8;
 
 /// Rings of ghost texels around a chart.
 pub const RINGS: u32 = 2;
 
-/// Most pairs of overlapping charts that a report lists.
+/// Maximum number of pairs of overlapping charts that a report lists.
 pub const PAIRS_LIMIT: usize = 10_000;
 
 /// Treatment of UVs in several tiles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Udim {
-    /// UDIM where nothing tells of a repeating texture.
+    /// UDIM, unless something indicates a repeating texture.
     #[default]
     Auto,
-    /// UDIM: maps of its own for each tile.
+    /// UDIM: each tile has its own maps.
     On,
     /// A repeating texture: one set of maps for all tiles.
     Off,
@@ -77,22 +77,22 @@ pub enum Udim {
 pub struct AtlasOptions {
     /// Texels for one unit of UV, 16 to 16384.
     pub size: u32,
-    /// Largest width and height of a page in texels, a multiple of [`TILE`], 32 to 16384.
+    /// Maximum width and height of a page in texels, a multiple of [`TILE`], 32 to 16384.
     pub page_limit: u32,
     /// Treatment of UVs in several tiles.
     pub udim: Udim,
-    /// Most bytes of memory for the atlas. What would take more is refused before it is taken.
+    /// Maximum memory of the atlas in bytes. An atlas that would need more is refused before it is allocated.
     pub memory_bytes: u64,
 }
 
-/// Largest side of a page that every adapter takes, texels.
+/// Largest side of a page that every adapter supports, texels.
 const ORDINARY_PAGE: u32 = 8192;
 /// Largest side of a page, texels.
 const LARGEST_PAGE: u32 = 16_384;
 
 impl AtlasOptions {
-    /// An atlas of `size` texels for one unit of UV. Its pages are not larger than every adapter takes, unless one chart of the
-    /// whole unit square needs more.
+    /// Creates options for `size` texels per unit of UV. Pages are small enough for every adapter, unless one chart of the
+    /// whole unit square needs a larger page.
     pub fn new(size: u32) -> AtlasOptions {
         let largest_chart = size.next_multiple_of(TILE) + 2 * TILE;
         AtlasOptions {
@@ -164,31 +164,32 @@ pub struct Atlas {
     pub pages: u32,
     /// For each texel, page by page and row by row: [`EMPTY`], the owning triangle, or [`GHOST_BIT`] and a ghost's index.
     pub owners: Vec<u32>,
-    /// Sheets of which each UV tile has maps of its own; those of others repeat.
+    /// Sheets whose UV tiles have separate maps. The textures of other sheets repeat.
     pub udim_sheets: BTreeSet<u32>,
     /// Charts in a fixed order: by material, then by first triangle.
     pub charts: Vec<Chart>,
     /// Chart of each triangle.
     pub triangle_chart: Vec<u32>,
-    /// Corners of each triangle in texel coordinates of its chart's page. For the affine map of a triangle that is
-    /// small against a texel take the differences of `uv × size` instead: these are rounded to f32 on the page.
+    /// Corners of each triangle in texel coordinates of its chart's page. For the affine map of a triangle that is small
+    /// compared to a texel, use the differences of `uv × size` instead, since these corners are rounded to f32 on the page.
     pub triangle_texels: Vec<[[f32; 2]; 3]>,
     /// Ghosts in the order of their texels.
     pub ghosts: Vec<Ghost>,
-    /// Tiles with at least one owned or ghost texel: page, tile row, tile column, in that order of sorting.
+    /// Tiles with at least one owned or ghost texel, sorted by page, tile row and tile column.
     pub tiles: Vec<TileRef>,
-    /// For each texel the radius in texels within which a straight step stays inside the chart and does not reach
-    /// a texel whose metric differs by more than 5 % from its neighbor's; 0 outside and beside such a jump.
+    /// For each texel the radius, in texels, within which a straight step stays inside the chart and reaches no texel whose
+    /// metric differs by more than 5 % from its neighbor's. 0 outside of charts and beside such a jump.
     pub leap: Vec<u8>,
     /// Measurements and warnings of the build.
     pub report: AtlasReport,
 }
 
-/// A chart in UV, as people see it: triangles connected through edges that are not seams, or a part of them that does not overlap itself.
+/// A chart in UV as the user sees it: triangles connected through edges that are not seams, or a part of these triangles
+/// that does not overlap itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UvChart<'a> {
-    /// Charts of the atlas: several where it lies too close to itself to be placed as a whole. They have material, sheet, tile
-    /// and winding in common.
+    /// Charts of the atlas: more than one if the chart lies too close to itself to be placed as a whole. They have the same
+    /// material, sheet, tile and winding.
     pub parts: Vec<&'a Chart>,
 }
 
@@ -212,20 +213,20 @@ impl UvChart<'_> {
     }
 }
 
-/// A chart of the atlas: a chart in UV or a part of one, placed at a whole-texel offset.
+/// A chart of the atlas: a chart in UV or a part of one, placed at an offset of whole texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// Number of the chart in UV.
     pub uv_chart: u32,
     /// Page of the chart.
     pub page: u32,
-    /// Added to `uv × size`, gives texel coordinates on the page.
+    /// Offset that is added to `uv × size` to get texel coordinates on the page.
     pub texel_from_uv: [i32; 2],
     /// Owned texels' bounding box on the page: `[x0, y0, x1, y1]`, upper ends excluded.
     pub bounds: [u32; 4],
     /// Material, an index into the model's materials.
     pub material: u32,
-    /// Sheet of texture coordinates: the chart's material, or 0 for all where they share one
+    /// Sheet of texture coordinates: the chart's material, or 0 for all charts if all materials share one sheet
     /// ([`crate::model::Mesh::is_one_sheet`]). Charts of different sheets never overlap.
     pub sheet: u32,
     /// UV tile, `[floor(u), floor(v)]` of the center of the chart in UV; `[0, 0]` is the unit square.
@@ -238,21 +239,21 @@ pub struct Chart {
     pub texels: u32,
 }
 
-/// Texel just outside a chart, with the surface point that a walk over the seam leads to.
+/// Texel just outside a chart, with the surface point that a straight walk over the seam reaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ghost {
     /// Column, row, page.
     pub texel: [u32; 3],
     /// Chart whose ring it belongs to.
     pub chart: u32,
-    /// Triangle of the point reached.
+    /// Triangle of the surface point.
     pub target_triangle: u32,
-    /// The point reached, in texel coordinates of that triangle's chart.
+    /// The surface point, in texel coordinates of the chart of that triangle.
     pub target_texel: [f32; 2],
-    /// Columns carry the own chart's texel axes to texel vectors of the target's chart.
+    /// Matrix from texel vectors of the ghost's chart to texel vectors of the target's chart.
     pub target_from_own: [[f32; 2]; 2],
-    /// Triangle of the chart in which stored values are read: the target's chart, or the one over the seam where the target's
-    /// has no owned texel near the target.
+    /// Triangle of the chart in which stored values are read: the target's chart, or the chart on the other side of the
+    /// seam if the target's chart owns no texel near the target.
     pub read_triangle: u32,
     /// Texel coordinates of the point to read, on the page of that chart.
     pub read_texel: [f32; 2],
@@ -275,32 +276,32 @@ pub struct AtlasReport {
     /// Owned texels of all charts divided by the texels of the unit squares in use, one for each sheet, or for each tile of a sheet whose
     /// tiles have maps of their own.
     pub coverage: f32,
-    /// Owned texels whose place in their sheet's unit square another chart claims as well, UV tiles wrapped
-    /// onto one square as a repeating texture does, unless each tile has maps of its own.
+    /// Owned texels whose place in the unit square of their sheet is claimed by another chart, too. UV tiles are wrapped
+    /// onto one square, as by a repeating texture.
     pub overlap_texels: u64,
-    /// Pairs of overlapping charts in UV, lower number first, with the number of places they share; the first 10 000 pairs.
+    /// Pairs of overlapping charts in UV, lower number first, with the number of texels that they share. At most 10 000 pairs are listed.
     pub overlapping_charts: Vec<(u32, u32, u64)>,
     /// Charts that coincide in UV with an earlier one (stacked or mirrored copies).
     pub stacked_charts: u32,
     /// Charts with mirrored texture coordinates.
     pub mirrored_charts: u32,
-    /// Triangles without area in UV: they own nothing.
+    /// Triangles without area in UV, which own no texels.
     pub degenerate_uv_triangles: u32,
     /// Triangles without area in space.
     pub degenerate_triangles: u32,
-    /// Edges shared by more than two triangles. Two of them stay linked where they alone are of one part or alone
-    /// share the edge's vertices; the others have a border there.
+    /// Edges shared by more than two triangles. Two of these triangles stay linked if they are the only ones of one part,
+    /// or the only ones that share the edge's vertices. The others have a border there.
     pub nonmanifold_edges: u32,
-    /// Edges with one triangle.
+    /// Edges of only one triangle.
     pub border_edges: u32,
     /// Charts thinner than two texels.
     pub thin_charts: u32,
-    /// Charts that are not at their place in the user's layout.
+    /// Charts that are not at their place in the user's UV layout.
     pub moved_charts: u32,
-    /// Ghosts without a link, which read their anchor texel.
+    /// Ghosts without a link. They read their anchor texel.
     pub unlinked_ghosts: u32,
-    /// Links whose end was pulled by less than two texels towards the next owned texel, because none was in reach
-    /// of bilinear sampling: at the tips of charts and where a chart is thin.
+    /// Links whose end was moved by less than two texels towards the next owned texel, because bilinear sampling would not
+    /// have reached one. This happens at the tips of charts and in thin charts.
     pub pulled_ghosts: u32,
     /// Sentences for the artist.
     pub warnings: Vec<String>,

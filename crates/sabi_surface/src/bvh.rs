@@ -12,11 +12,11 @@ use crate::model::Mesh;
 #[cfg(test)]
 mod tests;
 
-/// Diagonal of the scaled scene. obvhs misses boxes that end nearer than 1e-4, so a larger scene misses less; its debug
-/// assertions allow an error of 1e-5 for boxes, ten times the rounding error at this size.
+/// Diagonal of the scaled scene. obvhs misses boxes that end nearer than 1e-4, so a larger scene misses fewer hits. Its
+/// debug assertions allow an error of 1e-5 for boxes, ten times the rounding error at this size.
 const SCALED_DIAGONAL: f64 = 32.0;
 
-/// A bounding volume hierarchy of a mesh, scaled to a size that suits single precision.
+/// A bounding volume hierarchy of a mesh, scaled to a size at which single precision is accurate.
 pub struct Bvh {
     tree: CwBvh,
     triangles: Vec<Triangle>,
@@ -38,7 +38,7 @@ pub struct Hit {
 impl Bvh {
     /// Builds the hierarchy, the same for the same mesh.
     pub fn build(mesh: &Mesh) -> Bvh {
-        // NaN positions become the center: the triangle has no area there, so that no ray hits it.
+        // NaN positions are moved to the center: the triangle then has no area, and no ray hits it.
         let corner = |vertex: u32| {
             let position = mesh
                 .positions
@@ -123,7 +123,7 @@ impl Bvh {
         })
     }
 
-    /// Counts the triangles that a ray without end crosses, of those for whose number `counts` returns true.
+    /// Counts the triangles that an endless ray crosses, considering only those for whose number `counts` returns true.
     pub(crate) fn crossed(&self, origin: [f32; 3], direction: [f32; 3], counts: impl Fn(u32) -> bool) -> u32 {
         let mut crossed = 0;
         if let Some(ray) = self.scaled(origin, direction, f32::INFINITY) {
@@ -136,18 +136,18 @@ impl Bvh {
         crossed
     }
 
-    /// The hierarchy, in scaled space; `primitive_indices` lead to triangles of the mesh.
+    /// Returns the hierarchy in scaled space. Its `primitive_indices` lead to triangles of the mesh.
     pub fn tree(&self) -> &CwBvh {
         &self.tree
     }
 
-    /// Center and scale of the map from model space to scaled space: `(position − center) × scale`.
+    /// Returns center and scale of the map from model space to scaled space: `(position − center) × scale`.
     pub fn scaled_from_model(&self) -> ([f32; 3], f32) {
         (self.center.to_array(), self.scale)
     }
 
-    /// The triangles in the order of the tree and in scaled space, three rows each: the first corner, with the triangle's
-    /// number as a bit pattern, the edge to it from the second, and the edge from it to the third.
+    /// Returns the triangles in the order of the tree and in scaled space, as three rows each: the first corner, with the triangle's
+    /// number as a bit pattern; the edge from the second corner to the first; the edge from the first to the third.
     pub fn scaled_triangle_rows(&self) -> Vec<[[f32; 4]; 3]> {
         let rows = |number: &u32| {
             let Triangle { v0, v1, v2 } = self.triangles[*number as usize];
@@ -174,12 +174,12 @@ impl Bvh {
         self.triangles.get(number as usize)
     }
 
-    /// A place of model space in scaled space.
+    /// Converts a point from model space to scaled space.
     pub(crate) fn to_scaled(&self, point: [f32; 3]) -> Vec3A {
         (Vec3A::from_array(point) - self.center) * self.scale
     }
 
-    /// A length of model space in scaled space.
+    /// Converts a length from model space to scaled space.
     pub(crate) fn scaled_length(&self, length: f32) -> f32 {
         length * self.scale
     }
@@ -188,14 +188,14 @@ impl Bvh {
         &self.triangles[self.tree.primitive_indices[primitive] as usize]
     }
 
-    /// Returns the ray in scaled space; `None` without a direction or a length.
+    /// Returns the ray in scaled space; `None` if it has no direction or no length.
     fn scaled(&self, origin: [f32; 3], direction: [f32; 3], max: f32) -> Option<Ray> {
         let direction = Vec3A::from_array(direction).try_normalize()?;
         let origin = (Vec3A::from_array(origin) - self.center) * self.scale;
         if self.triangles.is_empty() || !origin.is_finite() || max.is_nan() || max <= 0.0 {
             return None;
         }
-        // Adding 0 makes -0 to 0: obvhs takes -0 for a negative number in one place and not in another, and misses everything.
+        // Adding 0 converts −0 to 0: obvhs treats −0 as negative in one place and not in another, and would miss everything.
         Some(Ray::new(origin, direction + Vec3A::ZERO, 0.0, max * self.scale))
     }
 }

@@ -1,12 +1,11 @@
-//! Displacement: a finer copy of a mesh whose vertices are moved by a height field, with a silhouette of its own.
+//! Displacement: a finer copy of a mesh whose vertices are moved by a height field, so that its silhouette changes, too.
 //!
-//! An edge is halved as long as it is longer than a length, and a triangle is split along its halved edges. Whether an
-//! edge is halved and where its middle is depends on its two ends alone, so both neighbors split it alike and no T-junction
-//! arises; nothing has to be stitched, and long thin triangles are cut along their length only. The lengths of the
-//! resulting edges differ by factors of two.
+//! An edge is halved as long as it is longer than a limit, and a triangle is split along its halved edges. Whether an edge is halved, and
+//! where its middle is, depends only on its two ends, so both neighbors split it in the same way and there are no T-junctions. Nothing has
+//! to be stitched, and long thin triangles are cut only along their length. The lengths of the resulting edges differ by factors of two.
 //!
-//! Watertight bit by bit: vertices at one position, of whatever triangles, charts and parts, move by the mean of
-//! the heights that the charts have there, along the mean of the shading normals (as Castaño does on the GPU).
+//! The copy is exactly watertight: all vertices at one position, whatever their triangles, charts and parts, move by the
+//! mean of the heights of the charts there, along the mean of the shading normals (as Castaño does on the GPU).
 //!
 //! Near a hard edge they move along its rounded normal (`rounded.rs`), up to the point where this line meets the height field
 //! (`carve.rs`): faces that sink end where their neighbors begin, a chamfer in the heights becomes a plane, and faces that rise
@@ -36,10 +35,10 @@ use split::{Split, count};
 /// Resolution of a displaced copy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplaceOptions {
-    /// Edges are halved until none is longer, model units; 0 for as fine as the budget allows. [`texel_length`] is
-    /// the length below which finer edges show no more.
+    /// Maximum edge length in model units: longer edges are halved. 0 means as fine as the budget allows. [`texel_length`]
+    /// is the length below which finer edges show no more detail.
     pub edge_length: f32,
-    /// Most triangles; a mesh that has more is not subdivided.
+    /// Maximum number of triangles. A mesh that has more is not subdivided.
     pub triangle_budget: usize,
 }
 
@@ -57,8 +56,8 @@ impl Default for DisplaceOptions {
 pub struct Displaced {
     /// Positions of the vertices, model units.
     pub positions: Vec<[f32; 3]>,
-    /// Shading normals of the mesh, for each vertex. Like tangents they are those of the undisplaced surface, to which a
-    /// normal map refers, and interpolated without normalization, as over the triangle that was cut.
+    /// Shading normals of the mesh, for each vertex. Like the tangents, they are those of the undisplaced surface, to which
+    /// a normal map refers. They are interpolated without normalization, as over the original triangle.
     pub normals: Vec<[f32; 3]>,
     /// Tangents of the mesh, for each vertex.
     pub tangents: Vec<[f32; 4]>,
@@ -68,17 +67,17 @@ pub struct Displaced {
     pub texels: Vec<[f32; 2]>,
     /// Corners as vertex numbers, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Triangle of the mesh that each was split from, rising; it determines chart, material and part.
+    /// Triangle of the mesh from which each triangle was split, in ascending order. It determines chart, material and part.
     pub triangle_from: Vec<u32>,
-    /// The length above which edges were halved, model units; infinite when none were.
+    /// Length in model units above which edges were halved; infinite if no edge was halved.
     pub edge_length: f32,
-    /// Reason why it is coarser than requested, as a sentence.
+    /// Reason why the copy is coarser than requested, as a sentence.
     pub note: Option<String>,
 }
 
-/// Cuts a mesh finer and displaces it. `height` returns the height at a place of a chart in texels, model units along the
-/// normal, `None` where the chart has none; values that are not finite count as 0. See [`HeightPlane::at`]. Coincident
-/// surfaces that face opposite directions are not displaced.
+/// Subdivides a mesh and displaces it. `height` returns the height at a place of a chart given in texels, in model units
+/// along the normal; `None` where the chart has no height. Values that are not finite count as 0. See [`HeightPlane::at`].
+/// Coincident surfaces that face opposite directions are not displaced.
 pub fn displaced(
     mesh: &Mesh,
     atlas: &Atlas,
@@ -99,7 +98,7 @@ pub fn displaced(
     whole
 }
 
-/// Model units of a texel's side, the mean over the surface; 0 where there is no surface or no map of it.
+/// Returns the length of a texel's side in model units, averaged over the surface; 0 if there is no surface or no map of it.
 pub fn texel_length(mesh: &Mesh, atlas: &Atlas) -> f32 {
     let area_texels = |[a, b, c]: &[[f32; 2]; 3]| {
         let [a, b, c] = [a, b, c].map(|texel| DVec2::from(texel.map(f64::from)));
@@ -110,7 +109,7 @@ pub fn texel_length(mesh: &Mesh, atlas: &Atlas) -> f32 {
     if length.is_finite() { length } else { 0.0 }
 }
 
-/// Concatenates the splits, not displaced yet.
+/// Concatenates the splits without displacing them.
 fn joined(splits: &[Split]) -> Displaced {
     let mut whole = Displaced::default();
     let vertices = splits.iter().map(|split| split.vertices.len()).sum();
@@ -140,8 +139,8 @@ fn joined(splits: &[Split]) -> Displaced {
     whole
 }
 
-/// The smallest length above which edges can be halved within a budget of triangles, none below the one asked for; and a
-/// sentence when it is larger.
+/// Returns the smallest length, not below the requested one, above which edges can be halved within a budget of triangles;
+/// and a sentence if it is larger than requested.
 fn fitting_length(mesh: &Mesh, asked: f32, budget: u64) -> (f32, Option<String>) {
     let triangles = mesh.triangles.len() as u64;
     let is_asked = asked.is_finite() && asked > 0.0;
@@ -157,7 +156,7 @@ fn fitting_length(mesh: &Mesh, asked: f32, budget: u64) -> (f32, Option<String>)
     if fits(mesh, length, budget) {
         return (length, None);
     }
-    // Of all triangles with sides up to a length, the equilateral one has the largest area.
+    // Of all triangles whose sides are not longer than a given length, the equilateral one has the largest area.
     let needed = (mesh.area() * 4.0 / (3f64.sqrt() * budget as f64)).sqrt() as f32;
     length = length.max(needed);
     while !fits(mesh, length, budget) {
@@ -172,7 +171,7 @@ fn fitting_length(mesh: &Mesh, asked: f32, budget: u64) -> (f32, Option<String>)
     (length, note)
 }
 
-/// Returns the length below which edges are a few rounding steps of their coordinates long, and are not halved.
+/// Returns the length below which edges are only a few rounding steps of their coordinates long and are not halved.
 fn finest_length(mesh: &Mesh) -> f32 {
     let corners = mesh.triangles.iter().flatten();
     let reach = corners

@@ -1,4 +1,4 @@
-//! The ground below a model: the share of the sky that the model leaves open above it.
+//! The ground below a model: how much of the sky is visible from it, past the model.
 
 use std::f32::consts::TAU;
 
@@ -8,17 +8,17 @@ use rayon::prelude::*;
 use crate::bvh::Bvh;
 use crate::model::Mesh;
 
-/// Places along a side of the square.
+/// Number of places along a side of the square.
 const SIDE: usize = 128;
-/// Rays of a place.
+/// Number of rays for each place.
 const RAYS: usize = 64;
-/// Turn from a ray to the next one around the vertical: the golden angle, which spreads any number of them evenly.
+/// Angle from a ray to the next one around the vertical: the golden angle, which distributes any number of rays evenly.
 const GOLDEN_ANGLE: f32 = 2.399_963_2;
 
 /// Openness of the ground below a model, over a square around the vertical axis through the middle of the model's box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ground {
-    /// Height of the ground, where the lowest vertex stands, model units.
+    /// Height of the ground, which is that of the lowest vertex, in model units.
     pub height: f32,
     /// Half the side of the square, model units.
     pub radius: f32,
@@ -29,7 +29,7 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Finds the openness of the ground with rays; `None` for a mesh without extent.
+    /// Computes the openness of the ground with rays; `None` for a mesh without extent.
     pub fn of(mesh: &Mesh, bvh: &Bvh) -> Option<Ground> {
         let used = mesh.triangles.iter().flatten();
         let places = used.filter_map(|vertex| mesh.positions.get(*vertex as usize));
@@ -44,12 +44,12 @@ impl Ground {
         }
         let center = 0.5 * (low + high);
         let radius = 0.5 * Vec2::new(size.x, size.z).length() + 0.7 * largest;
-        // Below the lowest faces, so that the ground under them is covered.
+        // Start below the lowest faces, so that the ground under them is covered.
         let start = low.y - 1e-3 * largest;
         let open_at = |index: usize| {
             let [x, z] = [index % SIDE, index / SIDE].map(|at| (at as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0);
             let origin = [center.x + x * radius, start, center.z + z * radius];
-            // Neighbors are turned against each other, so that no pattern of rays shows.
+            // Neighbors use different rotations, so that no pattern of rays is visible.
             let turn = (index as f32 * 0.618_034).fract() * TAU;
             let is_open = |ray: &usize| {
                 let share = (*ray as f32 + 0.5) / RAYS as f32;
@@ -69,7 +69,7 @@ impl Ground {
     }
 }
 
-/// Mean over 3 × 3 places with binomial weights, which takes out the noise of the rays.
+/// Returns the mean over 3 × 3 places with binomial weights, which removes the noise of the rays.
 fn smoothed(values: &[f32]) -> Vec<f32> {
     let at = |x: usize, z: usize| values[z.min(SIDE - 1) * SIDE + x.min(SIDE - 1)];
     let row = |x: usize, z: usize| 0.25 * at(x.saturating_sub(1), z) + 0.5 * at(x, z) + 0.25 * at(x + 1, z);

@@ -1,6 +1,6 @@
 //! Members of groups, stored one group behind another.
 
-/// Members of numbered groups: those of one group lie side by side, in the order in which they were given.
+/// Members of numbered groups. Members of a group are adjacent, in the order in which they were given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Groups {
     /// Start of each group in `members`, and the end of the last.
@@ -9,8 +9,8 @@ pub struct Groups {
 }
 
 impl Groups {
-    /// Sorts members into `count` groups. `give` calls its argument with the group and the number of each member, the same ones
-    /// in the same order whenever it is called.
+    /// Sorts members into `count` groups. `give` calls its argument with the group and the number of each member. It is
+    /// called more than once, and must give the same members in the same order each time.
     pub fn new(count: usize, give: impl Fn(&mut dyn FnMut(usize, u32))) -> Groups {
         let mut starts = vec![0; count + 1];
         give(&mut |group, _| starts[group + 1] += 1);
@@ -26,7 +26,7 @@ impl Groups {
         Groups { starts, members }
     }
 
-    /// Sorts the numbers from 0 on into `count` groups; `groups` holds the group of each number.
+    /// Sorts the numbers starting at 0 into `count` groups. `groups` contains the group of each number.
     pub fn of_each(groups: &[u32], count: usize) -> Groups {
         Groups::new(count, |member| {
             for (number, group) in groups.iter().enumerate() {
@@ -51,7 +51,7 @@ mod tests {
     use super::Groups;
 
     #[test]
-    fn members_lie_by_group_in_the_order_they_were_given() {
+    fn members_are_stored_by_group_in_the_given_order() {
         let groups = Groups::of_each(&[2, 0, 2, 0], 4);
         let all: Vec<&[u32]> = (0..groups.count()).map(|group| groups.members(group)).collect();
         assert_eq!(all, [&[1, 3][..], &[], &[0, 2], &[]]);

@@ -1,8 +1,8 @@
-//! A model file becomes a surface: loading, charts, the linked atlas, ray casting.
+//! From a model file to a surface: loading, charts, the linked atlas, ray casting.
 //!
 //! Invariants:
-//! * No number in a file is trusted: counts, offsets and indices are checked before memory is taken or read.
-//! * What was repaired, reduced or left out is a warning of the model.
+//! * No number in a file is trusted: counts, offsets and indices are checked before memory is allocated or read.
+//! * Everything that was repaired, reduced or left out is reported as a warning of the model.
 //! * The same file gives the same atlas, byte for byte, on every machine and any number of threads.
 //! * Nothing here knows a graph or a device.
 //!
@@ -13,15 +13,15 @@
 //! // Two triangles of a square that meet along its diagonal.
 //! let corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]];
 //! let mesh = Mesh {
-//!     positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
-//!     normals: vec![[0.0, 0.0, 1.0]; 4],
-//!     tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
-//!     uvs: corners.to_vec(),
-//!     uv_set: Some(0),
-//!     triangles: vec![[0, 1, 2], [0, 2, 3]],
-//!     triangle_material: vec![0, 0],
-//!     triangle_part: vec![0, 0],
-//!     ..Mesh::default()
+//! positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
+//! normals: vec![[0.0, 0.0, 1.0]; 4],
+//! tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
+//! uvs: corners.to_vec(),
+//! uv_set: Some(0),
+//! triangles: vec![[0, 1, 2], [0, 2, 3]],
+//! triangle_material: vec![0, 0],
+//! triangle_part: vec![0, 0],
+//! ..Mesh::default()
 //! };
 //! let atlas = Atlas::build(&mesh, &AtlasOptions::new(64))?;
 //! assert_eq!(atlas.charts.len(), 1);

@@ -1,8 +1,6 @@
-//! Reading model files: glTF, FBX, OBJ, COLLADA, PLY and STL become one [`Model`] in one world space.
+//! Reads model files: glTF, FBX, OBJ, COLLADA, PLY and STL are converted to a [`Model`] in world space.
 //!
-//! The readers check everything that a file claims, return a model with warnings or an error, and never panic. They look whether they
-//! were canceled ([`sabi_cancel`]) at least once for every few hundred elements, but not within other crates that do not ask back:
-//! JSON, XML, Draco.
+//! The readers check all numbers of a file, return a model with warnings or an error, and never panic.
 
 mod arealess;
 mod assembly;
@@ -59,30 +57,30 @@ pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
 use self::text::unmarked;
 use crate::model::Model;
 
-/// Most triangles of a model; more are refused before anything is allocated for them.
+/// Maximum number of triangles of a model. More are refused before anything is allocated for them.
 pub const MAX_TRIANGLES: u64 = 50_000_000;
 /// Most bytes of a file: enough for the vertices and corners of [`MAX_TRIANGLES`] as text.
 pub const MAX_FILE_BYTES: u64 = 32 << 30;
-/// Largest smoothing angle, degrees: no two faces turn by more.
+/// Largest smoothing angle in degrees: the angle between two faces cannot be larger.
 const MOST_SMOOTH_DEGREES: f32 = 180.0;
 
 /// Options of reading a model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadOptions {
-    /// UV set that becomes [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`, or the n-th set of a mesh in FBX and COLLADA; OBJ
-    /// and PLY have set 0 alone.
+    /// UV set that is used for [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`, or the n-th set of a mesh in FBX and
+    /// COLLADA. OBJ and PLY have only set 0.
     pub uv_set: u32,
-    /// Axis of the file that points up; the model is rotated so that it becomes +Y. FBX and COLLADA say which axis that is:
-    /// their models are turned by what they say first, so that +Y is right unless the file is wrong.
+    /// Axis of the file that points up. The model is rotated so that it becomes +Y. FBX and COLLADA files declare this axis
+    /// and are rotated accordingly first, so that +Y is right unless the declaration is wrong.
     pub up: Up,
-    /// All lengths are multiplied by this; finite and above 0.
+    /// Factor by which all lengths are multiplied; finite and above 0.
     pub scale: f32,
-    /// Scene of a glTF file, its number; `None` for the one that the file names. Other formats have one scene.
+    /// Number of the scene in a glTF file; `None` for the file's default scene. Other formats have one scene.
     pub scene: Option<u32>,
-    /// Angle between faces up to which their shading is smooth, degrees, 0 to 180; `None` for the normals of the file. The
-    /// triangles that share a material of a glTF or COLLADA mesh are smoothed by themselves.
+    /// Angle between faces up to which their shading is smooth, in degrees, 0 to 180; `None` for the normals of the file.
+    /// In glTF and COLLADA, the triangles of a mesh that have the same material are smoothed separately.
     pub smooth_degrees: Option<f32>,
-    /// Parts that count.
+    /// Choice of the parts to load.
     pub parts: PartChoice,
     /// True to turn faces that are inside out; see [`crate::orientation`].
     pub turns_faces: bool,
@@ -119,17 +117,17 @@ impl LoadOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Up {
-    /// +Y, as glTF has it.
+    /// +Y, as in glTF.
     #[default]
     Y,
-    /// +Z, as CAD and some exporters have it.
+    /// +Z, as in CAD programs and some exporters.
     Z,
     /// +X.
     X,
 }
 
 impl Up {
-    /// Rotation that makes the axis +Y.
+    /// Returns the rotation that turns the axis to +Y.
     fn turned(self) -> DMat3 {
         match self {
             Up::Y => DMat3::IDENTITY,
@@ -139,21 +137,21 @@ impl Up {
     }
 }
 
-/// Reads a model file and the files it names, from its folder and below.
+/// Reads a model file, and the files to which it refers, from its folder and below.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
     load_trusting(path, &TrustedPaths::default(), options)
 }
 
-/// Reads a model file and the files it names, from its folder and below and from paths that the user trusts.
+/// Reads a model file, and the files to which it refers, from its folder and below and from paths that the user trusts.
 pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions) -> Result<Model, LoadError> {
     let fault = |fault| LoadError {
         model: path.display().to_string(),
         fault,
     };
-    // A path without a file name, such as `..`, is refused below under its own text.
+    // A path without a file name, such as `..`, is refused below; the message shows the path.
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     if let Some(sentence) = refused_format(&name) {
-        // That the file is missing says more than that its ending is wrong.
+        // A missing file is reported as missing, even if its extension is wrong, too.
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
@@ -168,8 +166,8 @@ pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions)
     Ok(model)
 }
 
-/// Reads a model from bytes. `name` is its file name, ending included; `resolve` returns the bytes of a file beside it or
-/// the reason why it cannot be read, and is called for buffers, pictures and material libraries.
+/// Reads a model from bytes. `name` is its file name with extension. `resolve` returns the bytes of a file beside it, or
+/// the reason why it cannot be read; it is called for buffers, images and material libraries.
 pub fn load_bytes(
     name: &str,
     bytes: &[u8],
@@ -190,7 +188,7 @@ fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &Lo
         Err(Fault::Smooth(degrees))
     } else if options.scale.is_finite() && options.scale > 0.0 {
         let is_smoothed = options.smooth_degrees.is_some();
-        // The bytes of a binary STL may begin like a mark.
+        // The bytes of a binary STL may start like the signature of another format.
         let text = if stl::has_binary_size(bytes) {
             Cow::Borrowed(bytes)
         } else {
@@ -221,8 +219,8 @@ fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &Lo
     }
 }
 
-/// Reads a file that the glTF `model` at `path` names by a `uri`, as [`load_trusting`] does: its bytes and its path, or the reason
-/// why it cannot be read; `None` where the `uri` holds the bytes itself.
+/// Reads a file to which the glTF `model` at `path` refers by a `uri`, like [`load_trusting`]. Returns its bytes and its
+/// path, or the reason why it cannot be read; `None` if the `uri` contains the bytes itself.
 pub fn named_file(path: &Path, model: &Model, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
     let base = PathBase::of_file(path);
     let read = |uri: &str| {
@@ -236,7 +234,7 @@ pub fn named_file(path: &Path, model: &Model, uri: &str) -> Option<Result<(Vec<u
     }
 }
 
-/// Unpacks the packed vertices of the glTF `model` at `path`, whose `bytes` were read; the error is a sentence.
+/// Unpacks the packed vertices of the glTF `model` at `path`, whose file has these `bytes`. The error is a sentence.
 pub fn unpacked_vertices(path: &Path, model: &Model, bytes: &[u8]) -> Result<UnpackedVertices, String> {
     let base = PathBase::of_file(path);
     let mut resolve = |uri: &str| {
@@ -246,7 +244,7 @@ pub fn unpacked_vertices(path: &Path, model: &Model, bytes: &[u8]) -> Result<Unp
     gltf::unpack(bytes, &mut resolve).map_err(|fault| fault.to_string())
 }
 
-/// Returns true if an angle can be one of [`LoadOptions::smooth_degrees`].
+/// Returns true if an angle is allowed for [`LoadOptions::smooth_degrees`].
 pub fn is_smoothing_angle(degrees: f32) -> bool {
     (0.0..=MOST_SMOOTH_DEGREES).contains(&degrees)
 }
@@ -274,7 +272,7 @@ fn reason(unread: Unread) -> Option<String> {
     }
 }
 
-/// Returns why a file that a model names was not read.
+/// Returns why a file to which a model refers was not read.
 fn reason_beside(unread: Unread) -> String {
     reason(unread).unwrap_or_else(|| "there is no such file".to_owned())
 }

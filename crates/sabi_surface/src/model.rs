@@ -18,41 +18,41 @@ pub use self::file_parts::{FilePart, LeftOut};
 pub use self::finish::{ModelFinish, Scaled};
 pub use self::uv_decoding::UvDecoding;
 
-/// A model as read from its file, every mesh of it in one world space.
+/// A model as read from its file, with all meshes in one world space.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// File name without folder and ending; names the maps of a lone unnamed material.
+    /// File name without folder and extension. It names the maps of a single unnamed material.
     pub stem: String,
     /// All triangles.
     pub mesh: Mesh,
-    /// Origin of [`Model::mesh`] in the file's own world: zero, except for models far from it.
+    /// Origin of [`Model::mesh`] in the file's world. It is zero unless the model is far from the origin.
     pub middle: [f64; 3],
-    /// Materials in use, in the file's order. Never empty: a model without any has one unnamed.
+    /// Materials that are used, in the file's order. Never empty: a model without materials has one unnamed material.
     pub materials: Vec<ModelMaterial>,
-    /// Encoded pictures that the materials name.
+    /// Encoded images to which the materials refer.
     pub images: Vec<ModelImage>,
     /// Names of the parts (mesh instances), indexed by [`Mesh::triangle_part`]. Connected triangles
     /// of a part are a piece: see [`crate::pieces`].
     pub parts: Vec<String>,
-    /// Parts that the file has, in its order: those of the model, and those that were left out of it.
+    /// All parts of the file in order: those of the model, and those that were left out.
     pub file_parts: Vec<FilePart>,
-    /// Faces that were turned, because they were inside out.
+    /// Number of faces that were reversed because they were inside out.
     pub turned_faces: usize,
-    /// Files that it was read from: the model's own, buffers, pictures, material libraries. Empty when read from memory.
+    /// Files from which the model was read: its own file, buffers, images, material libraries. Empty if it was read from memory.
     pub files: Vec<PathBuf>,
-    /// Places of files that it names and that do not exist; of very many only the first.
+    /// Paths of missing files to which the model refers. If there are very many, only the first are listed.
     pub absent: Vec<PathBuf>,
-    /// Bytes of all these files together.
+    /// Total size of these files in bytes.
     pub file_bytes: u64,
-    /// Refusals of files that it names and that it may not open; of very many only the first.
+    /// Refusals of files to which the model refers and that it may not open. If there are very many, only the first are listed.
     pub refused: Vec<Refusal>,
-    /// Paths outside of its folder from which it was allowed to name files.
+    /// Paths outside of its folder that the model was allowed to open.
     pub trusted: TrustedPaths,
-    /// True if the file is glTF, text or binary; a copy of any other format is made from the loaded model.
+    /// True if the file is glTF, text or binary. A copy of any other format is made from the loaded model.
     pub is_gltf: bool,
-    /// Places of a glTF file that the mesh was read from; none for other formats.
+    /// Places in a glTF file from which the mesh was read; `None` for other formats.
     pub origins: Option<FileOrigins>,
-    /// True if its normals are smoothed ones and not those of the file.
+    /// True if the normals are smoothed ones and not those of the file.
     pub is_smoothed: bool,
     /// Materials with triangles that lack the chosen UV set although others have it.
     pub without_uvs: BTreeSet<u32>,
@@ -60,27 +60,27 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
-/// Indexed triangles in world space around [`Model::middle`]: right-handed, +Y up, meters where the file says so.
+/// Indexed triangles in world space relative to [`Model::middle`]: right-handed, +Y up, in meters if the file declares its unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions, finite.
     pub positions: Vec<[f32; 3]>,
     /// Shading normals, unit length, one for each vertex.
     pub normals: Vec<[f32; 3]>,
-    /// MikkTSpace tangents of [`Mesh::uvs`], unit length, `w` the sign of the bitangent; one for each vertex.
+    /// MikkTSpace tangents for [`Mesh::uvs`], unit length, with the sign of the bitangent in `w`; one for each vertex.
     pub tangents: Vec<[f32; 4]>,
-    /// Texture coordinates that the atlas is built from and maps use: those of the chosen set, or unwrapped ones.
-    /// glTF convention (v grows downward), one for each vertex; empty when there are none.
+    /// Texture coordinates that the atlas and the maps use: those of the chosen set, or unwrapped ones. They follow glTF's
+    /// convention (v grows downward), one for each vertex; empty if there are none.
     pub uvs: Vec<[f32; 2]>,
-    /// Set of the file that [`Mesh::uvs`] is (`TEXCOORD_n`); `None` when there are no UVs or they were unwrapped.
+    /// Number of the file's set in [`Mesh::uvs`] (`TEXCOORD_n`); `None` if there are no UVs or they were unwrapped.
     pub uv_set: Option<u32>,
-    /// True if all materials share one sheet of [`Mesh::uvs`], and so one set of maps; otherwise each has its own.
+    /// True if all materials share one sheet of [`Mesh::uvs`], and so one set of maps. Otherwise each material has its own sheet.
     pub is_one_sheet: bool,
-    /// Materials whose own textures repeat on the chosen set: their UVs outside the unit square are no UDIM tiles.
+    /// Materials whose own textures repeat on the chosen set, so that their UVs outside of the unit square are not UDIM tiles.
     pub repeating: BTreeSet<u32>,
-    /// The other sets that the model's own textures use, numbers rising.
+    /// The other sets that the model's own textures use, by ascending number.
     pub texture_uvs: Vec<TextureUvs>,
-    /// Triangles that lack a set of the file although others have it, those of each set in rising order.
+    /// Triangles that lack a set of the file while others have it. The triangles of each set are in ascending order.
     pub missing_uvs: Vec<MissingUvs>,
     /// Vertex colors, linear RGBA; empty when there are none.
     pub colors: Vec<[f32; 4]>,
@@ -97,13 +97,13 @@ pub struct Mesh {
 pub struct TextureUvs {
     /// Its number: `TEXCOORD_n`.
     pub set: u32,
-    /// One for each vertex; zero where the file has none.
+    /// Coordinates for each vertex; zero if the file has none.
     pub uvs: Vec<[f32; 2]>,
-    /// Tangents in which a normal map of this set is meant, as [`Mesh::tangents`]; empty when no normal map uses it.
+    /// Tangents for a normal map of this set, like [`Mesh::tangents`]; empty if no normal map uses the set.
     pub tangents: Vec<[f32; 4]>,
 }
 
-/// Range of triangles whose vertices have no coordinates of a set; the stored zeros have no meaning.
+/// Range of triangles whose vertices have no coordinates in a set. The stored zeros have no meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissingUvs {
     /// The set's number: `TEXCOORD_n`.
@@ -125,7 +125,7 @@ impl Mesh {
         areas.filter(|area| area.is_finite()).sum()
     }
 
-    /// Area of a triangle in UV, in tiles; 0 for one with coordinates that are no numbers.
+    /// Returns the area of a triangle in UV, in tiles; 0 if a coordinate is not finite.
     pub fn uv_area(&self, triangle: u32) -> f64 {
         let corners = self.triangles[triangle as usize];
         let [a, b, c] = corners.map(|vertex| glam::DVec2::from(self.uvs[vertex as usize].map(f64::from)));
@@ -139,13 +139,13 @@ impl Mesh {
         corners.map(|vertex| DVec3::from(self.positions[vertex as usize].map(f64::from)))
     }
 
-    /// The place on a triangle with these weights of its corners, model units.
+    /// Returns the point of a triangle with these weights of its corners, in model units.
     pub fn position(&self, triangle: u32, weights: [f64; 3]) -> DVec3 {
         let weighted = self.corners(triangle).into_iter().zip(weights);
         weighted.map(|(corner, weight)| corner * weight).sum()
     }
 
-    /// Texture coordinates and tangents of a set of the file; none when it was not loaded.
+    /// Returns texture coordinates and tangents of a set of the file; `None` if it was not loaded.
     pub fn set(&self, set: u32) -> Option<SetView<'_>> {
         if self.uv_set == Some(set) {
             return Some((&self.uvs, &self.tangents));
@@ -155,18 +155,18 @@ impl Mesh {
     }
 }
 
-/// A material of the model's own: glTF's metallic-roughness factors and textures.
+/// A material of the model: glTF's metallic-roughness factors and textures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelMaterial {
     /// Name in the file; empty when it has none.
     pub name: String,
-    /// Its place among the materials of a glTF file; none for glTF's default material and for other formats.
+    /// Index among the materials of a glTF file; `None` for glTF's default material and for other formats.
     pub file_index: Option<usize>,
-    /// Transform that led from the file's coordinates to its [`Mesh::uvs`]; none where they are as stored.
+    /// Transform from the file's coordinates to [`Mesh::uvs`]; `None` if they are used as stored.
     pub uv_decoding: Option<UvDecoding>,
     /// Linear RGBA factor.
     pub base_color_factor: [f32; 4],
-    /// True if alpha is to be ignored: glTF's alpha mode `OPAQUE`, under which textures may hold any alpha.
+    /// True if alpha is ignored: glTF's alpha mode `OPAQUE`, with which textures may contain any alpha.
     pub ignores_alpha: bool,
     /// True if its back faces are visible, too; glTF states this for each material.
     pub is_double_sided: bool,
@@ -184,9 +184,9 @@ pub struct ModelMaterial {
     pub base_color: Option<TextureRef>,
     /// Roughness in G, metallic in B.
     pub metallic_roughness: Option<TextureRef>,
-    /// Roughness in R, in formats with a picture for it alone; multiplies what is in [`ModelMaterial::metallic_roughness`].
+    /// Roughness in R, for formats with a separate image. It multiplies the roughness in [`ModelMaterial::metallic_roughness`].
     pub roughness: Option<TextureRef>,
-    /// Metallic in R, as [`ModelMaterial::roughness`].
+    /// Metallic in R, like [`ModelMaterial::roughness`].
     pub metallic: Option<TextureRef>,
     /// Tangent-space normal, Y+.
     pub normal: Option<TextureRef>,
@@ -194,7 +194,7 @@ pub struct ModelMaterial {
     pub occlusion: Option<TextureRef>,
     /// Emission (sRGB).
     pub emission: Option<TextureRef>,
-    /// What few materials have.
+    /// Rare properties.
     pub finish: ModelFinish,
 }
 
@@ -252,7 +252,7 @@ impl ModelMaterial {
         all.into_iter().flatten().chain(self.finish.textures_mut())
     }
 
-    /// The material of faces that name none: neither metal nor mirror.
+    /// Returns the material of faces without a material: neither metallic nor smooth.
     pub(crate) fn plain() -> ModelMaterial {
         ModelMaterial {
             metallic_factor: 0.0,
@@ -323,7 +323,7 @@ pub enum Wrap {
     Mirror,
 }
 
-/// A picture still encoded as it is in the file or beside it.
+/// An image, still encoded as in the file or beside it.
 #[derive(Clone, Debug)]
 pub struct ModelImage {
     /// Name for messages: the file's name or `image 3 of model.glb`.

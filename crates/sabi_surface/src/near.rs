@@ -1,6 +1,6 @@
-//! Rays from places close to each other: the few triangles near them are found once, and for each place those that its rays
-//! can meet. Where nothing is in the way, rays need not be followed; where little is, it is tried one after the other, which is
-//! quicker than the whole hierarchy.
+//! Rays from places close to each other. The triangles near these places are collected once, and for each place those that
+//! its rays can hit. If there are none, the rays need not be traced; if there are few, they are tested one after the other,
+//! which is faster than using the whole hierarchy.
 
 mod blockers;
 #[cfg(test)]
@@ -12,7 +12,7 @@ use obvhs::triangle::Triangle;
 use self::blockers::Blockers;
 use crate::bvh::Bvh;
 
-/// Rounding of coordinates in scaled space, far above that of single precision at its size.
+/// Bound for rounding errors of coordinates in scaled space, far above that of single precision.
 const ROUNDING: f32 = 1e-3;
 
 /// A ray from a place on the surface, model units.
@@ -55,7 +55,7 @@ impl NearTriangle {
         })
     }
 
-    /// Returns true if no point of it is within a distance of a place.
+    /// Returns true if no point of the triangle is within a distance of a place.
     fn is_beyond(&self, place: Vec3A, distance: f32) -> bool {
         let outside = (self.low - place).max(place - self.high).max(Vec3A::ZERO);
         let over = (place - self.corners[0]).dot(self.normal).abs();
@@ -63,7 +63,7 @@ impl NearTriangle {
     }
 }
 
-/// Box of starts, in scaled space, and the longest of their rays.
+/// Bounding box of the starts of rays, in scaled space, and the length of the longest ray.
 struct Starts {
     low: Vec3A,
     high: Vec3A,
@@ -84,14 +84,14 @@ impl Starts {
         self.reach = self.reach.max(reach);
     }
 
-    /// Half the diagonal of the box, and how far its rays reach beyond it.
+    /// Returns half the diagonal of the box plus the length of the longest ray.
     fn range(&self) -> f32 {
         0.5 * (self.high - self.low).length() + self.reach + ROUNDING
     }
 }
 
 impl NearTriangles {
-    /// Finds all triangles that some rays can hit, perhaps with others near them. Returns false where there are more than `most`.
+    /// Finds all triangles that some rays can hit, possibly with others near them. Returns false if there are more than `most`.
     pub fn find(&mut self, bvh: &Bvh, rays: impl Iterator<Item = PlaceRay>, most: usize) -> bool {
         self.found.clear();
         self.numbers.clear();
@@ -133,7 +133,7 @@ impl NearTriangles {
     }
 }
 
-/// Triangles that the rays of a place can meet, by the side of its triangle to which they go.
+/// Triangles that the rays of a place can hit, separately for both sides of its triangle.
 #[derive(Default)]
 pub struct Surroundings {
     normal: Vec3A,
@@ -141,20 +141,20 @@ pub struct Surroundings {
     below: Blockers,
 }
 
-/// Knowledge of a ray from a look around its place.
+/// What is known about a ray after the surroundings of its place were examined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
-    /// It hits nothing, or nothing that counts.
+    /// The ray hits nothing, or nothing that counts.
     Miss,
-    /// Its first hit: the triangle, and the distance in model units.
+    /// The first hit: the triangle, and the distance in model units.
     Hit(u32, f32),
-    /// It has to be followed through the hierarchy.
+    /// Nothing is known: the ray has to be traced through the hierarchy.
     Nothing,
 }
 
 impl Surroundings {
-    /// Looks around the place on `triangle` that some rays start from. Hits on triangles that turn by less than `least_turn`
-    /// (radians) against it do not count.
+    /// Examines the surroundings of a place on `triangle` from which some rays start. Hits on triangles that are turned by
+    /// less than `least_turn` (radians) against it do not count.
     pub fn look(
         &mut self,
         bvh: &Bvh,
@@ -200,13 +200,13 @@ impl Surroundings {
         }
     }
 
-    /// Knows nothing of any ray.
+    /// Resets, so that nothing is known about any ray.
     pub fn give_up(&mut self) {
         self.above.give_up();
         self.below.give_up();
     }
 
-    /// Looks for the first hit of a ray of this place.
+    /// Finds the first hit of a ray of this place.
     pub fn closest(&self, bvh: &Bvh, ray: PlaceRay) -> Known {
         let side = if self.goes_up(ray) { &self.above } else { &self.below };
         if !side.any_counts() {
@@ -224,7 +224,7 @@ impl Surroundings {
         })
     }
 
-    /// Returns true if a ray leaves the plane upwards, or runs along it.
+    /// Returns true if a ray leaves the plane upward, or is parallel to it.
     fn goes_up(&self, ray: PlaceRay) -> bool {
         Vec3A::from_array(ray.direction).dot(self.normal) >= 0.0
     }

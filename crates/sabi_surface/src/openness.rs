@@ -1,4 +1,4 @@
-//! Openness of a model's surface to light from all around, on a small atlas of its own.
+//! Openness of a model's surface to light from all directions, on a separate small atlas.
 
 use std::f32::consts::TAU;
 use std::path::Path;
@@ -13,14 +13,14 @@ use crate::model::Mesh;
 
 /// Texels for one unit of UV.
 const SIZE: u32 = 256;
-/// Rays of a texel.
+/// Number of rays for each texel.
 const RAYS: usize = 48;
-/// Length of the rays, as a share of the model's largest side: what is farther away counts as open.
+/// Length of the rays, as a share of the model's largest side. Farther surfaces do not block light.
 const REACH: f32 = 0.3;
-/// Turn from a ray to the next one around the normal: the golden angle.
+/// Angle from a ray to the next one around the normal: the golden angle.
 const GOLDEN_ANGLE: f32 = 2.399_963_2;
 
-/// Stored openness; the version changes whenever it is found differently.
+/// Kind of cached openness. Its version must be changed whenever the computation changes.
 const KIND: CacheKind = CacheKind {
     prefix: "openness",
     version: 2,
@@ -36,19 +36,18 @@ pub struct Openness {
     pub page_size: [u32; 2],
     /// Number of pages.
     pub pages: u32,
-    /// For each chart what is added to `uv × size` to get texel coordinates, and its page.
+    /// For each chart, the offset that is added to `uv × size` to get texel coordinates, and its page.
     pub charts: Vec<[i32; 3]>,
     /// Page by page and row by row: the mean open direction in model space, −1..1 as 0..255, and the share that is open.
     pub texels: Vec<[u8; 4]>,
 }
 
 impl Openness {
-    /// Finds the openness of a mesh with rays, or reads it from a cache folder, for the charts of `atlas`, the one that pictures are
-    /// drawn with.
+    /// Computes the openness of a mesh with rays, or reads it from a cache folder, for the charts of `atlas`, which is used for rendering.
     pub fn of(mesh: &Mesh, atlas: &Atlas, bvh: &Bvh, cache_dir: Option<&Path>) -> Result<Openness, AtlasError> {
         let options = AtlasOptions::new(SIZE);
         let cache = cache_dir.map(|folder| Cache::new(folder, KIND));
-        // The division of charts depends on the size of the pictures' atlas.
+        // The division into charts depends on the size of the atlas used for rendering.
         let mut hasher = blake3::Hasher::new();
         hasher.update(&atlas_key(mesh, &options));
         hasher.update(bytemuck::cast_slice(&atlas.triangle_chart));
@@ -70,7 +69,7 @@ impl Openness {
             texels: Finder::new(mesh, &small, bvh).texels(),
         };
         if let Some(cache) = &cache {
-            // Found again next time if it cannot be stored.
+            // If it cannot be stored, it is computed again next time.
             let _ = cache.write(&key, &found.encode());
         }
         Ok(found)
@@ -87,7 +86,7 @@ impl Openness {
         .concat()
     }
 
-    /// Returns the stored openness of so many charts; `None` if it is damaged.
+    /// Returns the stored openness of `charts` charts; `None` if the data is damaged.
     fn decode(bytes: &[u8], charts: usize) -> Option<Openness> {
         let (head, rest) = bytes.split_at_checked(3 * size_of::<u32>())?;
         let (places, texels) = rest.split_at_checked(charts.checked_mul(size_of::<[i32; 3]>())?)?;
@@ -142,7 +141,7 @@ impl<'a> Finder<'a> {
                 owner => self.open_at(index, owner as usize),
             })
             .collect();
-        // Twice, since a texel is as noisy as its few rays; ghosts carry the values over seams in between.
+        // Smooth twice, since a texel is noisy with so few rays. In between, ghosts carry the values across seams.
         let smoothed = self.smoothed(&self.with_ghosts(found));
         let smoothed = self.smoothed(&self.with_ghosts(smoothed));
         self.with_ghosts(smoothed).into_iter().map(encoded).collect()
@@ -174,7 +173,7 @@ impl<'a> Finder<'a> {
         };
         let (side, forward) = normal.any_orthonormal_pair();
         let origin = (position.as_vec3() + normal * (1e-3 * self.reach)).to_array();
-        // Neighbors are turned against each other, so that no pattern of rays shows.
+        // Neighbors use different rotations, so that no pattern of rays is visible.
         let turn = (index as f32 * 0.618_034).fract() * TAU;
         let mut mean = Vec3::ZERO;
         let mut open = 0.0;
@@ -192,7 +191,7 @@ impl<'a> Finder<'a> {
         [mean.x * share, mean.y * share, mean.z * share, open * share]
     }
 
-    /// The values with those beyond the seams on the ghosts.
+    /// Returns the values with the ghosts filled from the other sides of the seams.
     fn with_ghosts(&self, mut values: Vec<Open>) -> Vec<Open> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let at = |values: &[Open], x: i64, y: i64, page: usize| {
@@ -218,7 +217,7 @@ impl<'a> Finder<'a> {
         values
     }
 
-    /// Mean over 3 × 3 texels with binomial weights; texels without a place do not count.
+    /// Returns the mean over 3 × 3 texels with binomial weights. Texels without a place do not count.
     fn smoothed(&self, values: &[Open]) -> Vec<Open> {
         let width = self.atlas.page_size[0] as i64;
         let owners = &self.atlas.owners;
@@ -268,7 +267,7 @@ fn encoded([x, y, z, open]: Open) -> [u8; 4] {
 mod tests {
     use super::*;
 
-    /// Two squares of side 1 that stand on each other at a right angle, each with a chart of its own.
+    /// Creates two squares of side 1 at a right angle to each other, each with its own chart.
     fn corner() -> Mesh {
         let square = |corners: [[f32; 3]; 4], normal: [f32; 3], u: f32| {
             let uvs = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.9], [0.0, 0.9]].map(|[x, y]: [f32; 2]| [x + u, y]);
@@ -300,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_is_darker_inside_and_open_away_from_the_other_wall() {
+    fn a_corner_is_dark_near_the_other_wall_and_open_away_from_it() {
         let mesh = corner();
         let bvh = Bvh::build(&mesh);
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(64)).unwrap();
@@ -316,7 +315,7 @@ mod tests {
             let (x, y) = ((x + f64::from(left)) as u32, (y + f64::from(top)) as u32);
             found.texels[((page as u32 * found.page_size[1] + y) * found.page_size[0] + x) as usize]
         };
-        // On the floor: v grows along x, from the wall outward. Next to a wall half of the rays go into it.
+        // On the floor, v grows along x, away from the wall. Next to the wall, half of the rays hit it.
         let [near, far] = [at(0.2, 0.02), at(0.2, 0.8)];
         assert!((110..200).contains(&near[3]), "{near:?}");
         assert!(far[3] >= 250, "{far:?}");

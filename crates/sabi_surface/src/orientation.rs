@@ -1,9 +1,8 @@
-//! Faces that are turned inside out: against the faces around them, or all of a closed body inward.
+//! Finds faces that are inside out: compared to the faces around them, or because a whole closed body faces inward.
 //!
-//! The faces of a body are compared over their shared edges, which run in opposite directions where both look to the same side.
-//! Of the two sides, the outer one is that of the positive volume if the body is closed, and that of more area if it is open: an
-//! open sheet has no outer side, and which one is meant is told by most of it. A closed body within another one may be a cavity,
-//! so it is not held against its volume either.
+//! The faces of a body are compared across their shared edges, which run in opposite directions if both faces point to the same side. If
+//! the body is closed, the outer side is the one with positive volume. An open sheet has no outer side, so the side of the larger area is
+//! used. A closed body within another one may be a cavity, so its volume does not decide either.
 
 use glam::DVec3;
 use sabi_cancel::{Cancel, Looking as _, look};
@@ -12,21 +11,21 @@ use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::bvh::Bvh;
 use crate::model::Mesh;
 
-/// Volume relative to the area below which it counts as rounding error; a sheet of paper has dozens of times as much.
+/// Volume relative to the area below which it counts as rounding error. For a sheet of paper it is dozens of times larger.
 pub const LEAST_VOLUME: f64 = 1e-6;
 
-/// Directions of rays that count the surfaces around a body. They are parallel to no edge that is likely.
+/// Directions of rays that count the surfaces around a body. They are unlikely to be parallel to an edge.
 const RAYS: [[f32; 3]; 3] = [
     [0.573_219, 0.612_374, 0.544_331],
     [-0.419_821, 0.817_496, 0.394_127],
     [0.271_828, -0.314_159, -0.909_603],
 ];
 
-/// Returns the triangles that are turned inside out, in rising order.
+/// Returns the triangles that are inside out, in ascending order.
 pub fn turned_faces(mesh: &Mesh) -> Vec<u32> {
     let topology = Topology::new(mesh);
     let part = |edge: u32| mesh.triangle_part[edge as usize / 3];
-    // Bodies whose faces several parts share come first, as far as they are closed; the rest by parts.
+    // Bodies whose faces belong to several parts are handled first, if they are closed; the rest is handled part by part.
     let all = Bodies::of(mesh, &topology, |_| true, |_, _| true);
     let is_decided = |triangle: usize| all.body_of(triangle).is_some_and(|body| body.is_closed);
     let by_part = Bodies::of(
@@ -53,25 +52,25 @@ struct Body {
     triangles: Vec<u32>,
     /// True if every edge has two triangles.
     is_closed: bool,
-    /// True if its faces cannot all look to one side.
+    /// True if its faces cannot be oriented to one side.
     is_one_sided: bool,
-    /// Volume on the back of the first triangle's side; not defined for an open one.
+    /// Volume behind the side of the first triangle; undefined for an open body.
     volume: f64,
-    /// Area of the triangles that look to the first one's side, and of those that do not.
+    /// Area of the triangles oriented like the first one, and area of the others.
     areas: [f64; 2],
 }
 
 /// All bodies of a mesh.
 struct Bodies {
     bodies: Vec<Body>,
-    /// Body of each triangle; none for lines.
+    /// Body of each triangle; `None` for lines.
     body: Vec<Option<u32>>,
-    /// True for triangles that look to the side of their body's first one.
+    /// True for triangles oriented like the first one of their body.
     agrees: Vec<bool>,
 }
 
 impl Bodies {
-    /// Connects some triangles over the half-edges that join them, each with its twin.
+    /// Connects triangles over the half-edges that join them, each with its twin.
     fn of(
         mesh: &Mesh,
         topology: &Topology,
@@ -152,7 +151,7 @@ impl Body {
 
     /// Returns the triangles that are turned inside out.
     fn turned<'b>(&'b self, bodies: &'b Bodies, inside: &mut Inside<'_>) -> impl Iterator<Item = u32> + 'b {
-        // True to turn those that look to the first one's side, false to turn the others.
+        // True to reverse the triangles oriented like the first one, false to reverse the others.
         let side = self.turned_side(inside);
         let triangles = self.triangles.iter().copied();
         triangles.filter(move |triangle| side == Some(bodies.agrees[*triangle as usize]))
@@ -167,7 +166,7 @@ impl Body {
         if has_inside && (self.is_mixed() || self.volume < 0.0) && !inside.has(self) {
             return Some(self.volume < 0.0);
         }
-        // Equal areas do not tell the side that is meant.
+        // If both areas are equal, the intended side is unknown.
         let is_undecided = self.areas[0] == self.areas[1];
         (self.is_mixed() && !is_undecided).then_some(self.areas[0] < self.areas[1])
     }
@@ -180,7 +179,7 @@ struct Inside<'m> {
     closed: Vec<Option<u32>>,
     /// Number of closed bodies.
     count: usize,
-    /// Built for the first body that is asked for.
+    /// Hierarchy, built when it is first needed.
     hierarchy: Option<Bvh>,
 }
 
@@ -204,7 +203,7 @@ impl<'m> Inside<'m> {
         }
     }
 
-    /// Returns true if a closed body lies within another one: most rays from it cross an odd number of their faces.
+    /// Returns true if a closed body lies within another one: most rays from it cross an odd number of faces of other closed bodies.
     fn has(&mut self, body: &Body) -> bool {
         look();
         let Some(first) = body.triangles.first().filter(|_| self.count > 1) else {

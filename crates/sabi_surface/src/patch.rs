@@ -1,8 +1,8 @@
-//! The surface around a place, unfolded into a plane; and ways over the surface.
+//! The surface around a place, unfolded into a plane, and paths over the surface.
 //!
-//! Triangles are laid into one plane edge by edge, the nearest edge first, so that lengths along a straight line in the plane
-//! are lengths on the surface (the discrete exponential map). Exact where the surface can be unrolled, over any number of
-//! edges; on a ball the error grows with the square of the distance over its radius.
+//! Triangles are laid into one plane edge by edge, the nearest edge first, so that lengths along a straight line in the
+//! plane are lengths on the surface (the discrete exponential map). This is exact where the surface can be unrolled, over
+//! any number of edges. On a sphere the error grows with the square of the ratio of distance to radius.
 
 #[cfg(test)]
 mod tests;
@@ -19,7 +19,7 @@ use crate::segment::distance_to_segment;
 
 pub use walk::walk;
 
-/// A place on the surface.
+/// A point on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
     /// Triangle of the mesh.
@@ -38,7 +38,7 @@ pub struct PlacedTriangle {
 }
 
 impl PlacedTriangle {
-    /// Place in the plane of a position on the triangle, whose corners in space are given; none for a triangle without area.
+    /// Returns the position in the plane of a point of the triangle, whose corners in space are given; `None` for a triangle without area.
     pub fn place_of(&self, corners: [DVec3; 3], position: DVec3) -> Option<DVec2> {
         let weights = weights_at(corners, position)?;
         let [first, second, third] = self.corners;
@@ -46,8 +46,8 @@ impl PlacedTriangle {
     }
 }
 
-/// Weights of the second and the third corner of a triangle at a position, thrown straight onto its plane; none for a triangle
-/// without area.
+/// Returns the weights of the second and third corner of a triangle at a position, projected onto its plane; `None` for a
+/// triangle without area.
 pub fn weights_at([a, b, c]: [DVec3; 3], position: DVec3) -> Option<DVec2> {
     let (ab, ac, ap) = (b - a, c - a, position - a);
     let normal = ab.cross(ac);
@@ -78,9 +78,9 @@ impl ConnectedMesh<'_> {
     }
 }
 
-/// Unfolds patches of a mesh; keeps its memory between them.
+/// Unfolds patches of a mesh. Its memory is reused.
 pub struct Unfolder {
-    /// Number of the patch that each triangle was placed in last.
+    /// Number of the patch in which each triangle was placed last.
     placed_in: Vec<u32>,
     patch: u32,
     edges: BinaryHeap<OpenEdge>,
@@ -112,7 +112,7 @@ impl PartialOrd for OpenEdge {
 }
 
 impl Ord for OpenEdge {
-    /// The nearest edge is the greatest; among equally near ones the order is fixed by their numbers.
+    /// Compares so that the nearest edge is the greatest. Among equally near edges, numbers decide.
     fn cmp(&self, other: &OpenEdge) -> Ordering {
         let by_distance = other.distance.total_cmp(&self.distance);
         by_distance.then(other.half_edge.cmp(&self.half_edge))
@@ -129,9 +129,8 @@ impl Unfolder {
         }
     }
 
-    /// Unfolds what lies within `reach` of a site into `patch`, the site's own triangle first. The x axis of the plane is
-    /// `ahead` as seen along the surface, and the plane is seen from outside. A site on a triangle without area gives an
-    /// empty patch.
+    /// Unfolds everything within `reach` of a site into `patch`, starting with the site's own triangle. The x axis of the plane is `ahead`
+    /// projected onto the surface, and the plane is seen from outside. A site on a triangle without area gives an empty patch.
     pub fn unfold(
         &mut self,
         surface: ConnectedMesh<'_>,
@@ -163,8 +162,9 @@ impl Unfolder {
         self.grow(surface, placed, reach, patch, |_| true);
     }
 
-    /// Adds a triangle that has its place in the plane already, and what is connected to it within reach, to the patch that was
-    /// unfolded last: first over triangles that `leads`, then over the others. Triangles that the patch has stay where they are.
+    /// Adds a triangle that already has a place in the plane, and everything connected to it within reach, to the patch
+    /// that was unfolded last: first across triangles for which `leads` is true, then across the others. Triangles that are
+    /// in the patch already are not moved.
     pub fn grow(
         &mut self,
         surface: ConnectedMesh<'_>,
@@ -221,7 +221,7 @@ impl Unfolder {
             if twin == NO_TWIN || self.placed_in[twin as usize / 3] == self.patch {
                 continue;
             }
-            // The twin runs the other way.
+            // The twin has the opposite direction.
             let ends = [corners[(edge + 1) % 3], corners[edge]];
             let distance = distance_to_segment(DVec2::ZERO, ends);
             if distance < reach {
@@ -235,15 +235,16 @@ impl Unfolder {
     }
 }
 
-/// Axes of the plane at right angles to a unit normal: x is `ahead` as seen along the surface, y lies to its left as seen from
-/// outside.
+/// Returns axes of the plane perpendicular to a unit normal: x is `ahead` projected onto the surface, y is to its left as
+/// seen from outside.
 pub fn axes(normal: DVec3, ahead: DVec3) -> (DVec3, DVec3) {
     let flat = ahead - normal * normal.dot(ahead);
     let x = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
     (x, normal.cross(x))
 }
 
-/// Corners in the plane of a triangle whose edge from corner `first` on lies at `ends`; to the left of that edge.
+/// Returns the corners in the plane of a triangle whose edge that starts at corner `first` lies at `ends`. The triangle is
+/// to the left of that edge.
 fn corners_beside(corners: [DVec3; 3], first: usize, ends: [DVec2; 2]) -> Option<[DVec2; 3]> {
     let [a, b, c] = [0, 1, 2].map(|corner| corners[(first + corner) % 3]);
     let (ab, ac) = (b - a, c - a);

@@ -1,7 +1,7 @@
 //! Pieces of a model: connected triangles of a part, each with an oriented box.
 //!
-//! A bench of one mesh is one part and many pieces, a plank each. `connect` finds connected triangles, `tightest` the box,
-//! and `moments` candidates for its axes.
+//! A bench in one mesh is one part with many pieces, one for each plank. `connect` finds connected triangles, `tightest`
+//! the box, and `moments` candidates for its axes.
 
 mod connect;
 mod moments;
@@ -24,16 +24,15 @@ pub struct Pieces {
     pub triangle_piece: Vec<u32>,
     /// The box of each piece.
     pub boxes: Vec<PieceBox>,
-    /// Mean of their typical sizes, weighted by the area of their triangles, model units; 1 for a mesh without area.
+    /// Mean of the typical sizes of the pieces, weighted by area, in model units; 1 for a mesh without area.
     pub mean_size: f64,
 }
 
 /// Oriented bounding box of a piece.
 ///
-/// Pieces that differ by a rotation only have equal boxes, as far as their shape distinguishes the axes: sides
-/// whose lengths differ by less than 2 % are in the order of the model's axes that they are nearest to, and the first two
-/// axes point the way in which their largest component grows. A piece that no turned box fits better than an upright one
-/// by 2 %, such as a cube or a ball, has the upright one.
+/// Pieces that differ only by a rotation have equal boxes, as far as their shape distinguishes the axes. Sides whose lengths differ by
+/// less than 2 % are ordered by the model axes to which they are nearest, and the largest component of the first two axes is positive. If
+/// no rotated box is at least 2 % smaller than the axis-aligned one, as for a cube or a ball, the axis-aligned box is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PieceBox {
     /// Part that the piece belongs to, an index into [`crate::model::Model::parts`].
@@ -47,8 +46,8 @@ pub struct PieceBox {
 }
 
 impl PieceBox {
-    /// Size of a piece for lengths that are shares of it, model units: the side of a cube with the volume of its box. A box
-    /// thinner than a quarter of its width counts as that thick, since detail on a thin sheet follows its width.
+    /// Returns the size of a piece for lengths that are shares of it, in model units: the side of a cube with the volume of its box. A box
+    /// thinner than a quarter of its width counts as that thick, since the scale of detail on a thin sheet depends on its width.
     pub fn typical_size(&self) -> f32 {
         let [length, width, thickness] = self.size;
         let volume = length * width * thickness.max(0.25 * width);
@@ -59,8 +58,8 @@ impl PieceBox {
 impl Pieces {
     /// Finds the pieces of a mesh. Its triangles refer to existing vertices and have a part each.
     ///
-    /// Triangles that share an edge in space are one piece if they are of one part. Solids that only touch stay apart,
-    /// even where edges of both lie in one place.
+    /// Triangles that share an edge in space belong to one piece if they belong to one part. Solids that only touch stay
+    /// separate, even if their edges coincide.
     pub fn of(mesh: &Mesh) -> Pieces {
         let triangle_piece = connect::triangle_pieces(mesh, &Topology::new(mesh));
         let count = triangle_piece.iter().max().map_or(0, |last| *last as usize + 1);

@@ -1,8 +1,8 @@
 //! Points spread evenly over a surface, on which wide filters run.
 //!
-//! A coarse level of the atlas has the charts of the unwrap, and its texels are wrong at their borders: where charts are a few
-//! texels wide, the unwrap shows. Points know no charts. They are spread along the texels of an atlas and over the links of
-//! its ghosts, so that the two sides of a thin wall stay apart, and what flows between two of them follows from where they lie.
+//! A coarse level of the atlas has the charts of the unwrap, and its texels are inaccurate at the borders of charts: where charts are only
+//! a few texels wide, they become visible. Points do not depend on charts. They are distributed over the texels of an atlas and across the
+//! links of its ghosts, so that the two sides of a thin wall stay separate. The flow between two points depends only on their positions.
 //!
 //! The steps, one file each: `texels` (the texels as a graph), `spread` (points and the cells around them), `rings` (the points
 //! around each), `flow` (how fast values pass from point to point).
@@ -63,24 +63,24 @@ impl<T> Lists<T> {
 /// A point with the part of the surface around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Center of its cell, model units.
+    /// Center of its cell, in model units.
     pub position: [f32; 3],
     /// Mean normal of the faces of its cell, unit length.
     pub normal: [f32; 3],
-    /// Two directions along the surface, unit length: the second across the first is the normal.
+    /// Two directions along the surface, unit length. The cross product of the second and the first is the normal.
     pub axes: [[f32; 3]; 2],
     /// Area of its cell, square model units.
     pub area: f64,
-    /// The texel of the atlas that is nearest: its index in [`Atlas::owners`].
+    /// Index of the nearest texel of the atlas in [`Atlas::owners`].
     pub texel: u32,
 }
 
-/// Share of the difference from another point that passes in a unit of time.
+/// Share of the difference from another point that flows in a unit of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// The other point.
     pub to: u32,
-    /// For the time in which a value spreads by the spacing of the points: a variance of twice its square.
+    /// Rate, in units of the time in which a value spreads by the spacing of the points: a variance of twice its square.
     pub rate: f32,
 }
 
@@ -93,26 +93,26 @@ pub struct CellTexel {
     pub share: f32,
 }
 
-/// Points spread over a surface, from one to one and a half spacings apart, each the center of a cell of texels.
+/// Points distributed over a surface, with distances of 1 to 1.5 spacings. Each is the center of a cell of texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfacePoints {
-    /// Least distance of two points when they were spread, model units.
+    /// Minimum distance of two points when they were distributed, model units.
     pub spacing: f64,
     /// All points.
     pub points: Vec<SurfacePoint>,
-    /// For each point what flows to it.
+    /// For each point, the flows to it.
     pub flows: Lists<Flow>,
-    /// For each point itself, its neighbors and the neighbors of these.
+    /// For each point: the point, its neighbors, and their neighbors.
     pub around: Lists<u32>,
     /// For each point the texels of its cell.
     pub cells: Lists<CellTexel>,
-    /// For each texel of the atlas the point whose cell it is in; [`EMPTY`] where nothing is owned.
+    /// For each texel of the atlas, the point whose cell contains it; [`EMPTY`] for texels that are not owned.
     pub point_of_texel: Vec<u32>,
 }
 
 impl SurfacePoints {
-    /// Spreads points over the texels of an atlas, which are to be no wider than a third of the spacing. The same points for the same
-    /// mesh, atlas and spacing.
+    /// Distributes points over the texels of an atlas, which should not be wider than a third of the spacing. The same
+    /// mesh, atlas and spacing give the same points.
     ///
     /// Points are spread by dart throwing along the surface (Cook 1986) and moved to the centers of their cells (Lloyd 1982);
     /// values flow between cells that touch, as fast as their common border is long and their points are near (the two-point

@@ -1,4 +1,4 @@
-//! Seams: edges whose two triangles meet on the model and not in the UV layout.
+//! Seams: edges whose two triangles meet on the model but not in the UV layout.
 
 use crate::atlas::Atlas;
 use crate::atlas::charts::is_seam;
@@ -10,7 +10,7 @@ use crate::model::Mesh;
 pub struct Seam {
     /// The two triangles, indices into [`Mesh::triangles`].
     pub triangles: [u32; 2],
-    /// For each of them its corners at the start and at the end of the edge; both triangles name the ends in the same order.
+    /// For each triangle, its corners at the start and at the end of the edge. Both triangles list the ends in the same order.
     pub corners: [[u8; 2]; 2],
 }
 
@@ -22,8 +22,8 @@ impl Seam {
     }
 }
 
-/// Finds all seams of a mesh, in the order of their half-edges: where triangles that meet in space are on different charts in UV,
-/// or apart on one. At edges of more than two triangles, those that the atlas links are seams.
+/// Finds all seams of a mesh, in the order of their half-edges: edges where triangles that meet in space are on different
+/// charts in UV, or separate on the same chart. At edges of more than two triangles, those that the atlas links are seams.
 pub fn seams(mesh: &Mesh, atlas: &Atlas) -> Vec<Seam> {
     let topology = Topology::new(mesh);
     let mut seams = Vec::new();
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
     use crate::atlas::AtlasOptions;
 
-    /// Faces of a plane, each of two triangles with vertices of its own, side by side in space and so far apart in UV.
+    /// Creates faces in a plane, each of two triangles with separate vertices, adjacent in space and this far apart in UV.
     fn strip(faces: u16, apart: f32) -> Mesh {
         let mut mesh = Mesh::default();
         for face in 0..faces {
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_is_a_seam_where_its_two_sides_are_apart_on_the_map() {
+    fn an_edge_is_a_seam_if_its_two_sides_are_apart_on_the_map() {
         assert_eq!(found(&strip(3, 0.0)), [], "one chart, though no vertex is shared");
         let mesh = strip(3, 0.1);
         let seams = found(&mesh);

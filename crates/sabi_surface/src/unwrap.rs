@@ -1,6 +1,6 @@
 //! Texture coordinates for any model: cut into charts, flattened, packed onto one sheet without overlap.
 //!
-//! One file a step: `components` (connected components, and similar ones among them), `flatten` (the charts of each
+//! One file for each step: `components` (connected components, and similar ones among them), `flatten` (the charts of each
 //! different component), `pack` (all charts at one scale on the unit square), `rebuild` (the mesh with vertices split along
 //! the borders of charts, and tangents for the new coordinates). `cache` keeps results on disk.
 
@@ -21,13 +21,13 @@ pub use self::error::UnwrapError;
 use self::flatten::Flattened;
 use crate::model::Mesh;
 
-/// Free texels between two charts on maps of 1024 × 1024, half as many along the sheet's border; in proportion on maps of other
-/// sizes, since the layout is the same for all.
+/// Free texels between two charts on maps of 1024 × 1024, and half as many along the sheet's border. On maps of other sizes
+/// the gap is in proportion, since the layout is the same for all sizes.
 pub const GAP: u32 = 4;
 
 /// Texels along a side of the sheet while it is packed.
 const PACKED_SIZE: u32 = 1024;
-/// Largest size of the sheet, texels, where there are too many charts for [`PACKED_SIZE`].
+/// Largest size of the sheet in texels, used if there are too many charts for [`PACKED_SIZE`].
 const FINEST_SIZE: u32 = 16_384;
 
 /// A mesh on one sheet, or with some of its materials on new sheets.
@@ -50,24 +50,24 @@ pub struct Unwrapped {
 /// Quality of an unwrapping.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnwrapReport {
-    /// Charts on the sheet.
+    /// Number of charts on the sheet.
     pub charts: u32,
-    /// Connected components, and the number of them that are no copies of another.
+    /// Number of connected components, and number of those that are not copies of another one.
     pub pieces: [u32; 2],
     /// Share of the sheet that triangles cover.
     pub coverage: f32,
-    /// Stretch: longest over shortest direction of a triangle, averaged by area; 1 is none.
+    /// Stretch: ratio of the longest to the shortest direction of a triangle, averaged by area; 1 means none.
     pub stretch: f32,
     /// Worst stretch among the triangles with 99.9 % of the area.
     pub worst_stretch: f32,
-    /// Texels between charts on maps of 1024 × 1024: [`GAP`], unless there are too many charts for it.
+    /// Texels between charts on maps of 1024 × 1024: [`GAP`], or fewer if there are too many charts.
     pub gap: f32,
     /// Sentences for the artist.
     pub warnings: Vec<String>,
 }
 
 impl UnwrapReport {
-    /// Sums up several sheets: counts are added, shares and stretches averaged, and the worst of the others taken.
+    /// Combines the reports of several sheets: counts are added, shares and stretches averaged, and for the others the worst is taken.
     fn of_sheets(sheets: Vec<UnwrapReport>) -> UnwrapReport {
         let mean = |value: fn(&UnwrapReport) -> f32| sheets.iter().map(value).sum::<f32>() / sheets.len().max(1) as f32;
         let mut whole = UnwrapReport {
@@ -99,15 +99,15 @@ pub fn unwrap(mesh: &Mesh) -> Result<Unwrapped, UnwrapError> {
     finish(mesh, lay_out(mesh)?)
 }
 
-/// Unwraps like [`unwrap`], from the cache where the result is stored and intact. The second value is whether it came from
-/// the cache; a cache that cannot be written is a warning in the report.
+/// Unwraps like [`unwrap`], but takes the result from the cache if it is stored there and intact. The second value is
+/// whether it came from the cache. A cache that cannot be written is a warning in the report.
 pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(Unwrapped, bool), UnwrapError> {
     let (layout, was_cached) = lay_out_cached(cache_dir, mesh)?;
     Ok((finish(mesh, layout)?, was_cached))
 }
 
-/// Unwraps the triangles of some materials like [`unwrap_cached`], those of each material onto a sheet of its own. The other
-/// triangles keep their texture coordinates, which the mesh has to have. The report sums up all sheets.
+/// Unwraps the triangles of some materials like [`unwrap_cached`], with a separate sheet for each material. The other
+/// triangles keep their texture coordinates, which the mesh must have. The report combines all sheets.
 pub fn unwrap_materials(
     cache_dir: Option<&Path>,
     mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! Loading models: what each layout gives, what each fault says, and that no file breaks it.
+//! Tests of loading models: every layout, the message of every fault, and that no file causes a panic.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot make its input has failed")]
 #![allow(clippy::print_stdout, reason = "tests say what they left out")]

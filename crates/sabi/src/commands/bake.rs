@@ -55,7 +55,7 @@ fn tell(
     }
 }
 
-/// Prints the warnings and files of a bake that was there already, and writes its report.
+/// Prints the warnings and files of a bake whose maps existed already, and writes its report.
 fn tell_finished(
     arguments: &BakeArguments,
     finished: &FinishedBake,
@@ -91,7 +91,7 @@ fn list<'a>(
     terminal.page(&paths.map(|path| path.display().to_string()).collect())
 }
 
-/// Tells whether a bake has the bytes of the one that a report records.
+/// Prints whether the maps of a bake have the same bytes as those that a report records.
 fn compare(recorded: &RecordedBake, report: &BakeReport, terminal: &Terminal) -> Exit {
     let differences = recorded.differences(report);
     for difference in &differences {
@@ -105,7 +105,7 @@ fn compare(recorded: &RecordedBake, report: &BakeReport, terminal: &Terminal) ->
     Exit::Done
 }
 
-/// Adds the bake to a failure, and writes it as the report. One that the user stopped leaves an earlier report as it is, like the maps.
+/// Adds the bake to a failure, and writes it as the report. If the user stopped the bake, an earlier report stays as it is, like the maps.
 fn reported(mut failure: Failure, asked: &AskedBake<'_>, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
     failure.bake = Some(Box::new(FailedBake::new(&asked.graph(), &asked.mesh())));
     if let Some(file) = file.filter(|file| !file.is_stdout() && failure.exit != Exit::Interrupted) {

@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &CheckArguments, trusted: &TrustedPaths, terminal: 
     Ok(exit)
 }
 
-/// Returns the report, with the warnings among the errors, and the exit code of a graph that may have neither.
+/// Returns the report, with the warnings among the errors, and the exit code of a graph that must have neither.
 fn with_strictness(mut report: CheckReport) -> (CheckReport, Exit) {
     report.errors.append(&mut report.warnings);
     let exit = if report.errors.is_empty() {
@@ -54,7 +54,7 @@ fn report_of_failure(failure: Failure) -> (CheckReport, Exit) {
     (report, failure.exit)
 }
 
-/// Returns the exit code of two that is more important: a damaged file counts more than a missing one.
+/// Returns the more important of two exit codes: a damaged file is more important than a missing one.
 fn worse_exit(a: Exit, b: Exit) -> Exit {
     match (a, b) {
         (Exit::BadInput, _) | (_, Exit::BadInput) => Exit::BadInput,
@@ -68,7 +68,7 @@ fn print_findings(path: &Path, report: &CheckReport, terminal: &Terminal) {
         terminal.line(format_args!("{}", with_path(path, error)));
     }
     for warning in &report.warnings {
-        // One with a position begins with the path.
+        // A sentence with a position begins with the path already.
         let sentence = match warning.strip_prefix(&*path.to_string_lossy()) {
             Some(_) => format!("warning: {warning}"),
             None => with_path(path, &format!("warning: {warning}")),

@@ -1,4 +1,4 @@
-//! `sabi doctor`: whether this machine can run Sabi.
+//! `sabi doctor`: checks whether this machine can run Sabi.
 
 use sabi_engine::{Diagnosis, diagnose};
 

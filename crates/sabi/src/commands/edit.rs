@@ -31,7 +31,7 @@ fn open(arguments: &EditArguments, graph: Option<&Path>, trusted: &TrustedPaths)
     Ok(Exit::Done)
 }
 
-/// Says how to get the editor, which this build left out.
+/// Returns a sentence that says how to get the editor, which this build does not contain.
 #[cfg(not(feature = "window"))]
 fn open(_: &EditArguments, _: Option<&Path>, _: &TrustedPaths) -> Result<Exit, Failure> {
     let why = "this build of sabi has no editor, only the commands that `sabi --help` lists; build it with \
@@ -39,7 +39,7 @@ fn open(_: &EditArguments, _: Option<&Path>, _: &TrustedPaths) -> Result<Exit, F
     Err(Failure::new(Exit::Usage, why.to_owned()))
 }
 
-/// A command that was mistyped looks like a graph.
+/// A mistyped command is read as the path of a graph.
 fn refuse_mistyped_command(arguments: &EditArguments) -> Result<(), Failure> {
     let typed = arguments.graph.as_ref().map(GraphArgument::path);
     match typed.and_then(mistyped_command) {

@@ -1,4 +1,4 @@
-//! `sabi info`: what a graph lets be set, what comes out of it, and which files it takes.
+//! `sabi info`: the parameters of a graph that can be set, its outputs, and the files that it reads.
 
 use sabi_engine::{
     FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, TrustedPaths,
@@ -56,10 +56,10 @@ fn page(graph: &GraphDescription) -> Page {
     page
 }
 
-/// Widest cell that the cells below it are moved for.
+/// Greatest width of a cell that widens its column.
 const WIDEST: usize = 32;
 
-/// Adds a table with a title, if it has a row.
+/// Adds a table with a title, unless it has no rows.
 fn section<const CELLS: usize>(page: &mut Page, title: &str, rows: impl Iterator<Item = [String; CELLS]>) {
     let rows: Vec<_> = rows.collect();
     if rows.is_empty() {

@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: MeshArguments, trusted: &TrustedPaths, terminal: &T
     Ok(Exit::Done)
 }
 
-/// One fact a line; warnings were shown already.
+/// Returns a text with one fact per line; warnings were shown already.
 fn table(report: &MeshReport) -> Result<Page, Failure> {
     let [page_width, page_height] = report.page_size;
     let facts = [

@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &NodesArguments, trusted: &TrustedPaths, terminal: 
     Ok(Exit::Done)
 }
 
-/// The kind of that id, or all kinds with the word in their id, label or aliases.
+/// Returns the kind with this id, or all kinds with the word in their id, label or aliases.
 fn find<'n>(nodes: &'n [NodeDescription], id: &str) -> Result<Vec<&'n NodeDescription>, Failure> {
     if let Some(node) = nodes.iter().find(|node| node.id == id) {
         return Ok(vec![node]);
@@ -47,7 +47,7 @@ fn find<'n>(nodes: &'n [NodeDescription], id: &str) -> Result<Vec<&'n NodeDescri
     Err(Failure::new(Exit::Usage, why))
 }
 
-/// Ids and summaries, one kind a line.
+/// Returns ids and summaries, one kind per line.
 fn table(nodes: &[&NodeDescription]) -> Page {
     let width = nodes.iter().map(|node| node.id.len()).max().unwrap_or(0); // An empty table has no width.
     let lines = nodes.iter().map(|node| {
@@ -57,7 +57,7 @@ fn table(nodes: &[&NodeDescription]) -> Page {
     lines.collect()
 }
 
-/// Everything about one kind.
+/// Returns a full description of one kind.
 fn details(node: &NodeDescription) -> Page {
     let mut page: Page = [&node.id].into_iter().collect();
     page.lines(&node.summary);
@@ -85,7 +85,7 @@ fn details(node: &NodeDescription) -> Page {
     page
 }
 
-/// Adds names with what they are for and a note, one a line.
+/// Adds names, each on a line with its purpose and a note.
 fn section<'e>(page: &mut Page, title: &str, entries: impl Iterator<Item = (&'e String, &'e String, String)>) {
     let entries: Vec<_> = entries.collect();
     let Some(width) = entries.iter().map(|(name, ..)| name.len()).max() else {

@@ -1,4 +1,4 @@
-//! `sabi pack`: a graph with all that a bake of it reads, in one archive.
+//! `sabi pack`: a graph with all files that its bake reads, in one archive.
 
 use sabi_engine::{PackReport, PackRequest, PackedModel, TrustedPaths, pack_graph};
 
@@ -43,7 +43,7 @@ fn summarize(arguments: &PackArguments, report: &PackReport, terminal: &Terminal
         report.files.len(),
         bytes as f64 / f64::from(1 << 20),
     ));
-    // Files from elsewhere are named, since they may not be meant for others.
+    // Files from other folders are listed, since they may be private.
     for file in &report.files {
         if let Some(from) = &file.from {
             terminal.note(format_args!("  {} from {from}", file.name));

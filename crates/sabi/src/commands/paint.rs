@@ -96,7 +96,7 @@ fn info(arguments: &PaintInfoArguments, terminal: &Terminal) -> Result<Exit, Fai
     Ok(Exit::Done)
 }
 
-/// Text with a line for each fact, and then for each version.
+/// Returns a text with a line for each fact, and then one for each version.
 fn table(report: &StrokeReport) -> Page {
     let facts = [
         ("model", report.model.clone()),

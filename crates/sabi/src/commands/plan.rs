@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &PlanArguments, trusted: &TrustedPaths, terminal: &
         terminal.data(&text)?;
         return Ok(Exit::Done);
     };
-    // A name that cannot be printed is refused before the file is there.
+    // Names that cannot be printed are refused before the file is written.
     let printed = printed(arguments.format, &file, &plan)?;
     write_whole(&file, text.as_bytes()).map_err(|error| unwritten(&file, &error))?;
     terminal.data(&printed)?;
@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &PlanArguments, trusted: &TrustedPaths, terminal: &
     Ok(Exit::Done)
 }
 
-/// File of the plan; none if it is printed.
+/// Returns the file of the plan; `None` if the plan is printed.
 fn plan_file(arguments: &PlanArguments) -> Result<Option<PathBuf>, Failure> {
     match &arguments.output {
         None => Ok(Some(arguments.matrix.with_file_name(DEFAULT_NAME))),
@@ -70,17 +70,17 @@ fn plan_file(arguments: &PlanArguments) -> Result<Option<PathBuf>, Failure> {
     }
 }
 
-/// Refuses to replace a file that is no plan.
+/// Refuses to replace a file that is not a plan.
 fn refuse_other_file(file: &Path) -> Result<(), Failure> {
     let refused = |why: &str| {
         let why = format!("cannot write the plan {}: {why}; name another file", file.display());
         Err(Failure::new(Exit::CannotWrite, why))
     };
-    // Whatever else is wrong is found when it is written.
+    // Other errors are reported when the file is written.
     let Ok(found) = fs::metadata(file) else {
         return Ok(());
     };
-    // Opening a pipe could wait for ever.
+    // Opening a pipe could block forever.
     if !found.is_file() {
         return refused("it is no ordinary file");
     }
@@ -92,7 +92,7 @@ fn refuse_other_file(file: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Text for standard output.
+/// Returns the text for standard output.
 fn printed(format: PlanFormat, file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     match format {
         PlanFormat::Jsonl => Ok([file.display()].into_iter().collect::<Page>().text().to_owned()),
@@ -102,7 +102,7 @@ fn printed(format: PlanFormat, file: &Path, plan: &BakePlan) -> Result<String, F
     }
 }
 
-/// Name of a plan's file without folder; stems are for the names of jobs.
+/// Returns the name of a plan's file without the folder, and the stem of the name, which is only for the names of jobs.
 fn names(file: &Path) -> Result<(&str, &str), Failure> {
     let name = file.file_name().and_then(|name| name.to_str());
     let stem = file.file_stem().and_then(|stem| stem.to_str());

@@ -25,11 +25,11 @@ pub(crate) fn run(arguments: &PresetsArguments, terminal: &Terminal) -> Result<E
 #[derive(Serialize)]
 struct Listed {
     name: String,
-    /// File of the user's own.
+    /// File of a preset that the user wrote.
     file: Option<PathBuf>,
     /// Reason why its file cannot be used.
     fault: Option<String>,
-    /// The preset itself, where it can be used.
+    /// The preset, if it can be used.
     preset: Option<PresetDescription>,
 }
 
@@ -81,7 +81,7 @@ fn show(name: &str, toml: bool, json: bool, terminal: &Terminal) -> Result<Exit,
     Ok(Exit::Done)
 }
 
-/// Name and sentence, then a file a line.
+/// Returns the name and sentence of a preset, then its files, one per line.
 fn table(preset: &PresetDescription) -> Page {
     let way = match preset.normal_y {
         "-" => "downward, as DirectX has it",

@@ -1,6 +1,6 @@
-//! `sabi run`: the items of a plan are baked, each by a process of its own.
+//! `sabi run`: bakes the items of a plan, each in a separate process.
 //!
-//! A driver that crashes, or a system that takes memory back, then ends one item and no other; the memory of an item is free
+//! If a driver crashes or the system ends a process for lack of memory, only one item fails; the memory of an item is free
 //! once it has ended. Starting a process and opening the device for each takes tenths of a second.
 
 mod alone;
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &RunArguments, trusted: &TrustedPaths, terminal: &T
     run.end()
 }
 
-/// Items that the command line names, in their order; all without a list.
+/// Returns the items that the command line lists, in their order; all items without a list.
 fn chosen(arguments: &RunArguments, plan: &BakePlan) -> Result<Vec<usize>, Failure> {
     let count = plan.items.len();
     let Some(list) = &arguments.items else {
@@ -78,7 +78,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Returns the items that have to be baked; tells those whose inputs are not as planned.
+    /// Returns the items that have to be baked, and prints which items have inputs that differ from the plan.
     fn sort(&mut self, chosen: &[usize]) -> Result<Vec<usize>, Failure> {
         let mut hashes = InputHashes::default();
         let mut waiting = Vec::new();
@@ -136,7 +136,7 @@ impl Run<'_> {
         self.end_item(at, ItemStatus::Baked, &sentence)
     }
 
-    /// Tells that an item failed.
+    /// Prints that an item failed.
     fn failed(&mut self, at: usize, failure: &Failure) -> Result<(), Failure> {
         let name = self.name(at);
         let error = ErrorReport::new(failure, self.terminal.command());
@@ -151,26 +151,26 @@ impl Run<'_> {
         self.end_item(at, ItemStatus::Failed, &sentences.join("; "))
     }
 
-    /// Notes how an item ended, and prints its folder if that has all maps.
+    /// Records the end of an item, and prints its folder if that contains all maps.
     fn end_item(&mut self, at: usize, status: ItemStatus, sentence: &str) -> Result<(), Failure> {
         self.summary.set(at, status);
         self.progress.end(at, status, sentence)?;
         let is_whole = matches!(status, ItemStatus::Finished | ItemStatus::Baked);
         if is_whole && self.lists_folders() {
-            // As the plan was named.
+            // The folder is printed as the plan names it.
             let folder = self.plan.items[at].folder(&PathBase::of_file(&self.arguments.plan));
             self.terminal.data_line(folder.display())?;
         }
         Ok(())
     }
 
-    /// Returns true if standard output is for the folders of items.
+    /// Returns true if standard output is used for the folders of items.
     fn lists_folders(&self) -> bool {
         let is_taken = self.arguments.json || self.arguments.dry_run;
         !is_taken && self.terminal.progress() != ProgressChoice::Openjd
     }
 
-    /// Words for an item in messages.
+    /// Returns the name of an item for messages.
     fn name(&self, at: usize) -> String {
         let BakeItem { out, .. } = &self.plan.items[at];
         format!("item {at} of {}: {out}", self.plan.items.len())

@@ -1,4 +1,4 @@
-//! `sabi unpack`: the folder of a packed graph.
+//! `sabi unpack`: unpacks an archive into the folder of a graph.
 
 use std::path::PathBuf;
 
@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &UnpackArguments, terminal: &Terminal) -> Result<Ex
     Ok(Exit::Done)
 }
 
-/// The name of the archive without its ending, in the current folder.
+/// Returns the name of the archive without its extension, in the current folder.
 fn named_folder(arguments: &UnpackArguments) -> Result<PathBuf, Failure> {
     let archive = &arguments.archive;
     match archive.file_stem().filter(|_| archive.extension().is_some()) {
@@ -54,9 +54,9 @@ fn advise(report: &UnpackReport, terminal: &Terminal) {
     terminal.note(format_args!("  bake it with  sabi bake {graph} --mesh {model} -o maps"));
 }
 
-/// A path as a command line takes it.
+/// Returns a path in the form that a command line accepts.
 fn quoted(path: &str) -> String {
-    // Names in an archive may have letters that mean something to a shell.
+    // Names in an archive may have letters with a meaning in shells.
     let is_plain = |letter: char| letter.is_alphanumeric() || "_-./:\\ ,+".contains(letter);
     match path.contains(' ') && path.chars().all(is_plain) {
         true => format!("\"{path}\""),

@@ -1,4 +1,4 @@
-//! Values of parameters and what they may be, in words.
+//! Values of parameters, and descriptions of their allowed values, in words.
 
 use sabi_engine::Value;
 
@@ -14,7 +14,7 @@ pub(super) fn accepted_values(takes: &str, choices: Option<&[String]>, range: Op
     }
 }
 
-/// A value as people write it: texts without quotes, `a, b` for a list.
+/// Returns a value as people write it: texts without quotes, `a, b` for a list.
 pub(super) fn value_text(value: &Value) -> String {
     match value {
         Value::Text(text) => text.clone(),

@@ -1,4 +1,4 @@
-//! `sabi verify`: folders of maps against what their bakes recorded.
+//! `sabi verify`: compares folders of maps with the records of their bakes.
 
 use sabi_engine::{Verification, verify_folder};
 
@@ -13,7 +13,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &Terminal) -> Result<Ex
         let verification = match verify_folder(folder) {
             Ok(verification) => verification,
             Err(error) => {
-                // The other folders are checked all the same.
+                // A folder that cannot be checked does not prevent the check of the others.
                 error.messages.iter().for_each(|message| terminal.error(message));
                 verified.push(Verification::failed(folder, &error));
                 exit = worse(exit, error.kind.into());
@@ -37,8 +37,9 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &Terminal) -> Result<Ex
     Ok(exit)
 }
 
-/// Returns the exit code of two folders that is more important: one that could not be checked counts more than one with findings, and
-/// one that is damaged more than one that is missing.
+/// Returns the more important of the exit codes of two folders.
+/// A folder that could not be checked is more important than one with findings, and
+/// a damaged one is more important than a missing one.
 fn worse(one: Exit, other: Exit) -> Exit {
     let rank = |exit: Exit| match exit {
         Exit::Done => 0,

@@ -1,21 +1,21 @@
-//! Steps of a piece of work that are told, so that a log stays short.
+//! Selection of the steps of a piece of work that are printed, so that a log stays short.
 
 use std::time::Duration;
 
 use sabi_engine::Phase;
 
-/// Choice of the steps that are told. The first step of a phase always is.
+/// Selects the steps that are printed. The first step of a phase always is.
 #[derive(Clone, Debug)]
 pub(super) struct Pace {
-    /// Time since the beginning before which nothing is told.
+    /// Time after the beginning during which nothing is printed.
     silence: Duration,
-    /// Shortest time between two steps of a phase.
+    /// Shortest time between two printed steps of a phase.
     interval: Duration,
-    /// Smallest part of a phase between two of its steps, percent.
+    /// Smallest part of a phase between two printed steps, in percent.
     percent: usize,
-    /// True if the last step of a phase is always told.
+    /// True if the last step of a phase is always printed.
     tells_ends: bool,
-    /// Latest step of each phase that was told.
+    /// Latest printed step of each phase.
     told: Vec<Told>,
 }
 
@@ -27,7 +27,7 @@ struct Told {
 }
 
 impl Pace {
-    /// Lines for people: a second apart, and a tenth of the phase.
+    /// Returns the pace of lines for people: at least a second and a tenth of the phase apart.
     pub(super) const LINES: Pace = Pace {
         silence: Duration::ZERO,
         interval: Duration::from_secs(1),
@@ -36,7 +36,7 @@ impl Pace {
         told: Vec::new(),
     };
 
-    /// Lines for people, of work that takes longer than a few seconds.
+    /// Returns the pace of lines for people for work that takes longer than a few seconds.
     pub(super) const LINES_OF_LONG_WORK: Pace = Pace {
         silence: Duration::from_secs(4),
         interval: Duration::from_secs(1),
@@ -45,7 +45,7 @@ impl Pace {
         told: Vec::new(),
     };
 
-    /// Lines for programs: ten a second, and the end of each phase.
+    /// Returns the pace of lines for programs: ten per second, and the end of each phase.
     pub(super) const EVENTS: Pace = Pace {
         silence: Duration::ZERO,
         interval: Duration::from_millis(100),
@@ -54,7 +54,7 @@ impl Pace {
         told: Vec::new(),
     };
 
-    /// Returns whether a step is told; `now` is the time since the beginning.
+    /// Returns whether a step is printed; `now` is the time since the beginning.
     pub(super) fn is_due(&mut self, now: Duration, phase: Phase, done: usize, of: usize) -> bool {
         if now < self.silence {
             return false;
@@ -66,7 +66,7 @@ impl Pace {
         };
         let is_end = self.tells_ends && done == of;
         let is_later = now.saturating_sub(before.at) >= self.interval;
-        // A phase that begins again has fewer steps done.
+        // A phase that begins again has fewer steps done than before.
         let is_further = done.abs_diff(before.done).saturating_mul(100) >= of.saturating_mul(self.percent);
         let is_due = done != before.done && (is_end || is_later && is_further);
         if is_due {
@@ -84,7 +84,7 @@ mod tests {
 
     use super::Pace;
 
-    /// Steps that are told of a phase of 100 steps, of which one is done each so many milliseconds.
+    /// Returns the printed steps of a phase of 100 steps that each take this many milliseconds.
     fn told(mut pace: Pace, ms: u64) -> Vec<usize> {
         let is_due = |done: &usize| pace.is_due(Duration::from_millis(ms * *done as u64), Phase::Run, *done, 100);
         (0..=100).filter(is_due).collect()

@@ -1,10 +1,10 @@
-//! Archives that were not made by `sabi pack`: none writes a file, wherever it says it belongs.
+//! Archives that `sabi pack` did not make: no entry writes a file, whatever path it has.
 
 use std::fs;
 
 use crate::place::{CLOUDS, Place, graph};
 
-/// An entry that is stored as it is.
+/// Method of an entry that is stored without compression.
 #[derive(Clone, Copy)]
 struct Entry<'a> {
     name: &'a str,
@@ -12,7 +12,7 @@ struct Entry<'a> {
     /// Kind of file and permissions, as Unix has them.
     mode: u32,
     flags: u16,
-    /// Size that the archive claims; none for the true one.
+    /// Size that the archive claims; `None` for the true size.
     claimed: Option<u32>,
 }
 
@@ -29,7 +29,7 @@ fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, step)
 }
 
-/// An archive of these entries, which may say anything of themselves.
+/// Returns an archive of these entries, whose headers may be false.
 fn archive(entries: &[Entry<'_>]) -> Vec<u8> {
     let (mut bytes, mut directory) = (Vec::new(), Vec::new());
     for entry in entries {
@@ -58,7 +58,7 @@ fn archive(entries: &[Entry<'_>]) -> Vec<u8> {
     bytes
 }
 
-/// Unpacks an archive that must be refused with this sentence, and leave nothing behind.
+/// Unpacks an archive, and expects that it is refused with this sentence and no file is written.
 #[track_caller]
 fn refuses(place: &Place, bytes: &[u8], words: &str) {
     place.write("bad.zip", bytes);
@@ -257,7 +257,7 @@ fn a_damaged_archive_and_one_of_another_program_are_refused() {
     );
     let other = named(r#"{ "format": "other", "version": 1, "graph": "a", "model": null }"#);
     refuses(&place, &other, &no_graph("its pack.json is of another program"));
-    // A bit that tipped over is found by the checksum.
+    // A flipped bit is found by the checksum.
     let mut tipped = manifest(1, "a");
     let at = tipped.windows(7).position(|window| window == b"content").unwrap();
     tipped[at] ^= 1;

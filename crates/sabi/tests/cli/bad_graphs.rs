@@ -1,4 +1,4 @@
-//! Graph files that are not what they should be: each a sentence that says where and what to do.
+//! Invalid graph files: each gives a sentence that says where the error is and how to correct it.
 
 use std::fs::File;
 
@@ -6,7 +6,7 @@ use crate::place::{CLOUDS, Place, graph};
 
 const OUT: &str = r#"    "out": { "kind": "output/mask", "inputs": { "source": "clouds" } }"#;
 
-/// `clouds` as written, and an output that reads it.
+/// Returns a graph with the node `clouds` as given, and an output that reads it.
 fn with(clouds: &str) -> String {
     graph(&format!("    {clouds},\n{OUT}"))
 }
@@ -119,7 +119,7 @@ fn a_group_file_that_is_not_there_ends_with_66_and_a_damaged_one_with_65() {
     place.write("group.sabi", "");
     let damaged = words(":1:1: the file ends where a value is expected; it may have been cut off");
     place.refuses("bad.sabi", "cube.glb", &[], 65, &damaged);
-    // The file's own variant is the file's fault, whoever asks for it.
+    // A variant in the file that cannot be used is a fault of the file, whichever command reads it.
     let text = graph(CLOUDS).replace(r#""amount": 0.9"#, r#""amount": 7"#);
     refused_with(
         &place,

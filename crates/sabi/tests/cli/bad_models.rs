@@ -11,7 +11,7 @@ fn a_model_that_cannot_be_read_is_a_sentence() {
     place.write("text.obj", "hello\n");
     place.write("cut.fbx", "Kaydara FBX Binary");
     place.write("cube.usd", "#usda 1.0");
-    // A header that promises four gigabytes.
+    // The header claims a size of four gigabytes.
     let mut huge = cube.clone();
     huge[8..12].copy_from_slice(&u32::MAX.to_le_bytes());
     place.write("huge.glb", huge);

@@ -1,4 +1,4 @@
-//! Places that cannot be written to.
+//! Files and folders that cannot be written to.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -79,7 +79,7 @@ fn a_report_that_cannot_be_written_is_found_before_the_work() {
     );
 }
 
-/// A limit on the size of files stands in for a disk that fills up while the maps are being written.
+/// A limit on the size of files replaces a disk that becomes full while the maps are written.
 #[cfg(unix)]
 #[test]
 fn a_disk_that_fills_up_leaves_the_earlier_maps_as_they_were() {

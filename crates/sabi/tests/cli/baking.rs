@@ -147,7 +147,7 @@ fn how_a_model_is_taken_changes_the_maps() {
     let map = |more: &[&str]| {
         place.bake("clouds.sabi", "cube.glb", more).good();
         let map = place.read("out/cube_mask.png");
-        // A constant mask has no map, and must not be taken for the one before.
+        // A constant mask has no map, and an earlier map must not be used as its map.
         std::fs::remove_file(place.path("out/cube_mask.png")).unwrap();
         map
     };
@@ -159,7 +159,7 @@ fn how_a_model_is_taken_changes_the_maps() {
         map(&["--scale", "3"]) == plain,
         "the largest side counts as 1, however large it is"
     );
-    // The cube's side is 1: under a fit of 2 it counts as 0.5, and clouds are twice as large on it.
+    // The cube's side is 1. With a fit of 2 it counts as 0.5, so clouds are twice as large on it.
     let larger = map(&["--set", "clouds.size=0.5"]);
     assert!(larger != plain);
     assert!(map(&["--fit", "2"]) == larger);
@@ -192,7 +192,7 @@ fn heights_are_in_the_units_of_the_models_file_under_the_fit() {
         (&["--fit", "2"], 2.0),
         (&["--fit", "0.25"], 0.25),
         (&["--fit", "metres"], 1.0),
-        // A model taken twice as large: a length of it is half as long in the file.
+        // The model is scaled by two, so a length on it is half as long in the file.
         (&["--fit", "1", "--scale", "2"], 0.5),
         (&["--fit", "metres", "--scale", "4"], 0.25),
         (&["--fit", "unit", "--scale", "3"], span(&["--fit", "unit"]) / one),

@@ -11,7 +11,7 @@ use crate::planning::planned;
 const MATRIX: &str = "version = 1\nout = \"out/$mesh/$graph\"\n[[bake]]\nmodels = \"*.glb\"\ngraphs = [\"clouds.sabi\", \"rust.sabi\"]\nsizes = \
     32\n";
 
-/// A place with a plan of four items.
+/// Creates a folder with a plan of four items.
 fn place() -> Place {
     software_adapter();
     let place = Place::new();
@@ -24,13 +24,13 @@ fn run(place: &Place, more: &[&str]) -> Done {
     place.sabi(&[&["run", "plan.jsonl", "--adapter", "cpu"], more].concat())
 }
 
-/// Output of a run, with paths from the folder of the plan.
+/// Returns the output of a run, with paths relative to the folder of the plan.
 fn placed(place: &Place, text: &str) -> String {
     let folder = fs::canonicalize(place.path("")).unwrap();
     text.replace(&format!("{}/", folder.display()), "")
 }
 
-/// Numbers of items with a status in a summary.
+/// Returns the numbers of the items with a status in a summary.
 fn with_status(run: &Done, status: &str) -> Vec<u64> {
     let summary: Json = serde_json::from_str(&run.stdout).unwrap();
     let items = summary["items"].as_array().unwrap().iter();
@@ -243,7 +243,7 @@ fn an_item_stops_when_its_run_ends() {
         "--adapter",
         "cpu",
     ];
-    // Its standard input is at its end.
+    // Its standard input is at its end already.
     let stopped = place.command(&arguments).stdin(Stdio::null()).output().unwrap();
     assert_eq!(stopped.status.code(), Some(130));
     let told: Json = serde_json::from_slice(&stopped.stdout).unwrap();

@@ -1,4 +1,5 @@
-//! Borders of charts in written maps: nothing of a neighboring material, part or color, and UVs that repeat or lie in several tiles.
+//! Borders of charts in written maps, which contain nothing of a neighboring material, part or color; and UVs that repeat
+//! or are in several tiles.
 
 use sabi_image::{Pixels, decode};
 use serde_json::Value as Json;
@@ -40,7 +41,7 @@ fn fold(materials: [&str; 2]) -> String {
 const MATERIALS: &str =
     "newmtl red\nKd 1 0 0\nPm 1\nPr 0.2\nnewmtl blue\nKd 0 0 1\nPm 0\nPr 0.9\nnewmtl plain\nKd 1 1 1\n";
 
-/// Pixels of a map in codes, each with its channels.
+/// Returns the pixels of a map as integers, each with its channels.
 fn codes(place: &Place, file: &str) -> (u32, Vec<Vec<u16>>) {
     let image = decode(file, &place.read(file)).unwrap();
     let channels = usize::from(image.channels);
@@ -88,7 +89,7 @@ fn no_map_has_a_texel_of_the_neighboring_part_or_color() {
         assert_ne!(sides[0], sides[1], "{name}: the sides differ");
         for y in 0..width {
             for x in 0..width {
-                // The charts lie as far from the left border as from the right one, and padding meets halfway.
+                // The charts are as far from the left border as from the right one, so their padding meets in the middle.
                 assert_eq!(at(x, y), sides[usize::from(x >= width / 2)], "{name} at {x} {y}");
             }
         }
@@ -119,7 +120,7 @@ fn no_map_of_a_material_has_a_texel_of_the_neighboring_one() {
     }
 }
 
-/// Squares beside each other in space, each with its lower UV corner and its side.
+/// Returns squares beside each other in space, each with its lower UV corner and its side.
 fn squares(places: &[([f32; 2], f32)]) -> String {
     let square = |(index, ([u, v], side)): (usize, &([f32; 2], f32))| {
         let first = 4 * index + 1;

@@ -1,4 +1,4 @@
-//! `--model`: a copy of the model that uses the maps.
+//! `--model`: writes a copy of the model that uses the maps.
 
 use serde_json::Value as Json;
 
@@ -50,7 +50,7 @@ fn glb_document(place: &Place, file: &str) -> Json {
 #[test]
 fn a_model_in_udim_tiles_gets_a_material_for_each_in_its_copy() {
     let place = Place::new();
-    // The last triangle reaches into the tile on the right.
+    // The last triangle extends into the tile on the right.
     let tiles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\n\
                  vt 1.1 0.1\nvt 1.9 0.9\nvt 1.1 0.9\nvt 0.5 0.9\nvt 0.6 0.9\nvt 1.1 0.95\nusemtl wood\n\
                  f 1/1 2/2 3/3\nf 2/4 4/5 3/6\nf 1/7 2/8 5/9\n";
@@ -142,9 +142,9 @@ fn a_copy_of_an_unwrapped_model_keeps_its_animations_and_its_own_attributes() {
     let copy: Json = serde_json::from_slice(&place.read("out/bare.gltf")).unwrap();
     assert_eq!(copy["animations"][0]["name"], "wave");
     assert_eq!(copy["nodes"][1]["translation"], serde_json::json!([3, 0, 0]));
-    // Each instance has places of its own on the sheet, and so a mesh of its own.
+    // Each instance has separate UVs, and therefore a separate mesh.
     assert_eq!([&copy["nodes"][0]["mesh"], &copy["nodes"][1]["mesh"]], [0, 1]);
-    // Nothing uses the vertices of the file any more.
+    // The vertices of the original file are not used any more.
     assert_eq!(copy["buffers"].as_array().unwrap().len(), 1);
     let buffer = place.read("out/bare_vertices.bin");
     for mesh in 0..2 {

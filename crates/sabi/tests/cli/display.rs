@@ -10,14 +10,14 @@ use tempfile::TempDir;
 
 const INSTALL: &str =
     "this test needs a display in memory: apt-get install xvfb xdotool libxkbcommon-x11-0 libx11-xcb1";
-/// Time limit of a wait: longer than anything takes on a busy machine.
+/// Time limit of a wait: longer than any step takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 const SIZE: [u32; 2] = [1600, 900];
-/// Time without a change after which the screen rests.
+/// Time without a change after which the screen counts as unchanged.
 const STILL: Duration = Duration::from_secs(2);
 /// Pause after each step of a drag.
 const DRAG_STEP: Duration = Duration::from_millis(750);
-/// Changed pixels from which on a menu or a node has come or gone: less than either has, and more than a caret.
+/// Number of changed pixels that shows that a menu or a node appeared or disappeared: fewer than either has, and more than a caret has.
 const CHANGED_PIXELS: usize = 8000;
 /// Largest step of a channel between neighbors on a lit surface, of 255.
 const SOFT: u8 = 4;
@@ -81,7 +81,7 @@ impl Display {
             .env("DISPLAY", &self.name)
             .output()
             .expect(INSTALL);
-        // The window answers a little later.
+        // The window reacts a little later.
         sleep(Duration::from_millis(250));
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
@@ -94,7 +94,7 @@ impl Display {
         self.hands(&["mousemove", &x.to_string(), &y.to_string()]);
     }
 
-    /// Drags with the left button through the middle of the way, slowly: on a busy machine frames take long, and each step needs one.
+    /// Drags with the left button along a straight line, slowly: frames take long on a busy machine, and each step needs a frame.
     pub(crate) fn drag(&self, from: [i32; 2], to: [i32; 2]) {
         self.point(from);
         self.hands(&["mousedown", "1"]);
@@ -126,7 +126,7 @@ impl Display {
         }
     }
 
-    /// Waits until a part of the screen has stayed as it is for a while.
+    /// Waits until a part of the screen has not changed for a while.
     pub(crate) fn until_still(&self, part: [usize; 4], what: &str) {
         self.until(what, || {
             let before = self.screen();
@@ -135,7 +135,7 @@ impl Display {
         });
     }
 
-    /// Does something and waits until much of a part of the screen has changed.
+    /// Does an action and waits until a large part of the screen has changed.
     pub(crate) fn until_changed(&self, part: [usize; 4], what: &str, act: impl FnOnce()) {
         let before = self.screen();
         act();

@@ -1,4 +1,4 @@
-//! Commands and files that the documentation shows, run and read as a reader would.
+//! Runs the commands and reads the files that the documentation shows, as a reader would.
 
 #![cfg(unix)]
 
@@ -14,7 +14,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Blocks of code of a page, without their indent.
+/// Returns the blocks of code of a page, without their indent.
 fn blocks(page: &str) -> Vec<String> {
     let text = fs::read_to_string(root().join(page)).unwrap_or_else(|error| panic!("{page}: {error}"));
     let mut blocks = Vec::new();
@@ -22,7 +22,7 @@ fn blocks(page: &str) -> Vec<String> {
     for line in text.lines() {
         match line.strip_prefix("    ") {
             Some(code) => block.extend([code, "\n"]),
-            // Blocks have empty lines in them.
+            // Blocks may contain empty lines.
             None if line.is_empty() && !block.is_empty() => block.push('\n'),
             None => blocks.push(std::mem::take(&mut block)),
         }
@@ -32,7 +32,7 @@ fn blocks(page: &str) -> Vec<String> {
     blocks
 }
 
-/// The only block of a page with these words.
+/// Returns the only block of a page that contains these words.
 fn block(page: &str, words: &str) -> String {
     let mut found = blocks(page);
     found.retain(|block| block.contains(words));
@@ -40,7 +40,7 @@ fn block(page: &str, words: &str) -> String {
     found.remove(0)
 }
 
-/// Lines of the shell on a page that run `sabi`, without remarks.
+/// Returns the shell lines on a page that run `sabi`, without comments.
 fn commands(page: &str) -> Vec<String> {
     let blocks = blocks(page);
     let lines = blocks.iter().flat_map(|block| block.lines());
@@ -64,11 +64,11 @@ const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "Documented",
     "out": { "kind": "output/material", "inputs": { "material": "rust" } } } }
 "##;
 
-/// A matrix of few and small items.
+/// Returns a matrix of a few small items.
 const MATRIX: &str = "version = 1\nout = \"export/$mesh/$graph(_$variant)_$seed\"\n[[bake]]\nmodels = \"model.glb\"\ngraphs = \"graph.sabi\"\n\
                       sizes = 32\nvariants = [\"\", \"desert\"]\nseed = [1, 2, 3, 4]\n";
 
-/// A place with the files that the documentation names.
+/// Creates a folder with the files that the documentation names.
 fn place() -> Place {
     let place = Place::new();
     for folder in ["graphs/examples", "assets/meshes", "bake"] {
@@ -90,7 +90,7 @@ fn place() -> Place {
     place
 }
 
-/// Runs a line of the shell with the program in the path.
+/// Runs a shell line, with the program in the path.
 fn shell(place: &Place, line: &str) -> Done {
     software_adapter();
     let program = Path::new(env!("CARGO_BIN_EXE_sabi"));
@@ -100,7 +100,7 @@ fn shell(place: &Place, line: &str) -> Done {
         .map(Path::to_owned)
         .into_iter()
         .chain(env::split_paths(&folders));
-    // For the environment of the tests.
+    // Used only for its environment variables, which are those of all tests.
     let template = place.command(&[]);
     let mut command = Command::new("sh");
     command.args(["-c", line]).current_dir(place.path("."));
@@ -116,7 +116,7 @@ fn shell(place: &Place, line: &str) -> Done {
     done(command.output().unwrap())
 }
 
-/// The same command for maps and pictures that a test has time for, on the software adapter.
+/// Returns the same command for small maps and pictures, on the software adapter, so that the test is fast.
 fn smaller(line: &str) -> String {
     let mut line = line.to_owned();
     for (large, small) in [
@@ -124,7 +124,7 @@ fn smaller(line: &str) -> String {
         ("--size 1920x1080", "--size 48x32"),
         ("--turntable 48", "--turntable 2"),
         ("--node NODE", "--node clouds"),
-        // A place has eight items.
+        // The plan in the folder has only eight items.
         ("--items 0-99", "--items 0-3"),
         ("--items 100-199", "--items 4-7"),
     ] {
@@ -148,7 +148,7 @@ fn smaller(line: &str) -> String {
     line
 }
 
-/// Returns true for a line that needs a window, or a program that is not everywhere.
+/// Returns true for a line that needs a window, or a program that may not be installed.
 fn needs_more(line: &str) -> bool {
     let word = line.split_whitespace().nth(1).unwrap_or_default();
     word.is_empty() || Path::new(word).extension().is_some() || line.starts_with("jq ")
@@ -199,7 +199,7 @@ fn the_commands_about_presets_documents_and_farms_do_what_they_say() {
     runs("docs/slurm.md", 1);
 }
 
-/// A place that is a project, with own models under the names of a matrix in the documentation.
+/// Creates a project folder whose models have the names of a matrix in the documentation.
 fn project(models: &[(&str, &str)]) -> Place {
     let place = Place::new();
     place.write("sabi.toml", "");
@@ -242,7 +242,7 @@ fn the_matrix_of_the_page_about_many_bakes_gives_the_items_that_it_describes() {
     .unwrap();
     place.write("matrix.toml", block("docs/batch.md", "[[bake]]"));
     let run = place.sabi(&["plan", "matrix.toml"]).good();
-    // Three models with two variants in two sizes, but for one model in one size; and one model in two variants.
+    // Three models with two variants in two sizes, except one model in one size only; and one model in two variants.
     assert_eq!(run.stderr, "Planned 12 items of matrix.toml in plan.jsonl\n");
     let plan = String::from_utf8(place.read("plan.jsonl")).unwrap();
     let items: Vec<Json> = plan.lines().map(|line| serde_json::from_str(line).unwrap()).collect();

@@ -1,4 +1,4 @@
-//! The example graphs: each is good, bakes on the model it was made for, and every variant of it looks different.
+//! Example graphs: each has no faults, bakes on the model it was made for, and looks different in every variant.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -35,7 +35,7 @@ fn every_example_is_good() {
 
 #[test]
 fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
-    // Most of the time the driver compiles, on one core: without a second thread this test ends long after all others.
+    // The driver compiles on one core for most of the time: without a second thread, this test would end long after all others.
     let graphs = examples();
     thread::scope(|scope| {
         for some in graphs.chunks(graphs.len().div_ceil(2)) {
@@ -58,7 +58,7 @@ fn variants_look_different(graphs: &[PathBuf]) {
         let looks: Vec<Option<&String>> = std::iter::once(None).chain(variants.map(Some)).collect();
         let mut seen = BTreeSet::new();
         for look in &looks {
-            // Maps of another variant that this one does not have would be told of.
+            // A map that another variant has and this one does not have would be reported as a warning.
             if place.path("out").exists() {
                 fs::remove_dir_all(place.path("out")).unwrap();
             }
@@ -69,7 +69,7 @@ fn variants_look_different(graphs: &[PathBuf]) {
             let run = place
                 .bake(graph.to_str().unwrap(), mesh.to_str().unwrap(), &more)
                 .good();
-            // Warnings about small maps and about the cover of the model's UVs are not the graph's fault.
+            // Warnings about small maps and about UVs that cover little of the sheet are not faults of the graph.
             let is_of_model = |line: &str| line.contains("UV chart") || line.contains("of its maps, so that");
             let warnings = run
                 .stderr

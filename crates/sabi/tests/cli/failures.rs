@@ -1,4 +1,4 @@
-//! Failures as scripts read them: with `--json`, and in the report of a bake.
+//! Failures in JSON for scripts: with `--json`, and in the report of a bake.
 
 use serde_json::{Value as Json, json};
 

@@ -1,4 +1,4 @@
-//! Files from strangers: what they name, claim and hold reaches no other file, no terminal and no memory.
+//! Untrusted files: their paths, sizes and texts cannot reach other files, control the terminal or exhaust the memory.
 #![cfg(target_os = "linux")]
 
 use std::fs::{self, File};
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::place::{CLOUDS, Done, Place, done, graph, software_adapter};
 
-/// The binary, which may take so much address space, KiB.
+/// Returns the binary with a limit on its address space, in KiB.
 fn within(place: &Place, most_kib: u64, arguments: &[&str]) -> Done {
     let plain = place.command(arguments);
     let mut limited = Command::new("sh");
@@ -26,7 +26,7 @@ fn within(place: &Place, most_kib: u64, arguments: &[&str]) -> Done {
             None => limited.env_remove(name),
         };
     }
-    // Each thread takes address space for its stack.
+    // Each thread needs address space for its stack.
     done(limited.env("RAYON_NUM_THREADS", "2").output().unwrap())
 }
 
@@ -44,7 +44,7 @@ fn glb(document: &Value) -> Vec<u8> {
     [b"glTF", &2u32.to_le_bytes()[..], &length.to_le_bytes(), &chunks].concat()
 }
 
-/// A triangle that so many nodes place, in so many primitives of its mesh.
+/// Returns a triangle that this many nodes place, in this many primitives of its mesh.
 fn triangles(nodes: usize, primitives: usize) -> Vec<u8> {
     let view = |offset: u32, length: u32| json!({ "buffer": 0, "byteOffset": offset, "byteLength": length });
     let accessor = |view: u32, ty: &str| json!({ "bufferView": view, "componentType": 5126, "count": 3, "type": ty });
@@ -63,7 +63,7 @@ fn triangles(nodes: usize, primitives: usize) -> Vec<u8> {
     }))
 }
 
-/// An OBJ file of so many faces with so many corners each, all on one circle.
+/// Returns an OBJ file of this many faces with this many corners each, all on one circle.
 fn polygons(faces: usize, corners: usize) -> String {
     let angle = |corner: usize| corner as f32 * std::f32::consts::TAU / corners as f32;
     let mut text: String = (0..corners)
@@ -184,7 +184,7 @@ fn a_face_of_many_corners_without_coordinates_is_laid_flat() {
     let arguments = ["mesh", "round.obj", "--size", "64", "--no-cache", "--json"];
     let read = within(&place, 4_000_000, &arguments).good();
     let report: Value = serde_json::from_str(&read.stdout).unwrap();
-    // Most of its triangles are thinner than its positions are exact, and are counted as left out.
+    // Most of its triangles are thinner than the precision of its positions, and are counted as left out.
     let triangles = report["triangles"].as_u64().unwrap();
     let thin = format!("{} triangles without an area", 29_998 - triangles);
     assert!(
@@ -213,7 +213,7 @@ fn node_files_that_are_links_are_neither_shown_nor_packed() {
     assert!(!told.contains("SECRET") && !told.contains("SABI_CACHE_DIR"), "{told}");
     assert!(told.contains("key.wgsl: The file is not read, because "), "{told}");
     assert!(told.contains("is outside of the folder"), "{told}");
-    // The folder of nodes itself may be a link, which leads nowhere either.
+    // The folder of nodes itself may be a link, which leads nowhere.
     fs::remove_dir_all(place.path("graph/nodes")).unwrap();
     symlink(place.path("private"), place.path("graph/nodes")).unwrap();
     check().fails(65);
@@ -309,7 +309,7 @@ fn links_and_pipes_in_an_output_folder_lead_nowhere() {
     fs::create_dir_all(place.path("out/.sabi")).unwrap();
     symlink(place.path("elsewhere/lock"), place.path("out/.sabi/lock")).unwrap();
     refused("out/.sabi/lock", "no ordinary file but a link or a pipe");
-    // The list of bakes is replaced and not followed.
+    // The list of bakes is replaced, and its link is not followed.
     fs::create_dir_all(place.path("out/.sabi")).unwrap();
     symlink(place.path("elsewhere/bakes.json"), place.path("out/.sabi/bakes.json")).unwrap();
     place.bake("clouds.sabi", "cube.glb", &[]).good();

@@ -1,8 +1,8 @@
-//! Pictures that a graph names: their paths, and errors where they cannot be read.
+//! Pictures that a graph names: their paths, and errors if they cannot be read.
 
 use crate::place::{Place, graph};
 
-/// A picture of 2 by 2 pixels, all of one gray.
+/// Returns a picture of 2 by 2 pixels, all with the same gray.
 fn bmp(gray: u8) -> Vec<u8> {
     let mut bytes = b"BM".to_vec();
     for word in [70_u32, 0, 54, 40, 2, 2, 1 | 24 << 16, 0, 16, 2835, 2835, 0, 0] {
@@ -21,7 +21,7 @@ fn image(file: &str) -> String {
     .replace("clouds.", "img.")
 }
 
-/// Value of a constant map.
+/// Returns the value of a constant map.
 fn constant(place: &Place, graph: &str, more: &[&str]) -> f64 {
     let run = place
         .bake(graph, "cube.glb", &[more, &["--json", "--force"]].concat())
@@ -89,7 +89,7 @@ fn a_picture_that_cannot_be_had_is_named_with_node_path_and_advice() {
     );
 }
 
-/// Reading a pipe would block, and a device may have no end; this device is empty.
+/// Reading a pipe would block, and a device may never end; this device is empty.
 #[test]
 #[cfg(unix)]
 fn a_device_is_no_picture_and_no_group() {

@@ -26,7 +26,7 @@ fn long_work() -> String {
     graph(&nodes)
 }
 
-/// Starts a long bake and returns it once it evaluates, with the rest of its standard error.
+/// Starts a long bake, and returns the process and the rest of its standard error once it evaluates.
 fn started(place: &Place) -> (Child, impl BufRead + use<>) {
     software_adapter();
     place.write("long.sabi", long_work());
@@ -118,7 +118,7 @@ fn a_run_that_the_system_ends_cleans_up_and_leaves_no_process() {
     }
     let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
     assert!(sent.unwrap().success());
-    // Both streams end when all processes have that write to them.
+    // Both streams end when all processes that write to them have ended.
     let mut said = String::new();
     std::io::Read::read_to_string(&mut words, &mut said).unwrap();
     let output = child.wait_with_output().unwrap();
@@ -144,8 +144,8 @@ fn a_second_ctrl_c_does_not_wait() {
         assert_ne!(words.read_line(&mut line).unwrap(), 0);
     }
     interrupt(&child);
-    // Exiting at once unloads the driver while its threads run, and sometimes one of them crashes first: then a signal ends
-    // the process, which is as quick.
+    // An immediate exit unloads the driver while its threads run, and sometimes a thread crashes first: then a signal ends
+    // the process, which is as fast.
     let code = child.wait().unwrap().code();
     assert!(matches!(code, Some(130) | None), "{code:?}");
     let maps = if place.path("out").exists() {

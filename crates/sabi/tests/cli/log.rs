@@ -1,4 +1,4 @@
-//! Log of what happens inside, started by `SABI_LOG` or `--log`.
+//! Log of internal events, started by `SABI_LOG` or `--log`.
 
 use crate::place::{Place, done, software_adapter};
 

@@ -18,7 +18,7 @@ fn nodes_are_listed_one_a_line_and_described_by_id() {
     for (at, (line, node)) in table.lines().zip(all).enumerate() {
         let id = node["id"].as_str().unwrap();
         assert_eq!(line.split_whitespace().next(), Some(id));
-        // The pages of all nodes are tested beside the code that writes them; a process for each would take long.
+        // The pages of all nodes are tested beside the code that writes them: a process for each page would take long.
         if at % 16 != 0 {
             continue;
         }
@@ -212,7 +212,7 @@ fn a_machine_without_a_desktop_hears_no_error_of_the_driver() {
     assert!(output.status.success());
 }
 
-/// No process can make folders in `/proc`, not even one of the administrator.
+/// No process can create folders in `/proc`, not even with administrator rights.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_machine_without_a_home_folder_keeps_compiled_kernels_with_other_results() {

@@ -1,10 +1,10 @@
-//! What a preset has no place for, and what a file cannot hold as it is: told by the presets, the report and warnings.
+//! Values that a preset has no map for, or that a file cannot store unchanged: reported by the presets, the report and warnings.
 
 use serde_json::{Value as Json, json};
 
 use crate::place::{Place, graph};
 
-/// A material with all that few materials have, and with emission up to 4.
+/// A material with values that few materials have, and with emission up to 4.
 const FINISH: &str = r##"    "base": { "kind": "source/material", "params": { "color": "#3c5a6e" } },
     "clouds": { "kind": "noise/simplex" },
     "out": { "kind": "output/material", "inputs": { "material": "rust" } },
@@ -75,7 +75,7 @@ fn a_bake_warns_of_what_its_preset_leaves_out_and_reports_it() {
         );
         assert_eq!(report["left_out"], json!([]), "{preset}");
     }
-    // With a part of the channels, and of a material without any of it, nothing is left out.
+    // Nothing is reported as left out for a part of the channels, or for a material without the special values.
     let (report, told) = baked(
         &place,
         "finish.sabi",
@@ -170,7 +170,7 @@ fn the_stages_of_a_bake_are_the_time_that_it_took() {
     );
     let sum: f64 = stages.values().filter_map(Json::as_f64).sum();
     assert!(sum > 0.0 && sum <= process, "{sum} of {process}");
-    // What was there already is told with the times of the bake that made it.
+    // For maps that existed already, the report has the times of the bake that made them.
     let (again, _) = baked(&place, "rust.sabi", &["--model"]);
     assert_eq!(again["up_to_date"], true);
     let again: f64 = again["stages_ms"]
@@ -198,7 +198,7 @@ fn a_document_never_names_the_maps_of_another_bake_in_silence() {
     assert_eq!(documents("out"), ["cube.usda", "cube.usdz"]);
     let first = place.read("out/cube.usda");
     seeded("2", &[]);
-    // The document goes with the maps; it says the same, of others.
+    // The document belongs to the maps, and says the same about other maps.
     assert_eq!(
         (documents("out"), place.read("out/cube.usda")),
         (vec!["cube.usda".to_owned(), "cube.usdz".to_owned()], first)

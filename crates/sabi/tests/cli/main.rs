@@ -1,4 +1,4 @@
-//! The real binary on real files: what it writes, what it says, and how it ends.
+//! Runs the real binary on real files, and checks its files, its messages and its exit code.
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 

@@ -75,7 +75,7 @@ fn the_axis_that_points_up_is_up_for_the_graph() {
 }
 "#;
     place.write("facing.sabi", facing);
-    // The whole sheet faces one way, so the mask is one number: 1 where that way is up.
+    // The whole sheet has one direction, so the mask has one value: 1 if this direction is up.
     for (axis, expected) in [("y", 0.0), ("z", 1.0), ("x", 0.0)] {
         let run = place.bake("facing.sabi", "sheet.gltf", &["--up", axis, "--json", "-q", "--force"]);
         let report: Json = serde_json::from_str(&run.good().stdout).unwrap();

@@ -1,4 +1,4 @@
-//! Files that a bake reads are never replaced by its results.
+//! Tests that the results of a bake never replace files that it reads.
 
 use crate::place::{Place, graph};
 

@@ -146,7 +146,7 @@ fn a_preview_says_which_of_several_sets_it_shows() {
         preview("clouds", &["--material", "stone"]).fails(2).stderr,
         "error: the model has no material 'stone'; it has wood, steel\n"
     );
-    // What is wrong with the graph or the question comes before what is wrong with the model.
+    // Errors of the graph and the command line are reported before errors of the model.
     std::fs::remove_file(place.path("plates.obj")).unwrap();
     assert_eq!(
         preview("cluds", &[]).fails(2).stderr,

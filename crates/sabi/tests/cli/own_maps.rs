@@ -1,4 +1,4 @@
-//! Outputs of the graph that are maps of their own, maps of the model itself, and the memory that maps take.
+//! Outputs of the graph that are separate maps, maps of the model itself, and the memory that maps take.
 
 use sabi_image::{Pixels, decode};
 use serde_json::{Value as Json, json};
@@ -18,7 +18,7 @@ fn report(place: &Place, graph: &str, more: &[&str]) -> Json {
     serde_json::from_str(&run.stdout).unwrap()
 }
 
-/// Paths of the maps with their bits and color space.
+/// Returns the paths of the maps with their bits and color space.
 fn maps(report: &Json) -> Vec<(String, u64, String)> {
     let outputs = report["outputs"].as_array().unwrap().iter();
     let of = |output: &Json| {
@@ -82,7 +82,7 @@ fn masks_colors_and_vectors_are_exported_and_packed_by_name() {
     assert!(!place.path("whole").exists());
 }
 
-/// 16-bit codes of a map, as shares of 1, pixel by pixel.
+/// Returns the 16-bit values of a map, divided by their greatest value, pixel by pixel.
 fn shares(place: &Place, name: &str) -> Vec<Vec<f64>> {
     let picture = decode(name, &place.read(&format!("out/{name}"))).unwrap();
     let Pixels::U16(codes) = picture.pixels else {
@@ -122,18 +122,18 @@ fn maps_of_the_model_need_no_node() {
     let is_covered = |normal: &&Vec<f64>| normal.iter().any(|share| (share - 0.5).abs() > 0.01);
     assert!(normals.iter().filter(is_covered).count() > 2000);
     for ((normal, position), bend) in normals.iter().zip(&positions).zip(&bends) {
-        // Beyond the padding nothing has a direction.
+        // Texels beyond the padding have no direction.
         if !is_covered(&normal) {
             continue;
         }
-        // Each face of a cube faces along an axis, at whose end its places lie.
+        // Each face of a cube points along an axis, and all its positions are at the same end of that axis.
         let axis = (0..3).find(|axis| (normal[*axis] - 0.5).abs() > 0.49);
         let axis = axis.unwrap_or_else(|| panic!("{normal:?}"));
         assert!((position[axis] - normal[axis]).abs() < 0.01, "{normal:?} {position:?}");
         let edge = (0..3)
             .filter(|other| *other != axis)
             .map(|other| (position[other] - 0.5).abs());
-        // A cube is convex beside its edges and flat elsewhere, but for the texels that are denoised with those beside an edge.
+        // A cube is convex beside its edges and flat elsewhere, except in texels that are denoised together with those beside an edge.
         if edge.fold(0.0, f64::max) < 0.3 {
             assert!((bend[0] - 0.5).abs() < 1e-3, "{position:?} {bend:?}");
         } else {

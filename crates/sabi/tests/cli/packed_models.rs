@@ -1,4 +1,4 @@
-//! Models that a graph is packed with: what is theirs goes along, and nothing else.
+//! Models in the archive of a graph: their own files are packed, and no others.
 
 use std::fs;
 

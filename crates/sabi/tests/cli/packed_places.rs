@@ -1,4 +1,4 @@
-//! Names and places of files in a packed graph, where they cannot stay as they are.
+//! Names and folders of files in a packed graph that cannot stay unchanged.
 
 use std::fs;
 
@@ -90,7 +90,8 @@ fn a_path_that_is_given_to_a_group_file_is_kept_or_refused() {
     place.sabi(&["unpack", "a.zip"]).good();
     place.sabi(&["check", "a/near.sabi"]).good();
     assert_eq!(place.listing("a/groups"), ["a.bmp", "stain.sabi"]);
-    // The picture goes beside the group file here, too; but with another one of its name there it has to go elsewhere.
+    // Here, too, the picture is placed beside the group file, but if another file has its name there, it has to be placed
+    // in another folder.
     place.write("shot/far.sabi", outer("../far/stain.sabi"));
     pack("shot/far.sabi").good();
     fs::create_dir(place.path("other")).unwrap();

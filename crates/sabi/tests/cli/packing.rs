@@ -1,4 +1,4 @@
-//! Packed graphs: the same maps on another machine, from the archive alone.
+//! Packed graphs: the archive alone gives the same maps on another machine.
 
 use std::fs;
 use std::path::Path;
@@ -37,7 +37,7 @@ fn shot() -> Place {
     ] {
         fs::create_dir_all(place.path(folder)).unwrap();
     }
-    // The folders are those of one project.
+    // The folders belong to one project.
     place.write("sabi.toml", "");
     fs::copy(repository("assets/meshes/column.glb"), place.path("models/column.glb")).unwrap();
     fs::copy(
@@ -103,7 +103,7 @@ fn worn(place: &Place) -> String {
     )
 }
 
-/// Maps of a bake, by name.
+/// Returns the maps of a bake, by name.
 fn maps(place: &Place, graph: &str, model: &str, variant: Option<&str>) -> Vec<(String, Vec<u8>)> {
     let out = format!("maps-{}", variant.unwrap_or("own"));
     let more = variant.map_or(vec![], |variant| vec!["--variant", variant]);
@@ -118,7 +118,7 @@ fn maps(place: &Place, graph: &str, model: &str, variant: Option<&str>) -> Vec<(
         .collect()
 }
 
-/// All files below a folder, with their contents.
+/// Returns all files below a folder, with their contents.
 fn contents(place: &Place, folder: &str) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for name in place.listing(folder) {
@@ -363,7 +363,7 @@ fn a_model_is_packed_with_its_buffers_and_textures_as_they_lie_to_each_other() {
     let model = "as-is/files/triangle/model/triangle.gltf";
     assert_eq!(place.listing("as-is/files/triangle/tex"), ["base color.bmp"]);
     assert!(maps(&place, "as-is/as-is.sabi", model, None) == own);
-    // A texture that is missing, and a model that names a file which is none of its own.
+    // A missing texture, and a model that names a file which does not belong to it.
     fs::rename(place.path("gone"), place.path("assets")).unwrap();
     let with_model = ["--mesh", "assets/models/triangle.gltf"];
     place.write("assets/tex/base color.bmp", "secret");

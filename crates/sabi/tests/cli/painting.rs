@@ -1,4 +1,4 @@
-//! Strokes without a window: left out, without their history, and on another model.
+//! Strokes without a window: bakes without them, removal of their history, and transfer to another model.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ fn json(text: &str) -> Json {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-/// A folder with a column, a barrel, and a graph that was painted on the column.
+/// Creates a folder with a column, a barrel, and a graph that was painted on the column.
 fn painted() -> Place {
     let place = Place::new();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -39,7 +39,7 @@ fn painted() -> Place {
     place
 }
 
-/// Pixels of the mask of the painted node, and what was said.
+/// Returns the pixels of the mask of the painted node, and the messages.
 fn mask(place: &Place, model: &str, more: &[&str]) -> (Vec<u8>, String) {
     software_adapter();
     let usual = [
@@ -126,7 +126,7 @@ fn strokes_are_laid_on_another_model_and_lost_places_are_told() {
     for model in ["edited.glb", "column.glb"] {
         assert!(mask(&place, model, &[]) == (own.clone(), String::new()), "{model}");
     }
-    // Strokes that are on the other model already are not dropped unasked.
+    // Strokes that are already on the other model are dropped only if the user asks for it.
     let larger = [
         "paint",
         "reproject",

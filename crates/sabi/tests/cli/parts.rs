@@ -1,4 +1,4 @@
-//! Parts of a model that count, and faces that are turned, wherever a model is named.
+//! Choice of the parts of a model, and turned faces, in every command that names a model.
 
 use std::fmt::Write as _;
 
@@ -142,7 +142,7 @@ fn a_graph_keeps_which_parts_of_its_own_model_count() {
         );
         assert_eq!(left_out(run.good().stdout.as_bytes()), *expected, "{model} {more:?}");
     }
-    // The archive names its model, and says the same of it.
+    // The archive names its model and the same options for it.
     let pack = |more: &[&str]| place.sabi(&[&["pack", "rock.sabi", "--force", "-o", "rock.zip"], more].concat());
     for (more, expected) in [
         (&[][..], &without_moss),

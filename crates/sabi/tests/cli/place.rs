@@ -1,4 +1,4 @@
-//! A folder of its own for each test, with models and graphs, and the binary run in it.
+//! Separate folder for each test, with models and graphs, in which the binary is run.
 
 use std::fs;
 use std::io::Write as _;
@@ -19,7 +19,7 @@ pub(crate) const RUST: &str = r##"    "base": { "kind": "source/material", "para
     "rust": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "clouds" },
       "params": { "color": "#6b3a1e", "height": 0.01 } }"##;
 
-/// A graph file around nodes, which begin in its line 8.
+/// Returns a graph file with these nodes, which begin in line 8 of the file.
 pub(crate) fn graph(nodes: &str) -> String {
     format!(
         r#"{{
@@ -75,7 +75,7 @@ impl Place {
         fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// Names of everything in a folder, hidden files too, but for the manifest that each bake leaves.
+    /// Returns the names of all files in a folder, including hidden ones, except the manifest that each bake leaves.
     pub(crate) fn listing(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).unwrap_or_else(|error| panic!("{folder}: {error}"));
         let mut names: Vec<String> = entries
@@ -86,7 +86,7 @@ impl Place {
         names
     }
 
-    /// The binary in this folder, away from the user's own settings and caches.
+    /// Returns the binary in this folder, without the user's own settings and caches.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_sabi"));
         command
@@ -97,7 +97,7 @@ impl Place {
             .env("SABI_NODES", self.path(".nodes"))
             .env_remove("RUST_BACKTRACE")
             .env_remove("SABI_LOG")
-            // Lines that only slow machines would see.
+            // Without this, slow machines would print progress lines that fast ones do not.
             .env("SABI_PROGRESS", "none")
             // No test opens a window on the user's screen.
             .env_remove("DISPLAY")
@@ -111,7 +111,7 @@ impl Place {
         done(self.command(arguments).output().unwrap())
     }
 
-    /// The binary with these bytes on standard input.
+    /// Runs the binary with these bytes on standard input.
     pub(crate) fn sabi_reading(&self, arguments: &[&str], input: impl AsRef<[u8]>) -> Done {
         let mut command = self.command(arguments);
         command
@@ -134,11 +134,11 @@ impl Place {
             }
         }
         arguments.extend(more);
-        // The software driver compiles kernels in half the time so, and small maps are computed as fast.
+        // With this setting, the software driver compiles kernels in half the time, and small maps are computed as fast.
         done(self.command(&arguments).env("GALLIVM_PERF", "nopt").output().unwrap())
     }
 
-    /// Runs a bake that must be refused with this code and this sentence, and write nothing.
+    /// Runs a bake that must be refused with this code and this sentence, and must not write files.
     pub(crate) fn refuses(&self, graph: &str, model: &str, more: &[&str], code: i32, words: &str) {
         let done = self.bake(graph, model, more);
         assert_eq!(
@@ -161,7 +161,7 @@ pub(crate) fn done(output: Output) -> Done {
 }
 
 impl Done {
-    /// The run must have succeeded.
+    /// Checks that the run succeeded.
     #[track_caller]
     pub(crate) fn good(self) -> Done {
         assert_eq!(self.code, Some(0), "{self:?}");
@@ -175,7 +175,7 @@ impl Done {
     }
 }
 
-/// Fails with the install command where there is no software driver.
+/// Fails with the install command if there is no software driver.
 pub(crate) fn software_adapter() {
     static THERE: OnceLock<bool> = OnceLock::new();
     let there = THERE.get_or_init(|| {

@@ -1,4 +1,4 @@
-//! `sabi plan`: matrices and the plans that they become.
+//! `sabi plan`: matrices, and the plans that are made from them.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,12 +8,12 @@ use serde_json::{Value as Json, json};
 
 use crate::place::{CLOUDS, Place, graph};
 
-/// A matrix around the keys of its one table.
+/// Returns a matrix with these keys in its only table.
 fn matrix(row: &str) -> String {
     format!("version = 1\nout = \"out/$mesh/$graph(_$variant)(_$seed)/$size-$preset\"\n[[bake]]\n{row}\n")
 }
 
-/// A place with a matrix of this table.
+/// Creates a folder with a matrix of this table.
 fn place_with(row: &str) -> Place {
     let place = Place::new();
     place.write("matrix.toml", matrix(row));
@@ -141,7 +141,7 @@ fn keys_follow_contents_and_not_places() {
     assert_eq!(printed, after);
 }
 
-/// Tables, with `{}` for a good beginning, the exit code, and why each is refused.
+/// Tables, in which `{}` is replaced by a valid beginning, with the exit code and the reason why each is refused.
 const REFUSED: [(&str, i32, &str); 13] = [
     (
         "models = \"gone.glb\"\ngraphs = \"clouds.sabi\"",

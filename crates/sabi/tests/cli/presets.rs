@@ -1,4 +1,4 @@
-//! Presets: what is listed, what is written, and what is told.
+//! Presets: their list, their maps and their messages.
 
 use serde_json::Value as Json;
 
@@ -114,7 +114,7 @@ fn documents_are_shown_written_beside_the_maps_and_listed() {
         assert!(String::from_utf8(document).unwrap().contains(file), "{file}");
     }
     place.sabi(&["verify", "out"]).good();
-    // Documents alone are the folder of an earlier bake, too.
+    // A folder with documents alone is also the folder of an earlier bake.
     for map in listing.iter().filter(|name| !name.starts_with("cube")) {
         std::fs::remove_file(place.path("out").join(map)).unwrap();
     }

@@ -1,10 +1,10 @@
-//! Progress off a terminal.
+//! Progress without a terminal.
 
 use serde_json::{Value as Json, json};
 
 use crate::place::{Done, Place, software_adapter};
 
-/// Lines of standard error that are JSON.
+/// Returns the lines of standard error that are JSON.
 fn events(run: &Done) -> Vec<Json> {
     let lines = run.stderr.lines().filter(|line| line.starts_with('{'));
     lines

@@ -1,4 +1,4 @@
-//! Borders of small made charts.
+//! Borders of small artificial charts.
 
 use super::*;
 use crate::layout::tests::{atlas, loose_ghost};
@@ -7,8 +7,8 @@ use crate::{Padding, PaddingMap, set_keys};
 /// Pixels along a side of the maps.
 const SIZE: u32 = 32;
 
-/// Two charts of one material with two rings of ghosts each: columns 4 to 12 and 20 to 28 of rows 4 to 28. Ghosts show the other chart,
-/// or the border of their own.
+/// Creates two charts of one material with two rings of ghosts each: columns 4 to 12 and 20 to 28 of rows 4 to 28. Ghosts
+/// show the other chart, or the border of their own.
 fn two_charts(show_neighbors: bool) -> Atlas {
     let mut made = atlas(
         SIZE,
@@ -31,8 +31,8 @@ fn two_charts(show_neighbors: bool) -> Atlas {
     made
 }
 
-/// A map of the two charts whose texels, ghosts among them, have the values of `value(column, row, chart, is_owned)`: as it is laid out, and
-/// with borders that repeat their charts.
+/// Returns a map of the two charts whose texels, including ghosts, have the values of `value(column, row, chart,
+/// is_owned)`: as gathered, and after borders repeat their charts.
 fn maps<const N: usize>(
     channel: &Channel,
     value: impl Fn(u32, u32, u32, bool) -> [f32; N] + Sync,
@@ -40,7 +40,7 @@ fn maps<const N: usize>(
     maps_of(&two_charts(true), channel, value)
 }
 
-/// The same of another atlas.
+/// Returns the same maps for another atlas.
 fn maps_of<const N: usize>(
     atlas: &Atlas,
     channel: &Channel,
@@ -63,7 +63,7 @@ fn maps_of<const N: usize>(
     [laid_out, settled]
 }
 
-/// The next mip level by averaging four texels.
+/// Returns the next mip level, in which each texel is the mean of four.
 fn halved(level: &[f32]) -> Vec<f32> {
     let side = level.len().isqrt();
     let mean = |at: usize| {
@@ -73,7 +73,7 @@ fn halved(level: &[f32]) -> Vec<f32> {
     (0..level.len() / 4).map(mean).collect()
 }
 
-/// Reads a level between its texels, at a place in pixels of the map.
+/// Reads a level with interpolation, at a position in pixels of the map.
 fn read(level: &[f32], [x, y]: [f32; 2]) -> f32 {
     let side = level.len().isqrt() as i32;
     let [x, y] = [x, y].map(|at| at * side as f32 / SIZE as f32 - 0.5);
@@ -83,7 +83,7 @@ fn read(level: &[f32], [x, y]: [f32; 2]) -> f32 {
     row(top) * (1.0 - v) + row(top + 1) * v
 }
 
-/// Whether a chart owns its texels, or its ghosts have the other chart's value.
+/// Returns different values for the two charts; a ghost has the value of the other chart.
 fn of_side(chart: u32, is_owned: bool) -> f32 {
     f32::from(u8::from((chart == 0) == is_owned))
 }
@@ -95,7 +95,7 @@ fn what_is_read_in_a_chart_is_its_own_value_where_the_data_jumps_with_mips_to_th
         assert!(read(&laid_out.data, [12.0, 16.0]) < 1.0, "the ghosts leak");
         let mut level = settled.data;
         for number in 0..4 {
-            // The charts are eight texels apart, so that from the second level on, texels lie over both halves of the padding.
+            // The charts are eight texels apart, so from the second level on, a texel can cover the padding of both charts.
             let reach = if number < 2 {
                 [4.0, 12.0, 20.0, 28.0]
             } else {
@@ -116,7 +116,7 @@ fn what_is_read_in_a_chart_is_its_own_value_where_the_data_jumps_with_mips_to_th
 }
 
 #[test]
-fn padding_of_a_color_has_nothing_of_the_neighbor() {
+fn padding_of_a_color_contains_nothing_of_the_neighbor() {
     let (red, blue) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let color = |_, _, chart, is_owned| if of_side(chart, is_owned) == 1.0 { red } else { blue };
     let [_, settled] = maps(&Channel::BaseColor, color);
@@ -127,8 +127,8 @@ fn padding_of_a_color_has_nothing_of_the_neighbor() {
 }
 
 #[test]
-fn a_jump_is_seen_under_variation_that_is_smaller() {
-    // A slope across the border, some of it noise, and a jump of ten times that.
+fn a_jump_is_detected_if_the_variation_beside_it_is_smaller() {
+    // A slope across the border, with some noise, and a jump of ten times that.
     let grain = |x: u32, y: u32| ((x * 7 + y * 3) % 5) as f32 * 0.001;
     let own = |x: u32, y: u32| 0.02 * x as f32 + grain(x, y);
     let value = |x: u32, y: u32, _, is_owned| [own(x, y) + if is_owned { 0.0 } else { 1.0 }];
@@ -141,7 +141,7 @@ fn a_jump_is_seen_under_variation_that_is_smaller() {
 }
 
 #[test]
-fn a_jump_of_one_component_is_seen_under_grain_of_another() {
+fn a_jump_of_one_component_is_detected_despite_noise_in_another() {
     let grain = |x: u32, y: u32| 0.5 + 0.5 * ((x * 7 + y * 3) % 5) as f32 / 4.0;
     let color = |x, y, chart, is_owned| match of_side(chart, is_owned) == 1.0 {
         true => [grain(x, y), 0.0, 0.0],
@@ -159,7 +159,7 @@ fn a_jump_of_one_component_is_seen_under_grain_of_another() {
 }
 
 #[test]
-fn beyond_a_border_of_the_surface_nothing_is_a_jump() {
+fn at_a_border_of_the_surface_nothing_counts_as_a_jump() {
     let kink = |_, _, _, is_owned| [f32::from(u8::from(is_owned))];
     let [laid_out, settled] = maps_of(&two_charts(false), &Channel::Roughness, kink);
     assert!(laid_out == settled);
@@ -186,8 +186,8 @@ fn both_sides_of_a_step_in_height_meet_beside_the_chart_and_padding_is_its_own()
 }
 
 #[test]
-fn ids_are_repeated_whatever_the_chart_holds() {
-    // Bands of two ids in each chart, and a third one beyond its borders.
+fn ids_are_always_repeated_from_their_own_chart() {
+    // Bands of two ids in each chart, and a third id beyond its borders.
     let id = |_, y, _, is_owned| match (is_owned, y % 2) {
         (true, 0) => [0.25; 3],
         (true, _) => [0.5; 3],

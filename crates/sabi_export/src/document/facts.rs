@@ -1,4 +1,4 @@
-//! Facts about the files of a set, noted while they are written.
+//! Facts about the files of a set, recorded while they are written.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ pub(crate) struct SetFacts {
     pub(crate) name: String,
     /// Pixels along a side of the maps.
     pub(crate) size: u32,
-    /// Channels that the material has; masks are none.
+    /// Channels of the material, without masks.
     pub(crate) channels: BTreeMap<Channel, ChannelFacts>,
     /// Files that were written.
     pub(crate) files: BTreeMap<MapIndex, FileFacts>,
@@ -33,21 +33,21 @@ pub(crate) struct FileFacts {
 /// Values of a channel in one set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ChannelFacts {
-    /// Its value, if it is the same everywhere.
+    /// The value, if it is the same everywhere.
     pub(crate) constant: Option<Value>,
-    /// Lowest and highest of its first component.
+    /// Lowest and highest value of its first component.
     pub(crate) range: [f32; 2],
 }
 
 impl SetFacts {
-    /// Adds a channel; outputs of the graph and maps of the model are no part of a material.
+    /// Adds a channel. Outputs of the graph and maps of the model are ignored, since they do not belong to a material.
     pub(crate) fn add(&mut self, channel: &Channel, facts: ChannelFacts) {
         if channel.output_kind().is_none() && !matches!(channel, Channel::Mesh(_)) {
             self.channels.insert(channel.clone(), facts);
         }
     }
 
-    /// The value of a channel that is the same everywhere; the neutral one where the material does not have it.
+    /// Returns the value of a channel that is the same everywhere; the neutral value if the material does not have the channel.
     pub(crate) fn constant(&self, channel: &Channel) -> Option<Value> {
         match self.channels.get(channel) {
             Some(facts) => facts.constant,

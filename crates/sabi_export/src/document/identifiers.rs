@@ -1,25 +1,25 @@
-//! Names that MaterialX and USD take: letters of ASCII, digits and lines, no digit first.
+//! Names that are valid in MaterialX and USD: ASCII letters, digits and underscores, not starting with a digit.
 
 use std::collections::BTreeSet;
 
-/// Identifiers that are all different.
+/// Set of distinct identifiers.
 #[derive(Debug, Default)]
 pub(super) struct Identifiers {
     taken: BTreeSet<String>,
 }
 
 impl Identifiers {
-    /// Identifiers of which these are taken.
+    /// Creates a set in which these identifiers are taken.
     pub(super) fn without(taken: &[&str]) -> Identifiers {
         Identifiers {
             taken: taken.iter().map(|name| (*name).to_owned()).collect(),
         }
     }
 
-    /// The identifier for a name, with a number behind it where an earlier name has the same. A name without any letter or digit
-    /// of ASCII gets `otherwise`, and that stands before a digit.
+    /// Returns the identifier for a name, followed by a number if an earlier name has the same one. A name without any
+    /// ASCII letter or digit becomes `otherwise`, which is also put before a leading digit.
     pub(super) fn add(&mut self, name: &str, otherwise: &str) -> String {
-        // Two lines in a row are no name in GLSL, which MaterialX becomes.
+        // Two consecutive underscores are not allowed in GLSL, to which MaterialX is compiled.
         let words = name.split(|letter: char| !letter.is_ascii_alphanumeric());
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let mut wanted = match words.is_empty() {
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn any_name_becomes_an_identifier_of_its_own() {
+    fn any_name_becomes_a_unique_identifier() {
         let mut identifiers = Identifiers::without(&["Surface"]);
         let cases = [
             ("Leather Strap", "Leather_Strap"),

@@ -1,4 +1,4 @@
-//! Materials as documents see them: the tiles of one together, its channels as files or values.
+//! Materials as used in documents: the tiles of a material combined, its channels as files or values.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::name_pattern::{NameParts, NamePattern};
 use crate::preset::{Component, ComponentSource, Format, Map, Preset};
 use crate::{Channel, Value};
 
-/// Text in place of the number of a tile, as MaterialX and USD have it.
+/// Placeholder for the number of a tile, in MaterialX and USD.
 const TILES: &str = "<UDIM>";
 
 /// Material of a document.
@@ -18,22 +18,22 @@ const TILES: &str = "<UDIM>";
 pub(crate) struct DocumentMaterial {
     /// Stem of the files: the material.
     pub(crate) name: String,
-    /// Its name, as an identifier.
+    /// The name as an identifier.
     pub(super) id: String,
     /// UV set of the geometry that the maps are for.
     pub(super) uv_set: u32,
     /// Files that it uses.
     pub(super) maps: Vec<DocumentMap>,
-    /// Channels that it has, but for those that change nothing.
+    /// Channels of the material, except those without effect.
     pub(super) channels: BTreeMap<Channel, Look>,
-    /// Channels that vary and of which the preset has no file that a document can use.
+    /// Channels that vary and for which the preset has no file that a document can use.
     pub(crate) missing: Vec<Channel>,
 }
 
 /// File that a material uses.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DocumentMap {
-    /// Its word in the preset, as an identifier.
+    /// The word for the map in the preset, as an identifier.
     pub(super) id: String,
     /// File name, with `<UDIM>` in place of the numbers of tiles.
     pub(super) file: String,
@@ -41,29 +41,29 @@ pub(super) struct DocumentMap {
     pub(super) files: Vec<String>,
     /// Number of its components.
     pub(super) components: usize,
-    /// True if all but alpha went through the sRGB curve.
+    /// True if the sRGB curve was applied to all components except alpha.
     pub(super) is_srgb: bool,
-    /// Scale and bias that give each component's value from the number in the file.
+    /// Scale and bias to compute the value of each component from the number in the file.
     pub(super) decoding: [[f32; 2]; 4],
 }
 
 /// Origin of a channel's values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Look {
-    /// The same everywhere, linear.
+    /// The same value everywhere, linear.
     Value(Value),
-    /// Three components of a file: its red, green and blue.
+    /// The red, green and blue components of a file.
     Rgb(usize),
     /// One component of a file.
     Component {
         /// Index of the file.
         map: usize,
-        /// Its component, from 0 on.
+        /// Component, from 0.
         index: usize,
     },
 }
 
-/// A preset with the names of its files, and which of them a document may name.
+/// A preset with the names of its files, and the selection of files that a document may use.
 #[derive(Clone, Copy)]
 pub(crate) struct PresetFiles<'a> {
     /// Number of the preset among those of the bake.
@@ -110,22 +110,22 @@ pub(crate) fn materials(facts: &BTreeMap<SetKey, SetFacts>, files: PresetFiles<'
 /// The sets of one material.
 struct Tiles<'a> {
     sets: Vec<&'a SetFacts>,
-    /// True if it has a set for each of several tiles.
+    /// True if the material has several tiles with a set each.
     is_udim: bool,
     files: PresetFiles<'a>,
-    /// Files that its channels use so far, with their number in the preset.
+    /// Files used by its channels so far, with their number in the preset.
     maps: Vec<(usize, DocumentMap)>,
     map_identifiers: Identifiers,
 }
 
 impl Tiles<'_> {
-    /// Channels with their origins, and those that have none.
+    /// Returns the channels with their origins, and the channels without one.
     fn channels(&mut self) -> (BTreeMap<Channel, Look>, Vec<Channel>) {
         let mut channels = BTreeMap::new();
         let mut missing = Vec::new();
         for channel in Channel::ALL {
             let has_it = self.sets.iter().any(|set| set.channels.contains_key(&channel));
-            // The roughness of a layer goes with the layer.
+            // The roughness of a layer is omitted together with the layer.
             let layer = match channel {
                 Channel::CoatRoughness => Some(Channel::Coat),
                 Channel::SheenRoughness => Some(Channel::Sheen),
@@ -143,7 +143,7 @@ impl Tiles<'_> {
                 continue;
             }
             match self.file(&channel).or(value.map(Look::Value)) {
-                // A normal map is written for every material; the flat normal needs none.
+                // A normal map is written for every material, but a flat normal needs no map.
                 Some(Look::Value(_)) if channel == Channel::Normal => {}
                 Some(look) => drop(channels.insert(channel, look)),
                 None => missing.push(channel),
@@ -152,14 +152,14 @@ impl Tiles<'_> {
         (channels, missing)
     }
 
-    /// The value of a channel that is the same everywhere in all tiles.
+    /// Returns the value of a channel that is the same everywhere in all tiles.
     fn value(&self, channel: &Channel) -> Option<Value> {
         let mut values = self.sets.iter().map(|set| set.constant(channel));
         let first = values.next()??;
         values.all(|value| value == Some(first)).then_some(first)
     }
 
-    /// The best file with the channel: floats before whole numbers, more bits before fewer, then the first.
+    /// Returns the best file with the channel: floats before integers, more bits before fewer, then the first one.
     fn file(&mut self, channel: &Channel) -> Option<Look> {
         let maps = self.files.preset.maps.iter().enumerate();
         let mut found: Vec<(usize, &Map)> = maps
@@ -169,7 +169,7 @@ impl Tiles<'_> {
         found.into_iter().find_map(|(at, map)| self.look(channel, at, map))
     }
 
-    /// The channel in a file; none if a tile lacks the file, or if documents cannot read the channel from it.
+    /// Returns the channel in a file; `None` if a tile lacks the file, or if documents cannot read the channel from it.
     fn look(&mut self, channel: &Channel, at: usize, map: &Map) -> Option<Look> {
         let components = self.components([self.files.index, at])?;
         let place = |wanted: usize| {
@@ -186,7 +186,7 @@ impl Tiles<'_> {
             return self.map(at, map, &components).map(Look::Rgb);
         }
         let index = place(0)?;
-        // Programs differ in where they find the alpha of a gray picture.
+        // Programs differ in which component of a gray image they read as alpha.
         let is_readable = components.len() != 2 || index == 0;
         let is_height = *channel == Channel::Height;
         let is_one_range = !is_height || self.decoding(&components[index], at, map).is_some();
@@ -197,7 +197,7 @@ impl Tiles<'_> {
         Some(Look::Component { map, index })
     }
 
-    /// The components of a file that every tile has; some lack an alpha that would be 1.
+    /// Returns the components of a file that every tile has. Some tiles lack an alpha that would be 1.
     fn components(&self, index: MapIndex) -> Option<Vec<Component>> {
         let files = self.sets.iter().map(|set| set.files.get(&index));
         let all: Vec<&[Component]> = files.map(|file| Some(&file?.components[..])).collect::<Option<_>>()?;
@@ -217,7 +217,7 @@ impl Tiles<'_> {
         let files: Vec<String> = written.map(|file| file.name.clone()).collect();
         let mut decoding = [[1.0, 0.0]; 4];
         for (place, component) in decoding.iter_mut().zip(components) {
-            // A height without a single range is not read from the file.
+            // If the tiles differ in the range of a height, it is not read from the file.
             *place = self.decoding(component, at, map).unwrap_or([1.0, 0.0]);
         }
         let made = DocumentMap {
@@ -232,7 +232,7 @@ impl Tiles<'_> {
         Some(self.maps.len() - 1)
     }
 
-    /// Name of a file with `<UDIM>` in place of the numbers; none for a material of one tile.
+    /// Returns the name of a file with `<UDIM>` in place of the numbers; `None` for a material with one tile.
     fn file_of_tiles(&self, map: &Map) -> Option<String> {
         let set = self.sets.first().filter(|_| self.is_udim)?;
         let parts = NameParts {
@@ -245,16 +245,16 @@ impl Tiles<'_> {
         Some(format!("{stem}.{}", map.format.ending()))
     }
 
-    /// Divisor of the values of a file; none if the tiles differ in it.
+    /// Returns the divisor of the values of a file; `None` if the tiles have different ones.
     fn scale(&self, index: MapIndex) -> Option<f32> {
         let mut scales = self.sets.iter().filter_map(|set| Some(set.files.get(&index)?.scale));
-        // A file that no tile has is not read.
+        // If no tile has the file, it is not read.
         let first = scales.next().unwrap_or(1.0);
         scales.all(|scale| scale == first).then_some(first)
     }
 
-    /// Scale and bias of a component: whole numbers span the range of a height, and inverted ones are turned back. None if the
-    /// ranges of the tiles differ where they matter.
+    /// Returns scale and bias of a component: integers span the range of a height, and inverted values are inverted back.
+    /// `None` if the ranges of the tiles differ where it matters.
     fn decoding(&self, component: &Component, at: usize, map: &Map) -> Option<[f32; 2]> {
         let is_height = matches!(component.source, ComponentSource::Channel(Channel::Height, _));
         let spans_range = map.format.is_whole() || map.is_normalized;
@@ -279,7 +279,7 @@ impl Tiles<'_> {
     }
 }
 
-/// Returns true if a document says the same without the value.
+/// Returns true if omitting the value from a document has no effect.
 pub(crate) fn changes_nothing(channel: &Channel, value: Value) -> bool {
     match channel {
         Channel::BaseColor

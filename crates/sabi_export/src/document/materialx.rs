@@ -1,4 +1,4 @@
-//! MaterialX 1.39: for each material a graph of its files, and the shaders `gltf_pbr` and `open_pbr_surface` that read it.
+//! MaterialX 1.39: each material becomes a graph of its files, with the shaders `gltf_pbr` and `open_pbr_surface`, which read the graph.
 //!
 //! Source of the names of inputs: the libraries of MaterialX 1.39.5, `bxdf/gltf_pbr.mtlx` and `bxdf/open_pbr_surface.mtlx`.
 
@@ -22,7 +22,7 @@ pub(super) fn text(materials: &[DocumentMaterial]) -> String {
     root.document()
 }
 
-/// Names of both materials that stand for one.
+/// Returns the names of the two MaterialX materials that represent a material.
 pub(super) fn names(material: &DocumentMaterial) -> [String; 2] {
     ["gltf_pbr", "open_pbr_surface"].map(|shader| format!("M_{}_{shader}", material.id))
 }

@@ -1,4 +1,4 @@
-//! Documents of sets whose files are told, without pictures.
+//! Documents of sets whose files are described by hand, without images.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ fn set(material: u32, udim: Option<u32>, name: &'static str) -> TestSet {
     }
 }
 
-/// Facts of a bake of sets with a preset that writes each map with a channel that varies, and those that are always written.
+/// Returns the facts of a bake of sets with a preset, which writes each map with a channel that varies, and those that are always written.
 fn facts(preset: &Preset, sets: &[TestSet]) -> BTreeMap<SetKey, SetFacts> {
     let names = NamePattern::parse(&preset.names, &[]).unwrap();
     let of_set = |set: &TestSet| {
@@ -108,7 +108,7 @@ fn own(maps: &str) -> Preset {
     Preset::parse("own.toml", &format!("{head}{maps}")).unwrap()
 }
 
-/// Two materials: one with maps and a name that is no identifier, one of values alone.
+/// Returns two materials: one with maps and a name that is not an identifier, and one with constant values only.
 fn two_materials() -> [TestSet; 2] {
     let mut strap = set(0, None, "Leather <Strap> & \"Buckle\"");
     strap.vary = vec![Channel::BaseColor, Channel::Roughness, Channel::Normal, Channel::Height];
@@ -130,7 +130,7 @@ fn two_materials() -> [TestSet; 2] {
     [strap, lamp]
 }
 
-/// The presets without maps that are always written, so that values stay values.
+/// Returns a preset without the maps that are always written, so that constant values stay values.
 fn frugal(name: &str) -> Preset {
     let text = crate::preset::builtin_text(name).unwrap();
     Preset::parse(name, &text.replace("when = \"always\"\n", "")).unwrap()
@@ -246,13 +246,13 @@ fn usd_leaves_out_the_channels_that_its_surface_does_not_have() {
 }
 
 #[test]
-fn numbers_of_a_file_are_turned_back_into_values() {
+fn numbers_in_a_file_are_converted_back_to_values() {
     let preset = own(
         "[[map]]\nname = \"Mask\"\nr = \"metallic\"\ng = \"occlusion\"\nb = 0.5\na = \"1 - roughness\"\nformat = \"png8\"\n\
          [[map]]\nname = \"Height\"\ngray = \"height\"\nformat = \"png16\"\n",
     );
     let mut wood = set(0, None, "wood");
-    // Components of four are read; the test's files lose an alpha that is no opacity of their own.
+    // Maps with four components are read. The files of this test lack an alpha that is not a separate opacity.
     wood.vary = vec![Channel::Metallic, Channel::Roughness, Channel::Height, Channel::Opacity];
     let usd = text_of(&preset, Document::Usda, std::slice::from_ref(&wood));
     for line in [
@@ -278,7 +278,7 @@ fn numbers_of_a_file_are_turned_back_into_values() {
 }
 
 #[test]
-fn tiles_are_one_material_whose_files_have_a_token_for_the_number() {
+fn tiles_are_one_material_whose_file_names_have_a_placeholder() {
     let preset = own("names = \"$material(_u$udim)_$map\"\n\
          [[map]]\nname = \"Color & more\"\nrgb = \"base_color\"\na = \"opacity\"\nformat = \"png8\"\nsrgb = true\n\
          [[map]]\nname = \"Height\"\ngray = \"height\"\nformat = \"png16\"\n\

@@ -10,7 +10,7 @@ use crate::{Channel, Value};
 
 /// Root of the materials.
 const ROOT: &str = "Materials";
-/// Scale and bias that give each component of a normal from a number of 0..1; files of floats have such numbers, too.
+/// Scale and bias to compute each component of a normal from a number in 0..1. Float files contain such numbers, too.
 const NORMAL: [[f32; 2]; 4] = [[2.0, -1.0], [2.0, -1.0], [2.0, -1.0], [1.0, 0.0]];
 const PLAIN: [[f32; 2]; 4] = [[1.0, 0.0]; 4];
 /// Outputs of a texture.
@@ -93,7 +93,7 @@ fn write_material(text: &mut String, material: &DocumentMaterial) {
     if !material.maps.is_empty() {
         lines.line("");
         lines.shader("Texcoord", "UsdPrimvarReader_float2");
-        // The names that programs give to the UV sets of a model.
+        // The names that programs use for the UV sets of a model.
         let primvar = match material.uv_set {
             0 => "st".to_owned(),
             set => format!("st{set}"),
@@ -129,7 +129,7 @@ fn surface(lines: &mut Lines<'_>, material: &DocumentMaterial, path: &str) {
         }
     }
     if material.channels.contains_key(&Channel::Opacity) {
-        // Where the surface is not, it does not shine either.
+        // Where the surface is transparent, there is no reflection either.
         lines.line("token inputs:opacityMode = \"presence\"");
     }
     lines.line("token outputs:surface");
@@ -191,7 +191,7 @@ fn output(look: &Look) -> &'static str {
     }
 }
 
-/// A path beside the document. Behind `@@@`, a path may have `@` in it.
+/// Formats a path beside the document. Between `@@@`, a path may contain `@`.
 fn asset(file: &str) -> String {
     match file.contains('@') {
         true => format!("@@@./{}@@@", file.replace("@@@", "\\@@@")),
@@ -215,7 +215,7 @@ impl Lines<'_> {
         if !line.is_empty() {
             self.text.push_str(&"    ".repeat(self.depth));
         }
-        // Text takes whatever is written.
+        // Writing to a string cannot fail.
         let _ = writeln!(self.text, "{line}");
     }
 

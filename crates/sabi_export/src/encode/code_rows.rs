@@ -1,7 +1,7 @@
-//! Rows of a file in whole numbers.
+//! Rows of a file in integers.
 //!
-//! The way of a row: [`Plane::units`] gives its values between 0 and 1, colors go through the sRGB curve, [`level`] scales them to
-//! codes, and each is rounded, at a threshold of the noise where it lies in a gradient.
+//! [`Plane::units`] returns the values of a row between 0 and 1, the sRGB curve is applied to colors, [`level`] scales the
+//! values to codes, and each is rounded; in a gradient, the threshold of rounding is varied by noise.
 
 use std::mem;
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub(super) trait Code: Copy {
 
     fn new(code: u32) -> Self;
 
-    /// Returns the code of a value without dithering. `level` is made of `unit`.
+    /// Returns the code of a value without dithering. `level` was computed from `unit`.
     fn rounded(unit: f32, level: f32, is_color: bool) -> Self;
 
     /// Returns the thresholds of a row.
@@ -62,8 +62,8 @@ impl Code for [u8; 2] {
     }
 }
 
-/// Fills rows of a file of a size with the codes of their pixels, components interleaved. `is_srgb` says that components but the last
-/// of two or four go through the sRGB curve.
+/// Fills rows of a file with the codes of their pixels, components interleaved. `is_srgb` is true if the sRGB curve is
+/// applied to all components, except the last of two or four.
 pub(super) fn code_rows<C: Code>(
     planes: &[Plane<'_>],
     size: [u32; 2],
@@ -110,8 +110,8 @@ impl Component<'_> {
         }
     }
 
-    /// Fills slots of neighboring rows with codes that are dithered where the slope to a neighbor is less than two codes. An area
-    /// of one value would only get noise; so would an edge, whose pixels differ by more.
+    /// Fills adjacent rows with codes, which are dithered where a neighbor differs by less than two codes. Dithering would
+    /// only add noise to an area of constant value or to an edge, whose pixels differ by more.
     fn dither<'c, C: Code + 'c>(
         &self,
         pattern: DitherPattern,
@@ -129,7 +129,7 @@ impl Component<'_> {
             }
             let current = own.take().unwrap_or_else(|| values(y, RowValues::default()));
             let next = (y + 1 < self.size[1]).then_some(y + 1);
-            // Fresh room for the first row, whose neighbors leave none.
+            // For the first row there is no earlier buffer to reuse.
             below = next.map(|next| values(next, below.take().unwrap_or_default()));
             let beside = [&above, &below].map(|row| row.as_ref().map(|row| &row.levels[..]));
             find_gentle_slopes(&current.levels, beside, &mut is_gentle);
@@ -141,7 +141,7 @@ impl Component<'_> {
                     false => C::rounded(*unit, *level, self.is_color),
                 };
             }
-            // The room of the row above takes the next row below.
+            // The buffer of the row above is reused for the next row below.
             own = mem::replace(&mut below, above.replace(current));
         }
     }
@@ -152,7 +152,7 @@ impl Component<'_> {
 struct RowValues {
     /// Linear, 0..1.
     units: Vec<f32>,
-    /// As codes before they are rounded, after the sRGB curve for colors.
+    /// Values in units of codes before rounding, with the sRGB curve applied to colors.
     levels: Vec<f32>,
 }
 
@@ -172,7 +172,7 @@ impl RowValues {
     }
 }
 
-/// Finds the pixels of a row that differ from a neighbor by less than two codes, but differ.
+/// Finds the pixels of a row that differ from a neighbor, but by less than two codes.
 fn find_gentle_slopes(row: &[f32], beside: [Option<&[f32]>; 2], is_gentle: &mut Vec<bool>) {
     let gentle = |one: f32, other: f32| {
         let step = (one - other).abs();

@@ -1,4 +1,4 @@
-//! Components of files, and the values of their pixels as files have them.
+//! Components of files, and the conversion of their pixels to the values in files.
 
 use std::ops::Range;
 
@@ -6,25 +6,25 @@ use sabi_image::DitherPattern;
 
 use crate::ChannelPixels;
 
-/// Meaning of the values of a channel between 0 and 1.
+/// How the values of a channel are mapped to 0..1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Codes {
     /// 0..1.
     Unit,
-    /// Components of unit vectors, −1..1: 0 is the middle code rounded up. Normals never point inward.
+    /// Components of unit vectors, −1..1, where 0 becomes the middle code rounded up. Normals never point inward.
     Normal {
-        /// True if green means downward.
+        /// True if green points down.
         is_down: bool,
     },
-    /// Components of unit vectors that point anywhere, −1..1, also in floats; a vector without a direction is the middle code.
+    /// Components of unit vectors in any direction, −1..1, also in float files. A vector without a direction becomes the middle code.
     Direction,
-    /// −1..1; floats are written as they are.
+    /// −1..1. Floats are written unchanged.
     Signed,
-    /// From the lowest to the highest value of the set; the report has them. Floats are written as they are.
+    /// From the lowest to the highest value of the set, which are in the report. Floats are written unchanged.
     Range([f32; 2]),
-    /// The same, also in floats.
+    /// Like [`Codes::Range`], also for floats.
     Normalized([f32; 2]),
-    /// 0..1 after a division by this; the report has it.
+    /// 0..1 after division by this number, which is in the report.
     Scaled(f32),
 }
 
@@ -65,8 +65,8 @@ impl Plane<'_> {
         }
     }
 
-    /// Fills in the values of some pixels for whole numbers, 0..1. Inversions and turns of green happen here, before rounding: a
-    /// flat normal stays the middle code.
+    /// Fills in the values of some pixels for integer files, 0..1. Inversion and the direction of green are applied here,
+    /// before rounding, so that a flat normal stays the middle code.
     pub(super) fn units(&self, range: Range<usize>, units: &mut [f32]) {
         let Plane::Channel {
             pixels,
@@ -115,7 +115,7 @@ impl Plane<'_> {
             Codes::Unit | Codes::Normal { .. } => return self.units(range, floats),
             Codes::Normalized(_) | Codes::Scaled(_) => {
                 self.units(range, floats);
-                // Ghosts beyond the charts may exceed the range, as they do in whole numbers.
+                // Ghosts beyond the charts may exceed the range; they are clamped as in integer files.
                 return floats.iter_mut().for_each(|value| *value = value.clamp(0.0, 1.0));
             }
             Codes::Range([low, high]) => {
@@ -137,11 +137,11 @@ impl Plane<'_> {
     }
 }
 
-/// Fills in what is made of the values of some pixels.
+/// Fills in values computed from some pixels.
 fn map_values(pixels: &ChannelPixels, range: Range<usize>, out: &mut [f32], make: impl Fn(&[f32]) -> f32) {
     let components = pixels.components;
     let values = &pixels.data[range.start * components..range.end * components];
-    // A number of values that the compiler knows makes this many times as fast.
+    // With a constant number of components, the compiler makes this much faster.
     match components {
         1 => {
             let (values, _) = values.as_chunks::<1>();
@@ -158,8 +158,8 @@ fn map_values(pixels: &ChannelPixels, range: Range<usize>, out: &mut [f32], make
     }
 }
 
-/// A normal of unit length: padding, 16-bit storage and smaller maps may have bent it. One that points inward, which maps of
-/// two channels cannot hold, is tilted up to the surface. A vector without a direction is the flat normal.
+/// Returns a normal with unit length: padding, 16-bit storage and smaller maps may have changed it. A normal that points inward, which
+/// maps of two channels cannot represent, is tilted to the surface. A vector without a direction becomes the flat normal.
 fn normal(values: &[f32], is_down: bool) -> [f32; 3] {
     let [x, y, z] = match values {
         [x, y, z] => [*x, *y, z.max(0.0)],

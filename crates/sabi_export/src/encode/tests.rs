@@ -34,12 +34,12 @@ fn the_flat_normal_is_the_middle_code_rounded_up() {
     assert_eq!(broken, Pixels::U16(vec![32768, 32768, 65535]));
 }
 
-/// The largest angle between unit vectors and what their codes stand for, degrees.
+/// Returns the largest angle between unit vectors and the vectors that their codes represent, in degrees.
 fn largest_turn(bits: u8) -> f64 {
     let size = 64_u32;
     let vectors: Vec<[f32; 3]> = (0..size * size)
         .map(|i| {
-            // Evenly over the half sphere, by the golden angle.
+            // Evenly distributed over the half sphere by the golden angle.
             let z = 1.0 - (f64::from(i) + 0.5) / f64::from(size * size);
             let (around, across) = (2.399_963_229_728_653 * f64::from(i), (1.0 - z * z).sqrt());
             [across * around.cos(), across * around.sin(), z].map(|part| part as f32)
@@ -62,8 +62,8 @@ fn largest_turn(bits: u8) -> f64 {
 }
 
 #[test]
-fn normals_come_back_from_their_codes_as_exactly_as_the_bits_allow() {
-    // Half a step of each component, √3/255 and √3/65535 as a vector; and what acos loses near 1.
+fn normals_are_restored_from_codes_as_exactly_as_the_bits_allow() {
+    // Half a step of each component, √3/255 and √3/65535 as a vector, plus the rounding error of acos near 1.
     let half_step = |codes: f64| (3.0_f64.sqrt() / codes).to_degrees();
     let (at_8, at_16) = (largest_turn(8), largest_turn(16));
     assert!(at_8 < half_step(255.0), "{at_8}");
@@ -169,7 +169,7 @@ fn colors_may_be_dithered_after_their_curve() {
 }
 
 #[test]
-fn green_that_means_downward_is_the_mirror_of_green_that_means_upward() {
+fn green_down_is_the_mirror_image_of_green_up() {
     let tilted = |y: f32| vec![0.3, y, (1.0 - 0.09 - y * y).sqrt()];
     for bits in [8, 16] {
         for y in [0.0, 0.25, -0.7] {
@@ -194,7 +194,7 @@ fn normals_never_point_inward() {
 }
 
 #[test]
-fn inversions_and_constants_are_packed_beside_channels() {
+fn inverted_and_constant_components_are_packed_beside_channels() {
     let pixels = ChannelPixels {
         components: 1,
         data: vec![0.25, 1.0],

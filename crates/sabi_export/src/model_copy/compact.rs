@@ -1,5 +1,5 @@
-//! Removal of entries that nothing uses any more from the lists of a glTF file, with all references renumbered. Only files
-//! whose references are all known are compacted: an unknown extension may count on places in the lists.
+//! Removal of entries that have become unused from the lists of a glTF file; all references are renumbered. This is done
+//! only if all references of the file are known: an unknown extension may contain indices into the lists.
 
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ enum List {
 }
 
 impl List {
-    /// All lists; what an entry refers to is in later ones.
+    /// All lists. An entry refers only to entries of later lists.
     const ALL: [List; 6] = [
         List::Textures,
         List::Images,
@@ -64,7 +64,7 @@ const KNOWN: [&str; 17] = [
     "MSFT_texture_dds",
 ];
 
-/// Entries that were in use, of each list.
+/// Entries of each list that were in use.
 #[derive(Debug)]
 pub(super) struct Uses {
     used: [BTreeSet<usize>; List::ALL.len()],
@@ -88,7 +88,7 @@ impl Uses {
         })
     }
 
-    /// Removes the entries that were in use and are no longer. The first buffer stays where it is the binary chunk.
+    /// Removes the entries that were in use and no longer are. The first buffer stays if it is the binary chunk.
     pub(super) fn compact(&self, document: &mut Json, has_chunk: bool) -> Removed {
         let mut removed = Removed::default();
         for (list, before) in List::ALL.into_iter().zip(&self.used) {
@@ -126,12 +126,12 @@ impl Uses {
 #[derive(Debug, Default)]
 pub(super) struct Removed {
     pub(super) views: Vec<Json>,
-    /// Places that pictures had, rising.
+    /// Indices of the removed images, ascending.
     images: Vec<usize>,
 }
 
 impl Removed {
-    /// The place of a picture, by the one that it had before.
+    /// Returns the new index of an image, given the old one.
     pub(super) fn image(&self, before: usize) -> usize {
         moved(before, &self.images)
     }
@@ -155,7 +155,7 @@ fn used(document: &mut Json, list: List) -> BTreeSet<usize> {
     found
 }
 
-/// Returns true if extras have anything that looks like a reference.
+/// Returns true if extras contain anything that looks like a reference.
 fn extras_refer(value: &Json) -> bool {
     fn refers(value: &Json) -> bool {
         const WORDS: [&str; 6] = ["index", "texture", "image", "sampler", "accessor", "bufferview"];

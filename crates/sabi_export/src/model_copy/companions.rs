@@ -1,4 +1,4 @@
-//! Buffers and pictures that the model names in files of their own.
+//! Buffers and images that the model stores in separate files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
@@ -17,9 +17,9 @@ use crate::names::file_stem;
 /// Media type of buffers (glTF 2.0, 3.6.1.1).
 pub(super) const BUFFER_TYPE: &str = "application/octet-stream";
 
-/// Copies the buffers and pictures that the file of a model names, as far as they lie in its folder; `is_new` returns
-/// true for those of the bake, by list and index. `stem` names buffers, and `is_taken` returns true for file names that the bake uses already.
-/// Returns warnings about files that were not copied.
+/// Copies the buffers and images to which the file of a model refers, if they are in its folder. `is_new` returns true for
+/// those of the bake, by list and index. `stem` is the name for buffers, and `is_taken` returns true for file names that
+/// the bake already uses. Returns warnings about files that were not copied.
 pub(super) fn bring_along(
     document: &mut Json,
     source: CopySource<'_>,
@@ -61,8 +61,8 @@ pub(super) fn bring_along(
     warnings
 }
 
-/// Puts the buffers and pictures that the file of a model names into the document: pictures of a `.glb` into its binary chunk,
-/// everything else as data URIs. Returns warnings about files that were not taken in.
+/// Embeds the buffers and images to which the file of a model refers: images of a `.glb` in its binary chunk, everything
+/// else as data URIs. Returns warnings about files that were not embedded.
 pub(super) fn embed(document: &mut Json, container: &mut Container, source: CopySource<'_>) -> Vec<String> {
     let mut warnings = Vec::new();
     let mut views: BTreeMap<String, usize> = BTreeMap::new();
@@ -114,14 +114,14 @@ pub(super) fn adopt_first_buffer(document: &mut Json, container: &mut Container,
     }
 }
 
-/// Reads a file that a model names; `None` for a URI that is no name of a file. The error is a warning.
+/// Reads a file to which a model refers; `None` if the URI is not a file name. The error is a warning.
 fn companion(source: CopySource<'_>, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
     let CopySource { path, model, .. } = source;
     Some(match named_file(path, model, uri)? {
         Err(reason) => Err(format!(
             "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
         )),
-        // A downloaded model must not collect other files of this computer.
+        // A downloaded model must not be able to collect other files of this computer.
         Ok((_, file)) if !PathBase::of_file(path).is_above(&file) => Err(format!(
             "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the model's folder; \
              copy it by hand if it belongs to the model"
@@ -130,7 +130,7 @@ fn companion(source: CopySource<'_>, uri: &str) -> Option<Result<(Vec<u8>, PathB
     })
 }
 
-/// A plain name for a copied file: a buffer goes by the model's name, a picture by its own.
+/// Returns a free name for a copied file: a buffer is named after the model, an image keeps its own name.
 fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> bool) -> String {
     let part = |part: Option<&OsStr>| part.map_or_else(String::new, |part| file_stem(&part.to_string_lossy()));
     let first = match part(file.file_stem()) {
@@ -141,7 +141,7 @@ fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> 
     free_file_name(&first, &part(file.extension()), take)
 }
 
-/// A name of which `take` returns true: `first` with the ending, or with a number before it.
+/// Returns a name for which `take` returns true: `first` with the ending, or with a number before it.
 pub(super) fn free_file_name(first: &str, ending: &str, take: &mut dyn FnMut(&str) -> bool) -> String {
     let mut number = 1;
     loop {

@@ -3,11 +3,11 @@
 use sabi_surface::load::gltf_json;
 use serde_json::{Value as Json, json};
 
-/// Granularity of cuts, a multiple of every element size of glTF, so that the bytes after a cut stay aligned.
+/// Granularity of cuts. It is a multiple of every element size of glTF, so that the bytes after a cut stay aligned.
 const ALIGNMENT: usize = 16;
 /// Chunks of a GLB file are padded to a multiple of this.
 const ALIGNMENT_OF_CHUNKS: usize = 4;
-/// Extensions of buffer views that are packed; they refer to their packed bytes as a view refers to its own.
+/// Extensions of packed buffer views. They refer to packed bytes in the same way as a view refers to its own bytes.
 pub(super) const PACKED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 const JSON_CHUNK: &[u8] = b"JSON";
 const BINARY_CHUNK: &[u8] = b"BIN\0";
@@ -16,7 +16,7 @@ const BINARY_CHUNK: &[u8] = b"BIN\0";
 #[derive(Debug)]
 pub(super) struct Container {
     is_glb: bool,
-    /// The binary chunk where it is buffer 0; none where the file has none, or a first buffer in a file of its own.
+    /// The binary chunk if it is buffer 0; `None` if the file has none, or if its first buffer is a separate file.
     binary: Option<Vec<u8>>,
     /// Chunks of other kinds, headers included.
     others: Vec<u8>,
@@ -74,7 +74,7 @@ impl Container {
         Ok((container, document))
     }
 
-    /// Takes the binary chunk as the first buffer, or as a chunk of unknown kind.
+    /// Uses the binary chunk as the first buffer, or keeps it as a chunk of unknown kind.
     fn take_binary(&mut self, chunk: &[u8], buffer: &Json) {
         if !buffer.is_object() || !buffer["uri"].is_null() {
             // The binary chunk directly follows the JSON.
@@ -82,7 +82,7 @@ impl Container {
             self.others.splice(0..0, [&size, BINARY_CHUNK, chunk].concat());
             return;
         }
-        // Up to three zeros pad the chunk. A buffer with a smaller length is invalid, and views may reach beyond it.
+        // Up to three zeros pad the chunk. A buffer with a smaller declared length is invalid, and views may extend beyond that length.
         let claimed = buffer["byteLength"]
             .as_u64()
             .and_then(|size| usize::try_from(size).ok());
@@ -120,7 +120,7 @@ impl Container {
         Some(view)
     }
 
-    /// Makes `bytes` the binary chunk; returns false for a file that is no `.glb`, or that has such a chunk.
+    /// Uses `bytes` as the binary chunk. Returns false if the file is not a `.glb`, or already has such a chunk.
     pub(super) fn adopt(&mut self, bytes: Vec<u8>) -> bool {
         let has_chunk = self.binary.is_some() || self.others.get(4..8) == Some(BINARY_CHUNK);
         if !self.is_glb || has_chunk {
@@ -130,8 +130,7 @@ impl Container {
         true
     }
 
-    /// Removes from the binary chunk the bytes that only the `dead` buffer views refer to. Other bytes keep order and
-    /// alignment.
+    /// Removes the bytes from the binary chunk to which only the `dead` buffer views refer. Other bytes keep their order and alignment.
     pub(super) fn forget(&mut self, document: &mut Json, dead: &[Json]) {
         let Some(binary) = &mut self.binary else { return };
         let views = document["bufferViews"].as_array_mut();
@@ -173,7 +172,7 @@ impl Container {
         binary.truncate(kept);
     }
 
-    /// The file; or the number of its bytes where a GLB file cannot have so many.
+    /// Returns the file; or, as the error, its size if that is too large for a GLB file.
     pub(super) fn join(self, document: &mut Json) -> Result<Vec<u8>, u64> {
         if let Some(binary) = &self.binary {
             document["buffers"][0]["byteLength"] = json!(binary.len());
@@ -198,7 +197,7 @@ impl Container {
 /// Returns the ranges that only the `dead` buffer views refer to, in multiples of [`ALIGNMENT`]: rising and disjoint.
 fn cuts(mut live: Vec<[usize; 2]>, dead: &[Json]) -> Vec<[usize; 2]> {
     live.sort_unstable();
-    // Joined where they overlap, so that not only starts rise but ends as well.
+    // Overlapping ranges are joined, so that starts and ends are ascending.
     live.dedup_by(|next, kept| {
         let joins = next[0] <= kept[1];
         kept[1] = if joins { kept[1].max(next[1]) } else { kept[1] };
@@ -216,7 +215,7 @@ fn cuts(mut live: Vec<[usize; 2]>, dead: &[Json]) -> Vec<[usize; 2]> {
     cuts
 }
 
-/// Returns false for a buffer view with an extension that may refer to ranges of the buffer in a way of its own.
+/// Returns false for a buffer view with an extension that may refer to ranges of the buffer in an unknown way.
 fn is_understood(view: &Json) -> bool {
     let extensions = view.get("extensions").and_then(Json::as_object);
     let mut names = extensions.into_iter().flat_map(|extensions| extensions.keys());
@@ -229,7 +228,7 @@ fn ranges(view: &Json) -> impl Iterator<Item = [usize; 2]> {
     packed.chain([view]).filter_map(range)
 }
 
-/// First byte of a view of buffer 0, and the one behind its last.
+/// Returns the first byte of a view of buffer 0, and the one after its last.
 fn range(view: &Json) -> Option<[usize; 2]> {
     let number = |key: &str| view.get(key).and_then(Json::as_u64);
     if number("buffer") != Some(0) {

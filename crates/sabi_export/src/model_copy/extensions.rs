@@ -1,4 +1,4 @@
-//! The lists of extensions of a glTF file: true before, they are to be true afterwards.
+//! Updates the lists of extensions of a glTF file, so that they stay correct.
 
 use std::collections::BTreeSet;
 
@@ -28,8 +28,8 @@ fn collect(value: &Json, found: &mut BTreeSet<String>) {
     }
 }
 
-/// Takes off the lists what was there `before` and is gone, and adds what is new. Names that never stood anywhere stay:
-/// some extensions are no more than a name.
+/// Removes names from the lists that were used `before` and no longer are, and adds new ones. Names that were never used
+/// anywhere stay: some extensions consist only of a name.
 pub(super) fn keep_lists_true(document: &mut Json, before: &BTreeSet<String>) {
     let now = present(document);
     for key in ["extensionsUsed", "extensionsRequired"] {

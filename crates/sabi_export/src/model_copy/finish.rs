@@ -1,4 +1,4 @@
-//! The end of a copy: the new maps in its document.
+//! Last step of a copy: adding the new maps to its document.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,9 +26,9 @@ struct BakedMaterial {
 }
 
 impl ModelCopy<'_> {
-    /// Finishes the copy, with the maps of each set; those of one sheet are those of all materials.
-    /// Maps of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
-    /// beside it. `is_taken` returns true for file names that the bake uses already.
+    /// Finishes the copy with the maps of each set. The maps of a single sheet are used for all materials. Maps of a `.glb`
+    /// are stored in its binary chunk. Maps of a `.gltf`, or of a `.glb` whose first buffer is not that chunk, are separate
+    /// files. `is_taken` returns true for file names that the bake already uses.
     pub fn finish(
         mut self,
         maps: BTreeMap<SetKey, MaterialMaps>,
@@ -107,7 +107,7 @@ impl ModelCopy<'_> {
         baked
     }
 
-    /// The place of the material of a set. The first tile of a material takes its place; the others get copies of it.
+    /// Returns the index of the material of a set. The first tile of a material uses its index; the others get copies of it.
     fn place(&mut self, key: SetKey) -> usize {
         if let Some(place) = self.tile_places.get(&key) {
             return *place;
@@ -126,7 +126,7 @@ impl ModelCopy<'_> {
         place
     }
 
-    /// The place of a material in the file; the default material, which a file does not list, is added to it.
+    /// Returns the index of a material in the file. The default material, which a file does not list, is added.
     fn material_of_file(&mut self, material: u32) -> usize {
         if let Some(index) = self.materials.get(material as usize).and_then(|known| known.file_index) {
             return index;
@@ -140,8 +140,8 @@ impl ModelCopy<'_> {
         index
     }
 
-    /// Gives primitives of baked materials that the bake did not see, and that lack the UVs of its maps, a copy of the material as
-    /// it was: points, lines, and meshes of other scenes. UVs of tiles are among those that are lacked.
+    /// Assigns a copy of the original material to primitives of baked materials that the bake did not include and that lack
+    /// the UVs of its maps, including those of tiles: points, lines, and meshes of other scenes.
     fn keep_materials_of_others(&mut self, baked: &[BakedMaterial]) {
         let Some(origins) = self.source.model.origins.as_ref().filter(|_| self.bytes.is_some()) else {
             return;
@@ -179,14 +179,14 @@ impl ModelCopy<'_> {
         }
     }
 
-    /// Puts the new maps and factors in the place of the earlier looks.
+    /// Replaces the previous appearance by the new maps and factors.
     fn replace_looks(&mut self, baked: &mut [BakedMaterial], pictures: &mut Pictures) {
         let keeps_look = self.options.keeps_look;
         for of_baked in &*baked {
             look::strip(&mut self.document["materials"][of_baked.index], keeps_look);
         }
         pictures.find_free(&self.document);
-        // Materials on one sheet share their textures.
+        // Materials that share a sheet share their textures.
         let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
         for BakedMaterial { key, index, maps, .. } in baked {
             let known = self.materials.get(key.material as usize);
@@ -216,7 +216,7 @@ impl ModelCopy<'_> {
         }
     }
 
-    /// Changes the primitives of the baked materials; lists what became of these and of the materials.
+    /// Changes the primitives of the baked materials. Lists the changes of these and of the materials.
     fn changes(&mut self, baked: &[BakedMaterial]) -> Vec<LookChange> {
         let mut changes = Vec::new();
         for of_baked in baked {
@@ -295,7 +295,7 @@ impl ModelCopy<'_> {
 /// The tangents that a baked material needs.
 fn tangents(material: &Json, keeps_look: bool) -> Tangents {
     let extension = |name: &str| material["extensions"].get(name);
-    // An anisotropy that the model had is one of its own maps.
+    // If the model had an anisotropy, it is one of the model's own maps.
     let anisotropy = extension("KHR_materials_anisotropy");
     if material.get("normalTexture").is_some() || anisotropy.is_some() && !keeps_look {
         return Tangents::New;

@@ -1,4 +1,4 @@
-//! What few materials have, as extensions of a glTF material.
+//! Rare properties of a material, as glTF material extensions.
 
 use serde_json::{Map, Value as Json};
 
@@ -16,8 +16,8 @@ pub(super) const EXTENSIONS: [&str; 5] = [
 ];
 
 impl FinishMaps {
-    /// The extensions of a glTF material that has these; `place` adds a texture and returns its use, `normal` is the use of the
-    /// normal map. What is zero is left out.
+    /// Returns the extensions for these properties. `place` adds a texture and returns its use; `normal` is the use of the
+    /// normal map. Properties that are zero are omitted.
     pub(super) fn extensions(self, place: &mut dyn FnMut(MapFile) -> Json, normal: Option<&Json>) -> Map<String, Json> {
         let [clearcoat, anisotropy, sheen, diffuse_transmission, transmission] = EXTENSIONS;
         let mut extensions = Map::new();
@@ -78,7 +78,7 @@ fn clearcoat_entries(
         ("clearcoatTexture", texture.clone()),
         ("clearcoatRoughnessFactor", Some(short(roughness))),
         ("clearcoatRoughnessTexture", texture),
-        // The coat follows the relief, as it does in Sabi.
+        // The coat follows the relief, as in Sabi.
         ("clearcoatNormalTexture", normal.cloned()),
     ]
 }
@@ -94,7 +94,7 @@ fn sheen_entries(sheen: Scaled<[f32; 3]>, roughness: f32, place: &mut dyn FnMut(
 }
 
 fn subsurface_entries(subsurface: Scaled<[f32; 3]>, place: &mut dyn FnMut(MapFile) -> Json) -> Entries {
-    // The strongest of the three is the share, and the color is what remains.
+    // The largest of the three components is the share, and the color is divided by it.
     let share = subsurface.factor.into_iter().fold(0.0, f32::max);
     let color = subsurface.factor.map(|part| part / share);
     vec![

@@ -1,4 +1,4 @@
-//! Coat, anisotropy, sheen and light below the surface as glTF's material extensions have them.
+//! Coat, anisotropy, sheen and subsurface light in the form of glTF's material extensions.
 
 use sabi_image::ImageError;
 
@@ -15,7 +15,7 @@ pub struct Scaled<T> {
     pub map: Option<MapFile>,
 }
 
-/// Factors and maps of what few materials have; zero where a material has none of it.
+/// Factors and maps of rare material properties; zero for properties that a material does not have.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FinishMaps {
     /// Share below a clear coat, in R.

@@ -1,5 +1,5 @@
-//! A GLB file from a loaded model, for formats that are no glTF and for vertices that cannot be split: one mesh for each part, one
-//! primitive for each of its materials.
+//! Writes a GLB file from a loaded model, for formats other than glTF and for vertices that cannot be split: one mesh for
+//! each part, with one primitive for each of its materials.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,9 +18,9 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Keys of a material that control how it is drawn, not its looks.
+/// Keys of a material that control how it is drawn, not its appearance.
 const DRAWN: [&str; 3] = ["alphaMode", "alphaCutoff", "doubleSided"];
-/// Numbers of UV sets up to which gaps are filled; no file in use has more.
+/// Highest number of a UV set up to which gaps are filled. No known file has more.
 pub(super) const MOST_SETS: u32 = 16;
 
 /// Triangles by material, and tile where the material has several.
@@ -33,7 +33,7 @@ pub(super) struct MeshCopy<'m> {
     pub(super) baked: &'m BTreeSet<u32>,
     /// `TEXCOORD` number of the mesh's texture coordinates.
     pub(super) uv_set: u32,
-    /// The model's file, where that is a glTF: what it says about drawing materials is taken over.
+    /// The model's file if it is glTF: its settings for drawing materials are kept.
     pub(super) file: Option<&'m Json>,
     pub(super) tiles: &'m Tiles,
 }
@@ -84,7 +84,7 @@ impl MeshCopy<'_> {
         arrays.finish(document, container);
     }
 
-    /// Triangles by part and set.
+    /// Groups the triangles by part and set.
     fn primitives(&self) -> BTreeMap<u32, TrianglesBySet> {
         let mesh = &self.model.mesh;
         let mut parts: BTreeMap<u32, TrianglesBySet> = BTreeMap::new();
@@ -145,8 +145,8 @@ fn node(name: &str, mesh: usize, middle: [f64; 3]) -> Json {
 /// Texture coordinates by their number.
 type UvSets<'m> = BTreeMap<u32, &'m [[f32; 2]]>;
 
-/// All sets of the mesh, with its `own` as number `uv_set`. glTF has them follow on each other from 0: where a file has sets that
-/// were not loaded, the mesh's own set takes their place.
+/// Returns all sets of the mesh, with its `own` as number `uv_set`. glTF requires consecutive numbers from 0: sets of the
+/// file that were not loaded are replaced by the mesh's own set.
 fn uv_sets<'m>(mesh: &'m Mesh, own: &'m [[f32; 2]], uv_set: u32) -> UvSets<'m> {
     if own.is_empty() {
         return UvSets::new();
@@ -229,7 +229,7 @@ impl Arrays {
         }
         let accessor = self.add(order, bytes, 4 * N, used.len(), FLOAT);
         if order == POSITION {
-            // The one attribute that must say it. Exactly as stored: as f64, no digit is lost.
+            // The only attribute for which this is required. The values are written as f64, so that they are exactly those stored.
             self.accessors[accessor]["min"] = json!(low.map(f64::from).to_vec());
             self.accessors[accessor]["max"] = json!(high.map(f64::from).to_vec());
         }
@@ -238,7 +238,7 @@ impl Arrays {
 
     fn add(&mut self, order: u64, bytes: Vec<u8>, stride: usize, count: usize, component: u32) -> usize {
         let (held, _) = self.views.entry(order).or_insert_with(|| (Vec::new(), stride));
-        // The view's number is known once all views are.
+        // The number of the view is known only after all views are created.
         self.accessors.push(json!({
             "bufferView": order, "byteOffset": held.len(), "componentType": component, "count": count,
             "type": match stride / 4 { 1 => "SCALAR", 2 => "VEC2", 3 => "VEC3", _ => "VEC4" },

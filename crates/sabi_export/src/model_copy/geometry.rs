@@ -1,6 +1,6 @@
-//! New vertex data in the document of a glTF model: UVs of an unwrapped model, smoothed normals, tangents, and faces that were turned. Vertices that these
-//! split are duplicated with all that the file has of them, byte for byte: joints and weights, morph targets, other UVs and
-//! attributes of programs. So skins, animations and everything else that refers to the meshes stays.
+//! New vertex data in the document of a glTF model: UVs of an unwrapped model, smoothed normals, tangents, and reversed faces. Vertices
+//! that have to be split for this are duplicated with all data of the file, byte for byte: joints and weights, morph targets, other UVs
+//! and custom attributes. So skins, animations and everything else that refers to the meshes stay valid.
 
 mod arrays;
 mod bytes;
@@ -29,9 +29,9 @@ use crate::SetKey;
 pub(super) enum Tangents {
     /// The material does not use any.
     Unused,
-    /// They are of maps that the bake did not make.
+    /// They belong to maps that the bake did not make.
     Foreign,
-    /// They are the frame of the new maps.
+    /// They are the tangent frame of the new maps.
     New,
 }
 
@@ -60,7 +60,7 @@ pub(super) struct GeometryEdits<'m> {
     pub(super) tangents: BTreeMap<SetName, Tangents>,
 }
 
-/// What became of a document's vertex data.
+/// Result of editing the vertex data of a document.
 #[derive(Default)]
 pub(super) struct EditedGeometry {
     /// File of the new data, where that is not in the document's container.
@@ -124,7 +124,7 @@ impl GeometryEdits<'_> {
             .is_some_and(|material| self.unwrapped.contains(&material))
     }
 
-    /// Returns true if a primitive has to be changed: its vertices are other ones, or are moved to other places on the maps.
+    /// Returns true if a primitive has to be changed: its vertices are different, or are moved on the maps.
     fn must_change(&self, placed: &PlacedPrimitive) -> bool {
         let is_tiled = |material| self.tiles.0.has(material);
         self.model.is_smoothed
@@ -188,7 +188,7 @@ impl GeometryEdits<'_> {
         for (mesh, instances) in instances(self.origins) {
             let original = document["meshes"][mesh].clone();
             for (number, instance) in instances.iter().enumerate() {
-                // The file's mesh is that of all instances until these have UVs of their own.
+                // Instances share the file's mesh until they get different UVs.
                 if number > 0 && !instance.placed.iter().any(|placed| self.is_unwrapped(placed)) {
                     continue;
                 }

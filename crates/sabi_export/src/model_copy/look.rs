@@ -1,4 +1,4 @@
-//! The look of a baked material: what stands of the model's, and a record of what changed.
+//! The appearance of a baked material: which properties of the model are kept, and a record of the changes.
 
 mod rules;
 #[cfg(test)]
@@ -23,13 +23,13 @@ pub struct LookChange {
     pub material: String,
     /// Name of the property in glTF.
     pub property: String,
-    /// Its fate.
+    /// What happened to it.
     pub change: Treatment,
 }
 
 const METALLIC_ROUGHNESS: &str = "pbrMetallicRoughness";
 
-/// Removes of a material all that its new look replaces.
+/// Removes everything from a material that its new appearance replaces.
 pub(super) fn strip(material: &mut Json, keeps_look: bool) {
     let is_replaced = |treatment: Treatment| treatment != Treatment::Kept;
     for rule in RULES.iter().filter(|rule| is_replaced(rule.treatment(keeps_look))) {
@@ -70,7 +70,7 @@ pub(super) fn set_alpha_mode(material: &mut Json, maps: &MaterialMaps, keeps_loo
     let new = match mode {
         "MASK" | "BLEND" if keeps_look => mode,
         _ if !maps.has_opacity => OPAQUE,
-        // A threshold shows all or nothing of an opacity that is the same everywhere.
+        // With a threshold, a constant opacity would show either everything or nothing.
         "MASK" if varies => mode,
         _ => "BLEND",
     };
@@ -91,7 +91,7 @@ pub(super) fn changes(name: &str, before: &Json, after: &Json, keeps_look: bool)
         let change = match (before, after) {
             (None, None) => return,
             (Some(_), None) => Treatment::Removed,
-            // A new texture may have the number of the earlier one.
+            // A new texture may have the same number as the earlier one.
             (Some(before), Some(after)) if before == after && !is_replaced => Treatment::Kept,
             (_, Some(_)) => Treatment::Set,
         };

@@ -10,8 +10,7 @@ use crate::encode::{Codes, Encoding, Plane, codes_8, encode, planes};
 use crate::preset::{ComponentSource, Format};
 use crate::{Channel, ChannelPixels, SetKey, Value};
 
-/// Factors and maps of a glTF material. A constant channel is a factor; occlusion, which has none, is left out where it is
-/// 1.
+/// Factors and maps of a glTF material. A constant channel becomes a factor. Occlusion has no factor and is omitted if it is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialMaps {
     /// Linear RGBA; white, and opaque, where the map has them.
@@ -26,9 +25,9 @@ pub struct MaterialMaps {
     pub metallic_factor: f32,
     /// Occlusion in R, roughness in G, metallic in B.
     pub packed: Option<MapFile>,
-    /// True if the packed map gives roughness and metallic.
+    /// True if the packed map contains roughness and metallic.
     pub packed_surface: bool,
-    /// True if the packed map gives occlusion.
+    /// True if the packed map contains occlusion.
     pub packed_occlusion: bool,
     /// Tangent-space normals, Y+, 8 bit.
     pub normal: Option<MapFile>,
@@ -38,7 +37,7 @@ pub struct MaterialMaps {
     pub emission_strength: f32,
     /// sRGB, as a part of the strength.
     pub emission: Option<MapFile>,
-    /// What few materials have.
+    /// Rare properties.
     pub finish: FinishMaps,
 }
 
@@ -145,7 +144,7 @@ impl MapCollector {
             return Ok(());
         };
         let alpha = opacity.number();
-        // A varying opacity is in the map, and its factor is 1.
+        // If opacity varies, it is in the map, and its factor is 1.
         let mut factor = [1.0, 1.0, 1.0, alpha.unwrap_or(1.0)];
         let file = match (&color, alpha) {
             (CodedChannel::Constant(Value::Triple(rgb)), Some(_)) => {
@@ -153,7 +152,7 @@ impl MapCollector {
                 None
             }
             (CodedChannel::Constant(value), None) => {
-                // The map is white, and the color stays exact.
+                // The map is white, so that the factor gives the exact color.
                 if let Value::Triple(rgb) = value {
                     factor[..3].copy_from_slice(rgb);
                 }
@@ -201,7 +200,7 @@ impl MapCollector {
             });
         }
         let maps = self.of(input);
-        // A program that reads maps and no factors should see the right thing too, so factors beside maps are 1.
+        // Some programs read maps and ignore factors, so factors are 1 where there are maps.
         [maps.roughness_factor, maps.metallic_factor] = factors.map_or([1.0; 2], |(roughness, metallic)| {
             [roughness, metallic].map(|x| x.clamp(0.0, 1.0))
         });

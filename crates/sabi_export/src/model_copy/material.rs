@@ -22,7 +22,7 @@ pub(super) fn write_material(
     entry: &mut Json,
     place: &mut dyn FnMut(&Option<TextureRef>) -> Option<Json>,
 ) {
-    // A picture for metal alone is left out, and most things are not metal.
+    // A separate image of metallic cannot be written, and most things are not metallic.
     let metallic = if material.metallic.is_some() {
         0.0
     } else {
@@ -85,9 +85,9 @@ pub(super) struct Textures<'m> {
     model: &'m Model,
     /// Images in the copy by image index of the model.
     images: BTreeMap<usize, CopiedImage>,
-    /// Pictures of the model that glTF cannot hold.
+    /// Images of the model whose format glTF does not support.
     left_out: BTreeSet<usize>,
-    /// Pictures of roughness or metallic alone, which glTF has in one.
+    /// Separate images of roughness or metallic, which glTF stores in one image.
     unpacked: BTreeSet<usize>,
 }
 
@@ -101,7 +101,7 @@ impl<'m> Textures<'m> {
         }
     }
 
-    /// Notes the textures of a material that glTF has no place for.
+    /// Records the textures of a material that glTF cannot represent.
     pub(super) fn leave_unpacked(&mut self, material: &ModelMaterial) {
         let alone = [&material.roughness, &material.metallic].into_iter().flatten();
         self.unpacked.extend(alone.map(|texture| texture.image));

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CopyOptions {
-    /// True to keep of the model's look all that the new maps do not replace.
+    /// True to keep the model's properties that the new maps do not replace.
     pub keeps_look: bool,
-    /// True to hold maps, pictures and buffers in the file itself.
+    /// True to store maps, images and buffers in the file itself.
     pub embeds: bool,
 }

@@ -1,5 +1,5 @@
-//! New maps among the textures and pictures of a glTF file. Places in its lists never move, since extensions may count on
-//! them: a new entry takes the place of one that nothing uses any more, or goes to the end.
+//! Adds new maps to the textures and images of a glTF file. Indices in its lists never change, since extensions may depend
+//! on them: a new entry replaces an unused one, or is added at the end.
 
 use std::collections::BTreeSet;
 
@@ -122,13 +122,13 @@ impl Pictures {
         put(document, "textures", &mut self.free_textures, texture)
     }
 
-    /// Removes entries that are no longer used: all of them where the uses of the file are known, else only those at the ends
-    /// of the lists, so that no index changes.
+    /// Removes entries that are no longer used: all of them if all references of the file are known, otherwise only those
+    /// at the ends of the lists, so that no index changes.
     pub(super) fn finish(self, document: &mut Json, uses: Option<&Uses>, container: &Container) -> Placed {
         match uses {
             Some(uses) => {
                 let removed = uses.compact(document, container.binary_chunk().is_some());
-                // Views whose places new pictures took are gone as well.
+                // Views that were replaced by new images are unused as well.
                 let dead = self.dead.into_iter().chain(removed.views.iter().cloned()).collect();
                 Placed {
                     new: self.new.iter().map(|image| removed.image(*image)).collect(),
@@ -155,7 +155,7 @@ impl Pictures {
             self.dead.retain(|dead| dead != entry);
         }
         cut(document, "bufferViews", &free);
-        // A view that remains unused must keep its bytes: references into it would be invalid after a cut.
+        // The bytes of an unused view that stays in the list must be kept: its range would be invalid after a cut.
         for view in free {
             let entry = &document["bufferViews"][view];
             self.dead.retain(|dead| entry.is_null() || dead != entry);

@@ -1,5 +1,5 @@
-//! References to textures and pictures. Unknown extensions may contain them, so whatever looks like a reference counts as
-//! one: an unused picture is harmless, a missing one is not.
+//! References to textures and images. Unknown extensions may contain references, so everything that looks like one is
+//! treated as one: an unused image does no harm, a missing one does.
 
 use std::collections::BTreeSet;
 

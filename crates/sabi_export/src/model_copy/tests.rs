@@ -52,8 +52,8 @@ fn materials() -> Json {
     ])
 }
 
-/// A triangle of each of two materials and one of none, pictures before and behind the geometry, and all sorts of things
-/// that Sabi knows nothing of.
+/// Creates a document with a triangle of each of two materials and one without a material, images before and after the
+/// geometry, and various data that Sabi does not know.
 fn document() -> (Json, Vec<u8>) {
     let mut binary = Vec::new();
     let mut views = Vec::new();
@@ -193,7 +193,7 @@ fn flat_maps() -> MaterialMaps {
 }
 
 #[test]
-fn all_but_the_looks_of_the_baked_material_stays_as_it_was() {
+fn everything_except_the_baked_material_stays_unchanged() {
     let before = glb();
     // The model's materials are those in use, in the file's order: glass, cloth, none.
     let finished = copied("it.glb", &[("it.glb", &before)], &[(1, flat_maps())]);
@@ -227,7 +227,7 @@ fn all_but_the_looks_of_the_baked_material_stays_as_it_was() {
 }
 
 #[test]
-fn the_baked_material_shows_its_maps_and_what_nobody_shows_is_gone() {
+fn the_baked_material_has_its_maps_and_unused_data_is_removed() {
     let finished = copied("it.glb", &[("it.glb", &glb())], &[(1, all_maps())]);
     let (is, is_view) = parts(&finished.copy.bytes);
     let cloth = json!({
@@ -314,7 +314,7 @@ fn a_gltf_file_keeps_its_buffers_and_names_maps_beside_it() {
 }
 
 #[test]
-fn what_is_the_same_all_over_is_a_factor_and_no_picture() {
+fn a_constant_channel_is_a_factor_without_an_image() {
     let constants = MaterialMaps {
         base_color_factor: [0.5, 0.25, 0.7, 1.0],
         metallic_factor: 0.0,
@@ -365,7 +365,7 @@ fn an_obj_model_is_copied_as_it_was_loaded() {
     let corners = |model: &Model| -> Vec<([f32; 3], [f32; 2], [f32; 4])> {
         let mesh = &model.mesh;
         let all = mesh.triangles.iter().flatten().map(|at| *at as usize);
-        // Unit vectors are made so again when they are read.
+        // Unit vectors are normalized again when they are read.
         let rounded = |tangent: [f32; 4]| tangent.map(|part| (part * 1e5).round());
         all.map(|at| (mesh.positions[at], mesh.uvs[at], rounded(mesh.tangents[at])))
             .collect()

@@ -1,5 +1,5 @@
-//! Materials whose maps lie in several UDIM tiles. A material of glTF has one picture for each map, so in a copy each tile has a
-//! material of its own, and its UVs are moved into the unit square.
+//! Materials whose maps are in several UDIM tiles. A glTF material has one image for each map, so in a copy each tile has a
+//! separate material, and its UVs are moved into the unit square.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use sabi_surface::model::Mesh;
 
 use crate::SetKey;
 
-/// Largest part of a tile by which a triangle may reach into the next one without a warning.
+/// Maximum part of a tile by which a triangle may extend into the next one without a warning.
 const OVERREACH: f32 = 0.01;
 
 /// Tiles of the baked materials that have several.
@@ -60,7 +60,7 @@ impl Tiles {
             };
             outside(0).hypot(outside(1))
         };
-        // A middle on the border of two tiles belongs to the one that begins there.
+        // A middle on the border of two tiles belongs to the tile that starts there.
         let rank = |key: &SetKey| {
             (
                 distance(key),

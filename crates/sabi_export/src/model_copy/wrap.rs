@@ -2,14 +2,14 @@
 
 use sabi_surface::model::Model;
 
-/// Largest distance of UVs outside the unit square that still counts as its edge.
+/// Maximum distance of UVs outside of the unit square that still counts as its edge.
 const EDGE: f32 = 1e-4;
 /// glTF's wrap modes.
 pub(super) const CLAMP_TO_EDGE: u32 = 33071;
 pub(super) const REPEAT: u32 = 10497;
 
-/// Returns the wrap mode of each material. Maps repeat where UVs leave the unit square; elsewhere repeating would let opposite edges
-/// bleed into each other.
+/// Returns the wrap mode of each material. Maps repeat if UVs leave the unit square. In other cases repeating would mix
+/// values of opposite edges.
 pub(super) fn wraps(model: &Model) -> Vec<u32> {
     let mesh = &model.mesh;
     let mut wraps = vec![CLAMP_TO_EDGE; model.materials.len()];

@@ -9,7 +9,7 @@ use crate::names::file_stem;
 /// # Errors
 /// A clause that says what is wrong: an unknown word, an open group, or a part that no folder may be called.
 pub fn folder_name(pattern: &str, words: &[(&str, Option<&str>)]) -> Result<String, String> {
-    // All files of a set are in one folder, so nothing in its name differs between them.
+    // All files of a set are in one folder, so these values cannot differ between files.
     let parts = NameParts {
         material: "",
         map: "",
@@ -18,7 +18,7 @@ pub fn folder_name(pattern: &str, words: &[(&str, Option<&str>)]) -> Result<Stri
     };
     let mut path = String::new();
     for segment in parse::segments(pattern, &[], words)? {
-        // Outside of groups, what stands for nothing is empty.
+        // Outside of groups, a token without a value is empty.
         push(&mut path, &segment, &parts, None).unwrap_or_default();
     }
     let root = if path.starts_with('/') { "/" } else { "" };

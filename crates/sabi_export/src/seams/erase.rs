@@ -27,7 +27,7 @@ impl SeamSamples {
             for (&pixel, [change]) in self.pixels.iter().zip(changes) {
                 let height = &mut pixels.data[pixel as usize];
                 let changed = (f64::from(*height) + change) as f32;
-                // A texel without a change keeps its bits, also those of −0.
+                // A texel that is not changed keeps its bits, also those of −0.
                 if change != 0.0 && changed.is_finite() {
                     *height = changed.max(low).min(high);
                 }
@@ -49,7 +49,7 @@ impl SeamSamples {
                 let stored: [f64; 3] = std::array::from_fn(|at| f64::from(normal[at]));
                 let changed = DVec3::from(stored) + DVec3::from(change);
                 let length = changed.length();
-                // As above; not even the length of an unchanged normal changes.
+                // A texel that is not changed keeps its bits, even if its length is not exactly 1.
                 if change != [0.0; 3] && length.is_finite() && length > 0.0 {
                     normal.copy_from_slice(&(changed / length).as_vec3().to_array());
                 }
@@ -87,7 +87,7 @@ impl SeamSamples {
         let compare = |sample: &Sample| {
             let frames = [0, 1].map(|side| self.frame(mesh, sample, side));
             let read = sample.sides.map(|side| DVec3::from(self.read::<3>(&side, pixels)));
-            // Rows of zeros have no effect: nothing is compared over a hard edge.
+            // Rows of zeros have no effect, so nothing is compared across a hard edge.
             compared_normals(frames, read).unwrap_or(([[[0.0; 3]; 2]; 2], [0.0; 2]))
         };
         Some(self.system(compare))
@@ -167,7 +167,7 @@ fn compared_normals(frames: [DMat3; 2], read: [DVec3; 2]) -> Option<Compared<3, 
         let direction = directions[side];
         for (at, axis) in across.into_iter().enumerate() {
             differences[at] += sign * (axis.dot(direction) - axis.dot(faces[side]));
-            // A decoded vector is normalized, so what lengthens it changes nothing.
+            // A decoded vector is normalized, so changes of its length have no effect.
             let turned = axis - direction * direction.dot(axis);
             let row = frames[side].transpose_mul_vec3(turned) / decoded[side].length();
             rows[side][at] = row.as_vec3().to_array();

@@ -164,7 +164,7 @@ fn a_step_of_one_over_a_seam_is_gone_and_texels_away_from_it_keep_their_bits() {
 }
 
 #[test]
-fn of_waves_no_more_is_left_than_straight_lines_leave() {
+fn waves_are_equalized_as_far_as_linear_interpolation_allows() {
     // Eight texels from crest to crest; straight lines between texels miss a crest by (kh)²/8.
     let wave = |along: f32| (std::f32::consts::TAU * along / 8.0).sin();
     let fixture = fixture(&[left(), right()]);
@@ -230,7 +230,7 @@ fn both_sides_of_a_slope_are_compared_in_space() {
 }
 
 #[test]
-fn what_is_even_stays_as_it_is_to_the_last_bit() {
+fn equal_values_on_both_sides_are_not_changed() {
     for fixture in [fixture(&[left(), right()]), fixture(&[left(), down()])] {
         let before = fixture.pixels(&[[0.1]; 2], [0.3]);
         let mut after = before.clone();
@@ -290,7 +290,7 @@ fn padding_repeats_what_was_erased() {
 }
 
 #[test]
-fn stacked_charts_and_what_is_no_number_leave_the_rest_alone() {
+fn stacked_charts_and_nan_do_not_affect_other_texels() {
     // The chart of the right face lies on that of the left one, which has the pixels: nothing of the right one is shown.
     let mut stacked = right();
     stacked.texels = left().texels;
@@ -319,7 +319,7 @@ fn stacked_charts_and_what_is_no_number_leave_the_rest_alone() {
 }
 
 #[test]
-fn a_seam_without_length_on_the_map_asks_nothing() {
+fn a_seam_without_length_on_the_map_has_no_effect() {
     let mut flat = right();
     flat.texels = [[40.0, 40.0]; 4];
     let fixture = fixture(&[left(), flat]);

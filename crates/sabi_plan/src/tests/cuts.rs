@@ -1,4 +1,4 @@
-//! Kernels that are cut because they would be too long.
+//! Kernels that are divided because they would be too large.
 
 use super::{Bench, FUSED, graph};
 use crate::Step;
@@ -37,7 +37,7 @@ fn a_kernel_is_cut_where_its_nodes_together_take_too_long() {
     bench.limits.work = 2 * noise + blend;
     let (plan, _) = bench.plan(&graph(lines), FUSED);
     assert_eq!(plan.passes(), 2, "{plan}");
-    // A node that takes longer alone is a kernel of its own. What `ab` reads is evaluated before `c`, so `abc` is apart from it.
+    // A node that exceeds the limit alone gets a separate kernel.
     bench.limits.work = noise - 1;
     let (plan, errors) = bench.plan(&graph(lines), FUSED);
     assert_eq!((plan.passes(), errors.len()), (5, 0), "{plan}");

@@ -12,7 +12,7 @@ fn said(lines: &str) -> Vec<String> {
 }
 
 #[test]
-fn each_fault_is_a_sentence_that_names_node_and_port() {
+fn each_fault_is_a_sentence_with_the_node_and_the_port() {
     let cases = [
         (
             "a noise/simplx\n out output/mask source=a",
@@ -71,7 +71,7 @@ fn each_fault_is_a_sentence_that_names_node_and_port() {
 }
 
 #[test]
-fn a_parameter_that_is_no_number_of_a_place_refuses_a_mask() {
+fn a_parameter_that_is_not_a_number_for_each_place_refuses_a_mask() {
     let said = said("a noise/cells\n b noise/simplex octaves=a\n out output/mask source=b");
     let expected = "parameter 'octaves' of node 'b' (noise/simplex) is not read for each place, so no mask can multiply it; \
                     remove the link";
@@ -92,7 +92,7 @@ fn a_fault_leaves_the_rest_of_the_graph_alone() {
 }
 
 #[test]
-fn what_is_wrong_with_a_muted_node_is_told_all_the_same() {
+fn problems_of_a_muted_node_are_reported_too() {
     let cases = [
         (
             "a noise/simplx muted\n b adjust/invert source=a\n out output/mask source=b",
@@ -113,7 +113,7 @@ fn what_is_wrong_with_a_muted_node_is_told_all_the_same() {
 }
 
 #[test]
-fn a_color_is_six_digits_and_nothing_else() {
+fn only_six_hexadecimal_digits_are_a_color() {
     for wrong in ["#+12345", "#12345g", "123456", "#12345"] {
         let lines = format!("c color/constant color=\"{wrong}\"\n out output/mask source=c");
         let expected = format!(

@@ -35,7 +35,7 @@ fn what_changes_the_result_changes_its_key() {
     }
 }
 
-/// A bench with a source with a parameter of each sort.
+/// Creates a planner with a source that has a parameter of each type.
 fn bench_with_source() -> Bench {
     let mut bench = Bench::new();
     let mut own = kind("source/own", Vec::new(), vec![port("mask", PortType::Mask, &[])]);
@@ -52,7 +52,7 @@ fn bench_with_source() -> Bench {
 }
 
 #[test]
-fn a_sources_values_and_its_files_bytes_are_part_of_the_key_and_nothing_else_is() {
+fn the_key_of_a_source_depends_on_exactly_its_values_and_file_contents() {
     let line = |params: &str| format!("s source/own {params}\n out output/mask source=s");
     let key = |params: &str, content: u8| {
         let mut bench = bench_with_source();
@@ -80,7 +80,7 @@ fn a_sources_values_and_its_files_bytes_are_part_of_the_key_and_nothing_else_is(
 }
 
 #[test]
-fn a_sources_parameters_are_held_against_what_they_take() {
+fn parameters_of_a_source_are_validated() {
     let cases = [
         (
             "name=7",
@@ -113,7 +113,7 @@ fn a_sources_parameters_are_held_against_what_they_take() {
 }
 
 #[test]
-fn a_node_whose_file_cannot_be_had_is_at_fault_and_its_readers_wait() {
+fn a_node_with_an_unusable_file_is_reported_and_its_readers_are_not_planned() {
     let mut bench = bench_with_source();
     let graph = graph(
         "s source/own\n i adjust/invert source=s\n out output/mask source=i\n n noise/white\n o output/mask source=n",

@@ -62,7 +62,7 @@ fn a_slot_is_reused_once_its_last_reader_has_run() {
 
 #[test]
 fn what_needs_most_memory_runs_while_little_else_is_stored() {
-    // The blur takes five textures of vectors while it runs, and each noise leaves one of numbers behind.
+    // The blur needs five textures of vectors while it runs. Each noise leaves only one texture of numbers.
     let lines = "
         a noise/simplex
         b noise/cells
@@ -86,7 +86,7 @@ fn what_needs_most_memory_runs_while_little_else_is_stored() {
             .all(|noise| places(&bake, noise).first().copied() > last_of_blur),
         "{bake}"
     );
-    // While an artist works, all results are kept and run in the order of their inputs.
+    // In interactive mode all results are kept, and groups run in the order of their inputs.
     let (live, _) = Bench::new().plan(&graph(lines), Mode::Interactive);
     assert!(places(&live, "a").first() < places(&live, "soft").first(), "{live}");
 }
@@ -126,7 +126,7 @@ fn a_hundred_nodes_in_a_chain_need_two_slots() {
 }
 
 #[test]
-fn a_field_stands_between_two_regions_and_fills_its_ghosts() {
+fn a_field_separates_two_regions_and_fills_its_ghosts() {
     let lines = "
         a noise/simplex
         b adjust/levels source=a
@@ -145,7 +145,7 @@ fn a_field_stands_between_two_regions_and_fills_its_ghosts() {
 }
 
 #[test]
-fn a_kernel_is_cut_at_what_the_adapter_can_store() {
+fn a_kernel_is_divided_at_the_number_of_textures_the_adapter_can_write() {
     let mut bench = Bench::new();
     bench.limits.storage_textures = 2;
     let mut lines = String::new();
@@ -312,7 +312,7 @@ fn a_graph_in_groups_six_deep_has_the_passes_of_its_flat_form() {
 }
 
 #[test]
-fn a_muted_node_follows_the_first_input_that_leads_somewhere() {
+fn a_muted_node_passes_on_the_first_input_that_leads_to_an_unmuted_node() {
     let lines = "
         dead source/material muted
         base source/material
@@ -324,7 +324,7 @@ fn a_muted_node_follows_the_first_input_that_leads_somewhere() {
 }
 
 #[test]
-fn a_color_is_stored_once_more_as_a_mask_before_a_field_reads_it() {
+fn a_color_is_converted_to_a_stored_mask_before_a_field_reads_it() {
     let lines = "
         a color/constant
         b filter/smooth source=a
@@ -382,30 +382,30 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
     };
     use Level::{Points, Texels};
     const FINEST: Level = Level::FINEST;
-    // Levels here have texels of 0.001, 0.002, 0.004 and 0.008, and points of 0.016 and 0.008; a blur wants three points for its
-    // radius, or 2.4 texels.
+    // Levels here have texels of 0.001, 0.002, 0.004 and 0.008, and points of 0.016 and 0.008. A blur requests three points
+    // for its radius, or 2.4 texels.
     assert_eq!(moves(&plan(0.0045)), [] as [[Level; 2]; 0]);
-    // Both read the noise on the same level, so it is moved there once.
+    // Both passes read the noise on the same level, so it is moved there once.
     let coarse = Texels(2);
     assert_eq!(
         moves(&plan(0.012)),
         [[FINEST, coarse], [coarse, FINEST], [coarse, FINEST]]
     );
-    // The cells of points are made of texels a quarter as wide, which are on the way there.
+    // The cells of points consist of texels a quarter as wide, so the plane is moved to that level on the way.
     for (radius, cells, points) in [(0.03, Texels(1), Points(1)), (0.5, Texels(2), Points(0))] {
         assert_eq!(
             moves(&plan(radius)),
             [[FINEST, cells], [cells, points], [points, FINEST], [points, FINEST]]
         );
     }
-    // A kernel that reads no texture is evaluated on ghosts, too.
+    // A kernel that reads no texture is also evaluated for ghosts.
     let text = plan(0.012).to_string();
     assert!(text.contains("pass c -> s1 level 2\n"), "{text}");
 }
 
 #[test]
 fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved_to_the_finest() {
-    // Twice as wide from twenty finest texels on, four times from eighty on.
+    // Texels are twice as wide for rays from twenty finest texels on, and four times from eighty on.
     let down = |level| [Level::Texels(level), Level::FINEST];
     for (width, moves) in [
         (0.015, vec![]),
@@ -426,7 +426,7 @@ fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved
 }
 
 #[test]
-fn means_over_rays_that_are_denoised_are_stored_and_read_by_a_step_of_their_own() {
+fn denoised_means_over_rays_are_stored_and_read_by_another_step() {
     let lines = "a surface/occlusion distance=0.0001\nb output/mask source=a\nc output/mask source=a.ao";
     let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
@@ -452,7 +452,7 @@ fn no_fused_kernel_has_more_parameters_than_a_block_holds() {
         lines += &format!("m{node} adjust/curve source=m{}\n", node - 1);
     }
     let mut bench = Bench::new();
-    // A curve has 256 bytes, and a knob.
+    // A curve takes 256 bytes, and so does a knob.
     bench.limits.block_bytes = 1024;
     let (plan, errors) = bench.plan(&graph(&(lines + "out output/mask source=m10")), FUSED);
     assert_eq!(errors, []);

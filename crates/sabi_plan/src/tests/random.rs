@@ -1,5 +1,5 @@
-//! Random graphs of all kinds: whatever way a plan is cut, each result is made of what the graph says, on the levels that
-//! each function asks for.
+//! Random graphs of all kinds: however a plan is divided, each result is computed from what the graph defines, on the
+//! levels that each function requests.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,13 @@ use super::{Bench, FUSED, UNFUSED, WIDTHS, graph};
 use crate::resolved::{Behavior, ResolvedNode};
 use crate::{Level, Limits, Mode, Planner};
 
-/// Lengths that lie on, between and beyond what the levels of the bench are used for.
+/// Lengths that are within, between and beyond the ranges of the levels.
 const LENGTHS: [f64; 6] = [0.0005, 0.007, 0.016, 0.04, 0.13, 0.9];
 
-/// A node of a random graph: its kind, the results that its inputs read, and its lengths, all as numbers to choose by.
+/// Random numbers for a node of a graph: they select its kind, the results that its inputs read, and its lengths.
 type Numbers = (usize, [usize; 4], usize);
 
-/// A line of a graph: a node of that kind which reads results before it, or nothing; none where it has to read and cannot.
+/// Returns a line of a graph: a node of this kind that reads earlier results or nothing; `None` if a required input cannot be connected.
 fn line(id: &str, kind: &Kind, (_, picks, length): Numbers, made: &[(String, PortType)]) -> Option<String> {
     let is_solid = |ty: PortType| ty == PortType::Material || ty == PortType::Vector;
     let fits = |from: PortType, to: PortType| from == to || !(is_solid(from) || is_solid(to));
@@ -37,7 +37,7 @@ fn line(id: &str, kind: &Kind, (_, picks, length): Numbers, made: &[(String, Por
         if fitting.is_empty() && must {
             return None;
         }
-        // What may stay open does now and then.
+        // An optional input is sometimes left unconnected.
         if !fitting.is_empty() && (must || !pick.is_multiple_of(5)) {
             line += &format!(" {}={}", input.name, fitting[pick % fitting.len()]);
         }
@@ -57,7 +57,7 @@ fn line(id: &str, kind: &Kind, (_, picks, length): Numbers, made: &[(String, Por
 /// Lines of a graph from random numbers, and the last results of it as outputs.
 fn lines(library: &Library, numbers: &[Numbers]) -> String {
     let kinds: Vec<&Kind> = library.kinds().collect();
-    // Half of them are fields, rays or surveys, so that these meet.
+    // Half of the nodes are fields, rays or surveys, so that these get connected to each other.
     let others: Vec<&Kind> = kinds
         .iter()
         .copied()
@@ -101,9 +101,9 @@ fn lines(library: &Library, numbers: &[Numbers]) -> String {
 struct Reader<'n> {
     kind: &'n Kind,
     ready: &'n ResolvedNode<'n>,
-    /// By input: the result it is connected to.
+    /// The result to which each input is connected.
     inputs: Vec<(u64, Convert)>,
-    /// By pass: what it made, and on which level.
+    /// For each pass, its result and its level.
     passes: Vec<(u64, Level)>,
 }
 
@@ -115,7 +115,7 @@ impl Reader<'_> {
             ParamValue::Floats(values) => f64::from(values[0]),
             ParamValue::Text(_) => 0.0,
         };
-        // Graphs have angles in degrees, and formulas in radians.
+        // Angles are in degrees in graphs, and in radians in formulas.
         let param = |param: usize| match &self.kind.params[param].ty.role {
             Role::Angle => stored(param).to_radians(),
             _ => stored(param),
@@ -127,7 +127,8 @@ impl Reader<'_> {
         })
     }
 
-    /// Returns the widest points without a larger spacing than a formula gives, else the coarsest level without wider texels.
+    /// Returns the widest points that are not farther apart than a formula gives; if there are none, the coarsest level
+    /// whose texels are not wider.
     fn level(&self, texel: Option<&Formula>, points: Option<&Formula>) -> Level {
         let fits = |formula: Option<&Formula>| {
             let widest = formula.map_or(0.0, |formula| self.value(formula, WIDTHS.finest));
@@ -150,7 +151,7 @@ impl Reader<'_> {
         let mut symbol = 0;
         for _ in 0..times {
             symbol = call_symbol(&self.kind.id, &function.name, &self.ready.params, &given);
-            // From the second time on it reads its own last result first.
+            // From the second run on, it reads its previous result as the first texture.
             match first {
                 Some(Argument::Input(input)) => given.inputs[*input].0 = symbol,
                 Some(Argument::Pass(pass)) => given.passes[*pass] = symbol,
@@ -202,7 +203,7 @@ impl Reader<'_> {
                 _ => {}
             }
         }
-        // The first texture stands in for passes that nothing is connected for.
+        // The first texture replaces passes for inputs to which nothing is connected.
         let stand_in = match first {
             Some(Argument::Input(input)) => given.inputs[*input].0,
             Some(Argument::Pass(pass)) => given.passes[*pass],
@@ -260,7 +261,7 @@ impl Reader<'_> {
         }
         let level = self.level(self.kind.rays.as_ref().and_then(|rays| rays.texel.as_ref()), None);
         let takes = |pass: usize| output.arguments.contains(&Argument::Pass(pass));
-        // Means are read where one of them is denoised, else they are made in the kernel that takes them.
+        // Means are stored if one of them is denoised; otherwise they are computed in the kernel that uses them.
         let is_stored = |pass: &sabi_nodes::kind::Pass| self.kind.shape != Shape::Ray || pass.denoise.is_some();
         let reads_means = (0..self.passes.len()).any(|pass| takes(pass) && is_stored(&self.kind.passes[pass]));
         let reads = |pass: usize| reads_means && (takes(pass) || self.kind.shape == Shape::Ray);

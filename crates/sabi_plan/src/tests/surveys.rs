@@ -1,10 +1,10 @@
-//! Plans of nodes that read surveys, and of passes that are for an input.
+//! Plans of nodes that read surveys, and of passes that exist for an input.
 
 use super::{Bench, FUSED, graph};
 use crate::{Level, SlotExtent};
 
 #[test]
-fn a_survey_comes_before_what_asks_it_once_and_before_the_results() {
+fn a_survey_comes_before_the_pass_that_reads_it_and_before_the_results() {
     let lines = "
         a noise/simplex
         b adjust/coverage source=a

@@ -1,5 +1,5 @@
-//! Plans carried out with symbols in place of pixels: a slot holds a hash of the call that filled it and of all that went
-//! into it. A slot given away too early, read before it is filled, or read on another level than it is on, shows.
+//! Executes plans with symbols instead of pixels: a slot holds a hash of the call that filled it and of all its arguments.
+//! This detects a slot that is reused too early, read before it is filled, or read on the wrong level.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ pub(super) fn hash(parts: &[&[u8]]) -> u64 {
 #[derive(Default)]
 pub(super) struct Given {
     pub(super) inputs: Vec<(u64, Convert)>,
-    /// By pass of its kind, 0 where it takes none of it.
+    /// For each pass of the kind its symbol; 0 if the function does not read the pass.
     pub(super) passes: Vec<u64>,
     pub(super) survey: Option<u64>,
 }
@@ -63,7 +63,7 @@ pub(super) fn surveyed(symbol: u64) -> u64 {
     hash(&[b"surveyed", &symbol.to_le_bytes()])
 }
 
-/// Symbol of a plane resampled to another level: by way of the finest, and to points from the texels of their cells.
+/// Returns the symbol of a plane moved to another level: by way of the finest level, and to points by way of the texels of their cells.
 pub(super) fn moved(symbol: u64, from: Level, to: Level) -> u64 {
     if from == to {
         return symbol;
@@ -92,16 +92,16 @@ struct Held {
     step: usize,
 }
 
-/// A plan underway.
+/// Execution of a plan.
 struct Execution<'p> {
     plan: &'p Plan,
     slots: Vec<Option<Held>>,
-    /// Moves carried out: the step that made the plane, the slot that held it, and the level it was moved to.
+    /// Moves that were executed: the step that produced the plane, its slot, and the target level.
     moves: BTreeSet<(usize, usize, Level)>,
     step: usize,
 }
 
-/// Carries a plan out; answers what its results are.
+/// Executes a plan and returns the symbols of its results.
 pub(super) fn from_plan(plan: &Plan) -> Vec<u64> {
     let mut execution = Execution {
         plan,
@@ -259,7 +259,7 @@ impl Execution<'_> {
         let symbols = reads[first..first + planes].iter().flatten().map(|slot| {
             let takes = |call: &Call| call.passes.contains(&Some(load));
             let extent = match self.plan.slots[*slot].extent {
-                // The table for what looks something up in it once, and what was found for what takes it.
+                // A pass reads the whole table, and other functions read the value that was found in it.
                 SlotExtent::Survey if kernel.spec.domain == Domain::Once => SlotExtent::Survey,
                 SlotExtent::GroupSurvey if kernel.spec.domain == Domain::Groups => SlotExtent::GroupSurvey,
                 SlotExtent::Groups if kernel.level == Level::FINEST && kernel.spec.calls.iter().any(takes) => {

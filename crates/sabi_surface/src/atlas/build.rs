@@ -23,8 +23,7 @@ use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, Ghost, TILE, leap
 use crate::model::Mesh;
 
 impl Atlas {
-    /// Builds the linked atlas of a mesh: the same bytes for the same mesh and options, on any machine with any
-    /// number of threads.
+    /// Builds the linked atlas of a mesh. The same mesh and options give the same bytes on every machine and with any number of threads.
     pub fn build(mesh: &Mesh, options: &AtlasOptions) -> Result<Atlas, AtlasError> {
         let AtlasOptions {
             size,
@@ -77,7 +76,7 @@ impl Atlas {
         }
     }
 
-    /// Builds the atlas of the same charts at another size. Its report takes each of them for a chart in UV.
+    /// Builds the atlas of the same charts at another size. Its report treats each of them as a chart in UV.
     pub(crate) fn rebuild(&self, mesh: &Mesh, size: u32, page_limit: u32) -> Result<Atlas, AtlasError> {
         let (triangles, expected) = (mesh.triangles.len(), self.triangle_chart.len());
         if triangles != expected {
@@ -93,7 +92,7 @@ impl Atlas {
             orientations: &orientations,
             size,
             page_limit,
-            // A coarser atlas takes a part of what the first one does.
+            // A coarser atlas takes only a fraction of the memory of the first one.
             memory_bytes: u64::MAX,
         };
         let partition = Partition::numbered(self.triangle_chart.clone(), self.charts.len());
@@ -118,9 +117,9 @@ pub(super) fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
         .collect()
 }
 
-/// Memory of a texel of a page: its owner, its leap, and what finds them, here and on coarser levels.
+/// Memory for each texel of a page: its owner, its leap, and temporary data, here and on coarser levels.
 const TEXEL_BYTES: u64 = 8;
-/// Copies of a ghost at a time: as it is found, in the order of its texel, and on coarser levels.
+/// Maximum number of copies of a ghost that exist at the same time: as found, sorted by texel, and on coarser levels.
 const GHOST_COPIES: u64 = 3;
 
 /// Estimates the memory of an atlas whose charts are placed, bytes.
@@ -134,12 +133,12 @@ fn placed_bytes(masks: &[Mask], placement: &Placement) -> u64 {
     texels * TEXEL_BYTES + ghosts * GHOST_COPIES * size_of::<Ghost>() as u64
 }
 
-/// Said where dividing charts would take more texels than an atlas may have.
+/// Warning for a model whose charts are not divided because their parts would need more texels than an atlas can have.
 const GAPS_WARNING: &str = "Parts of UV charts lie so close to each other that filters flow from one to the other; placing them apart would \
     take too many texels. More space between them helps.";
 
 impl Plan<'_> {
-    /// Refuses charts that would take more texels than an atlas may have, before any texel is covered.
+    /// Refuses charts that would need more texels than an atlas can have, before any texel is rasterized.
     fn check_area(&self, partition: &Partition) -> Result<(), AtlasError> {
         let triangles = 0..self.mesh.triangles.len() as u32;
         let tiles: f64 = triangles.map(|triangle| self.mesh.uv_area(triangle)).sum();
@@ -150,14 +149,14 @@ impl Plan<'_> {
         Ok(())
     }
 
-    /// Builds the atlas of charts with narrow gaps, since their parts would take too many texels.
+    /// Builds the atlas of undivided charts with narrow gaps, since their parts would need too many texels.
     fn assemble_with_gaps(&self, whole: &ChartSet, udims: BTreeSet<u32>) -> Result<Atlas, AtlasError> {
         let mut atlas = self.assemble(whole, whole, udims)?;
         atlas.report.warnings.push(GAPS_WARNING.into());
         Ok(atlas)
     }
 
-    /// Builds the atlas of charts that are placed, which may be parts of those in UV that the report is about.
+    /// Builds the atlas of charts that are placed. These may be parts of the charts in UV, which are described in the report.
     fn assemble(&self, placed: &ChartSet, in_uv: &ChartSet, udims: BTreeSet<u32>) -> Result<Atlas, AtlasError> {
         let ChartSet { partition, masks, .. } = placed;
         if masks.iter().all(Mask::is_empty) {
@@ -214,7 +213,7 @@ impl Plan<'_> {
         })
     }
 
-    /// Refuses an atlas of so many charts that takes too many bytes.
+    /// Refuses an atlas that needs too much memory. `charts` is the number of charts, for the message.
     pub(super) fn check_memory(&self, charts: usize, needed: u64) -> Result<(), AtlasError> {
         if needed <= self.memory_bytes {
             return Ok(());
@@ -261,7 +260,7 @@ impl Plan<'_> {
         )
     }
 
-    /// Returns for each triangle whether it has an area in space that exceeds the rounding error of their positions.
+    /// Returns for each triangle whether it has an area in space that exceeds the rounding error of its corners.
     fn sound_triangles(&self) -> Vec<bool> {
         self.mesh
             .triangles
@@ -272,7 +271,7 @@ impl Plan<'_> {
                 let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
                 let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
                 let area2 = (b - a).cross(c - a).length();
-                // False for what is not a number, too.
+                // Also false for NaN.
                 area2 > longest * reach * f64::from(f32::EPSILON)
             })
             .collect()
@@ -327,7 +326,7 @@ impl Plan<'_> {
                     material: self.mesh.triangle_material[triangles[0] as usize],
                     sheet: sheet_of(self.mesh, triangles),
                     uv_tile: origins[chart].uv_tile,
-                    // Counter-clockwise in a picture is a negative area, since v grows downward.
+                    // Counter-clockwise in the image means a negative area, since v grows downward.
                     mirrored: turned > 0.0,
                     triangles: triangles.len() as u32,
                     texels: mask.count() as u32,
@@ -336,7 +335,7 @@ impl Plan<'_> {
             .collect()
     }
 
-    /// The UV tile of the middle of a chart's rectangle.
+    /// Returns the UV tile that contains the middle of a chart's bounding rectangle.
     fn uv_tile(&self, triangles: &[u32]) -> [i32; 2] {
         let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
         for corner in triangles.iter().flat_map(|&triangle| self.uvs.fixed(triangle)) {

@@ -8,7 +8,7 @@ use super::codec::{decode, encode};
 use super::{Atlas, AtlasError, AtlasOptions};
 use crate::model::Mesh;
 
-/// Stored atlases; the version changes whenever building or encoding does.
+/// Kind of cached atlases. Its version must be changed whenever building or encoding changes.
 const KIND: CacheKind = CacheKind {
     prefix: "atlas",
     version: 7,
@@ -41,7 +41,7 @@ pub fn atlas_key(mesh: &Mesh, options: &AtlasOptions) -> [u8; 32] {
     *hasher.finalize().as_bytes()
 }
 
-/// Returns the atlas of a mesh, from the cache where it is stored and intact, and otherwise builds and stores it.
+/// Returns the atlas of a mesh from the cache if it is stored there and intact. Otherwise builds and stores it.
 ///
 /// The second value is whether it came from the cache. A cache that cannot be written is a warning in the atlas'
 /// report, not an error; a damaged file is replaced.

@@ -62,16 +62,16 @@ impl Partition {
         self.charts.count()
     }
 
-    /// Triangles of a chart in rising order.
+    /// Returns the triangles of a chart in ascending order.
     pub(super) fn triangles(&self, chart: usize) -> &[u32] {
         self.charts.members(chart)
     }
 }
 
-/// Finds the charts of a mesh, before any that overlap themselves are split.
+/// Finds the charts of a mesh. Charts that overlap themselves are not split yet.
 pub(super) fn partition(mesh: &Mesh, topology: &Topology, orientations: &[i8]) -> Partition {
     let mut sets = DisjointSets::new(orientations);
-    // Triangles without area in UV are joined last: to their neighbors, but never to two of opposite winding.
+    // Triangles without area in UV are joined last. They never join charts of opposite winding.
     for with_flat in [false, true] {
         for (edge, &twin) in topology.twins.iter().enumerate().looking() {
             if twin == NO_TWIN || (twin as usize) < edge {
@@ -108,7 +108,7 @@ pub(crate) fn is_seam(mesh: &Mesh, topology: &Topology, edge: u32, twin: u32) ->
     uv(a0) != uv(b0) || uv(a1) != uv(b1)
 }
 
-/// Disjoint sets of triangles that wind the same way in UV.
+/// Disjoint sets of triangles. Triangles of opposite winding in UV are never in one set.
 struct DisjointSets {
     parents: Vec<u32>,
     orientations: Vec<i8>,

@@ -2,7 +2,7 @@
 
 use super::{Atlas, AtlasReport, Chart, EMPTY, GHOST_BIT, Ghost, TILE, TileRef};
 
-/// Most texels of an atlas; a larger claim is refused before anything is allocated.
+/// Maximum number of texels of an atlas. A larger number in a file is refused before anything is allocated.
 const TEXELS_LIMIT: u64 = 1 << 29;
 
 const RUN_EMPTY: u64 = 0;
@@ -58,13 +58,13 @@ pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
     out.bytes
 }
 
-/// Decodes an atlas; `None` when the bytes are none.
+/// Decodes an atlas; `None` if the bytes are not a valid atlas.
 pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     let mut input = Reader { bytes };
     let [size, width, height, pages] = input.u32_array()?;
     let [charts, triangles, ghosts] = input.u32_array()?.map(|count| count as usize);
     let texels = (u64::from(width) * u64::from(height)).checked_mul(pages.into())?;
-    // Each texel has a byte of its own, so that a claim takes no more memory than its file.
+    // The file has at least a byte for each texel, so that a false number cannot allocate more memory than the file has bytes.
     if texels > TEXELS_LIMIT.min(bytes.len() as u64)
         || width == 0
         || !width.is_multiple_of(TILE)
@@ -117,7 +117,7 @@ impl Writer {
         self.bytes.push(value as u8);
     }
 
-    /// Writes runs of equal owners: length and kind, for triangles also the difference from the triangle before.
+    /// Writes runs of equal owners: length, kind, and for triangles the difference from the previous triangle.
     fn owners(&mut self, owners: &[u32]) {
         let mut triangle = 0i64;
         let ghost = |value: u32| value != EMPTY && value & GHOST_BIT != 0;
@@ -319,7 +319,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Restores the texels of ghosts, which are stored in the order of their texels.
+/// Restores the texels of the ghosts, which are stored in the order of their texels.
 fn place_ghosts(ghosts: &mut [Ghost], owners: &[u32], [width, height]: [u32; 2]) -> Option<()> {
     let mut found = 0;
     for (row, owners) in owners.chunks_exact(width as usize).enumerate() {

@@ -1,4 +1,4 @@
-//! Division of charts into those that are placed, each on its own: at overlaps with themselves and at narrow gaps.
+//! Division of charts at narrow gaps and where they overlap themselves. The resulting charts are placed separately.
 
 use sabi_cancel::Cancel;
 use std::collections::HashMap;
@@ -16,33 +16,34 @@ use super::{AtlasError, RINGS};
 pub(super) enum Division {
     /// No chart has narrow gaps.
     NotNeeded,
-    /// Charts without narrow gaps, some of them parts.
+    /// Charts without narrow gaps; some of them are parts of charts in UV.
     Divided(ChartSet),
-    /// Parts would take too much room.
+    /// The parts would need too many texels.
     TooLarge,
 }
 
-/// Most rounds of dividing charts at narrow gaps; gaps that are left then stay.
+/// Maximum number of rounds of dividing charts at narrow gaps. Gaps that remain after that are left.
 const DIVISIONS: usize = 4;
-/// Most room that parts may take, as a multiple of that of the charts in UV, and some texels more.
+/// Maximum number of texels of the parts, as a multiple of the texels of the charts in UV; some more texels are allowed on top.
 const GROWTH_LIMIT: u64 = 2;
 const LEAST_ROOM: u64 = 1 << 14;
-/// Most texels of all charts' rectangles together; each takes a bit while building.
+/// Maximum number of texels of all charts' rectangles together. Each texel takes a bit during the build.
 const RECTANGLES_LIMIT: u64 = 1 << 33;
 
-/// Masks of a chart at a time: its own, and one grown by its ring, before and after its place is known.
+/// Number of masks of a chart that exist at the same time: the mask of the chart, and the mask grown by its ring, before
+/// and after its place is known.
 const MASKS: u64 = 3;
-/// Memory of a chart besides its texels.
+/// Memory of a chart in addition to its texels, in bytes.
 const CHART_BYTES: u64 = 256;
 
 impl Plan<'_> {
-    /// Returns the mask of each chart, and whether it covers a texel twice. Charts that would not fit are an error before
-    /// anything is allocated.
+    /// Returns the mask of each chart, and whether the chart covers a texel twice. Charts that would not fit are an error
+    /// before anything is allocated.
     pub(super) fn masks(&self, partition: &Partition) -> Result<Vec<(Mask, bool)>, AtlasError> {
         self.masks_of(partition, &(0..partition.len()).collect::<Vec<_>>())
     }
 
-    /// Returns the same of some charts.
+    /// Returns the masks of some charts, like [`Self::masks`].
     fn masks_of(&self, partition: &Partition, charts: &[usize]) -> Result<Vec<(Mask, bool)>, AtlasError> {
         let boxes: Vec<Option<[i64; 4]>> = charts
             .par_iter()
@@ -87,7 +88,7 @@ impl Plan<'_> {
             .collect())
     }
 
-    /// Splits charts that overlap themselves; `None` when there are none.
+    /// Splits charts that overlap themselves; `None` if there are no such charts.
     pub(super) fn split(&self, partition: &Partition, masks: &[(Mask, bool)]) -> Option<Partition> {
         let cancel = Cancel::current();
         let splitter = Splitter { plan: self, partition };
@@ -121,14 +122,14 @@ impl Plan<'_> {
         })
     }
 
-    /// Returns the parts of charts at narrow gaps and their masks; `None` where these would be too large.
+    /// Divides charts at narrow gaps and returns the parts with their masks; `None` if these would be too large.
     fn divided(&self, whole: &ChartSet) -> Option<(Partition, Vec<Mask>)> {
         let mut partition = whole.partition.clone();
-        // Masks by first triangle: of charts that need no more division, and those that may.
+        // Masks by the first triangle of the chart: of charts that are finished, and of charts that may need more division.
         let mut done: HashMap<u32, Mask> = HashMap::new();
         let first = |partition: &Partition, chart: usize| partition.triangles(chart)[0];
         let mut open: Vec<(usize, Mask)> = whole.masks.iter().cloned().enumerate().collect();
-        // A cut may leave a narrow gap of its own.
+        // A cut may create another narrow gap.
         for _ in 0..DIVISIONS {
             let gaps = Gaps {
                 plan: self,
@@ -153,7 +154,7 @@ impl Plan<'_> {
             partition = self.relabeled(&partition, &divided);
             let is_new = |&chart: &usize| !done.contains_key(&first(&partition, chart));
             let new: Vec<usize> = (0..partition.len()).filter(is_new).collect();
-            // Rectangles of parts may be too large where those of whole charts are not, as those of spirals.
+            // The rectangles of parts can be too large even if those of the whole charts are not, for example in spirals.
             let masks = self.masks_of(&partition, &new).ok()?.into_iter().map(|(mask, _)| mask);
             open = new.into_iter().zip(masks).collect();
         }
@@ -163,9 +164,9 @@ impl Plan<'_> {
         Some((partition, masks?))
     }
 
-    /// Returns charts of which some have other labels for their triangles, each the first triangle of its new chart.
+    /// Returns the charts after some of them got new labels for their triangles. A label is the first triangle of the new chart.
     fn relabeled(&self, partition: &Partition, found: &[(usize, Vec<u32>)]) -> Partition {
-        // The label of a chart is its first triangle, in the given partition as in the result.
+        // The label of a chart is its first triangle, in the given partition and in the result.
         let mut labels: Vec<u32> = partition
             .triangle_chart
             .iter()
@@ -180,7 +181,7 @@ impl Plan<'_> {
     }
 }
 
-/// Returns the texels of the rectangles of charts with their rings.
+/// Returns the number of texels in the rectangles of charts, including their rings.
 fn room(masks: &[Mask]) -> u64 {
     let around = |side: u32| u64::from(side + 2 * RINGS);
     let masks = masks.iter().filter(|mask| !mask.is_empty());

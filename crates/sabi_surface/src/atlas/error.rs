@@ -6,19 +6,19 @@ pub enum AtlasError {
     /// The model has no triangles.
     #[error("the model has no triangles, so there is no surface to work on; choose a model with faces")]
     NoTriangles,
-    /// No UVs.
+    /// The model has no UVs.
     #[error(
         "the model has no texture coordinates, and the maps need a place for every part of it; unwrap it in your \
          modeling program and export it with UVs"
     )]
     NoUvs,
-    /// UVs that cover no texel.
+    /// The UVs cover no texel.
     #[error(
         "the model's texture coordinates cover no texel at {size} texels for the unit square: they have no area, or \
          next to none; unwrap it in your modeling program or bake at a larger size"
     )]
     NoArea {
-        /// Texels asked for.
+        /// Requested number of texels.
         size: u32,
     },
     /// The mesh contradicts itself.
@@ -30,16 +30,16 @@ pub enum AtlasError {
     /// Size outside of what is supported.
     #[error("a size of {size} texels was asked for, but it has to be between 16 and 16384")]
     SizeOutOfRange {
-        /// Texels asked for.
+        /// Requested number of texels.
         size: u32,
     },
     /// Page limit outside of what is supported.
     #[error("a page limit of {limit} texels was asked for, but it has to be a multiple of 8 between 32 and 16384")]
     PageLimitOutOfRange {
-        /// Texels asked for.
+        /// Requested number of texels.
         limit: u32,
     },
-    /// UVs too far away to count texels.
+    /// UVs are too far from the unit square for texel numbers.
     #[error(
         "the texture coordinate ({u}, {v}) of vertex {vertex} lies too far from the unit square to be placed at \
          {size} texels"
@@ -54,7 +54,7 @@ pub enum AtlasError {
         /// Texels for the unit square.
         size: u32,
     },
-    /// UDIM is asked for and a tile has no number.
+    /// UDIM was requested and a chart lies in a tile without a UDIM number.
     #[error(
         "a UV chart (the one with triangle {triangle}) lies in the UV tile with u from {u} to {} and v, counted upward, from {v} to {}, \
          which has no UDIM number: those have u from 0 to 10, and v from 0 to 900",
@@ -66,7 +66,7 @@ pub enum AtlasError {
         triangle: u32,
         /// Column of the tile.
         u: i32,
-        /// Row of the tile, upward.
+        /// Row of the tile, counted upward.
         v: i32,
     },
     /// A chart does not fit on a page.
@@ -86,7 +86,7 @@ pub enum AtlasError {
         /// Largest chart a page takes, texels.
         limit: u32,
     },
-    /// More texels than can be held.
+    /// The charts need more texels than an atlas can have.
     #[error("at size {size} the model's {charts} UV charts need {needed}, but at most {limit} can be held")]
     TooManyTexels {
         /// Texels for the unit square.
@@ -98,7 +98,7 @@ pub enum AtlasError {
         /// Available amount, with its unit.
         limit: String,
     },
-    /// More memory than there is for it.
+    /// The atlas needs more memory than is allowed.
     #[error(
         "at size {size} the layout of the model's {charts} UV charts needs {needed_mib} MiB of memory, and there are {limit_mib} for it"
     )]
@@ -107,12 +107,12 @@ pub enum AtlasError {
         size: u32,
         /// Number of charts.
         charts: usize,
-        /// Memory that it takes, MiB.
+        /// Memory that the atlas needs, MiB.
         needed_mib: u64,
-        /// Memory that it may take, MiB.
+        /// Memory that the atlas may use, MiB.
         limit_mib: u64,
     },
-    /// A level below anything useful.
+    /// A level that would be too small to be useful.
     #[error("level {level} of an atlas of {size} texels would be {level_size} texels, but it has to keep at least 8")]
     LevelTooSmall {
         /// Level asked for.

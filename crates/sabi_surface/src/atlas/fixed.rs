@@ -1,13 +1,13 @@
-//! Texture coordinates in texels, exact and snapped.
+//! Texture coordinates in texels: exact ones, and ones that are snapped to a fine grid.
 
 use glam::DVec2;
 
 use super::AtlasError;
 use crate::model::Mesh;
 
-/// Parts of a texel that corners are snapped to for the raster.
+/// Number of grid steps in a texel, to which corners are snapped for rasterization.
 pub(crate) const UNIT: i64 = 256;
-/// Largest distance from the origin, texels, at which rasterization cannot overflow.
+/// Largest distance from the origin, in texels, at which rasterization cannot overflow.
 const REACH_TEXELS: f64 = (1u64 << 30) as f64;
 
 /// A mesh's texture coordinates at one size.
@@ -18,7 +18,7 @@ pub(super) struct Uvs<'a> {
 }
 
 impl<'a> Uvs<'a> {
-    /// Checks that the mesh is consistent and that its texture coordinates are within reach of rasterization.
+    /// Checks that the mesh is consistent, and that its texture coordinates are in the range that can be rasterized.
     pub(super) fn check(mesh: &'a Mesh, size: u32) -> Result<Uvs<'a>, AtlasError> {
         if mesh.triangles.is_empty() {
             return Err(AtlasError::NoTriangles);
@@ -70,13 +70,13 @@ impl<'a> Uvs<'a> {
         self.size
     }
 
-    /// Texture coordinates of a vertex; 0 where they are no numbers.
+    /// Returns the texture coordinates of a vertex; 0 for NaN and infinity.
     fn uv(&self, vertex: u32) -> DVec2 {
         let finite = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };
         DVec2::from(self.mesh.uvs[vertex as usize].map(finite))
     }
 
-    /// `uv × size` of a vertex; 0 where it is not a number.
+    /// Returns `uv × size` of a vertex; 0 for NaN and infinity.
     fn texel(&self, vertex: u32) -> DVec2 {
         self.uv(vertex) * self.size
     }
@@ -95,14 +95,14 @@ impl<'a> Uvs<'a> {
     /// Returns the winding of a triangle in UV: 1, −1, or 0 when its height is within the rounding
     /// error of its coordinates.
     ///
-    /// Independent of the size, so that every level has the same charts.
+    /// The result does not depend on the size, so that every level has the same charts.
     pub(super) fn orientation(&self, triangle: u32) -> i8 {
         let [a, b, c] = self.mesh.triangles[triangle as usize].map(|vertex| self.uv(vertex));
         let edges = [b - a, c - b, a - c];
         let longest = edges.iter().map(|edge| edge.x.hypot(edge.y)).fold(0.0, f64::max);
         let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
         let area2 = (b - a).perp_dot(c - a);
-        // The height over the longest edge against half a step of an f32 at that distance.
+        // Compare the height over the longest edge with half a step of an f32 at that distance.
         if area2.abs() <= longest * reach * f64::from(f32::EPSILON) {
             0
         } else {

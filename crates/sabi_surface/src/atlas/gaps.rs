@@ -1,6 +1,6 @@
-//! Narrow gaps: places where two parts of a chart lie side by side in UV, but not on the surface, with too few texels between
-//! them for the rings of ghosts of both. A ghost continues only one side, so the other would read what lies elsewhere on the
-//! surface. A chart is divided there, and its parts are placed apart.
+//! Narrow gaps: places where two parts of a chart lie side by side in UV, but not on the surface, with too few texels
+//! between them for both rings of ghosts. A ghost continues only one of the sides, so the other side would read values from
+//! elsewhere on the surface. The chart is divided there, and its parts are placed separately.
 
 use sabi_cancel::{Looking as _, look};
 use std::collections::{HashSet, VecDeque};
@@ -14,34 +14,34 @@ use super::plan::Plan;
 use super::raster::spans;
 use crate::segment::distance_to_segment;
 
-/// Most texels between two parts of a chart whose rings meet.
+/// Maximum number of texels between two parts of a chart whose rings meet.
 const WIDEST: i64 = 2 * RINGS as i64;
-/// The two sides of a gap are joined where the chart leads from one to the other within this distance from the middle of the gap:
-/// texels, or a share of the map if that is more. So a gap is left alone near its end, where the sides lie close to each other on
-/// the surface, too.
+/// Distance from the middle of a gap within which a path over the chart may connect its two sides, in texels, or as a share of the map if
+/// that is more. If there is such a path, the gap is left: near the end of a gap the sides are close to each other on the surface, too.
 const AROUND: f64 = 12.0;
 const AROUND_SHARE: f64 = 0.01;
-/// Most triangles that are visited to find such a way around one gap. Where the search ends early, the sides count as joined.
+/// Maximum number of triangles that are visited to find such a path around one gap. If the search ends early, the sides
+/// count as connected.
 const AROUND_LIMIT: usize = 4096;
-/// Most triangles that are visited to find ways around all gaps of a chart, for each triangle that it has, and at least.
+/// Maximum number of triangles that are visited to find paths around all gaps of a chart, for each of its triangles.
 const WAYS_EFFORT: usize = 64;
 const LEAST_WAYS_EFFORT: usize = 1 << 22;
-/// Most triangles that are visited to divide a chart, for each triangle that it has. At gaps that are left after that, single
-/// triangles are cut out.
+/// Maximum number of triangles that are visited to divide a chart, for each of its triangles. At gaps that remain after
+/// that, single triangles are cut out.
 const EFFORT: usize = 128;
-/// Most pairs of texels across gaps of a chart that are looked at: 32 MiB of them.
+/// Maximum number of pairs of texels across gaps of a chart that are examined: 32 MiB.
 const GAP_PAIRS_LIMIT: usize = 1 << 20;
-/// Most places that are looked at along the edges where a chart ends, for each of its triangles, and at least.
+/// Maximum number of places that are examined along the border edges of a chart, for each of its triangles.
 const EDGE_STEPS: usize = 256;
 const LEAST_EDGE_STEPS: usize = 1 << 20;
-/// Distance in space, in widths of a texel, up to which texels side by side are one place, such as along edges that are apart only by
-/// rounding.
+/// Distance in space, in texel widths, up to which neighboring texels count as the same place, for example along edges that
+/// differ only by rounding.
 const ONE_PLACE: f64 = 3.0;
 
-/// Steps to texels across a gap. Backward ones find the same gaps.
+/// Directions from a texel across a gap. The opposite directions would find the same gaps.
 const DIRECTIONS: [[i64; 2]; 4] = [[1, 0], [0, 1], [1, 1], [-1, 1]];
 
-/// Column and row in the user's layout.
+/// Column and row in the user's UV layout.
 type Texel = [i64; 2];
 
 /// Charts whose gaps are looked for.
@@ -51,16 +51,16 @@ pub(super) struct Gaps<'a> {
 }
 
 impl Gaps<'_> {
-    /// Divides a chart at its narrow gaps; cuts may leave others. Returns the first triangle of its part for each of the chart's
-    /// triangles, in their order; `None` for a chart without narrow gaps.
+    /// Divides a chart at its narrow gaps. Cuts may leave other narrow gaps. Returns for each triangle of the chart, in
+    /// order, the first triangle of its part; `None` for a chart without narrow gaps.
     pub(super) fn divide(&self, chart: usize, mask: &Mask) -> Option<Vec<u32>> {
         let sides = self.sides(chart, mask);
         let effort = EFFORT.saturating_mul(self.partition.triangles(chart).len());
         (!sides.is_empty()).then(|| self.parts(chart, &sides, effort))
     }
 
-    /// Returns the triangles on both sides of the narrow gaps of a chart, by their places in UV: copies of a chart are divided alike,
-    /// whatever the order of their triangles.
+    /// Returns the triangles on both sides of the narrow gaps of a chart, sorted by their places in UV, so that copies of a
+    /// chart are divided in the same way whatever the order of their triangles.
     pub(super) fn sides(&self, chart: usize, mask: &Mask) -> Vec<[u32; 2]> {
         let mut pairs = wide_pairs(mask);
         self.touching_pairs(chart, mask, &mut pairs);
@@ -88,7 +88,7 @@ impl Gaps<'_> {
         sides
     }
 
-    /// Returns whether two texels side by side lie at one place in space.
+    /// Returns whether two neighboring texels are at the same place in space.
     fn is_one_place(&self, [(a, from), (b, to)]: [(u32, Texel); 2]) -> bool {
         let are_side_by_side = [0, 1].iter().all(|&axis| (from[axis] - to[axis]).abs() <= 1);
         let places = || self.place(a, from).zip(self.place(b, to));
@@ -96,7 +96,8 @@ impl Gaps<'_> {
             && places().is_some_and(|([one, width], [other, _])| one.distance(other) <= ONE_PLACE * width.length())
     }
 
-    /// Returns the place of a texel's center in space, and the longer one of its steps; `None` for a triangle without area in UV.
+    /// Returns the position of a texel's center in space, and the longer one of its two texel axes; `None` for a triangle
+    /// without area in UV.
     fn place(&self, triangle: u32, texel: Texel) -> Option<[DVec3; 2]> {
         let [q0, q1, q2] = self.plan.uvs.corners(triangle);
         let (to_1, to_2) = (q1 - q0, q2 - q0);
@@ -109,7 +110,7 @@ impl Gaps<'_> {
         (area2 != 0.0).then(|| [p0 + step(center(texel) - q0), longer])
     }
 
-    /// Adds pairs of texels side by side, near edges where the chart ends.
+    /// Adds pairs of neighboring texels near edges where the chart ends.
     fn touching_pairs(&self, chart: usize, mask: &Mask, pairs: &mut Vec<[Texel; 2]>) {
         let triangles = self.partition.triangles(chart);
         let mut steps_left = EDGE_STEPS.saturating_mul(triangles.len()).max(LEAST_EDGE_STEPS);
@@ -121,7 +122,7 @@ impl Gaps<'_> {
                 }
                 let (from, to) = (corners[k], corners[(k + 1) % 3]);
                 let length = from.distance(to);
-                // A triangle without area may reach beyond what the chart covers.
+                // A triangle without area may extend beyond the rectangle of the chart.
                 if length > f64::from(mask.width + mask.height) {
                     continue;
                 }
@@ -157,7 +158,7 @@ impl Gaps<'_> {
     fn owners(&self, chart: usize, mask: &Mask, pairs: &[[Texel; 2]]) -> Owners {
         let mut owners = Owners::of(mask, pairs.iter().flatten().copied());
         if !pairs.is_empty() {
-            // Backwards, so that the lowest number is written last, as in the atlas.
+            // Iterate in reverse, so that the lowest number is written last, as in the atlas.
             for &triangle in self.partition.triangles(chart).iter().rev() {
                 spans(
                     self.plan.uvs.fixed(triangle),
@@ -171,15 +172,15 @@ impl Gaps<'_> {
         owners
     }
 
-    /// Returns the triangle on the other side of a half-edge, if it belongs to the same chart there.
+    /// Returns the triangle on the other side of a half-edge if it belongs to the same chart there.
     fn beyond(&self, edge: u32) -> Option<u32> {
         let chart = |triangle: u32| self.partition.triangle_chart[triangle as usize];
         self.plan.across(edge).filter(|&next| chart(next) == chart(edge / 3))
     }
 
-    /// Returns whether the chart leads from one triangle to another near a point.
+    /// Returns whether a path over the chart near a point leads from one triangle to another.
     fn are_joined(&self, from: u32, to: u32, middle: DVec2, effort: &mut usize) -> bool {
-        // Most often they share an edge.
+        // In most cases the triangles share an edge.
         if self.near_neighbors(from, middle).any(|next| next == to) {
             return true;
         }
@@ -210,8 +211,8 @@ impl Gaps<'_> {
         })
     }
 
-    /// Divides a chart between the sides of its gaps: each time into what is nearer to one side and what is nearer to the
-    /// other, counted in triangles, so that a cut goes on from the end of a gap and no part falls to pieces.
+    /// Divides a chart between the sides of its gaps. Each cut separates the triangles that are nearer to one side from those nearer to
+    /// the other, measured in triangles, so that a cut continues from the end of the gap and no part falls to pieces.
     pub(super) fn parts(&self, chart: usize, sides: &[[u32; 2]], mut effort: usize) -> Vec<u32> {
         let triangles = self.partition.triangles(chart);
         let local = |triangle: u32| triangles.binary_search(&triangle).ok();
@@ -245,10 +246,10 @@ impl Gaps<'_> {
     }
 }
 
-/// Some texels of a chart with their triangles.
+/// Some texels of a chart with the triangles that own them.
 struct Owners {
     first_row: i64,
-    /// Columns of each row in rising order, with the triangle once it is known.
+    /// Columns of each row in ascending order, with the triangle once it is known.
     rows: Vec<Vec<(i64, Option<u32>)>>,
 }
 
@@ -266,7 +267,7 @@ impl Owners {
         Owners { first_row, rows }
     }
 
-    /// Gives the texels of a row from one column to before another to a triangle.
+    /// Sets the triangle of the texels in a row whose columns are in a range.
     fn paint(&mut self, y: i64, [x0, x1]: [i64; 2], triangle: u32) {
         let row = usize::try_from(y - self.first_row)
             .ok()
@@ -284,7 +285,8 @@ impl Owners {
     }
 }
 
-/// Returns the middle one, then those in the middle of both halves, and so on: parts are halved before small ones are cut off.
+/// Returns the middle item first, then the middle items of both halves, and so on, so that parts are halved before small
+/// parts are cut off.
 fn middle_first<T: Copy>(items: &[T]) -> impl Iterator<Item = T> {
     let mut ranges = VecDeque::new();
     ranges.push_back(0..items.len());
@@ -300,8 +302,8 @@ fn middle_first<T: Copy>(items: &[T]) -> impl Iterator<Item = T> {
     })
 }
 
-/// Returns the triangles of a part that are nearer to the first of two triangles, and those nearer to the second, counted in
-/// triangles.
+/// Returns the triangles of a part that are nearer to the first of two triangles, and those that are nearer to the second,
+/// measured in triangles.
 fn nearer_to_each(neighbors: &[[Option<usize>; 3]], parts: &[usize], sides: [usize; 2]) -> [Vec<usize>; 2] {
     let mut seen = HashSet::from(sides);
     let mut nearer = sides.map(|side| vec![side]);
@@ -317,14 +319,14 @@ fn nearer_to_each(neighbors: &[[Option<usize>; 3]], parts: &[usize], sides: [usi
     nearer
 }
 
-/// Returns pairs of texels of a chart with a few others between them.
+/// Returns pairs of texels of a chart with a few empty texels between them.
 fn wide_pairs(mask: &Mask) -> Vec<[Texel; 2]> {
     let mut pairs = Vec::new();
     let empty = Vec::new();
     let rows: Vec<&[u64]> = mask.rows().collect();
     for (y, row) in rows.iter().enumerate() {
         for [dx, dy] in DIRECTIONS {
-            // Texels that are the last of the chart in this direction.
+            // Texels after which the chart ends in this direction.
             let next = rows.get(y + dy as usize).copied().unwrap_or(&empty);
             let mut covered = vec![0; row.len()];
             or_shifted(&mut covered, next, -dx);

@@ -1,9 +1,8 @@
 //! The leap map: how far a straight step may go from a texel.
 //!
-//! Walls are texels that no triangle owns, and texels at a jump of the metric: neighbors in a row or column whose
-//! triangles' first fundamental forms `JᵀJ` (texels to model space) differ by more than 5 % of the larger one. The leap
-//! is the exact Euclidean distance to the nearest wall's center, minus 1.5 so that bilinear sampling at the end stays
-//! clear of it, rounded down.
+//! Walls are texels that no triangle owns, and texels at a jump of the metric: neighbors in a row or column whose triangles' first
+//! fundamental forms `JᵀJ` (texels to model space) differ by more than 5 % of the larger one. The leap is the exact Euclidean distance to
+//! the nearest wall's center, minus 1.5 so that bilinear sampling at the end does not touch the wall, rounded down.
 
 use rayon::prelude::*;
 use sabi_cancel::Cancel;
@@ -15,14 +14,14 @@ use crate::model::Mesh;
 
 /// Distances beyond this many texels count as equal: a leap is at most 255.
 const FAR: u16 = 258;
-/// Columns that one task sweeps.
+/// Number of columns that one task processes.
 const STRIP: usize = 256;
 const METRIC_JUMP: f32 = 0.05;
 
 /// First fundamental form of a triangle: `[P_u·P_u, P_u·P_v, P_v·P_v]`, P in model units, u and v in texels.
 type Metric = [f32; 3];
 
-/// The leap of every texel.
+/// Computes the leap of every texel.
 pub(super) fn leap(mesh: &Mesh, uvs: &Uvs, partition: &Partition, owners: &[u32], page_size: [u32; 2]) -> Vec<u8> {
     let [width, height] = page_size.map(|side| side as usize);
     let metrics: Vec<Metric> = (0..partition.triangle_chart.len() as u32)
@@ -73,7 +72,7 @@ impl Page<'_> {
                 }
             }
         });
-        // Columns are independent of one another, and are swept in strips that are copied out and back.
+        // Columns are independent of each other. They are processed in strips, which are copied out and back.
         let strips: Vec<Vec<u16>> = (0..width)
             .step_by(STRIP)
             .collect::<Vec<_>>()
@@ -116,7 +115,7 @@ impl Page<'_> {
     }
 }
 
-/// Sweeps distances down and up. The border of the page need not count as a wall, since rings keep charts away from it.
+/// Propagates distances down and then up. The border of the page need not count as a wall, since rings keep charts away from it.
 fn sweep_columns(strip: &mut [u16], wide: usize) {
     for at in wide..strip.len() {
         strip[at] = strip[at].min(strip[at - wide] + 1);
@@ -127,7 +126,7 @@ fn sweep_columns(strip: &mut [u16], wide: usize) {
 }
 
 /// Computes the leaps of a row from the distances within its columns: the lower envelope of parabolas (Felzenszwalb and
-/// Huttenlocher 2012), in integers. Each run between two walls of the row is computed by itself.
+/// Huttenlocher 2012), in integers. Each run between two walls of the row is computed separately.
 fn row_leaps(columns: &[u16], leaps: &mut [u8]) {
     let mut envelope = Envelope::default();
     let mut x = 0;
@@ -141,7 +140,7 @@ fn row_leaps(columns: &[u16], leaps: &mut [u8]) {
             .position(|&distance| distance == 0)
             .map_or(columns.len(), |run| x + run);
         envelope.clear();
-        // The walls at both ends; the border of the page counts as one.
+        // Walls at both ends of the run. The border of the page counts as a wall.
         envelope.push(x as i64 - 1, 0);
         for (offset, &distance) in columns[x..end].iter().enumerate() {
             envelope.push((x + offset) as i64, i64::from(distance));

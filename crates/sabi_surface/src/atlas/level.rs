@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use super::{Atlas, AtlasError, Owner};
 use crate::model::Mesh;
 
-/// Page size that every adapter takes.
+/// Page size that every adapter supports.
 const PAGE_LIMIT: u32 = 8192;
 
-/// Most steps from texel to texel, over the surface, from one without a counterpart to one with a counterpart.
+/// Maximum number of steps from texel to texel, over the surface, from a texel without a counterpart to one that has a counterpart.
 const REACH: u32 = 64;
 
 /// Coarser atlas and the correspondence between its texels and those of the atlas it was made for.
@@ -18,15 +18,15 @@ const REACH: u32 = 64;
 pub struct AtlasLevel {
     /// The coarser atlas: its charts have the same numbers.
     pub atlas: Atlas,
-    /// Owned texels of the coarser atlas that cover no finer texel's center, as slivers do.
+    /// Owned texels of the coarser atlas that cover no center of a finer texel, such as those of slivers.
     pub coarse_orphans: Vec<Orphan>,
-    /// Owned texels of the finer atlas with no texel of their chart near on the coarser one.
+    /// Owned texels of the finer atlas that have no texel of their chart nearby on the coarser atlas.
     pub fine_orphans: Vec<Orphan>,
     fine_size: u32,
     fine_offsets: Vec<[i32; 2]>,
 }
 
-/// A texel without a counterpart on another level, and the nearest one over the surface that has one.
+/// A texel without a counterpart on another level, and the nearest texel on the surface that has one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Orphan {
     /// Column, row, page.
@@ -38,7 +38,7 @@ pub struct Orphan {
 impl Atlas {
     /// Builds the atlas of the same charts at `size >> level`, packed with full gaps and rings.
     pub fn level(&self, mesh: &Mesh, level: u32) -> Result<AtlasLevel, AtlasError> {
-        // A shift by all bits gives 0, which is an error below.
+        // Shifting out all bits gives 0, which is an error below.
         let level_size = self.size.checked_shr(level).unwrap_or(0);
         if level_size < 8 {
             return Err(AtlasError::LevelTooSmall {
@@ -65,7 +65,7 @@ impl Atlas {
     }
 
     /// Returns the owned texels for which `has_counterpart(chart, texel)` is false, each with the nearest texel that has a
-    /// counterpart; texels without one in reach are left out.
+    /// counterpart. Texels that are too far from such a texel are left out.
     fn orphans(&self, has_counterpart: impl Fn(u32, [u32; 3]) -> bool + Sync) -> Vec<Orphan> {
         let [width, height] = self.page_size;
         let rows = (0..self.pages * height).into_par_iter();
@@ -91,7 +91,7 @@ impl Atlas {
         found.into_iter().filter_map(orphan).collect()
     }
 
-    /// Returns the texel whose counterpart a neighbor of a texel uses: the neighbor itself, or the one found for it.
+    /// Returns the texel whose counterpart a neighbor uses: the neighbor itself, or the texel that was found for the neighbor.
     fn known_beside(&self, texel: [u32; 3], found: &BTreeMap<[u32; 3], Option<[u32; 3]>>) -> Option<[u32; 3]> {
         const NEIGHBORS: [[i32; 2]; 8] = [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]];
         NEIGHBORS.into_iter().find_map(|[x, y]| {
@@ -116,28 +116,26 @@ impl Atlas {
 }
 
 impl AtlasLevel {
-    /// Maps a point of the finer atlas to this level, through UV: texel coordinates on the chart's page.
-    /// Panics when there is no such chart.
+    /// Maps a point of the finer atlas to this level, through UV: texel coordinates on the chart's page. Panics if there is no such chart.
     pub fn coarse_texel_from_fine(&self, chart: u32, texel: [f64; 2]) -> [f64; 2] {
         let scale = f64::from(self.atlas.size) / f64::from(self.fine_size);
         let (fine, coarse) = self.offsets(chart);
         [0, 1].map(|axis| (texel[axis] - fine[axis]) * scale + coarse[axis])
     }
 
-    /// Maps a point of this level to the finer atlas, through UV: texel coordinates on the chart's page.
-    /// Panics when there is no such chart.
+    /// Maps a point of this level to the finer atlas, through UV: texel coordinates on the chart's page. Panics if there is no such chart.
     pub fn fine_texel_from_coarse(&self, chart: u32, texel: [f64; 2]) -> [f64; 2] {
         let scale = f64::from(self.fine_size) / f64::from(self.atlas.size);
         let (fine, coarse) = self.offsets(chart);
         [0, 1].map(|axis| (texel[axis] - coarse[axis]) * scale + fine[axis])
     }
 
-    /// Finer texels along a side of a coarser one.
+    /// Returns the number of finer texels along a side of a coarser texel.
     pub fn factor(&self) -> u32 {
         self.fine_size / self.atlas.size
     }
 
-    /// Returns whether a texel of this level covers a finer texel of its chart, as `restrict.wgsl` decides it.
+    /// Returns whether a texel of this level covers a finer texel of its chart, by the same rule as `restrict.wgsl`.
     fn covers_a_finer(&self, fine: &Atlas, chart: u32, texel: [u32; 3]) -> bool {
         let corner = self.fine_texel_from_coarse(chart, [f64::from(texel[0]), f64::from(texel[1])]);
         let page = fine.charts[chart as usize].page;
@@ -151,8 +149,7 @@ impl AtlasLevel {
         })
     }
 
-    /// Returns whether one of the four texels of this level around a finer one is of its chart, as `prolong.wgsl` decides
-    /// it.
+    /// Returns whether one of the four texels of this level around a finer texel belongs to its chart, by the same rule as `prolong.wgsl`.
     fn has_a_coarser(&self, chart: u32, texel: [u32; 3]) -> bool {
         let center = [f64::from(texel[0]) + 0.5, f64::from(texel[1]) + 0.5];
         let corner = self

@@ -10,14 +10,14 @@ use super::ring::AnchoredGhost;
 use super::walk::{WalkEnd, Walker};
 use super::{EMPTY, Ghost};
 
-/// Largest distance from a link's end to the owned texel that it is pulled to, texels.
+/// Maximum distance from the end of a link to the owned texel towards which it is moved, in texels.
 const PULL_TEXELS: i64 = 4;
-/// Distance from a pulled end to the texel's center, along the longer axis, texels.
+/// Distance from a moved end to the center of that texel, along the longer axis, in texels.
 const PULLED_DISTANCE: f64 = 0.875;
-/// Least bilinear weight at which an owned texel counts.
+/// Minimum bilinear weight at which an owned texel counts.
 const LEAST_WEIGHT: f64 = 1e-3;
 
-/// Distances, in texels, by which a walk is continued beyond its end until enough texels of its footprint are owned.
+/// Distances, in texels, by which a walk is continued beyond its end until enough texels of its bilinear footprint are owned.
 const CONTINUED_TEXELS: [f64; 4] = [0.0, 0.25, 0.5, 1.0];
 /// Difference below which two shares of owned texels count as equal.
 const EQUAL_SHARE: f64 = 0.25;
@@ -36,17 +36,17 @@ pub(super) struct Links {
     pub(super) ghosts: Vec<Ghost>,
     /// Ghosts without a link.
     pub(super) unlinked: u32,
-    /// Ghosts whose links were pulled toward an owned texel.
+    /// Number of ghosts whose links were moved toward an owned texel.
     pub(super) pulled: u32,
 }
 
 /// Result of linking a ghost.
 enum Outcome {
-    /// To the end of its walk.
+    /// Linked to the end of its walk.
     Linked,
-    /// To a point between the end of its walk and the nearest owned texel.
+    /// Linked to a point between the end of its walk and the nearest owned texel.
     Pulled,
-    /// To its own anchor: the walk did not end near an owned texel.
+    /// Linked to its anchor, because the walk did not end near an owned texel.
     Unlinked,
 }
 
@@ -100,8 +100,8 @@ impl Pages<'_> {
     /// coordinates on the chart's page.
     ///
     /// Between the owned texels of two charts there is up to a texel of surface that neither owns. A walk that ends there
-    /// is continued over the seam, and its end is given in the coordinates of the chart reached, since in those of its own
-    /// chart a ghost would read itself. Of all candidates the one with the largest share of owned texels is taken.
+    /// is continued over the seam, and its end is given in coordinates of the chart on the other side, since in its own
+    /// chart a ghost would read itself. Of all candidates, the one with the largest share of owned texels is used.
     fn read_point(&self, walker: &Walker, triangle: u32, start: DVec2, step: DVec2) -> Option<(u32, DVec2)> {
         let length = step.x.hypot(step.y).max(1.0);
         let ends = CONTINUED_TEXELS.into_iter().filter_map(|texels| {
@@ -116,7 +116,7 @@ impl Pages<'_> {
         let mut best: Option<(WalkEnd, f64)> = None;
         for (end, share) in ends {
             let is_better = best.as_ref().is_none_or(|(known, most)| {
-                // Both charts may end a texel before the seam; the other one is preferred.
+                // Both charts may end one texel before the seam. In that case the other chart is preferred.
                 let changes = chart(known) == own && chart(&end) != own;
                 share > most + LEAST_WEIGHT || (changes && share > most - EQUAL_SHARE)
             });
@@ -131,7 +131,7 @@ impl Pages<'_> {
         Some((end.triangle, texel))
     }
 
-    /// Returns the texels from a chart's place in the user's layout to its place on the page.
+    /// Returns the offset, in texels, from a chart's place in the user's layout to its place on the page.
     fn offset(&self, chart: u32) -> DVec2 {
         DVec2::from(self.placement.charts[chart as usize].offset.map(f64::from))
     }
@@ -161,8 +161,8 @@ impl Pages<'_> {
         share
     }
 
-    /// Returns the end of a walk on its page, and whether it was pulled toward an owned texel, so that bilinear sampling reads
-    /// one. `None` where no owned texel of the chart is near.
+    /// Returns the end of a walk on its page, and whether it was moved toward an owned texel so that bilinear sampling
+    /// reads that texel. `None` if no owned texel of the chart is near.
     fn sampled(&self, end: WalkEnd) -> Option<(WalkEnd, DVec2, bool)> {
         let chart = self.partition.triangle_chart[end.triangle as usize];
         let texel = end.texel + self.offset(chart);
@@ -199,7 +199,7 @@ impl Pages<'_> {
                     }
                 }
             }
-            // Texels further out are at least this far away.
+            // Texels farther out have at least this distance.
             if nearest.is_some_and(|(least, _)| least <= reach as f64) {
                 break;
             }

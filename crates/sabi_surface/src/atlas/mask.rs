@@ -7,7 +7,7 @@ use super::fixed::{UNIT, Uvs};
 use super::raster::spans;
 use sabi_cancel::Looking as _;
 
-/// Texels that a chart covers in the user's layout, a bit each, in the smallest rectangle that holds them.
+/// Texels that a chart covers in the user's layout, one bit each, in the smallest rectangle that contains them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Mask {
     /// Column and row of the first bit in the user's layout.
@@ -16,7 +16,7 @@ pub(crate) struct Mask {
     pub(crate) width: u32,
     /// Rows.
     pub(crate) height: u32,
-    /// Words a row, at least one bit more than columns.
+    /// Words in a row, with room for at least one more bit than there are columns.
     words: usize,
     bits: Vec<u64>,
 }
@@ -34,7 +34,7 @@ impl Mask {
         }
     }
 
-    /// Rasterizes a chart within its [`texel_box`]; the second value is true if a center was covered twice.
+    /// Rasterizes a chart within its [`texel_box`]. The second value is true if a texel center was covered twice.
     pub(super) fn of_chart(uvs: &Uvs, triangles: &[u32], bounds: Option<[i64; 4]>) -> (Mask, bool) {
         let Some([x0, y0, x1, y1]) = bounds else {
             return (Mask::default(), false);
@@ -50,7 +50,7 @@ impl Mask {
         (mask.tight(), twice)
     }
 
-    /// Sets the bits `x0..x1` of a row; returns true if one was set before.
+    /// Sets the bits `x0..x1` of a row. Returns true if one of them was set already.
     pub(crate) fn set(&mut self, y: i64, x0: i64, x1: i64) -> bool {
         let row = &mut self.bits[y as usize * self.words..][..self.words];
         let (x0, last) = (x0 as usize, x1 as usize - 1);
@@ -115,7 +115,7 @@ impl Mask {
         mask
     }
 
-    /// Returns the mask in cells of `cell × cell` texels, from its own corner on.
+    /// Returns the mask with a resolution of `cell × cell` texels, starting at its own corner.
     pub(crate) fn cells(&self, cell: u32) -> Mask {
         let mut cells = Mask::empty([0, 0], self.width.div_ceil(cell), self.height.div_ceil(cell));
         for (y, row) in self.rows().enumerate() {
@@ -198,7 +198,7 @@ impl Mask {
         self.bits.chunks_exact(self.words.max(1))
     }
 
-    /// Adds another mask's row at a column; returns true if a bit was set before.
+    /// Adds a row of another mask at a column. Returns true if a bit was set already.
     pub(crate) fn merge_row(&mut self, y: usize, row: &[u64], shift: i64) -> bool {
         let target = &mut self.bits[y * self.words..][..self.words];
         let hit = meets_shifted(target, row, shift);
@@ -238,7 +238,7 @@ pub(super) fn texel_box(uvs: &Uvs, triangles: &[u32]) -> Option<[i64; 4]> {
     found
 }
 
-/// Word `index` of a row of bits moved by `shift` columns to the right; zero beyond its ends.
+/// Returns word `index` of a row of bits that is moved to the right by `shift` columns; zero outside of the row.
 fn shifted_word(row: &[u64], index: usize, shift: i64) -> u64 {
     let bit = index as i64 * 64 - shift;
     let (word, offset) = (bit.div_euclid(64), bit.rem_euclid(64) as u32);
@@ -257,7 +257,7 @@ fn shifted_word(row: &[u64], index: usize, shift: i64) -> u64 {
     }
 }
 
-/// Ors a row of bits, shifted to the right by `shift`, into another; bits beyond its ends are dropped.
+/// Combines a row of bits, moved to the right by `shift`, into another row by a bitwise or. Bits beyond its ends are dropped.
 pub(crate) fn or_shifted(target: &mut [u64], row: &[u64], shift: i64) {
     for (index, word) in target.iter_mut().enumerate() {
         *word |= shifted_word(row, index, shift);

@@ -13,7 +13,7 @@ use super::mask::{Mask, for_each_run};
 use super::plan::ChartSet;
 use crate::model::Mesh;
 
-/// Most pairs whose shared texels are counted.
+/// Maximum number of pairs whose shared texels are counted.
 const CANDIDATES_LIMIT: usize = 200_000;
 
 /// Overlap of charts.
@@ -23,7 +23,7 @@ pub(super) struct Overlap {
     pub(super) texels: u64,
     /// Pairs with the number of texels that they share.
     pub(super) pairs: Vec<(u32, u32, u64)>,
-    /// Charts that coincide with an earlier one.
+    /// Number of charts that coincide with an earlier one.
     pub(super) stacked: u32,
 }
 
@@ -127,7 +127,7 @@ fn overlap_of_sheet(
     found.stacked += stacked.len() as u32;
 }
 
-/// Returns the pairs of charts that share texels, at most `room`.
+/// Returns the pairs of charts that share texels, at most `room` pairs.
 fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
     let mut candidates = Vec::new();
     'all: for (index, (_, a)) in crowded.iter().enumerate() {
@@ -197,7 +197,7 @@ fn coinciding(
     stacked
 }
 
-/// A unit square of texels, a bit each: covered by a chart, and covered by more than one.
+/// Unit square of texels with two bits for each texel: covered by a chart, and covered by more than one.
 struct Square {
     words: usize,
     once: Vec<u64>,
@@ -315,7 +315,7 @@ impl Wrapped {
     }
 }
 
-/// A run of columns, cut at the borders of unit squares.
+/// A run of columns, cut at the borders of the unit square.
 struct WrappedRun {
     from: usize,
     to: usize,
@@ -324,7 +324,7 @@ struct WrappedRun {
 
 impl WrappedRun {
     fn new(from: usize, to: usize, size: usize) -> WrappedRun {
-        // A run as long as the square covers all of it.
+        // A run that is as long as the square covers all of it.
         WrappedRun {
             from,
             to: to.min(from + size),

@@ -35,7 +35,7 @@ pub(super) fn texel_owners(uvs: &Uvs, partition: &Partition, placement: &Placeme
         .for_each(|(band, owners)| {
             let top = (band * BAND_ROWS) as i64;
             let bottom = top + (owners.len() / width) as i64;
-            // Backwards, so that the lowest number is written last.
+            // Iterate in reverse, so that the lowest number is written last.
             for &triangle in bands.members(band).iter().rev() {
                 cancel.look();
                 spans(corners(triangle), top..bottom, |y, x0, x1| {

@@ -1,4 +1,4 @@
-//! Packing: a shape of cells goes to the topmost, then leftmost free position of the first page with room for it.
+//! Packing: each shape of cells is placed at the topmost, then leftmost free position of the first page that has space for it.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub(crate) struct Packer {
     columns: u32,
     rows_limit: u32,
     pages: Vec<Page>,
-    /// Start of the search for a shape of this width and height: no shape of that size fits before it.
+    /// Where the search for a shape of this width and height starts: no shape of this size fits before it.
     starts: BTreeMap<(u32, u32), (u32, u32)>,
 }
 
@@ -28,7 +28,8 @@ struct Page {
 }
 
 impl Packer {
-    /// Creates a packer with pages of a width that suits shapes of `area` cells together, the widest of `widest` columns.
+    /// Creates a packer whose pages have a width that suits shapes with a total area of `area` cells, the widest of which
+    /// has `widest` columns.
     pub(crate) fn new(area: u64, widest: u32, limit: u32) -> Packer {
         // About 15 % of the area is lost between shapes.
         let side = ((area as f64) * 1.15).sqrt().ceil() as u32;
@@ -60,7 +61,7 @@ impl Packer {
     /// Finds the position of a shape that fits on an empty page.
     pub(crate) fn find(&mut self, shape: &Mask) -> CellPosition {
         let size = (shape.width, shape.height);
-        // The first search for a size starts at the first page.
+        // The first search for a size starts on the first page.
         let (mut page, mut row) = self.starts.get(&size).copied().unwrap_or((0, 0));
         loop {
             if page as usize == self.pages.len() {
@@ -86,7 +87,7 @@ impl Packer {
 
     /// Columns and rows in use on the fullest page, at least one.
     pub(crate) fn extent(&self) -> (u32, u32) {
-        // No page is in use yet.
+        // The default stands for no page in use.
         let rows = self.pages.iter().map(|page| page.rows.len()).max().unwrap_or(0);
         let last = |row: &Vec<u64>| {
             row.iter()
@@ -98,14 +99,14 @@ impl Packer {
             .iter()
             .flat_map(|page| page.rows.iter().map(last))
             .max()
-            // No row is in use yet.
+            // The default stands for no row in use.
             .unwrap_or(0);
         (columns.max(1) as u32, rows.max(1) as u32)
     }
 }
 
 impl Page {
-    /// Returns the first column of a row at which the shape covers free cells only.
+    /// Returns the first column of a row at which the shape covers only free cells.
     fn free_column(&self, shape: &Mask, row: u32, columns: u32) -> Option<u32> {
         let last = columns.checked_sub(shape.width)? as usize;
         let words = columns as usize / 64 + 1;
@@ -132,11 +133,11 @@ impl Page {
     }
 }
 
-/// Marks all columns at which one of the cells `from..to` of a shape would cover a taken cell.
+/// Marks all columns at which one of the cells `from..to` of a shape would cover a used cell.
 fn block(blocked: &mut [u64], taken: &[u64], from: usize, to: usize) {
     let mut reach = vec![0u64; blocked.len()];
     super::mask::or_shifted(&mut reach, taken, -(from as i64));
-    // Doubling: after each step a bit is the union of twice as many cells to its right.
+    // Doubling: after each step, a bit is the union of twice as many cells to its right.
     let (length, mut covered) = (to - from, 1);
     while covered < length {
         let step = covered.min(length - covered);

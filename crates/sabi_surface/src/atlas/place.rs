@@ -1,4 +1,4 @@
-//! Placement of charts: whole texels away from their place in the user's layout, so that export is a copy.
+//! Placement of charts at offsets of whole texels from their place in the user's layout, so that export only copies texels.
 
 use rayon::prelude::*;
 use sabi_cancel::look;
@@ -7,14 +7,14 @@ use super::mask::Mask;
 use super::pack::{CellPosition, Packer};
 use super::{AtlasError, RINGS, TILE};
 
-/// Most pages: texture array layers that every adapter supports.
+/// Maximum number of pages: texture array layers that every adapter supports.
 const PAGES_LIMIT: u32 = 256;
 /// Most texels: 2 GiB of owners.
 pub(super) const TEXELS_LIMIT: u64 = 1 << 29;
 
-/// About the most cells that charts cover where they are packed: those of eight unit squares.
+/// Approximate maximum number of cells that charts cover while they are packed: the cells of eight unit squares.
 const MOST_CELLS: f64 = 8.0 * 256.0 * 256.0;
-/// Least cells along a chart of mean area, where cells are made larger for the sake of [`MOST_CELLS`].
+/// Minimum number of cells along a chart of average area, if cells are enlarged because of [`MOST_CELLS`].
 const LEAST_CHART_CELLS: f64 = 16.0;
 
 /// Pages and the place of each chart.
@@ -31,7 +31,7 @@ pub(super) struct Placement {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Place {
     pub(super) page: u32,
-    /// Added to texel coordinates of the user's layout, gives those on the page.
+    /// Offset that is added to texel coordinates of the user's layout to get those on the page.
     pub(super) offset: [i32; 2],
 }
 
@@ -57,7 +57,7 @@ pub(super) fn place(masks: &[Mask], size: u32, page_limit: u32) -> Result<Placem
     Ok(placement)
 }
 
-/// Error about charts that take more texels than an atlas may have.
+/// Returns the error for charts that need more texels than an atlas can have.
 pub(super) fn too_many_texels(size: u32, charts: usize, texels: u64) -> AtlasError {
     AtlasError::TooManyTexels {
         size,
@@ -67,7 +67,7 @@ pub(super) fn too_many_texels(size: u32, charts: usize, texels: u64) -> AtlasErr
     }
 }
 
-/// Keeps the user's own layout; `None` unless all charts lie inside the unit square with room for their rings.
+/// Keeps the user's own layout; `None` unless all charts lie inside the unit square with space for their rings.
 fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
     let (ring, side) = (i64::from(RINGS), i64::from(size));
     let within = |edge: i64| {
@@ -77,7 +77,7 @@ fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
             mask.is_empty() || (x.min(y) >= edge && far <= side - edge)
         })
     };
-    // Charts at the border of the square need room for their rings: the whole layout moves by one tile.
+    // Charts at the border of the square need space for their rings: the whole layout moves by one tile.
     let margin = match () {
         () if within(ring) => 0,
         () if within(0) => TILE,
@@ -112,8 +112,8 @@ fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
 fn cell_side(size: u32, masks: &[Mask], page_limit: u32) -> u32 {
     let of_charts = masks.iter().map(Mask::count).filter(|texels| *texels > 0);
     let (charts, texels) = of_charts.fold((0.0, 0.0), |(charts, sum), texels| (charts + 1.0, sum + texels as f64));
-    // About 256 cells along the unit square: fine enough to waste little space, coarse enough to be fast at any size. Large charts that
-    // cover it many times over are packed in as few cells as if they covered it a few times.
+    // About 256 cells along the unit square: fine enough to waste little space, coarse enough to be fast at any size. If
+    // large charts cover the square many times over, larger cells are used, so that the number of cells stays limited.
     let of_area = (texels / MOST_CELLS).sqrt();
     let of_chart = (texels / f64::max(charts, 1.0)).sqrt() / LEAST_CHART_CELLS;
     let mut cell = (size / 256)
@@ -137,7 +137,7 @@ fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
         })
         .collect();
     let area = grown.iter().map(|(_, shape)| shape.count()).sum();
-    // No charts have no width.
+    // The default stands for no charts.
     let widest = grown.iter().map(|(_, shape)| shape.width).max().unwrap_or(0);
     let mut packer = Packer::new(area, widest, page_limit / cell);
     let mut order: Vec<usize> = (0..masks.len()).filter(|&chart| !masks[chart].is_empty()).collect();
@@ -172,7 +172,7 @@ mod tests {
     use super::cell_side;
     use crate::atlas::mask::Mask;
 
-    /// Square charts, all covered.
+    /// Creates square charts that are completely covered.
     fn squares(count: usize, side: u32) -> Vec<Mask> {
         let mut mask = Mask::empty([0, 0], side, side);
         for y in 0..i64::from(side) {

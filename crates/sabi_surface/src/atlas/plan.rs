@@ -1,4 +1,4 @@
-//! Inputs of a build: what does not depend on where charts are placed, and the charts with their masks.
+//! Inputs of a build that do not depend on where charts are placed, and the charts with their masks.
 
 use super::charts::{Partition, is_seam};
 use super::fixed::Uvs;
@@ -27,15 +27,15 @@ impl Plan<'_> {
     }
 }
 
-/// Chart in UV that a chart of the atlas is, or is a part of.
+/// The chart in UV to which a chart of the atlas belongs.
 #[derive(Clone, Copy)]
 pub(super) struct Origin {
     pub(super) uv_chart: u32,
-    /// Its tile.
+    /// Tile of the chart in UV.
     pub(super) uv_tile: [i32; 2],
 }
 
-/// Charts with their masks: those in UV, or their parts, which are placed each on its own.
+/// Charts with their masks: charts in UV, or parts of these that are placed separately.
 pub(super) struct ChartSet {
     pub(super) partition: Partition,
     pub(super) masks: Vec<Mask>,

@@ -1,4 +1,4 @@
-//! Texel centers that a triangle covers, in integers only: every center belongs to exactly one of two neighbors.
+//! Rasterization of triangles with integers only: every texel center on a shared edge belongs to exactly one of the two triangles.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ const HALF: i64 = UNIT / 2;
 /// nothing.
 pub(crate) fn spans(corners: [[i64; 2]; 3], rows: Range<i64>, mut paint: impl FnMut(i64, i64, i64)) {
     let origin = [corners[0][0] & -UNIT, corners[0][1] & -UNIT];
-    // Relative to the origin of the triangle, products stay far below 2⁶³ for any triangle that fits on a page.
+    // In coordinates relative to the triangle's origin, products stay far below 2⁶³ for any triangle that fits on a page.
     let mut c = corners.map(|corner| [corner[0] - origin[0], corner[1] - origin[1]]);
     let area2 = (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
     if area2 == 0 {

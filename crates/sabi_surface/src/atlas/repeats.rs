@@ -1,4 +1,4 @@
-//! UVs that repeat so often that a map shows little of what they cover: found before charts are cut.
+//! Finds UVs that repeat so often that a map shows little of the surface they cover. This is done before charts are cut.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,10 +10,10 @@ use super::topology::Topology;
 use super::udim::udim_sheets;
 use crate::model::Mesh;
 
-/// Least number of tiles of UVs on one map at which it repeats too often: seven eighths of the surface and more show what belongs
-/// elsewhere, and take as many times the texels of the map.
+/// Number of overlapping tiles of UVs from which a map counts as repeating too often: at least seven eighths of the surface
+/// would show values that belong elsewhere, and would need as many times the texels of the map.
 const TOO_OFTEN: f64 = 8.0;
-/// Least side of the UVs of a sheet that repeats, in tiles; those within one are stacked.
+/// Minimum extent, in tiles, of the UVs of a sheet that counts as repeating. UVs within one tile are stacked instead.
 const LEAST_EXTENT: f32 = 1.25;
 
 /// Material with UVs that repeat too often.
@@ -32,10 +32,10 @@ struct Extent {
     high: [f32; 2],
 }
 
-/// Finds the materials whose UVs repeat so often that their maps show little of them. Those of UDIM layouts are none, nor are charts
-/// that are stacked within one tile. The cost grows with the triangles alone, not with what their UVs cover.
+/// Finds the materials whose UVs repeat so often that their maps show little of the surface. UDIM layouts do not count, nor do charts that
+/// are stacked within one tile. The cost depends only on the number of triangles, not on the area that their UVs cover.
 pub fn repeats(mesh: &Mesh, udim: Udim) -> Vec<Repeats> {
-    // What is wrong with a mesh is said when its atlas is built.
+    // A faulty mesh is reported when its atlas is built.
     let Ok(uvs) = Uvs::check(mesh, 1) else {
         return Vec::new();
     };
@@ -52,7 +52,7 @@ pub fn repeats(mesh: &Mesh, udim: Udim) -> Vec<Repeats> {
         extent.area += mesh.uv_area(triangle as u32);
         for vertex in mesh.triangles[triangle] {
             let at = mesh.uvs[vertex as usize];
-            // Minima and maxima ignore what is not a number.
+            // `min` and `max` ignore NaN.
             extent.low = [0, 1].map(|axis| extent.low[axis].min(at[axis]));
             extent.high = [0, 1].map(|axis| extent.high[axis].max(at[axis]));
         }
@@ -72,7 +72,7 @@ pub fn repeats(mesh: &Mesh, udim: Udim) -> Vec<Repeats> {
         .collect()
 }
 
-/// Returns the sheets of which each tile has maps of its own.
+/// Returns the sheets whose tiles have separate maps.
 fn udims(mesh: &Mesh, uvs: &Uvs<'_>, udim: Udim) -> BTreeSet<u32> {
     let charts = partition(mesh, &Topology::new(mesh), &orientations(uvs, mesh));
     let all = || {
@@ -80,6 +80,6 @@ fn udims(mesh: &Mesh, uvs: &Uvs<'_>, udim: Udim) -> BTreeSet<u32> {
             .map(|chart| sheet_of(mesh, charts.triangles(chart)))
             .collect()
     };
-    // A tile without a number is an error of the build, which says more.
+    // A tile without a number is reported by the build, with more detail.
     udim_sheets(mesh, &charts, udim).unwrap_or_else(|_| all())
 }

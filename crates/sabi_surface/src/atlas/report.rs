@@ -74,7 +74,7 @@ impl ReportInputs<'_> {
         in_uv.len() as u32
     }
 
-    /// Counts thin charts; those without area in UV are none.
+    /// Counts thin charts. Charts without area in UV do not count.
     fn thin_charts(&self) -> u32 {
         let has_area = |chart: usize| {
             let mut triangles = self.in_uv.partition.triangles(chart).iter();

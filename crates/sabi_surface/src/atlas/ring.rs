@@ -24,7 +24,7 @@ pub(super) struct AnchoredGhost {
     pub(super) texel: [u32; 3],
     /// The nearest owned texel, on the same page.
     pub(super) anchor: [u32; 2],
-    /// Its owner.
+    /// Triangle that owns the anchor.
     pub(super) triangle: u32,
 }
 
@@ -58,7 +58,7 @@ impl Occupancy {
         &self.bits[row * self.words..][..self.words]
     }
 
-    /// Owned texels and those of their rings, in one row of all pages.
+    /// Returns the owned texels and the texels of their rings, in one row of all pages.
     fn grown_row(&self, row: usize) -> Vec<u64> {
         let ring = RINGS as usize;
         let page_top = row / self.height * self.height;
@@ -77,8 +77,8 @@ impl Occupancy {
         grown
     }
 
-    /// Returns all ghosts with their anchors, in the order of their texels. Triangles for which `prefer` returns true
-    /// are anchors before all others.
+    /// Returns all ghosts with their anchors, in the order of their texels. Triangles for which `prefer` returns true are
+    /// preferred as anchors.
     pub(super) fn anchored(&self, owners: &[u32], prefer: impl Fn(u32) -> bool + Sync) -> Vec<AnchoredGhost> {
         let cancel = Cancel::current();
         let offsets = neighborhood();
@@ -165,7 +165,7 @@ impl Occupancy {
     }
 }
 
-/// Offsets to all texels within the rings, the nearest first; of equally near ones the smallest index first.
+/// Returns the offsets to all texels within the rings, nearest first. Among equally near ones, the smallest index comes first.
 fn neighborhood() -> Vec<[i64; 2]> {
     let ring = i64::from(RINGS);
     let mut offsets: Vec<[i64; 2]> = (-ring..=ring)

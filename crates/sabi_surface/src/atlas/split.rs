@@ -8,7 +8,7 @@ use super::fixed::{UNIT, Uvs};
 use super::plan::Plan;
 use super::raster::spans;
 
-/// No triangle.
+/// Marks a texel that no triangle has claimed.
 const UNCLAIMED: u32 = u32::MAX;
 
 /// Inputs of a split.
@@ -18,10 +18,10 @@ pub(super) struct Splitter<'a> {
 }
 
 impl Splitter<'_> {
-    /// Splits a chart: grows charts from its first remaining triangle over neighbors, as long as no texel center is claimed
-    /// by two triangles that do not touch in UV.
+    /// Splits a chart. Each new chart grows from the first remaining triangle over neighbors, as long as no texel center is
+    /// claimed by two triangles that do not touch in UV.
     ///
-    /// Returns the first triangle of its new chart for each of the chart's triangles, in their order.
+    /// Returns for each triangle of the chart, in order, the first triangle of its new chart.
     pub(super) fn split(&self, chart: usize) -> Vec<u32> {
         let triangles = self.partition.triangles(chart);
         let mut grid = Grid::covering(&self.plan.uvs, triangles);

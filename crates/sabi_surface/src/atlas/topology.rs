@@ -14,7 +14,7 @@ pub const NO_TWIN: u32 = u32::MAX;
 pub struct Topology {
     /// Welded vertex of each corner `3 t + k`.
     pub corners: Vec<u32>,
-    /// Twin of each half-edge, on the triangle at the other side of the edge, or [`NO_TWIN`]. Always mutual.
+    /// Twin of each half-edge, on the triangle on the other side of the edge, or [`NO_TWIN`]. The relation is always mutual.
     pub twins: Vec<u32>,
     /// Edges with one triangle.
     pub border_edges: u32,
@@ -35,8 +35,8 @@ impl Topology {
         let mut edges: Vec<(u64, u32)> = Vec::with_capacity(corners.len());
         for (triangle, corner) in corners.chunks_exact(3).enumerate().looking() {
             let [a, b, c] = [corner[0], corner[1], corner[2]];
-            // A triangle with two corners at one position is a line, whose two other edges coincide. It is left out, so that
-            // its neighbors become twins.
+            // A triangle with two corners at the same position is a line, whose two other edges coincide. It is left out,
+            // so that its neighbors become twins.
             if a == b || b == c || c == a {
                 continue;
             }
@@ -75,8 +75,8 @@ impl Topology {
         self.twins[b as usize] = a;
     }
 
-    /// Joins half-edges of an edge with more than two triangles where exactly two are of one part, or of one part and
-    /// between the same vertices, so that two coincident surfaces stay apart.
+    /// Joins half-edges of an edge with more than two triangles if exactly two of them belong to one part, or to one part
+    /// and the same vertices, so that two coincident surfaces stay separate.
     fn join_unambiguous(&mut self, mesh: &Mesh, mut half_edges: Vec<u32>) {
         let part = |edge: u32| mesh.triangle_part[edge as usize / 3];
         let vertices = |edge: u32| {
@@ -101,7 +101,7 @@ impl Topology {
 
 /// Returns for each vertex the first one at the same position.
 fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
-    // + 0.0 turns −0 into 0.
+    // Adding 0.0 converts −0 to 0.
     let mut order: Vec<([u32; 3], u32)> = positions
         .iter()
         .enumerate()

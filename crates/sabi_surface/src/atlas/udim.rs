@@ -1,4 +1,4 @@
-//! Sheets whose UV tiles are maps of their own, told apart from textures that repeat.
+//! Finds sheets whose UV tiles have separate maps, and distinguishes them from textures that repeat.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,18 +6,18 @@ use super::charts::Partition;
 use super::{AtlasError, Udim, charts};
 use crate::model::Mesh;
 
-/// Largest part of a tile by which a chart of a UDIM layout may reach into the next one.
+/// Maximum part of a tile by which a chart of a UDIM layout may extend into the next one.
 const OVERREACH: f32 = 0.01;
-/// Least side of charts that are compared, parts of a tile: tiny ones coincide by chance.
+/// Minimum side of charts that are compared, in tiles: tiny charts coincide by chance.
 const LEAST_SIDE: f32 = 1.0 / 256.0;
-/// Steps in a tile to which corners of charts are rounded for comparison.
+/// Number of steps in a tile to which corners of charts are rounded for comparison.
 const STEPS: f32 = 1024.0;
-/// Least share of a sheet's area in UV that lies alike in several tiles where a texture repeats. In a UDIM layout a few small parts
-/// may be copies at the same place of their tiles.
+/// Minimum share of a sheet's UV area that coincides in several tiles if a texture repeats. In a UDIM layout, only a few
+/// small parts may be copies at the same place of their tiles.
 const REPEATING_SHARE: f64 = 0.5;
 
-/// Returns the UDIM number of a tile, v downward: 1001 is the unit square, +1 to the right, +10 upward. `None` for tiles that have
-/// none.
+/// Returns the UDIM number of a tile, with v counted downward: 1001 is the unit square, +1 to the right, +10 upward. `None`
+/// for a tile without a number.
 pub fn udim_number([u, v]: [i32; 2]) -> Option<u32> {
     // v grows downward, so the tile above the unit square is −1; numbers of four digits end at row 899.
     ((0..10).contains(&u) && (-899..=0).contains(&v)).then(|| 1001 + u as u32 + 10 * v.unsigned_abs())
@@ -35,9 +35,9 @@ struct ChartBox {
 /// Shape of a chart, regardless of its tile: corners of its box in steps, and its triangles.
 type Shape = ([i32; 4], usize);
 
-/// Returns the sheets of which each UV tile has maps of its own. Without a choice these are the ones that use several tiles
-/// and show no sign of a repeating texture: textures of the model that repeat, charts that span tiles, tiles without a UDIM number, or
-/// charts that are congruent modulo 1 on much of the sheet.
+/// Returns the sheets whose UV tiles have separate maps. If the user has not chosen, these are the sheets that use several
+/// tiles and show no sign of a repeating texture: textures of the model that repeat, charts that span tiles, tiles without
+/// a UDIM number, or charts that are congruent modulo 1 on much of the sheet.
 ///
 /// # Errors
 /// UDIM is asked for and a chart lies in a tile without a number.
@@ -75,7 +75,7 @@ pub(super) fn udim_sheets(mesh: &Mesh, partition: &Partition, udim: Udim) -> Res
 /// Returns the share of the charts' area that has the same shape at the same place of another tile.
 fn coinciding_share(charts: &[ChartBox]) -> f64 {
     let mut coincide = vec![false; charts.len()];
-    // A corner on the border between two steps may be rounded either way, so there are two sets of steps.
+    // A corner on the border between two steps may be rounded either way, so two sets of steps are tried.
     for shift in [0.0, 0.5] {
         let mut of_shape: BTreeMap<Shape, Vec<usize>> = BTreeMap::new();
         for (index, chart) in charts.iter().enumerate() {

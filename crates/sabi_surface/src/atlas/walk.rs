@@ -1,9 +1,9 @@
 //! Walks: straightest geodesics over a triangle mesh (Polthier and Schmies 1998, "Straightest geodesics on polyhedral
-//! surfaces"), a straight line in each triangle and over an edge as if both triangles lay in one plane.
+//! surfaces"). A walk is a straight line in each triangle, and crosses an edge as if both triangles lay in one plane.
 //!
-//! Computes in the plane of the current triangle, in coordinates along (`x`) and away from (`y`) the edge that it was
-//! entered by. Crossing an edge keeps both coordinates of every vector, which is the rotation about that edge (parallel
-//! transport). At a border vectors are mirrored, which keeps them as well.
+//! The computation takes place in the plane of the current triangle, with coordinates along (`x`) and away from (`y`) the
+//! edge through which the walk entered. Crossing an edge keeps both coordinates of every vector, which equals a rotation
+//! about that edge (parallel transport). At a border, vectors are mirrored, which keeps both coordinates, too.
 
 use glam::{DMat2, DVec2, DVec3};
 
@@ -11,9 +11,9 @@ use super::fixed::Uvs;
 use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-/// Most edges that a walk crosses.
+/// Maximum number of edges that a walk crosses.
 const CROSSINGS_LIMIT: u32 = 64;
-/// Share of an edge at each end where no walk crosses it: at a vertex the next triangle would be ambiguous.
+/// Share of an edge at each end that walks do not cross: at a vertex the next triangle would be ambiguous.
 const VERTEX_MARGIN: f64 = 1e-6;
 
 /// Mesh that walks go over.
@@ -21,7 +21,7 @@ pub(super) struct Walker<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
     pub(super) uvs: Uvs<'a>,
-    /// True for each triangle that a walk may end in: with area in space and in UV, in a chart that owns texels.
+    /// True for each triangle in which a walk may end: it has an area in space and in UV, and is in a chart that owns texels.
     pub(super) usable: &'a [bool],
 }
 
@@ -31,7 +31,7 @@ pub(super) struct WalkEnd {
     pub(super) triangle: u32,
     /// Texel coordinates in the user's layout.
     pub(super) texel: DVec2,
-    /// Carries texel vectors of the start to texel vectors of the end.
+    /// Matrix from texel vectors at the start to texel vectors at the end.
     pub(super) transport: DMat2,
 }
 
@@ -91,8 +91,8 @@ impl Walker<'_> {
         let (to_1, to_2) = (q1 - q0, q2 - q0);
         let area2 = to_1.perp_dot(to_2);
         let barycentric_of = |v: DVec2| [v.perp_dot(to_2) / area2, to_1.perp_dot(v) / area2];
-        // The center of a texel may lie outside of the triangle that owns it, by the snapping of its corners: the walk
-        // starts at the edge then, and ends at the same point.
+        // A texel's center may lie slightly outside of the triangle that owns it, since corners are snapped. In that case
+        // the walk starts at the edge, and ends at the same point.
         let inside = clamp_to_triangle(barycentric_of(start - q0));
         let at = q0 + to_1 * inside[0] + to_2 * inside[1];
         let step = start + step - at;
@@ -124,7 +124,7 @@ struct Walk<'a> {
     walker: &'a Walker<'a>,
     /// Whole step in texels of the start.
     step: DVec2,
-    /// Texel axes of the start, carried to the current triangle's plane.
+    /// Texel axes of the start, transported to the plane of the current triangle.
     axes: DMat2,
     /// Share of the step that remains.
     remaining: f64,
@@ -150,7 +150,7 @@ impl Walk<'_> {
         None
     }
 
-    /// Goes over an edge, or turns back at a border; returns the next triangle and the current point in its plane.
+    /// Crosses an edge, or is mirrored at a border. Returns the next triangle and the current point in its plane.
     fn cross(&mut self, crossing: Crossing) -> (UnfoldedTriangle, DVec2) {
         self.remaining -= crossing.time;
         // The edge and the outward direction become the axes of the next plane.
@@ -191,7 +191,7 @@ impl Walk<'_> {
 }
 
 impl UnfoldedTriangle {
-    /// Returns the crossing of a walk that starts inside; `None` when it does not move.
+    /// Returns the crossing of a walk that starts inside a triangle; `None` if the walk does not move.
     fn first_crossing(&self, d: DVec2, at: DVec2) -> Option<Crossing> {
         let points = [DVec2::ZERO, DVec2::new(self.length, 0.0), self.c];
         let mut found: Option<Crossing> = None;
@@ -212,8 +212,7 @@ impl UnfoldedTriangle {
 
     /// Returns the crossing of a walk that entered at `x` on the edge from a to b.
     ///
-    /// Decided by the side of the walk that c lies on, which needs no division and is defined for triangles without area
-    /// as well.
+    /// It depends on which side of the walk c lies. This needs no division and is defined for triangles without area, too.
     fn next_crossing(&self, d: DVec2, x: f64) -> Crossing {
         let at = DVec2::new(x, 0.0);
         let left = d.perp_dot(self.c - at) > 0.0;

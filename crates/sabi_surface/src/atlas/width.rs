@@ -6,25 +6,25 @@ use rayon::prelude::*;
 use super::{Atlas, Owner};
 use crate::model::Mesh;
 
-/// Bins of the histogram of widths for a factor of two.
+/// Number of histogram bins for a factor of two.
 const STEPS_A_DOUBLING: f64 = 16.0;
 /// Bins of the histogram: widths from 2^-64 to 2^64 times the first one.
 const STEPS: usize = 128 * STEPS_A_DOUBLING as usize;
-/// Share of the texels that is left out as finer than the finest.
+/// Share of the finest texels that is ignored.
 const FINER_SHARE: f64 = 0.02;
 
 /// Most levels.
 const MOST_LEVELS: u32 = 8;
-/// Least width of a level, texels for one unit of UV.
+/// Minimum size of a level, in texels per unit of UV.
 const LEAST_SIZE: u32 = 16;
-/// Least share of the texels in charts that are wide enough for a level.
+/// Minimum share of the texels that must be in charts that are wide enough for a level.
 const WIDE_SHARE: f64 = 0.9;
-/// Least number of texels of a chart for each texel on its rim, which is the half width of a strip.
+/// Minimum number of texels of a chart for each texel on its rim. For a strip this is half its width.
 const LEAST_HALF_WIDTH: f64 = 1.5;
 
 impl Atlas {
-    /// Width of the finest texels, model units: the smaller side of those on the surface, all but the finest 2 %, which a
-    /// model stretches out of proportion. Exact to 5 %; 1 when the surface has no area.
+    /// Returns the width of the finest texels in model units: the shorter side of the texels on the surface, ignoring the
+    /// finest 2 %, which a model stretches out of proportion. Exact to 5 %; 1 if the surface has no area.
     pub fn finest_texel(&self, mesh: &Mesh) -> f64 {
         let sides: Vec<(f64, f64)> = (0..mesh.triangles.len())
             .into_par_iter()
@@ -44,7 +44,7 @@ impl Atlas {
             finer += area;
             finer > wanted
         });
-        // Sides whose triangles have no area count as the unit.
+        // If no triangle has an area, the result is the unit.
         let step = step.unwrap_or(STEPS / 2) as f64 - (STEPS / 2) as f64;
         unit * (step / STEPS_A_DOUBLING).exp2()
     }
@@ -65,8 +65,8 @@ impl Atlas {
         (side.is_finite() && side > 0.0).then_some((side, determinant.abs() / 2.0))
     }
 
-    /// Returns the number of coarser levels, each of half the size of the one before, in which nearly all of the surface lies
-    /// in charts of some width.
+    /// Returns the number of coarser levels, each half as large as the one before, in which nearly all of the surface lies
+    /// in charts that are wide enough.
     pub fn usable_levels(&self) -> u32 {
         let rims = self.rim_texels();
         let all: f64 = self.charts.iter().map(|chart| f64::from(chart.texels)).sum();

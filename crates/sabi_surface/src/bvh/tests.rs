@@ -1,4 +1,4 @@
-//! The hierarchy finds what trying every triangle finds.
+//! The hierarchy finds the same hits as testing every triangle.
 
 use super::*;
 
@@ -8,7 +8,7 @@ fn dice(state: &mut u32) -> f32 {
     ((word >> 22) ^ word) as f32 / u32::MAX as f32
 }
 
-/// Triangles strewn over a box of a size, some without area.
+/// Creates triangles scattered over a box of a given size, some of them without area.
 fn soup(seed: u32, scale: f32) -> Mesh {
     let mut state = seed;
     let mut mesh = Mesh::default();
@@ -23,7 +23,7 @@ fn soup(seed: u32, scale: f32) -> Mesh {
     mesh
 }
 
-/// Möller and Trumbore in double precision.
+/// Tests every triangle in double precision (Möller and Trumbore).
 fn brute(mesh: &Mesh, origin: [f32; 3], direction: [f32; 3], max: f32) -> Option<(u32, f64)> {
     let vector = |v: [f32; 3]| glam::DVec3::from(v.map(f64::from));
     let (origin, direction) = (vector(origin), vector(direction).normalize());
@@ -50,7 +50,7 @@ fn brute(mesh: &Mesh, origin: [f32; 3], direction: [f32; 3], max: f32) -> Option
 }
 
 #[test]
-fn rays_meet_what_trying_every_triangle_meets_at_any_scale() {
+fn rays_hit_the_same_triangles_as_testing_every_triangle_at_any_scale() {
     for (seed, scale) in [(1, 1.0f32), (2, 1e-3), (3, 4e4)] {
         let mesh = soup(seed, scale);
         let bvh = Bvh::build(&mesh);
@@ -83,15 +83,15 @@ fn rays_meet_what_trying_every_triangle_meets_at_any_scale() {
             assert!((point - on_ray).length() < 2e-4 * scale, "{point} {on_ray}");
         }
         assert!(hits > 300, "{hits}");
-        // A ray through an edge may see it from either side.
+        // A ray through an edge may hit either of its two triangles.
         assert!(differ <= 2, "{differ}");
     }
 }
 
 #[test]
-fn what_is_as_near_as_a_few_millionths_of_the_models_size_is_met() {
-    // A large face far away, and two small ones upright, a very narrow gap apart: from its middle they are four millionths
-    // of the diagonal away.
+fn triangles_at_a_few_millionths_of_the_models_size_are_hit() {
+    // A large face far away, and two small vertical faces with a very narrow gap between them. Seen from the middle of the
+    // gap, they are four millionths of the diagonal away.
     let gap = 2e-5_f32;
     let upright = |x: f32| [[x, -0.01, -0.01], [x, 0.01, -0.01], [x, 0.0, 0.02]];
     let far = [[-1.0, -0.5, -1.0], [1.0, -0.5, -1.0], [0.0, -0.5, 1.0]];
@@ -109,7 +109,7 @@ fn what_is_as_near_as_a_few_millionths_of_the_models_size_is_met() {
 }
 
 #[test]
-fn the_sign_of_a_zero_does_not_turn_a_ray() {
+fn the_sign_of_zero_does_not_change_a_ray() {
     let mesh = Mesh {
         positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 2.0, 0.0]],
         triangles: vec![[0, 1, 2]],
@@ -132,7 +132,7 @@ fn building_twice_gives_the_same_hierarchy() {
 }
 
 #[test]
-fn nothing_is_met_where_there_is_nothing() {
+fn an_empty_mesh_is_never_hit() {
     let empty = Bvh::build(&Mesh::default());
     assert_eq!(empty.closest([0.0; 3], [0.0, 1.0, 0.0], f32::INFINITY), None);
     assert!(!empty.any([0.0; 3], [0.0, 1.0, 0.0], 1.0));

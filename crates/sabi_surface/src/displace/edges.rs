@@ -1,4 +1,4 @@
-//! Hard edges of a mesh, and which of them are near a place.
+//! Hard edges of a mesh, and a search for those near a place.
 
 use std::collections::HashMap;
 
@@ -7,14 +7,14 @@ use rayon::prelude::*;
 
 use crate::model::Mesh;
 
-/// Cosine of the angle between shading normals from which an edge is hard, 15°; with smaller ones faces do not sink past
-/// each other by an amount that shows.
+/// Cosine of the angle between shading normals, 15°, from which an edge is hard. At smaller angles, sinking faces overlap
+/// each other by an invisible amount.
 const HARD: f64 = 0.966;
-/// Cosine of the angle up to which a normal is that of a side of an edge, 30°.
+/// Cosine of the angle, 30°, up to which a normal is considered the normal of a side of an edge.
 const SAME_SIDE: f64 = 0.866;
-/// Largest slope by which a place may leave the plane of a side and still lie on it.
+/// Maximum slope at which a place may leave the plane of a side and still count as on it.
 const ON_PLANE: f64 = 0.3;
-/// Most cells along the largest side of a mesh.
+/// Maximum number of cells along the largest side of a mesh.
 const MOST_CELLS: f64 = 512.0;
 
 /// One side of a hard edge.
@@ -29,8 +29,8 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// Distance from a place on this side to the edge, and how much the place lies beside the edge and not past its ends,
-    /// 0 to 1; `None` where the place is not on this side.
+    /// Returns the distance from a place on this side to the edge, and a factor from 0 to 1 that falls off past the ends of
+    /// the edge; `None` if the place is not on this side.
     pub(super) fn beside(&self, at: DVec3, normal: DVec3) -> Option<(f64, f64)> {
         if normal.dot(self.normal) < SAME_SIDE {
             return None;
@@ -51,7 +51,7 @@ impl Side {
 
 type Cell = [i32; 3];
 
-/// The sides of all hard edges, by the cells of a grid within whose reach they are.
+/// The sides of all hard edges, stored in the cells of a grid that are within reach.
 pub(super) struct HardEdges {
     sides: Vec<Side>,
     cell_size: f64,
@@ -60,8 +60,8 @@ pub(super) struct HardEdges {
 }
 
 impl HardEdges {
-    /// Finds the edges between faces whose shading turns sharply, for questions within `reach`, model units. An edge of more
-    /// than two faces is none: its sides have no order.
+    /// Finds the edges between faces whose shading normals differ sharply, for queries within `reach`, in model units. An
+    /// edge of more than two faces does not count, since its sides have no order.
     pub(super) fn find(mesh: &Mesh, reach: f64) -> HardEdges {
         let sides = sides(mesh);
         let largest = mesh
@@ -70,7 +70,8 @@ impl HardEdges {
             .flatten()
             .flat_map(|&vertex| mesh.positions[vertex as usize])
             .fold(0.0, |largest: f64, value| largest.max(f64::from(value.abs())));
-        // A segment is entered in the cells around places on it that are half a cell apart, at most a quarter from any other.
+        // A segment is entered in the cells around sample points on it that are half a cell apart, so that no point of it
+        // is farther than a quarter cell from a sample.
         let cell_size = (reach * 4.0 / 3.0)
             .max(largest * 2.0 / MOST_CELLS)
             .max(f64::MIN_POSITIVE);
@@ -91,7 +92,7 @@ impl HardEdges {
         }
     }
 
-    /// Sides of which some may be within reach of a place, in a fixed order.
+    /// Returns the sides that may be within reach of a place, in a fixed order.
     pub(super) fn near(&self, at: DVec3) -> impl Iterator<Item = &Side> {
         let found = self.cells.get(&cell(at, self.cell_size));
         found.into_iter().flatten().map(|&number| &self.sides[number as usize])
@@ -99,7 +100,7 @@ impl HardEdges {
 }
 
 fn cell(at: DVec3, size: f64) -> Cell {
-    // Places so far out that numbers saturate have no neighbors to be mistaken for.
+    // Places so far out that numbers saturate have no neighbors that could be confused with others.
     (at / size).floor().to_array().map(|value| value as i32)
 }
 
@@ -120,18 +121,18 @@ fn cells_of(side: &Side, size: f64, number: u32) -> Vec<(Cell, u32)> {
     found
 }
 
-/// An edge of a triangle; edges between the same two positions sort together.
+/// An edge of a triangle. Edges between the same two positions are adjacent when sorted.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
     /// Bits of the positions of its ends, the lower first.
     ends: [[u32; 3]; 2],
     triangle: u32,
-    /// Corner that it starts from.
+    /// Corner at which the edge starts.
     corner: u32,
 }
 
 fn sides(mesh: &Mesh) -> Vec<Side> {
-    // + 0.0 turns −0 into 0.
+    // Adding 0.0 converts −0 to 0.
     let bits = |vertex: u32| mesh.positions[vertex as usize].map(|value| (value + 0.0).to_bits());
     let edges_of = |triangle: usize| {
         let corners = mesh.triangles[triangle];
@@ -159,7 +160,7 @@ fn sides(mesh: &Mesh) -> Vec<Side> {
         .collect()
 }
 
-/// The sides of an edge between two triangles; `None` where it is smooth, or a triangle has no area.
+/// Returns the two sides of an edge between two triangles; `None` if the edge is smooth, or a triangle has no area.
 fn two_sides(mesh: &Mesh, first: Edge, second: Edge) -> Option<[Side; 2]> {
     let ends = first.ends.map(|end| Vec3::from(end.map(f32::from_bits)).as_dvec3());
     let [a, b] = [face_at(mesh, first)?, face_at(mesh, second)?];

@@ -9,12 +9,12 @@ use super::rounded::Rounding;
 use super::split::Split;
 use crate::model::Mesh;
 
-/// Least length of the mean normal, relative to its weights, at which it has a direction.
+/// Minimum length of the mean normal, relative to its weights, at which its direction is meaningful.
 const LEAST_AGREEMENT: f64 = 1e-3;
 
-/// Distance from a hard edge over which normals are rounded, in largest heights.
+/// Distance from a hard edge over which normals are rounded, as a multiple of the largest height.
 const REACH: f64 = 2.0;
-/// Largest reach of rounding, as a share of the largest coordinate of the mesh.
+/// Maximum reach of rounding, as a share of the largest coordinate of the mesh.
 const MOST_REACH: f64 = 0.5;
 
 /// Vertex of the finer mesh that shares a position with others.
@@ -95,7 +95,7 @@ fn starts(splits: &[Split]) -> Vec<usize> {
     splits.iter().scan(0, start).collect()
 }
 
-/// Displacement of the vertices at a place whose mean height is known, as is the largest height of all.
+/// Returns the displacement of the vertices at a place, given their mean height and the largest height of all.
 fn displacement(
     members: &[Member<'_>],
     place: DVec3,
@@ -121,7 +121,7 @@ fn displacement(
     rounded * meeting(limit, |length| mean_along(&tracks, length, &height))
 }
 
-/// Way of a leaning line over the texels of a chart.
+/// Track of a tilted line over the texels of a chart.
 struct Track {
     chart: u32,
     texel: [f32; 2],
@@ -129,14 +129,14 @@ struct Track {
     step: [f64; 2],
 }
 
-/// The ways over the charts that meet at a place, each once for a face.
+/// Returns the tracks over the charts that meet at a place, one for each face.
 fn tracks(members: &[Member<'_>], direction: DVec3) -> Vec<Track> {
     let mut members: Vec<&Member<'_>> = members.iter().collect();
     let key = |member: &Member<'_>| {
         let normal = member.normal.to_array().map(f64::to_bits);
         (member.chart, member.texel.map(f32::to_bits), normal)
     };
-    // A stable sort: of the triangles of a face the first one counts.
+    // The sort is stable: of the triangles of a face, the first one is used.
     members.sort_by_key(|member| key(member));
     members.dedup_by_key(|member| key(member));
     let track = |member: &&Member<'_>| Track {
@@ -147,7 +147,7 @@ fn tracks(members: &[Member<'_>], direction: DVec3) -> Vec<Track> {
     members.iter().map(track).collect()
 }
 
-/// Mean height at a length of the ways; `None` where all have left their charts.
+/// Returns the mean height at a length along the tracks; `None` if all tracks have left their charts.
 fn mean_along(tracks: &[Track], length: f64, height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> Option<f64> {
     let (mut sum, mut known) = (0.0, 0u32);
     for track in tracks {
@@ -168,19 +168,20 @@ fn largest_coordinate(positions: &[[f32; 3]]) -> f64 {
 /// Bits of a position.
 type Key = [u32; 3];
 
-/// All vertices with the bits of their positions, those of one place together and in rising order.
+/// Returns all vertices with the bits of their positions. Vertices at the same place are adjacent and in ascending order.
 fn places(positions: &[[f32; 3]]) -> Vec<(Key, u32)> {
     let mut places: Vec<(Key, u32)> = positions
         .par_iter()
         .enumerate()
-        // + 0.0 turns −0 into 0.
+        // Adding 0.0 converts −0 to 0.
         .map(|(vertex, at)| (at.map(|value| (value + 0.0).to_bits()), vertex as u32))
         .collect();
     places.par_sort_unstable();
     places
 }
 
-/// Mean of the unit normals, weighted by angle as far as triangles meet at a corner; zero where they cancel each other out.
+/// Returns the mean of the unit normals, weighted by the angles of the triangles that meet at a corner; zero if the normals
+/// cancel each other out.
 fn direction(members: &[Member<'_>]) -> DVec3 {
     let weights: f64 = members.iter().map(|member| member.weight).sum();
     let sum: DVec3 = members.iter().map(|member| member.normal * member.weight).sum();
@@ -191,8 +192,7 @@ fn direction(members: &[Member<'_>]) -> DVec3 {
     }
 }
 
-/// Returns the mean height of the charts that meet at a vertex. Each place of a chart counts once, however many triangles
-/// meet there.
+/// Returns the mean height of the charts that meet at a vertex. Each place of a chart counts once, however many triangles meet there.
 fn mean_height(members: &[Member<'_>], height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> f64 {
     let mut samples: Vec<(u32, [u32; 2])> = members
         .iter()

@@ -2,7 +2,7 @@
 
 use crate::atlas::{Atlas, Owner};
 
-/// Heights for each texel of an atlas, ghosts included.
+/// Heights of all texels of an atlas, ghosts included.
 #[derive(Clone, Copy)]
 pub struct HeightPlane<'a> {
     atlas: &'a Atlas,
@@ -10,14 +10,15 @@ pub struct HeightPlane<'a> {
 }
 
 impl<'a> HeightPlane<'a> {
-    /// Heights in model units, page by page and row by row. Ghosts have to be filled; texels that nothing owns may hold
-    /// anything, and texels that are missing count as those.
+    /// Creates a plane from heights in model units, page by page and row by row. Ghosts must be filled. Texels that belong
+    /// to nothing may have any value, and missing texels count as such.
     pub fn new(atlas: &'a Atlas, heights: &'a [f32]) -> HeightPlane<'a> {
         HeightPlane { atlas, heights }
     }
 
-    /// The height at a place of a chart in texels of its page, bilinear. Only texels of the chart and of its ring count, so
-    /// that no neighbor on the page bleeds in; `None` where there are none, as on charts too thin to own a texel.
+    /// Returns the height at a place of a chart, given in texels of its page, by bilinear interpolation. Only texels of the
+    /// chart and of its ring are used, so that neighboring charts on the page have no effect. `None` if there are no such
+    /// texels, as for charts too thin to own a texel.
     pub fn at(&self, chart: u32, texel: [f32; 2]) -> Option<f32> {
         let page = self.atlas.charts.get(chart as usize)?.page;
         let low = texel.map(|at| (at - 0.5).floor());
@@ -46,7 +47,7 @@ impl<'a> HeightPlane<'a> {
         (weights > 0.0).then(|| (sum / weights) as f32)
     }
 
-    /// The height of a texel if it is the chart's or of the chart's ring; 0 for what is not finite.
+    /// Returns the height of a texel if it belongs to the chart or its ring; 0 for heights that are not finite.
     fn of_chart(&self, chart: u32, [x, y]: [u32; 2], page: u32) -> Option<f32> {
         let owner = match self.atlas.owner(x, y, page) {
             Owner::Empty => None,

@@ -2,33 +2,34 @@
 //!
 //! Along a hard edge all faces share one direction, that of a miter: a step of 1 along it is a step of 1 along the normal
 //! of each face. Away from the edge it turns linearly into the normal of the face, over a distance of twice the largest
-//! height, so that places keep their order: a face that sinks by `d` ends where its neighbor's sunk plane begins, and its
-//! border of width `2d` is drawn together into one of width `d`.
+//! height, so that places keep their order. A face that sinks by `d` then ends where the sunk plane of its neighbor begins,
+//! and its border of width `2d` is compressed to a width of `d`.
 
 use glam::{DMat3, DVec3};
 
 use super::edges::HardEdges;
 
-/// Longest step along a rounded normal for one along the normals of the faces: that of an edge of 120°. Sharper ones are cut.
+/// Maximum step along a rounded normal for a step of 1 along the normals of the faces: that of an edge of 120°. Longer
+/// ones, at sharper edges, are shortened.
 const LONGEST: f64 = 2.0;
-/// Weight of the mean normal in directions about which the faces say nothing.
+/// Weight of the mean normal in directions that the faces do not determine.
 const LEAST_WEIGHT: f64 = 1e-9;
 
 /// Rounded normals of a mesh for heights up to a limit.
 pub(super) struct Rounding<'e> {
     edges: &'e HardEdges,
-    /// Distance from an edge at which the normal is that of the face again.
+    /// Distance from an edge at which the normal equals that of the face again.
     reach: f64,
 }
 
 impl<'e> Rounding<'e> {
-    /// Rounded normals near `edges`, which were found for the same `reach`.
+    /// Creates rounded normals near `edges`, which must have been found for the same `reach`.
     pub(super) fn new(edges: &'e HardEdges, reach: f64) -> Rounding<'e> {
         Rounding { edges, reach }
     }
 
-    /// The rounded normal of a place where faces with these `normals` meet, whose mean is `mean`; `None` where there is no
-    /// hard edge, and the mean is right.
+    /// Returns the rounded normal of a place where faces with these `normals` meet, whose mean is `mean`; `None` if there
+    /// is no hard edge nearby, so that the mean can be used.
     pub(super) fn at(&self, place: DVec3, normals: &[DVec3], mean: DVec3) -> Option<DVec3> {
         let mut system = System::new(mean);
         let mut is_hard = false;
@@ -55,7 +56,7 @@ impl<'e> Rounding<'e> {
     }
 }
 
-/// Least squares for a direction that makes given steps along given normals, and else is a mean one.
+/// Least squares system for a direction that makes given steps along given normals, and otherwise equals a mean direction.
 struct System {
     matrix: DMat3,
     right: DVec3,

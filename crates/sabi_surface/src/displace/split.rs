@@ -30,12 +30,12 @@ impl Vertex {
     }
 }
 
-/// Returns the midpoint, with the same bits for both orders of the ends; halved before the sum, so that it cannot overflow.
+/// Returns the midpoint, with the same bits for both orders of the ends. The ends are halved before the sum, so that it cannot overflow.
 fn middle<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
     std::array::from_fn(|axis| a[axis] * 0.5 + b[axis] * 0.5)
 }
 
-/// Result of cutting a triangle of the mesh.
+/// Result of subdividing a triangle of the mesh.
 pub(super) struct Split {
     /// The three corners of the triangle first.
     pub(super) vertices: Vec<Vertex>,
@@ -53,11 +53,11 @@ impl Split {
             .zip(texels)
             .map(|(&vertex, texel)| Vertex {
                 position: mesh.positions[vertex as usize],
-                // Attributes that the mesh lacks are zero in its copy, too.
+                // Attributes that the mesh does not have are zero in its copy, too.
                 normal: mesh.normals.get(vertex as usize).copied().unwrap_or_default(),
-                // As above.
+                // Missing tangents are zero, like missing normals.
                 tangent: mesh.tangents.get(vertex as usize).copied().unwrap_or_default(),
-                // As above.
+                // Missing UVs are zero, like missing normals.
                 uv: mesh.uvs.get(vertex as usize).copied().unwrap_or_default(),
                 texel,
             })
@@ -73,7 +73,7 @@ impl Split {
         split
     }
 
-    /// Returns the angle of this triangle at a vertex, radians: pi at a vertex on an edge.
+    /// Returns the angle of this triangle at a vertex in radians; pi for a vertex on an edge.
     pub(super) fn weight(&self, vertex: usize) -> f64 {
         match self.angles.get(vertex) {
             Some(angle) => *angle,
@@ -82,7 +82,7 @@ impl Split {
         }
     }
 
-    /// Texels that a step along the surface is long, over the plane of this triangle; zero on a triangle without area.
+    /// Returns a step along the surface in texels, in the plane of this triangle; zero for a triangle without area.
     pub(super) fn texels_of(&self, step: DVec3) -> [f64; 2] {
         let at = |corner: usize| Vec3::from(self.vertices[corner].position).as_dvec3();
         let texel = |corner: usize| DVec2::from(self.vertices[corner].texel.map(f64::from));
@@ -99,8 +99,8 @@ impl Split {
         }
     }
 
-    /// Splits each triangle at all of its edges that are too long; returns true if there were any. `middles` has the vertices
-    /// at the midpoints of edges, by their ends.
+    /// Splits each triangle at all of its edges that are too long. Returns true if there were any. `middles` contains the
+    /// vertices at the midpoints of edges, by the ends of the edge.
     fn cut_once(&mut self, edge_length: f32, middles: &mut HashMap<[u32; 2], u32>) -> bool {
         let before = std::mem::take(&mut self.triangles);
         self.triangles.reserve(before.len() * 4);
@@ -125,7 +125,7 @@ impl Split {
     }
 }
 
-/// Returns the number of triangles that one is split into, or a number above `most`.
+/// Returns the number of triangles into which a triangle is split, or some number above `most`.
 pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 {
     let mut open = vec![corners];
     let mut found = 0;
@@ -137,7 +137,7 @@ pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 
             let parts = cut.parts().iter();
             open.extend(parts.map(|part| part.map(|slot| cut.slots[slot])));
         }
-        // Each open triangle becomes at least one.
+        // Each open triangle becomes at least one triangle.
         if found + open.len() as u64 > most {
             return most + 1;
         }
@@ -167,8 +167,8 @@ impl Cut {
 
     /// Returns the parts as slots, wound as the triangle is.
     fn parts(&self) -> &'static [[usize; 3]] {
-        // Tables by edge: of the one edge that is split, and of the one edge that is not, with the diagonal from its start or
-        // from its end.
+        // Tables by edge: of the only edge that is split, and of the only edge that is not split, with the diagonal from
+        // its start or from its end.
         const ONE: [[[usize; 3]; 2]; 3] = [[[0, 3, 2], [3, 1, 2]], [[1, 4, 0], [4, 2, 0]], [[2, 5, 1], [5, 0, 1]]];
         const FROM_START: [[[usize; 3]; 3]; 3] = [
             [[5, 4, 2], [0, 1, 4], [0, 4, 5]],

@@ -22,7 +22,7 @@ fn with_atlas(mesh: Mesh) -> (Mesh, Atlas) {
     (mesh, atlas)
 }
 
-/// Triangles of vertices of their own, on a material and at a place on the map of their own.
+/// Creates triangles that each have their own vertices, material and place on the map.
 fn loose(triangles: &[[[f32; 3]; 3]]) -> (Mesh, Atlas) {
     let mut mesh = Mesh::default();
     for (number, corners) in triangles.iter().enumerate() {
@@ -60,7 +60,7 @@ fn bits(at: [f32; 3]) -> Bits {
     at.map(|value| (value + 0.0).to_bits())
 }
 
-/// Directed edges that have no opposite, by the bits of their ends.
+/// Counts directed edges without an opposite edge, by the bits of their ends.
 fn open_edges(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> usize {
     let edges = |is_turned: bool| {
         let mut edges: Vec<[Bits; 2]> = triangles
@@ -82,7 +82,7 @@ fn open_edges(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> usize {
 }
 
 #[test]
-fn closed_meshes_stay_closed_by_bits_whatever_the_charts_say_at_their_seams() {
+fn closed_meshes_stay_exactly_closed_whatever_heights_the_charts_have() {
     for (name, edge_length) in [("cube.glb", 0.07), ("sphere.glb", 0.02), ("figure.glb", 0.004)] {
         let (mesh, atlas) = asset(name);
         assert_eq!(open_edges(&mesh.positions, &mesh.triangles), 0, "{name} is closed");
@@ -103,7 +103,7 @@ fn closed_meshes_stay_closed_by_bits_whatever_the_charts_say_at_their_seams() {
 }
 
 #[test]
-fn without_height_the_surface_stays_where_it_is() {
+fn without_heights_the_surface_does_not_move() {
     let (mesh, atlas) = asset("figure.glb");
     let made = displaced(&mesh, &atlas, &options(0.02, 300_000), |_, _| Some(0.0));
     let mut first = 0;
@@ -142,7 +142,7 @@ fn without_height_the_surface_stays_where_it_is() {
 }
 
 #[test]
-fn a_constant_height_makes_a_sphere_larger_by_it() {
+fn a_constant_height_enlarges_the_radius_of_a_sphere_by_it() {
     let (mesh, atlas) = asset("sphere.glb");
     let options = options(0.05, 100_000);
     let plain = displaced(&mesh, &atlas, &options, |_, _| Some(0.0));
@@ -154,7 +154,7 @@ fn a_constant_height_makes_a_sphere_larger_by_it() {
 }
 
 #[test]
-fn a_flat_face_rises_straight_even_beside_a_hard_edge() {
+fn a_flat_face_rises_along_its_normal_even_beside_a_hard_edge() {
     let (mesh, atlas) = asset("cube.glb");
     let made = displaced(&mesh, &atlas, &options(0.1, 100_000), |_, _| Some(0.05));
     let half = mesh
@@ -173,7 +173,7 @@ fn a_flat_face_rises_straight_even_beside_a_hard_edge() {
 }
 
 #[test]
-fn no_edge_is_longer_than_asked_for_unless_the_budget_says_so() {
+fn no_edge_is_longer_than_requested_unless_the_budget_is_too_small() {
     let (mesh, atlas) = asset("figure.glb");
     let longest = |made: &Displaced| {
         let edges = made.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
@@ -233,7 +233,7 @@ fn plane_of(atlas: &Atlas, height: impl Fn(f32, f32) -> f32) -> Vec<f32> {
 }
 
 #[test]
-fn a_plane_follows_a_wave_as_far_as_its_texels_and_its_edges_do() {
+fn a_displaced_plane_follows_a_wave_within_the_resolution() {
     let (mesh, atlas) = square();
     let waves = 12.0f32;
     let wave = |u: f32, _: f32| 0.1 * (waves * u).sin();
@@ -256,7 +256,7 @@ fn a_plane_follows_a_wave_as_far_as_its_texels_and_its_edges_do() {
 }
 
 #[test]
-fn heights_are_read_between_texels_and_never_from_another_chart() {
+fn heights_are_interpolated_and_never_read_from_another_chart() {
     let (_, atlas) = square();
     let slope = plane_of(&atlas, |u, v| 3.0 * u - v);
     let plane = HeightPlane::new(&atlas, &slope);
@@ -290,7 +290,7 @@ fn heights_are_read_between_texels_and_never_from_another_chart() {
 }
 
 #[test]
-fn what_is_no_height_counts_as_none() {
+fn heights_that_are_not_finite_count_as_zero() {
     let (mesh, atlas) = square();
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let made = displaced(&mesh, &atlas, &options(0.3, 1000), |_, _| Some(bad));
@@ -306,7 +306,7 @@ fn what_is_no_height_counts_as_none() {
 }
 
 #[test]
-fn sheets_that_meet_at_one_edge_move_there_as_one() {
+fn sheets_that_share_an_edge_move_together_there() {
     let (bottom, top) = ([0.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let (mesh, atlas) = loose(&[
         [bottom, [1.0, 0.5, 0.1], top],
@@ -341,7 +341,7 @@ fn sheets_that_meet_at_one_edge_move_there_as_one() {
 }
 
 #[test]
-fn surfaces_back_to_back_share_no_direction_and_stay() {
+fn coincident_surfaces_with_opposite_normals_are_not_displaced() {
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let (mesh, atlas) = loose(&[corners, [corners[0], corners[2], corners[1]]]);
     let made = displaced(&mesh, &atlas, &options(0.6, 10_000), |_, _| Some(0.1));
@@ -358,7 +358,7 @@ fn the_same_mesh_gives_the_same_bits_with_any_number_of_threads() {
 }
 
 #[test]
-fn a_mesh_without_triangles_is_displaced_to_one_without() {
+fn an_empty_mesh_is_displaced_to_an_empty_mesh() {
     let (_, atlas) = square();
     let made = displaced(&Mesh::default(), &atlas, &DisplaceOptions::default(), |_, _| None);
     assert!(made.triangles.is_empty() && made.note.is_none());

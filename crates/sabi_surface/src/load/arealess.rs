@@ -1,5 +1,5 @@
-//! Triangles without an area, which nothing shows. Those that close the surface between others stay; the rest would count in
-//! bounds and lie on other charts: meshes that are scaled to nothing, and lines that lead away from the surface.
+//! Triangles without area, which are never visible. Those that close the surface between other triangles are kept. The rest, such as
+//! meshes that are scaled to nothing and lines that lead away from the surface, is removed, since it would affect bounds and charts.
 
 use std::collections::BTreeSet;
 
@@ -9,13 +9,13 @@ use super::listed::listed;
 use super::submesh::{Submesh, retain};
 use super::warnings::{TRIANGLES, Warnings, counted};
 
-/// Share of its reach below which the height of a triangle of 64-bit positions is rounding error.
+/// Maximum ratio of height to distance from the origin at which the height of a triangle with 64-bit positions is only a rounding error.
 const NO_HEIGHT: f64 = 1e-12;
 
-/// Most names in a sentence.
+/// Maximum number of names in a sentence.
 const MOST_NAMES: usize = 8;
 
-/// Parts and triangles left out for lack of an area.
+/// Parts and triangles that were removed because they have no area.
 #[derive(Default)]
 pub(super) struct LeftOutAreas {
     parts: BTreeSet<String>,
@@ -23,7 +23,7 @@ pub(super) struct LeftOutAreas {
 }
 
 impl LeftOutAreas {
-    /// Counts triangles of a part, of which something else is left or not.
+    /// Counts removed triangles of a part. `is_left` is true if the part has other triangles.
     pub(super) fn add(&mut self, triangles: usize, name: &str, is_left: bool) {
         if is_left {
             self.triangles += triangles;
@@ -32,7 +32,7 @@ impl LeftOutAreas {
         }
     }
 
-    /// Warns of what was left out.
+    /// Adds a warning about everything that was removed.
     pub(super) fn tell(self, warnings: &mut Warnings) {
         if !self.parts.is_empty() {
             warnings.add(format!(
@@ -49,7 +49,7 @@ impl LeftOutAreas {
     }
 }
 
-/// Corners of the triangles with an area, placed by `world_from_mesh`.
+/// Returns the corners of the triangles with area, transformed by `world_from_mesh`.
 pub(super) fn corners_with_area(submesh: &Submesh, world_from_mesh: DMat4) -> impl Iterator<Item = DVec3> {
     let place = move |vertex: u32| {
         let at = Vec3::from(submesh.positions[vertex as usize]).as_dvec3();
@@ -60,8 +60,8 @@ pub(super) fn corners_with_area(submesh: &Submesh, world_from_mesh: DMat4) -> im
 }
 
 impl Submesh {
-    /// Removes triangles without an area, except for those between others: lines whose corners are corners of triangles with
-    /// one. Returns the number of triangles removed.
+    /// Removes triangles without area, except for lines whose corners are also corners of triangles with area. Returns the
+    /// number of triangles removed.
     pub(super) fn drop_arealess(&mut self) -> usize {
         let has_area: Vec<bool> = self.triangles.iter().map(|corners| self.has_area(*corners)).collect();
         if !has_area.contains(&false) {
@@ -104,8 +104,8 @@ impl Submesh {
     }
 }
 
-/// Returns true if the height of a triangle is more than a share of the distance of its corners from the origin, by which positions are
-/// rounded. False for what is no number, too.
+/// Returns true if the height of a triangle is larger than the rounding error of its positions, which is a share of their
+/// distance from the origin. Returns false for NaN.
 fn has_area([a, b, c]: [DVec3; 3], rounding: f64) -> bool {
     let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));

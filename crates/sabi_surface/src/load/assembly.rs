@@ -1,4 +1,4 @@
-//! Meshes, their instances and materials, as formats other than glTF have them, become a [`Model`].
+//! Converts meshes, their instances and materials, in the form common to the formats other than glTF, to a [`Model`].
 
 use sabi_cancel::look;
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,7 @@ use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Model, ModelMaterial, TextureUvs};
 
-/// Most coordinates in UV sets besides the chosen one: twice the number of corners of the largest model.
+/// Maximum number of coordinates in UV sets other than the chosen one: twice the number of corners of the largest model.
 const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
 
 /// A mesh that is placed in the scene, as one part of the model.
@@ -30,7 +30,7 @@ pub(super) struct Instance {
     /// The node above it, in [`Assembly::groups`].
     pub(super) group: Option<usize>,
     pub(super) file_from_mesh: DMat4,
-    /// Material of the file for each number in [`Submesh::materials`]; others have none.
+    /// Material of the file for each number in [`Submesh::materials`]. Higher numbers have no material.
     pub(super) materials: Vec<u32>,
 }
 
@@ -39,9 +39,9 @@ pub(super) struct Instance {
 pub(super) struct Assembly {
     /// Meshes of one or more submeshes, repaired and completed.
     pub(super) meshes: Vec<Vec<Submesh>>,
-    /// UV sets that any mesh has, used or not.
+    /// UV sets of all meshes, used or not.
     pub(super) uv_sets: BTreeSet<u32>,
-    /// In the file's order.
+    /// Instances in the file's order.
     pub(super) instances: Vec<Instance>,
     /// Nodes above them.
     pub(super) groups: Groups,
@@ -54,11 +54,11 @@ pub(super) struct Assembly {
 #[derive(Clone, Default)]
 pub(super) struct TextureSets {
     pub(super) all: BTreeSet<u32>,
-    /// Those of normal maps.
+    /// UV sets of normal maps.
     pub(super) framed: BTreeSet<u32>,
 }
 
-/// Returns a fault where the triangles of all instances are together more than are handled, or than there is memory for.
+/// Returns a fault if the triangles of all instances together exceed the maximum number or the memory.
 pub(super) fn check_triangles(instances: impl Iterator<Item = u64>, memory_bytes: u64) -> Result<(), Fault> {
     let (mut total, mut count) = (0u64, 0);
     for triangles in instances {
@@ -69,7 +69,7 @@ pub(super) fn check_triangles(instances: impl Iterator<Item = u64>, memory_bytes
 }
 
 impl Assembly {
-    /// Returns the sets of each of so many meshes, by the instances and the materials.
+    /// Returns the UV sets of each of `meshes` meshes, according to the instances and their materials.
     pub(super) fn texture_sets(&self, meshes: usize) -> Vec<TextureSets> {
         let mut sets = vec![TextureSets::default(); meshes];
         for instance in &self.instances {
@@ -84,7 +84,7 @@ impl Assembly {
         sets
     }
 
-    /// Places all instances, and keeps the materials in use and the pictures that they name.
+    /// Places all instances, and keeps the materials that are used and their images.
     pub(super) fn into_model(
         mut self,
         name: &str,
@@ -179,14 +179,14 @@ impl Assembly {
             .flat_map(move |(instance, submeshes)| submeshes.iter().map(move |submesh| placement(submesh, instance)))
     }
 
-    /// The material of the file for a number of the mesh; a number after the last one for none.
+    /// Returns the material of the file for a number of the mesh; a number after the last one if there is none.
     fn material_of(&self, instance: &Instance, number: u32) -> u32 {
         let none = self.materials.len() as u32;
         let material = instance.materials.get(number as usize).copied();
         material.unwrap_or(none).min(none)
     }
 
-    /// The UV sets besides the chosen one that textures use, without coordinates yet.
+    /// Returns the UV sets other than the chosen one that textures use, without coordinates yet.
     fn empty_sets(&self) -> Result<Vec<TextureUvs>, Fault> {
         let mut sets = BTreeSet::new();
         let mut vertices = 0u64;
@@ -209,7 +209,7 @@ impl Assembly {
     }
 }
 
-/// Keeps the materials in use, in the file's order; faces without one get a plain one, the last.
+/// Keeps the materials that are used, in the file's order. Faces without a material get a plain one, which is the last.
 fn number_materials(materials: Vec<ModelMaterial>, model: &mut Model) {
     let used: BTreeSet<u32> = model.mesh.triangle_material.iter().copied().collect();
     let new_from_old: BTreeMap<u32, u32> = used.iter().copied().zip(0..).collect();

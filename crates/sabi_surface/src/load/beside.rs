@@ -1,4 +1,4 @@
-//! Files that a model names: each is read once, whatever its spellings, and all of them within one limit of memory.
+//! Files to which a model refers. Each is read only once, however its path is written, and all of them within one memory limit.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use sabi_files::{FolderSearch, PathBase, Refusal, TrustedPaths, Unread, is_local
 use super::error::{Fault, mib};
 use super::{LoadOptions, MAX_FILE_BYTES, reason, reason_beside};
 
-/// Most paths of missing files, and most refusals, that are recorded.
+/// Maximum number of recorded paths of missing files, and of recorded refusals.
 const MOST_RECORDED: usize = 256;
 
 /// Most missing files that are looked for in another case of letters.
@@ -23,13 +23,13 @@ pub(super) struct FilesBeside<'t> {
     elsewhere: Option<FolderSearch>,
     /// Files that were read, in their order, as they were found.
     pub(super) files: Vec<PathBuf>,
-    /// Places of files that do not exist.
+    /// Paths of files that do not exist.
     pub(super) absent: Vec<PathBuf>,
     /// Refusals of files that may not be opened.
     pub(super) refused: Vec<Refusal>,
     /// Content by canonical path.
     known: BTreeMap<PathBuf, Arc<[u8]>>,
-    /// Bytes that all files may have together, and those that are left of them.
+    /// Bytes that all files together may have, and how many of them remain.
     memory: [u64; 2],
     /// Missing files that are still looked for in another case of letters.
     listings: usize,
@@ -38,8 +38,7 @@ pub(super) struct FilesBeside<'t> {
 }
 
 impl<'t> FilesBeside<'t> {
-    /// Reads the model's own file first, which is returned with the reader of the others. All files together have at most
-    /// the memory of the options.
+    /// Reads the model's own file and returns it with a reader for the other files. All files together have at most `memory_bytes`.
     pub(super) fn of_model(
         path: &Path,
         trusted: &'t TrustedPaths,
@@ -76,7 +75,7 @@ impl<'t> FilesBeside<'t> {
         self.find(written).map_err(|unread| self.unread(written, unread))
     }
 
-    /// Turns a fault for which a file was missing into the reason that this reader knows.
+    /// Replaces a fault caused by a file that did not fit by a more precise fault.
     pub(super) fn explained(&self, fault: Fault) -> Fault {
         let Fault::NoBuffer { uri, reason } = fault else {
             return fault;

@@ -1,24 +1,24 @@
-//! Triangles that lose their shape, since positions of 32 bits are too coarse for them so far from the origin.
+//! Detects triangles that lose their shape, because 32-bit positions are too coarse at their distance from the origin.
 
 use glam::DVec3;
 use sabi_cancel::Looking as _;
 
 use super::warnings::{TRIANGLES, Warnings, counted};
 
-/// Share of the longest edge of a triangle by which rounding may move its corners: it keeps its shape to the eye.
+/// Maximum share of a triangle's longest edge by which rounding may move its corners. Below it the change of shape is not visible.
 const MOST_MOVED: f64 = 1.0 / 16.0;
-/// Share of the triangles of a mesh that lose their shape from which it is told: many models have a few triangles of no size.
+/// Minimum share of a mesh's triangles that must lose their shape for a warning: many models have a few triangles of tiny size.
 const TOLD: f64 = 0.01;
 
-/// Returns the number of triangles that lose their shape where their vertices, which are `exact`, move by an `error`; none where
-/// they are too few to be told.
+/// Returns the number of triangles that lose their shape if their vertices, which are `exact`, move by an `error`; `None`
+/// if they are too few for a warning.
 pub(super) fn blurred(triangles: &[[u32; 3]], exact: impl Fn(usize) -> DVec3, error: impl Fn(usize) -> f64) -> usize {
     let is_blurred = |corners: &&[u32; 3]| {
         let corners = corners.map(|vertex| vertex as usize);
         let [a, b, c] = corners.map(&exact);
         let longest = [a - b, b - c, c - a].map(DVec3::length).into_iter().fold(0.0, f64::max);
         let moved = corners.map(&error).into_iter().fold(0.0, f64::max);
-        // A triangle without any edge has no shape to lose.
+        // A triangle without edges has no shape to lose.
         longest > 0.0 && moved.is_finite() && moved > MOST_MOVED * longest
     };
     let count = triangles.iter().looking().filter(is_blurred).count();
@@ -29,10 +29,10 @@ pub(super) fn blurred(triangles: &[[u32; 3]], exact: impl Fn(usize) -> DVec3, er
     }
 }
 
-/// Greatest errors of coordinates that a file stores in 32 bits: half a step where the last bit is in use, as it is by rounding.
-/// On an axis on which all numbers leave it out, they are exact.
+/// Largest errors of coordinates that a file stores in 32 bits: half a step if the last bit is used, as it is after
+/// rounding. On an axis on which no number uses it, numbers are considered exact.
 pub(super) struct StorageErrors {
-    /// Greatest half step in use on each axis.
+    /// Largest half step in use on each axis.
     half_steps: [f64; 3],
 }
 
@@ -49,20 +49,20 @@ impl StorageErrors {
         StorageErrors { half_steps }
     }
 
-    /// Greatest error of a coordinate of a position.
+    /// Returns the largest error of a coordinate of a position.
     pub(super) fn at(&self, stored: [f32; 3]) -> f64 {
         let errors = stored.into_iter().zip(self.half_steps);
         errors.map(|(x, most)| half_step(x).min(most)).fold(0.0, f64::max)
     }
 }
 
-/// Half the distance to the next number of 32 bits; none for what is no number.
+/// Returns half the distance to the next 32-bit number; `None` for NaN and infinity.
 fn half_step(x: f32) -> f64 {
     let step = f64::from(x.abs().next_up() - x.abs());
     if step.is_finite() { step / 2.0 } else { 0.0 }
 }
 
-/// Warns of the triangles of `who` that lost their shape because the file stores them far from its origin.
+/// Adds a warning about triangles of `who` that lost their shape because the file stores them far from its origin.
 pub(super) fn warn_of_storage(count: usize, who: &str, warnings: &mut Warnings) {
     if count > 0 {
         warnings.add(format!(
@@ -73,7 +73,7 @@ pub(super) fn warn_of_storage(count: usize, who: &str, warnings: &mut Warnings) 
     }
 }
 
-/// Warns of triangles that lost their shape because positions of one model have 32 bits.
+/// Adds a warning about triangles that lost their shape because positions of a model have 32 bits.
 pub(super) fn warn_of_placing(count: usize, warnings: &mut Warnings) {
     if count > 0 {
         warnings.add(format!(

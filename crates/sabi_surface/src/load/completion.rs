@@ -1,4 +1,4 @@
-//! Completion of triangles that were read: what is invalid is repaired, and what the file leaves out is computed.
+//! Completion of triangles that were read: invalid attributes are repaired, and missing ones are computed.
 
 use sabi_cancel::look;
 use std::collections::BTreeSet;
@@ -11,9 +11,9 @@ use super::warnings::{TRIANGLES, VERTICES, Warnings, counted};
 
 /// Rules of completion, the same for all triangles of a file.
 pub(super) struct Completion {
-    /// Normals that the file leaves out.
+    /// How to compute normals that the file does not have.
     pub(super) missing: Missing,
-    /// Clause about vertices with a repaired normal, in a file that has normals.
+    /// Clause about vertices with a repaired normal, for a file with normals.
     pub(super) repaired_normals: &'static str,
     /// [`super::LoadOptions::smooth_degrees`].
     pub(super) smooth_degrees: Option<f32>,

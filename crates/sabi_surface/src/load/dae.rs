@@ -1,9 +1,9 @@
 //! COLLADA (`.dae`), versions 1.4 and 1.5.
 //!
-//! The unit and the axis that the file names are followed: the model is in meters with +Y up, before [`LoadOptions`] turn and
-//! scale it. UV sets have numbers in the order of their `set` in a mesh. Colors of vertices are taken as sRGB, those of
-//! materials as linear. Of a material, base color, emission, opacity and normal map are read: the shininess of the format says
-//! nothing about roughness. Skins, morph targets and animations are left out: the scene is taken as it stands.
+//! The unit and the up axis that the file declares are used to convert the model to meters with +Y up, before [`LoadOptions`] rotate and
+//! scale it. UV sets are numbered in the order of their `set` in a mesh. Vertex colors are interpreted as sRGB, material colors as linear.
+//! Base color, emission, opacity and normal map of a material are read. Its shininess is ignored, since roughness cannot be derived from
+//! it. Skins, morph targets and animations are ignored: the scene is read in its stored pose.
 
 mod document;
 mod effect;
@@ -31,7 +31,7 @@ use super::text::decoded;
 use super::warnings::Warnings;
 use crate::model::Model;
 
-/// Root of every file.
+/// Start of the root element of every file.
 pub(super) const ROOT: &[u8] = b"<COLLADA";
 
 /// Reads a `.dae` file.

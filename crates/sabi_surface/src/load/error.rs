@@ -26,13 +26,13 @@ impl LoadError {
     }
 }
 
-/// Fault of a model file.
+/// Fault in a model file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Fault {
-    /// The model file is not there.
+    /// The model file does not exist.
     #[error("there is no such file; check the path")]
     NoFile,
-    /// The model file exists and cannot be read.
+    /// The model file exists but cannot be read.
     #[error("the file cannot be read: {0}")]
     Unreadable(String),
     /// A file of vertex data beside the model cannot be read.
@@ -40,85 +40,85 @@ pub enum Fault {
         "its vertex data is in `{uri}`, which cannot be read: {reason}; put that file back beside the model, or export the model as one .glb file"
     )]
     NoBuffer {
-        /// The file as the model names it.
+        /// The file as written in the model.
         uri: String,
-        /// Reason of the system.
+        /// Error of the operating system.
         reason: String,
     },
     /// A file of vertex data may not be opened.
     #[error("its vertex data is in `{uri}`, which is not read: {refusal}")]
     Refused {
-        /// The file as the model names it.
+        /// The file as written in the model.
         uri: String,
         /// Reason.
         refusal: Refusal,
     },
-    /// A kind of file that is not read.
+    /// A kind of file that is not supported.
     #[error("{0}")]
     Format(String),
-    /// The file cannot be understood without a glTF extension that is not read.
+    /// The file requires a glTF extension that is not supported.
     #[error("it needs the glTF extension {extension}, which is not read here; export the model without it")]
     Extension {
         /// The extension's name.
         extension: String,
     },
-    /// The UV set that was asked for is in no part of the model.
+    /// No part of the model has the requested UV set.
     #[error("it has no UV set {asked}; {there}")]
     UvSet {
-        /// The set that was asked for.
+        /// The requested set.
         asked: u32,
         /// Sets that exist.
         there: String,
     },
-    /// The scene that was asked for is not in the file.
+    /// The requested scene is not in the file.
     #[error("it has no scene {asked}; {there}")]
     Scene {
-        /// The scene that was asked for.
+        /// The requested scene.
         asked: u32,
         /// Scenes that exist.
         there: String,
     },
-    /// Parts were asked for by names that none has.
+    /// No part has one of the requested names.
     #[error("it has no part {}; its parts are {}", listed(unknown.iter().map(String::as_str), MOST_NAMES), listed(there.iter().map(String::as_str), MOST_NAMES))]
     NoSuchPart {
-        /// The names that were asked for.
+        /// The requested names that do not exist.
         unknown: Vec<String>,
-        /// The names of its parts, sorted.
+        /// The names of the model's parts, sorted.
         there: Vec<String>,
     },
-    /// The choice of parts leaves none.
+    /// The choice of parts excludes all parts.
     #[error("the choice of its parts leaves none")]
     NoPart,
     /// The file contradicts itself or its format.
     #[error("the file is damaged: {0}")]
     Damaged(String),
-    /// No triangles; with the reasons that were found.
+    /// The model has no triangles; with the reasons that were found.
     #[error("it has no triangles{0}")]
     NoTriangles(String),
-    /// More than can be handled.
+    /// More triangles than are supported.
     #[error("it has {0} triangles, and at most {max} are handled; reduce it or split it", max = super::MAX_TRIANGLES)]
     TooLarge(u64),
-    /// More memory than there is for a model.
+    /// The model needs more memory than is allowed.
     #[error("it takes {needed_mib} MiB of memory, and {limit_mib} MiB are for a model; nothing of it was read")]
     Memory {
-        /// Memory that it takes at least.
+        /// Minimum memory that the model needs.
         needed_mib: u64,
-        /// Memory that there is for it.
+        /// Memory that the model may use.
         limit_mib: u64,
     },
-    /// A scale that is no length.
+    /// A scale that is not a positive number.
     #[error("a scale of {0} makes no model; give a number above 0")]
     Scale(f32),
-    /// A smoothing angle that is none between faces.
+    /// A smoothing angle that is not possible between faces.
     #[error("faces cannot be smoothed up to an angle of {0}; give degrees from 0 (all flat) to 180 (all smooth)")]
     Smooth(f32),
 }
 
-/// Most names in a sentence.
+/// Maximum number of names in a sentence.
 const MOST_NAMES: usize = 8;
 
 impl Fault {
-    /// A model that takes more memory than there is for it, bytes.
+    /// Returns the fault of a model that needs more bytes of memory than the limit.
     pub(super) fn memory(needed: u64, limit: u64) -> Fault {
         Fault::Memory {
             needed_mib: mib(needed),
@@ -127,8 +127,8 @@ impl Fault {
     }
 }
 
-/// Returns the fault that no triangle has the UV set that was asked for, where the meshes have these `sets`. A model without
-/// the default set has no UVs, which is no fault.
+/// Returns a fault if no triangle has the requested UV set; `sets` are the sets of the meshes. A model without the default
+/// set has no UVs, which is not a fault.
 pub(super) fn missing_uv_set(asked: u32, sets: &BTreeSet<u32>) -> Result<(), Fault> {
     let has_asked = sets.contains(&asked);
     let there = match sets.iter().map(u32::to_string).collect::<Vec<_>>().as_slice() {

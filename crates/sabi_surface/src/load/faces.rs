@@ -1,4 +1,4 @@
-//! Faces of any number of corners, with attributes that have indices of their own, and the triangles that they become.
+//! Faces with any number of corners, whose attributes have separate indices, and their conversion to triangles.
 
 use sabi_cancel::{Cancel, Looking as _};
 use std::collections::HashMap;
@@ -16,17 +16,17 @@ use crate::model::TextureUvs;
 /// Marks a corner without a value of an attribute.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Values of an attribute, and the number of the value of each corner. Without values, the file does not have it.
+/// Values of an attribute, and for each corner the number of its value. Without values, the file does not have the attribute.
 #[derive(Default)]
 pub(super) struct Attribute<const N: usize, T = f32> {
     pub(super) values: Vec<[T; N]>,
-    /// [`NONE`] where a corner has none.
+    /// Number of the value of each corner; [`NONE`] for a corner without a value.
     pub(super) corners: Vec<u32>,
 }
 
 /// A face of three or more corners.
 pub(super) struct Face {
-    /// Its place in [`Faces::corners`].
+    /// Range of its corners in [`Faces::corners`].
     pub(super) corners: Range<usize>,
     pub(super) material: u32,
     pub(super) part: u32,
@@ -36,7 +36,7 @@ pub(super) struct Face {
 /// Faces with checked indices.
 #[derive(Default)]
 pub(super) struct Faces {
-    /// As the file has them; they lose what 32 bits cannot hold once they are moved near.
+    /// Positions as in the file, with 64 bits: they are rounded to 32 bits only after they were moved near the origin.
     pub(super) positions: Vec<[f64; 3]>,
     /// True if the file stores positions in 32 bits.
     pub(super) is_single: bool,
@@ -44,18 +44,18 @@ pub(super) struct Faces {
     pub(super) corners: Vec<u32>,
     pub(super) faces: Vec<Face>,
     pub(super) normals: Attribute<3>,
-    /// Linear; a corner without one is white.
+    /// Colors, linear. A corner without a color is white.
     pub(super) colors: Attribute<4>,
     /// The chosen UV set; v grows downward.
     pub(super) uvs: Attribute<2>,
-    /// Further sets that textures use, numbers rising.
+    /// Further sets that textures use, by ascending number.
     pub(super) texture_uvs: Vec<(u32, Attribute<2>)>,
 }
 
 impl<const N: usize> Attribute<N> {
-    /// Returns the attribute with equal values joined, so that corners of equal values become one vertex.
+    /// Returns the attribute with equal values merged, so that corners with equal values become one vertex.
     pub(super) fn joined(mut self) -> Attribute<N> {
-        // + 0.0 turns −0 into 0.
+        // Adding 0.0 converts −0 to 0.
         let bits = |value: u32| self.values[value as usize].map(|x| (x + 0.0).to_bits());
         let mut order: Vec<u32> = (0..self.values.len() as u32).collect();
         let cancel = Cancel::current();
@@ -75,7 +75,7 @@ impl<const N: usize> Attribute<N> {
         self
     }
 
-    /// Values at the corners `at`; empty where the file does not have the attribute.
+    /// Returns the values at the corners `at`; empty if the file does not have the attribute.
     fn gathered(&self, at: &[u32], otherwise: [f32; N]) -> Vec<[f32; N]> {
         if self.values.is_empty() {
             return Vec::new();
@@ -90,19 +90,19 @@ impl<const N: usize> Attribute<N> {
             .collect()
     }
 
-    /// Numbers of the values of the corners; `None` where the file does not have the attribute.
+    /// Returns the numbers of the values of the corners; `None` if the file does not have the attribute.
     fn numbers(&self) -> Option<&[u32]> {
         (!self.values.is_empty()).then_some(&self.corners[..])
     }
 }
 
 impl Faces {
-    /// Number of triangles that the faces become.
+    /// Returns the number of triangles into which the faces are divided.
     pub(super) fn triangles(&self) -> u64 {
         self.faces.iter().map(|face| face.corners.len() as u64 - 2).sum()
     }
 
-    /// Adds a face of the last `count` corners, which are three or more.
+    /// Adds a face that consists of the last `count` corners, three or more.
     pub(super) fn close(&mut self, count: usize, material: u32, smoothing: Smoothing) {
         let end = self.corners.len();
         self.faces.push(Face {
@@ -113,8 +113,8 @@ impl Faces {
         });
     }
 
-    /// Cuts the faces into triangles, with one vertex for corners that are equal in all attributes. Values that a corner lacks
-    /// are zero, and white for colors.
+    /// Divides the faces into triangles, with one vertex for corners that are equal in all attributes. Missing values are
+    /// zero, and white for colors.
     pub(super) fn triangulated(&self, budget: &mut polygon::Budget, warnings: &mut Warnings) -> Submesh {
         let (vertices, first_corners) = self.vertices();
         let sets = self.texture_uvs.iter().map(|(set, uvs)| TextureUvs {
@@ -168,7 +168,7 @@ impl Faces {
         submesh
     }
 
-    /// Returns the vertex of each corner and the first corner of each vertex, vertices in the order of their first corners.
+    /// Returns the vertex of each corner and the first corner of each vertex. Vertices are in the order of their first corners.
     fn vertices(&self) -> (Vec<u32>, Vec<u32>) {
         let mut vertices = self.corners.clone();
         let textures = self.texture_uvs.iter().map(|(_, uvs)| uvs.numbers());
@@ -182,7 +182,7 @@ impl Faces {
     }
 }
 
-/// Renumbers vertices so that corners share one only where `number` agrees, too; returns the first corner of each.
+/// Renumbers vertices so that corners share a vertex only if `number` agrees, too. Returns the first corner of each vertex.
 fn renumbered(vertices: &mut [u32], number: impl Fn(usize) -> u32) -> Vec<u32> {
     let mut known: HashMap<(u32, u32), u32> = HashMap::new();
     let mut first_corners = Vec::new();

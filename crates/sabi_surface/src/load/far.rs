@@ -1,5 +1,5 @@
-//! Recentering of models far from the origin of their scene, such as parts of maps and buildings, where 32-bit floats are
-//! too coarse for their shape and for rays that start on it.
+//! Recentering of models far from the origin of their scene, such as parts of maps and buildings. At that distance 32-bit
+//! floats are too coarse for their shape and for rays that start on them.
 
 use glam::{DMat4, DVec3};
 
@@ -10,7 +10,7 @@ use super::arealess::corners_with_area;
 /// hundred-thousandth of the model's size.
 const FAR: f64 = 100.0;
 
-/// Returns the transform that moves submeshes near the origin, and the new origin in the file's own world: zero unless they are
+/// Returns the transform that moves submeshes near the origin, and the new origin in the file's world: zero unless they are
 /// far away. Each submesh comes with its transform in the file.
 pub(super) fn brought_near<'p>(
     world_from_file: DMat4,
@@ -26,7 +26,7 @@ pub(super) fn brought_near<'p>(
 pub(super) fn far_middle(points: impl Iterator<Item = DVec3>) -> DVec3 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for at in points {
-        // Positions that are not finite are left out when submeshes are placed.
+        // Positions that are not finite are removed when submeshes are placed.
         if at.is_finite() && at.abs().max_element() <= f64::from(f32::MAX) {
             (low, high) = (low.min(at), high.max(at));
         }

@@ -1,10 +1,10 @@
 //! FBX, as text and binary, read by the crate `ufbx`.
 //!
-//! The unit and the axes that the file names are followed: the model is in meters, right-handed, with +Y up, before
-//! [`LoadOptions`] turn and scale it. UV sets have numbers in their order in a mesh. Colors of vertices are taken as sRGB, as
-//! the programs that write them do; those of materials as linear. Normals that the file leaves out follow its smoothing, or are
-//! smooth up to a crease of 80° where it has none. Hidden nodes and the coarser levels of detail are left out, and skins,
-//! morph targets and animations: the scene is taken as it stands.
+//! The unit and the axes that the file declares are used to convert the model to meters, right-handed, with +Y up, before
+//! [`LoadOptions`] rotate and scale it. UV sets are numbered by their order in a mesh. Vertex colors are interpreted as
+//! sRGB, like in the programs that write them; material colors as linear. Missing normals are computed from the file's
+//! smoothing, or are smooth up to an angle of 80° if it has none. Hidden nodes, coarser levels of detail, skins, morph
+//! targets and animations are ignored: the scene is read in its stored pose.
 
 mod material;
 mod mesh;
@@ -31,18 +31,18 @@ use super::text::with_line_feeds;
 use super::warnings::Warnings;
 use crate::model::{Model, ModelMaterial};
 
-/// First bytes of binary files, and of text files as all programs write them.
+/// First bytes of binary files, and of text files as written by all programs.
 pub(super) const MARKS: [&[u8]; 2] = [b"Kaydara FBX Binary", b"; FBX"];
 
-/// Bytes of memory that a file of any size may take.
+/// Memory in bytes that any file may use, however small.
 const LEAST_MEMORY: usize = 64 << 20;
-/// Bytes of memory for each byte of a file: numbers may be compressed, and are held as 64-bit floats.
+/// Memory in bytes for each byte of a file: numbers may be compressed, and are converted to 64-bit floats.
 const MEMORY_OF_A_BYTE: usize = 256;
 
 /// Reads an `.fbx` file.
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
-    // The library ends remarks of a text at line feeds alone.
+    // The library ends comments of a text file only at line feeds.
     let text = if bytes.starts_with(b";") {
         with_line_feeds(bytes)
     } else {
@@ -169,7 +169,7 @@ fn opened(bytes: &[u8], memory_bytes: u64) -> Result<ufbx::SceneRoot, Fault> {
         progress_cb: ProgressCb::Ref(&go_on),
         target_axes: ufbx::CoordinateAxes::right_handed_y_up(),
         target_unit_meters: 1.0,
-        // Up and front stay where they are.
+        // Keep the directions of up and front.
         handedness_conversion_axis: MirrorAxis::X,
         file_format: FileFormat::Fbx,
         no_format_from_content: true,
@@ -193,7 +193,7 @@ fn opened(bytes: &[u8], memory_bytes: u64) -> Result<ufbx::SceneRoot, Fault> {
     })
 }
 
-/// Warns of what the scene has and a model does not.
+/// Warns about features of the scene that are not supported in a model.
 fn note_omissions(scene: &ufbx::Scene, warnings: &mut Warnings) {
     if scene.metadata.mirror_axis != MirrorAxis::None {
         warnings.add(

@@ -3,13 +3,13 @@
 use super::error::Fault;
 use super::{dae, ending, fbx, ply, stl};
 
-/// Endings of the files that are read, the most usual first.
+/// Extensions of supported files, most common first.
 pub const ENDINGS: [&str; 8] = ["glb", "gltf", "vrm", "fbx", "obj", "dae", "ply", "stl"];
 
-/// Bytes at the beginning of a file among which the root of XML is looked for.
+/// Number of bytes at the start of a file in which the root element of XML is searched.
 const ROOT_WITHIN: usize = 4096;
 
-/// The formats that are read.
+/// Supported formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {
     Gltf,
@@ -20,8 +20,8 @@ pub(super) enum Format {
     Stl,
 }
 
-/// Returns the format by the first bytes where these tell it for certain, else by the ending of the name, else by what the
-/// content looks like.
+/// Returns the format: by the first bytes if they identify it, otherwise by the extension of the name, otherwise by what
+/// the content looks like.
 pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
     if let Some(format) = marked(bytes) {
         return Ok(format);
@@ -45,7 +45,7 @@ pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
     }
 }
 
-/// Returns the format of a file whose first bytes are those of that format alone.
+/// Returns the format of a file whose first bytes occur only in that format.
 fn marked(bytes: &[u8]) -> Option<Format> {
     let starts_with = |marks: &[&[u8]]| marks.iter().any(|mark| bytes.starts_with(mark));
     let start = &bytes[..bytes.len().min(ROOT_WITHIN)];
@@ -75,7 +75,7 @@ pub(super) fn refused_format(name: &str) -> Option<String> {
     Some(format!(".{ending} files are not read here: {}", way_from(&ending)?))
 }
 
-/// Advice on converting a format to one that is read.
+/// Returns advice on converting a format to a supported one.
 fn way_from(ending: &str) -> Option<&'static str> {
     Some(match ending {
         "abc" | "usd" | "usda" | "usdc" | "usdz" => {
@@ -98,7 +98,7 @@ fn way_from(ending: &str) -> Option<&'static str> {
     })
 }
 
-/// First bytes of formats that are not read and often have a wrong ending, and the right one.
+/// First bytes of unsupported formats that often have a wrong extension, and the correct name.
 const MARKS: [(&[u8], &str); 5] = [
     (b"PXR-USDC", "usdc"),
     (b"#usda", "usda"),
@@ -107,7 +107,7 @@ const MARKS: [(&[u8], &str); 5] = [
     (b"\x1f\x8b", "gz"),
 ];
 
-/// Returns a sentence for a file whose content contradicts its ending.
+/// Returns a sentence for a file whose content contradicts its extension.
 fn disguised(bytes: &[u8]) -> Option<String> {
     if bytes.starts_with(b"version https://git-lfs") {
         return Some(

@@ -1,4 +1,4 @@
-//! glTF 2.0 and GLB, read over the JSON types of the `gltf` crate with own checks and readers.
+//! glTF 2.0 and GLB, read with the JSON types of the `gltf` crate. Checks and readers are our own.
 
 mod accessor;
 mod buffers;
@@ -149,8 +149,7 @@ fn nothing_there(document: &Document, mut warnings: Warnings) -> Fault {
     warnings.into_fault()
 }
 
-/// Returns the transform from the file to the world, and the middle of the model in the file's own world; see
-/// [`Model::middle`].
+/// Returns the transform from the file to the world, and the middle of the model in the file's world; see [`Model::middle`].
 fn world(
     options: &LoadOptions,
     instances: &[Instance],
@@ -163,7 +162,7 @@ fn world(
     brought_near(options.world_from_file(), placed)
 }
 
-/// The UV sets that textures of the primitives use, without coordinates yet.
+/// Returns the UV sets that textures of the primitives use, without coordinates yet.
 fn empty_sets<'a>(primitives: impl Iterator<Item = &'a LoadedPrimitive>) -> Vec<TextureUvs> {
     let others = primitives.flat_map(|primitive| &primitive.submesh.texture_uvs);
     let sets: BTreeSet<u32> = others.map(|other| other.set).collect();
@@ -188,7 +187,7 @@ fn drop_idle_frames<'a>(mesh: &mut Mesh, primitives: impl Iterator<Item = &'a Lo
     }
 }
 
-/// Adds the warnings of the primitives; returns the materials of those without the UVs that others have.
+/// Adds the warnings of the primitives. Returns the materials of primitives that lack the UVs that others have.
 fn gather_warnings<'a>(
     primitives: impl Iterator<Item = &'a LoadedPrimitive>,
     with_uvs: bool,
@@ -207,13 +206,13 @@ fn gather_warnings<'a>(
 /// Placing of instances in a model.
 struct Placing<'p> {
     world_from_file: DMat4,
-    /// Whether any primitive has UVs, and colors.
+    /// Whether any primitive has UVs, and whether any has colors.
     with: [bool; 2],
     materials: &'p mut Materials,
     model: &'p mut Model,
     turning: Turning,
     arealess: LeftOutAreas,
-    /// Triangles that are out of the range of numbers once placed.
+    /// Number of triangles whose positions are out of range after placing.
     lost: usize,
     /// Triangles that lost their shape.
     blurred: usize,
@@ -262,13 +261,14 @@ impl Placing<'_> {
     }
 }
 
-/// Most vertices of all primitives together; vertices that primitives share count for each, since each reads all of them.
+/// Maximum number of vertices of all primitives together. Vertices that primitives share count for each of them, since each
+/// reads all of them.
 const MOST_VERTICES_READ: u64 = 1 << 31;
 
-/// Most coordinates in UV sets besides the chosen one: twice the number of corners of the largest model.
+/// Maximum number of coordinates in UV sets other than the chosen one: twice the number of corners of the largest model.
 const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
 
-/// Checks the sizes that the file claims before anything is allocated for them.
+/// Checks the sizes that the file declares before anything is allocated for them.
 fn check_sizes(source: &Source, instances: &[Instance], memory_bytes: u64) -> Result<(), Fault> {
     let claims: Vec<u64> = source
         .document
@@ -295,11 +295,10 @@ fn check_sizes(source: &Source, instances: &[Instance], memory_bytes: u64) -> Re
     check_sets(source, instances)
 }
 
-/// Checks the number of coordinates in further UV sets: every vertex of the model has some in every set that any texture
-/// uses.
+/// Checks the number of coordinates in further UV sets: every vertex of the model has coordinates in every set that any texture uses.
 fn check_sets(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
     let meshes = &source.document.meshes;
-    // Vertices without a triangle are left out.
+    // Vertices without a triangle are not kept.
     let vertices = |p| source.vertices(p).min(source.claim(p).saturating_mul(3));
     let claims: Vec<u64> = meshes
         .par_iter()

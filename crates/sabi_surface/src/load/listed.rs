@@ -1,11 +1,11 @@
 //! Lists of names in sentences.
 
-/// Returns names as a list in a sentence, of many only the first: `` `a`, `b` and 3 more ``.
+/// Formats names as a list in a sentence. Of many names only the first are listed: `` `a`, `b` and 3 more ``.
 pub fn listed<'n>(names: impl Iterator<Item = &'n str>, most: usize) -> String {
     joined(names.map(|name| format!("`{name}`")).collect(), most)
 }
 
-/// Returns words as a list in a sentence, of many only the first.
+/// Formats words as a list in a sentence. Of many words only the first are listed.
 pub(super) fn joined(mut words: Vec<String>, most: usize) -> String {
     let more = words.len().saturating_sub(most);
     if more > 0 {
@@ -23,7 +23,7 @@ mod tests {
     use super::listed;
 
     #[test]
-    fn of_many_names_the_first_are_listed_and_the_others_counted() {
+    fn of_many_names_the_first_are_listed_and_the_rest_is_counted() {
         let names = ["a", "b", "c", "d"];
         assert_eq!(listed(names[..0].iter().copied(), 3), "");
         assert_eq!(listed(names[..1].iter().copied(), 3), "`a`");

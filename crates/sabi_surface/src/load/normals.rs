@@ -1,4 +1,5 @@
-//! Normals that a file leaves out: flat (glTF's rule), or smooth up to a crease angle; and those that replace its own.
+//! Computes missing normals: flat (glTF's rule), or smooth up to an angle between faces. Also computes normals that replace
+//! those of the file.
 
 use glam::{DVec3, Vec3};
 use sabi_cancel::{Cancel, Looking as _};
@@ -11,11 +12,11 @@ use super::unit_vector::unit;
 pub(super) enum Missing {
     /// One normal for each triangle, as glTF requires.
     Flat,
-    /// Smooth over edges with an angle of less than [`CREASE_DEGREES`], or as the file's smoothing groups define.
+    /// Smooth across edges with an angle of less than [`CREASE_DEGREES`], or according to the file's smoothing groups.
     Crease,
 }
 
-/// Angle between faces above which an edge is hard: edges of a cube (90°) are, those of a cylinder of six sides (60°) are not.
+/// Angle between faces above which an edge is hard: the edges of a cube (90°) are hard, those of a six-sided cylinder (60°) are not.
 const CREASE_DEGREES: f64 = 80.0;
 
 /// Normalizes all normals and computes missing ones; returns the number of vertices without a valid normal.
@@ -52,7 +53,7 @@ pub(super) fn complete(submesh: &mut Submesh, missing: Missing) -> usize {
         .zip(made)
         .map(|(vertex, made)| {
             if lost[*vertex as usize] {
-                // Triangles without area have no normal, so any direction is valid.
+                // Triangles without area have no normal, so any direction can be used.
                 unit(made).unwrap_or([0.0, 1.0, 0.0])
             } else {
                 submesh.normals[*vertex as usize]
@@ -63,8 +64,8 @@ pub(super) fn complete(submesh: &mut Submesh, missing: Missing) -> usize {
     count
 }
 
-/// Replaces all normals by smooth ones over edges whose faces turn by less than `degrees`, and flat ones over others. Removes
-/// the tangents, which belong to the normals before.
+/// Replaces all normals: smooth across edges whose faces differ by less than `degrees`, flat at other edges. Removes the
+/// tangents, which belonged to the previous normals.
 pub(super) fn replace(submesh: &mut Submesh, degrees: f32) {
     let faces = face_normals(submesh);
     let least_cosine = f64::from(degrees).to_radians().cos();
@@ -74,7 +75,7 @@ pub(super) fn replace(submesh: &mut Submesh, degrees: f32) {
     let corners: Vec<[f32; 3]> = made
         .into_iter()
         .enumerate()
-        // Opposite faces may cancel each other out; triangles without area have no normal, so any direction is valid.
+        // Normals of opposite faces may cancel each other out. Triangles without area have no normal, so any direction can be used.
         .map(|(corner, made)| unit(made).or(unit(faces[corner / 3])).unwrap_or([0.0, 1.0, 0.0]))
         .collect();
     submesh.tangents.clear();
@@ -86,8 +87,8 @@ pub(super) fn replace(submesh: &mut Submesh, degrees: f32) {
     submesh.made_normals = Some(MadeNormals::Smooth(degrees));
 }
 
-/// Gives faces that were turned normals on their new outside: those that were computed are computed again, and those of the file
-/// are reversed at corners of these faces where they point inward.
+/// Adapts the normals of reversed faces to their new outside. Computed normals are computed again; normals of the file are
+/// reversed at corners of these faces where they point inward.
 pub(super) fn follow_turned(submesh: &mut Submesh, is_turned: &[bool]) {
     let remake = |submesh: &mut Submesh, missing: Missing| {
         submesh.normals.clear();
@@ -127,14 +128,14 @@ fn corners_of(submesh: &Submesh, triangle: usize) -> [DVec3; 3] {
     submesh.triangles[triangle].map(|v| Vec3::from(submesh.positions[v as usize]).as_dvec3())
 }
 
-/// Unit length, or zero for a triangle without area.
+/// Returns the normal of a triangle with unit length; zero for a triangle without area.
 fn face_normal(submesh: &Submesh, triangle: usize) -> DVec3 {
     let [a, b, c] = corners_of(submesh, triangle);
     unit((b - a).cross(c - a)).map_or(DVec3::ZERO, |unit| Vec3::from(unit).as_dvec3())
 }
 
-/// Computes the normals of the corners: the sum of face normals weighted by the corner's angle, over all corners that smooth
-/// edges join (Thürmer & Wüthrich 1998). `is_smooth` says whether the edge between two triangles is.
+/// Computes the normals of the corners: the sum of face normals weighted by the angle of the corner, over all corners connected by smooth
+/// edges (Thürmer & Wüthrich 1998). `is_smooth` returns whether the edge between two triangles is smooth.
 fn smooth(submesh: &Submesh, faces: &[DVec3], is_smooth: impl Fn(usize, usize) -> bool) -> Vec<DVec3> {
     let mut corner_sets = DisjointSets((0..submesh.triangles.len() as u32 * 3).collect());
     let mut edges = directed_edges(submesh);
@@ -169,7 +170,7 @@ fn smooth(submesh: &Submesh, faces: &[DVec3], is_smooth: impl Fn(usize, usize) -
 }
 
 fn is_smooth(submesh: &Submesh, faces: &[DVec3], first: usize, second: usize) -> bool {
-    // Formats without smoothing groups have none.
+    // Formats without smoothing groups give no smoothing.
     let smoothing = |triangle: usize| submesh.smoothing.get(triangle).copied().unwrap_or(Smoothing::ByAngle);
     match (smoothing(first), smoothing(second)) {
         (Smoothing::ByAngle, Smoothing::ByAngle) => faces[first].dot(faces[second]) > CREASE_DEGREES.to_radians().cos(),
@@ -178,7 +179,7 @@ fn is_smooth(submesh: &Submesh, faces: &[DVec3], first: usize, second: usize) ->
     }
 }
 
-/// An edge of a triangle; edges between the same two positions sort together.
+/// An edge of a triangle. Edges between the same two positions are adjacent when sorted.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
     /// First vertices at the two positions, lower number first.

@@ -1,12 +1,12 @@
-//! Numbers of text files, as programs of all systems and languages write them.
+//! Numbers of text files in all forms that programs write.
 
 use super::warnings::Warnings;
 
-/// Sentence about numbers such as `0,5`, which programs write that follow the language of their user.
+/// Warning about numbers such as `0,5`, which some programs write in the language of their user.
 const COMMAS: &str = "The file writes numbers with decimal commas, such as `0,5`; they are read as decimal points.";
 
-/// Reads a number, behind which a comma may separate it from the next: a decimal comma is one, too, with a warning, and so are
-/// exponents of Fortran, `1.0D-3`. Words for what is no number, such as `1.#IND` and `-nan(ind)`, are NaN; others are none.
+/// Reads a number. A decimal comma is accepted, with a warning. Words for NaN, such as `1.#IND` and `-nan(ind)`, give NaN;
+/// other words give `None`.
 pub(super) fn number(word: &str, warnings: &mut Warnings) -> Option<f64> {
     let word = word.strip_suffix(',').unwrap_or(word);
     if let Ok(number) = word.parse() {
@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_read_as_programs_write_them() {
+    fn numbers_are_read_in_all_forms_that_programs_write() {
         for (word, number_of_it, has_comma) in [
             ("5412345.456864", Some(5_412_345.456_864), false),
             ("-1e-3", Some(-0.001), false),

@@ -1,9 +1,8 @@
 //! Wavefront OBJ and its material libraries.
 //!
-//! Normals that the file leaves out are smooth up to a crease of 80°, or follow its smoothing groups where it has them.
-//! Texture coordinates are turned to glTF's convention (v grows downward). Vertex colors, an unwritten addition to the
-//! format, are taken as sRGB, as the programs that write them do. Each `o` begins a part; a group (`g`) of one name is one part of
-//! its object.
+//! Missing normals are smooth up to an angle of 80°, or follow the smoothing groups of the file. Texture coordinates are converted to
+//! glTF's convention (v grows downward). Vertex colors, an undocumented extension of the format, are interpreted as sRGB, as in the
+//! programs that write them. Each `o` starts a part, and groups (`g`) with the same name are one part of their object.
 
 mod colors;
 mod draft;
@@ -104,7 +103,7 @@ pub(super) fn read(
     Ok(model)
 }
 
-/// Name of a part: that of the file where its faces have none.
+/// Returns the name of a part; the file's name if the faces have no part name.
 fn part_name(statements: &Statements, part: u32, file: &str) -> String {
     let name = &statements.parts[part as usize];
     if name.is_empty() {
@@ -114,7 +113,7 @@ fn part_name(statements: &Statements, part: u32, file: &str) -> String {
     }
 }
 
-/// Keeps the faces of the parts that are taken; returns all parts that have any.
+/// Keeps the faces of the chosen parts. Returns all parts that have faces.
 fn choose_parts(
     statements: &mut Statements,
     file: &str,
@@ -138,7 +137,7 @@ fn choose_parts(
     Ok(parts)
 }
 
-/// Removes triangles that have no area, and warns of them.
+/// Removes triangles without area, and adds a warning about them.
 fn drop_arealess(placed: &mut Submesh, statements: &Statements, file: &str, warnings: &mut Warnings) {
     let of_parts = |placed: &Submesh| {
         let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
@@ -171,7 +170,7 @@ fn placed(submesh: &Submesh, options: &LoadOptions) -> (Submesh, [f64; 3]) {
     (submesh.placed(world_from_file), middle)
 }
 
-/// Returns a fault where a UV set is asked for that OBJ cannot have.
+/// Returns a fault if a UV set is requested that OBJ files cannot have.
 fn check_uv_set(statements: &Statements, options: &LoadOptions) -> Result<(), Fault> {
     if options.uv_set == 0 {
         return Ok(());
@@ -187,7 +186,7 @@ fn check_uv_set(statements: &Statements, options: &LoadOptions) -> Result<(), Fa
     })
 }
 
-/// Slots of the materials whose faces lack UVs where others have them.
+/// Returns the slots of the materials whose faces lack UVs while others have them.
 fn without_uvs(statements: &Statements) -> BTreeSet<u32> {
     let faces = &statements.faces;
     if faces.uvs.values.is_empty() {
@@ -200,8 +199,8 @@ fn without_uvs(statements: &Statements) -> BTreeSet<u32> {
     lacking.map(|face| face.material).collect()
 }
 
-/// Keeps the materials in use: those of the libraries in their order, then unknown names in order of first use, then the unnamed
-/// one. Returns the new number of each slot.
+/// Keeps the materials that are used: first those of the libraries in their order, then unknown names in order of first
+/// use, then the unnamed material. Returns the new number of each slot.
 fn number_materials(
     statements: &Statements,
     library: &mut Library,
@@ -218,7 +217,7 @@ fn number_materials(
                 if name.is_empty() {
                     usize::MAX
                 } else {
-                    // Unknown names come after those of the libraries.
+                    // Unknown names come after the names of the libraries.
                     library.place(name).unwrap_or(usize::MAX - 1)
                 },
                 slot,
@@ -249,7 +248,7 @@ fn number_materials(
     new_from_slot
 }
 
-/// Keeps the parts in use, in the file's order.
+/// Keeps the parts that are used, in the file's order.
 fn number_parts(statements: &Statements, file: &str, submesh: &mut Submesh, model: &mut Model) {
     let used: BTreeSet<u32> = submesh.parts.iter().copied().collect();
     let mut new_from_old = BTreeMap::new();

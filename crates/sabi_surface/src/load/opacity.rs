@@ -1,10 +1,10 @@
-//! Opacity of materials in formats whose programs disagree about it.
+//! Opacity of materials in formats whose programs interpret it differently.
 
 use super::warnings::Warnings;
 use crate::model::ModelMaterial;
 
-/// Gives a material the opacity that its file says, 0 to 1, and the shared rule for 0: programs disagree about the meaning of
-/// transparency, and nobody bakes a model that cannot be seen, so that it is taken as opaque, with a warning.
+/// Sets the opacity of a material to the file's value, 0 to 1. A value of 0 is replaced by 1, with a warning: programs
+/// disagree about the meaning of transparency, and nobody bakes an invisible model.
 pub(super) fn set_opacity(material: &mut ModelMaterial, opacity: f32, warnings: &mut Warnings) {
     let opacity = opacity.clamp(0.0, 1.0);
     material.ignores_alpha = opacity == 0.0 || opacity >= 1.0;
@@ -18,7 +18,7 @@ pub(super) fn set_opacity(material: &mut ModelMaterial, opacity: f32, warnings: 
     }
 }
 
-/// Gives a material the opacity of a picture, an image of it: the alpha of its base color's own is read, and no other.
+/// Uses an image as opacity of a material. Only the alpha of the base color image can be read.
 pub(super) fn set_opacity_map(material: &mut ModelMaterial, image: usize, warnings: &mut Warnings) {
     let own = material.base_color.as_ref().map(|own| own.image);
     material.ignores_alpha = own != Some(image);

@@ -1,5 +1,5 @@
-//! Choice of the parts of a file that count. Collision hulls and coarser levels of detail lie in the same place as what is seen,
-//! and are told by the names that engines give a meaning.
+//! Choice of the parts of a file to load. Collision hulls and coarser levels of detail lie at the same place as the visible
+//! model. They are recognized by naming conventions of game engines.
 
 mod groups;
 mod meaning;
@@ -14,20 +14,20 @@ use super::error::Fault;
 use super::warnings::Warnings;
 use crate::model::{FilePart, LeftOut};
 
-/// Parts of a file that count, by names in which `*` stands for any text and `?` for one letter.
+/// Choice of parts by name, where `*` stands for any text and `?` for one letter.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PartChoice {
-    /// Parts that are taken, whatever their names mean; none for all except hulls and coarser levels of detail.
+    /// Parts that are loaded, whatever their names mean. If empty, all parts except hulls and coarser levels of detail are loaded.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<String>,
-    /// Parts that are left out of these.
+    /// Parts that are excluded from these.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
 }
 
 impl PartChoice {
-    /// Name that stands for all parts, hulls and coarser levels of detail as well.
+    /// Name that stands for all parts, including hulls and coarser levels of detail.
     pub const ALL: &str = "*";
 
     /// All parts of a file.
@@ -38,7 +38,7 @@ impl PartChoice {
         }
     }
 
-    /// Returns true if nothing is chosen: what names mean decides.
+    /// Returns true if the user has chosen nothing, so that naming conventions decide.
     pub fn is_default(&self) -> bool {
         *self == PartChoice::default()
     }
@@ -46,7 +46,7 @@ impl PartChoice {
     /// Returns the parts of a file by their names and those of the `groups` above them, each with whether it is taken.
     ///
     /// # Errors
-    /// A name that is neither a part's nor a group's, or a choice that leaves none.
+    /// No part has a chosen name, or the choice excludes all parts.
     pub(super) fn of_file<'n>(
         &self,
         parts: impl Iterator<Item = NamedPart<'n>>,
@@ -79,7 +79,7 @@ impl PartChoice {
         Ok(parts)
     }
 
-    /// Refuses names that nothing has. A pattern of parts that are left out may fit none.
+    /// Refuses names that no part has. A pattern of excluded parts may match nothing.
     fn check_names(&self, choosable: &Choosable, warnings: &mut Warnings) -> Result<(), Fault> {
         let is_used = |pattern: &str| choosable.has(pattern);
         let (patterns, plain): (Vec<&String>, Vec<&String>) = self.without.iter().partition(|name| is_pattern(name));
@@ -154,11 +154,12 @@ fn is_pattern(name: &str) -> bool {
     name.contains(['*', '?'])
 }
 
-/// Returns true if a pattern fits a whole name; case counts.
+/// Returns true if a pattern matches a whole name. Case matters.
 fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) = (pattern.chars().collect(), name.chars().collect());
     let (mut at, mut read) = (0, 0);
-    // Place after the last star, and what it stood for so far: only that star has to take more where the rest does not fit.
+    // Position after the last star, and the length of the text that it matched so far. If the rest does not match, only
+    // this star has to match more.
     let mut star: Option<(usize, usize)> = None;
     while read < name.len() {
         match pattern.get(at) {
@@ -182,7 +183,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_may_have_letters_that_stand_for_others() {
+    fn names_may_contain_wildcards() {
         for (pattern, name, fits) in [
             ("*", "", true),
             ("*", "Rock", true),
@@ -198,12 +199,12 @@ mod tests {
         ] {
             assert_eq!(matches(pattern, name), fits, "{pattern} {name}");
         }
-        // As many steps as letters times stars, not a power of them.
+        // The number of steps is letters times stars, not exponential.
         assert!(!matches(&"*a".repeat(100), &"a".repeat(99)));
     }
 
     #[test]
-    fn what_is_chosen_by_name_wins_over_what_names_mean() {
+    fn a_choice_by_name_overrides_naming_conventions() {
         let names = ["Rock", "Rock_LOD1", "UCX_Rock", "Moss"];
         let taken = |parts: &[&str], without: &[&str]| {
             let list = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();

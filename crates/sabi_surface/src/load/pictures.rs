@@ -1,4 +1,4 @@
-//! Pictures that materials name, as formats other than glTF have them.
+//! Images of materials, in the form common to the formats other than glTF.
 
 use sabi_cancel::look;
 use std::collections::BTreeMap;
@@ -8,15 +8,15 @@ use super::gltf::Resolve;
 use super::warnings::Warnings;
 use crate::model::{Model, ModelImage, ModelMaterial};
 
-/// Place of a picture.
+/// Where an image is stored.
 pub(super) enum Place {
-    /// Its encoded bytes, which the model's own file holds.
+    /// In the model's own file; these are its encoded bytes.
     Inside(Arc<[u8]>),
-    /// Paths beside the model, the likeliest first.
+    /// Beside the model; these are possible paths, most likely first.
     Beside(Vec<String>),
 }
 
-/// Pictures by the key under which materials know them, each once; read when the materials in use are known.
+/// Images by the key with which materials refer to them, each once. They are read when it is known which materials are used.
 #[derive(Default)]
 pub(super) struct Pictures {
     places: Vec<(String, Place)>,
@@ -24,7 +24,7 @@ pub(super) struct Pictures {
 }
 
 impl Pictures {
-    /// Returns the number of the picture `key`; a new one is at a `place`, under a name for messages.
+    /// Returns the number of the image `key`. A new image is at `place`, with a name for messages.
     pub(super) fn number(&mut self, key: &str, place: impl FnOnce() -> (String, Place)) -> usize {
         if let Some(number) = self.numbers.get(key) {
             return *number;
@@ -40,7 +40,7 @@ impl Pictures {
         self.number(path, || (file_name(path), Place::Beside(vec![path.to_string()])))
     }
 
-    /// Reads the pictures that the model's materials use, whose textures have the numbers given here until then.
+    /// Reads the images that the model's materials use. Until then, textures refer to the numbers given here.
     pub(super) fn read(self, resolve: &mut Resolve, model: &mut Model, warnings: &mut Warnings) {
         let mut places: Vec<Option<(String, Place)>> = self.places.into_iter().map(Some).collect();
         let mut new_from_old = BTreeMap::new();
@@ -60,13 +60,13 @@ impl Pictures {
     }
 }
 
-/// Name of a file without its folders, which a path of any system separates.
+/// Returns the file name in a path, whatever system the path is from.
 pub(super) fn file_name(path: &str) -> String {
     path.rsplit_once(['/', '\\']).map_or(path, |(_, name)| name).to_string()
 }
 
-/// Places of a picture that a file names by `paths`, the likeliest first: relative ones as they are written, then their bare
-/// names in `folders` and beside the model. Absolute paths are those of another computer: only their last part is used.
+/// Returns possible places of an image to which a file refers by `paths`, most likely first: relative paths as written, then the bare
+/// names in `folders` and beside the model. Absolute paths belong to another computer, so only their last part is used.
 pub(super) fn places(paths: &[&str], folders: &[String]) -> Vec<String> {
     let mut places: Vec<String> = Vec::new();
     let relative = paths
@@ -89,7 +89,7 @@ pub(super) fn places(paths: &[&str], folders: &[String]) -> Vec<String> {
     places
 }
 
-/// Returns true if a path starts from the folder of its file on every system.
+/// Returns true if a path is relative on every system.
 fn is_relative(path: &str) -> bool {
     let has_drive = path.as_bytes().get(1) == Some(&b':');
     !path.starts_with(['/', '\\']) && !has_drive && !path.contains("://")

@@ -1,10 +1,9 @@
 //! PLY, as text and binary of both byte orders: vertices, faces, normals, texture coordinates, colors.
 //!
-//! Colors that are integers are taken as sRGB, as the programs that write them mean them; those that are floats as linear. They
-//! belong to vertices or, where these have none, to faces.
-//! Texture coordinates belong to vertices (`s t` or `u v`) or to the corners of faces (`texcoord`), and are turned to glTF's
-//! convention (v grows downward). Pictures are those of the comments `TextureFile`, which `texnumber` of a face counts.
-//! Normals that the file leaves out are smooth up to a crease of 80°. The format has no units and no axis that points up.
+//! Integer colors are interpreted as sRGB, as in the programs that write them, and float colors as linear. Texture
+//! coordinates belong to vertices (`s t` or `u v`) or to the corners of faces (`texcoord`), and are converted to glTF's
+//! convention (v grows downward). Images are named in comments `TextureFile`, and `texnumber` of a face is an index into
+//! these. Missing normals are smooth up to an angle of 80°. The format defines neither units nor an up axis.
 
 mod body;
 mod header;
@@ -33,7 +32,7 @@ use crate::model::{Model, ModelMaterial, TextureRef};
 /// First bytes of each file.
 pub(super) const MARKS: [&[u8]; 3] = [b"ply\n", b"ply\r", b"ply "];
 
-/// Names of the properties of a vertex that are read, in the order of [`Vertex`]; of each list the first that is there.
+/// Names of the properties of a vertex that are read, in the order of [`Vertex`]. Of each list, the first name that exists is used.
 const VERTEX: [&[&str]; 8] = [
     &["x"],
     &["y"],
@@ -93,7 +92,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     for picture in &header.pictures {
         let texture = TextureRef::of(assembly.pictures.beside(picture));
         assembly.materials.push(ModelMaterial {
-            // A lone material needs no name.
+            // A single material needs no name.
             name: if header.pictures.len() > 1 {
                 super::stem(picture)
             } else {
@@ -113,16 +112,16 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     assembly.into_model(name, resolve, options, warnings)
 }
 
-/// Values of a vertex by the lists of [`VERTEX`].
+/// Values of a vertex, in the order of [`VERTEX`].
 type Vertex = [f32; VERTEX.len()];
 
-/// Reader of the elements behind a header.
+/// Reader of the elements after a header.
 struct Reader<'h, 'w> {
     header: &'h Header,
     warnings: &'w mut Warnings,
     faces: Faces,
     vertices: u64,
-    /// True if faces have texture coordinates of their own, which replace those of vertices.
+    /// True if faces have their own texture coordinates, which replace those of vertices.
     corners_have_uvs: bool,
     /// True if faces have colors and vertices have none.
     faces_have_colors: bool,
@@ -150,7 +149,7 @@ impl Reader<'_, '_> {
     fn read(mut self, rest: &[u8]) -> Result<Faces, Fault> {
         let mut body = Body::new(self.header.encoding, rest);
         for element in &self.header.elements {
-            // Every element takes bytes, so a count that the file cannot hold is refused before anything is read.
+            // Every element takes bytes, so a count that does not fit into the file is refused before anything is read.
             body.check_room(element)?;
             match element.name.as_str() {
                 "vertex" => self.read_vertices(element, &mut body)?,
@@ -173,7 +172,7 @@ impl Reader<'_, '_> {
         let [with_normals, with_uvs] = [has(3..6), has(6..8) && !self.corners_have_uvs];
         let kind_of = |channel: usize| places[channel].and_then(|place| Some(element.properties.get(place)?.kind));
         let colors = Colors::of(element);
-        // Text holds as many digits as it has, whatever type it names.
+        // In a text file, the digits decide the precision, whatever type is declared.
         self.faces.is_single =
             self.header.encoding != Encoding::Text && (0..3).all(|axis| kind_of(axis) == Some(Kind::F32));
         let mut row = Vec::new();
@@ -314,7 +313,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Gives the corners the attributes of their vertices.
+    /// Copies the attributes of vertices to their corners.
     fn share_attributes(&mut self) {
         let Faces {
             corners,

@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-/// Most point tests for a whole file, since concave faces of thousands of corners take quadratic time.
+/// Maximum number of point tests for a whole file, since concave faces with thousands of corners take quadratic time.
 const MOST_TESTS: u64 = 200_000_000;
 
-/// Corners of a convex face from which it is halved again and again: a fan of so many is a bundle of slivers, which takes quadratic time
-/// wherever triangles are compared by their boxes.
+/// Number of corners from which a convex face is halved repeatedly. A fan of that many triangles would be a bundle of
+/// slivers, which takes quadratic time wherever triangles are compared by their boxes.
 const HALVED_CORNERS: usize = 256;
 
 /// Remaining budget of tests.
@@ -19,13 +19,13 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// Returns true if the budget is used up: further faces are cut without testing their ears.
+    /// Returns true if the budget is used up, so that further faces are cut without testing their ears.
     pub(super) fn is_spent(&self) -> bool {
         self.0 == 0
     }
 }
 
-/// Cuts a face into `corners - 2` triangles of corner numbers, wound as the face is.
+/// Divides a face into `corners - 2` triangles of corner numbers, with the same winding as the face.
 pub(super) fn triangulate(corners: &[[f32; 3]], budget: &mut Budget, mut emit: impl FnMut([usize; 3])) {
     let count = corners.len();
     if count > 3 {
@@ -42,7 +42,7 @@ pub(super) fn triangulate(corners: &[[f32; 3]], budget: &mut Budget, mut emit: i
     }
 }
 
-/// Cuts a convex face by the corner in the middle of those between the ends of each edge of a triangle.
+/// Divides a convex face by repeatedly adding the middle corner between the ends of a triangle's edge.
 fn halve(count: usize, mut emit: impl FnMut([usize; 3])) {
     let mut spans = vec![[0, count - 1]];
     while let Some([first, last]) = spans.pop() {
@@ -82,7 +82,7 @@ fn is_convex(flat: &[DVec2]) -> bool {
     // Rounding may make corners on a straight line slightly concave.
     let slack = -1e-9 * flat.iter().map(|at| at.length_squared()).fold(0.0, f64::max);
     (0..count).all(|c| area(at(c), at(c + 1), at(c + 2)) >= slack)
-        // Only left turns and more than one revolution: a star polygon.
+        // Only left turns, and not more than one revolution as in a star polygon.
         && (1..count - 1).all(|c| area(at(0), at(c), at(c + 1)) >= slack)
 }
 
@@ -94,11 +94,11 @@ fn clip_ears(flat: &[DVec2], budget: &mut Budget, mut emit: impl FnMut([usize; 3
             return halve(left.len(), |triangle| emit(triangle.map(|corner| left[corner])));
         }
         let count = left.len();
-        // The search goes on after the last ear, so that not all triangles share one corner.
+        // The search continues after the last ear, so that not all triangles share one corner.
         let ear = (0..count)
             .map(|step| (start + step) % count)
             .find(|corner| is_ear(flat, &left, *corner, budget));
-        // A self-intersecting face may have no ear; any corner is cut then.
+        // A self-intersecting face may have no ear. In that case any corner is cut off.
         let ear = ear.unwrap_or(start % count);
         emit([left[(ear + count - 1) % count], left[ear], left[(ear + 1) % count]]);
         left.remove(ear);
@@ -107,8 +107,8 @@ fn clip_ears(flat: &[DVec2], budget: &mut Budget, mut emit: impl FnMut([usize; 3
     emit([left[0], left[1], left[2]]);
 }
 
-/// Returns true if the triangle at a corner of the remaining polygon is an ear, that is, lies inside it. Always true
-/// once the budget is spent. Every look at a corner costs one test at least.
+/// Returns true if the triangle at a corner of the remaining polygon is an ear, i.e. lies inside it. Always true once the
+/// budget is used up. Each call costs at least one test.
 fn is_ear(flat: &[DVec2], left: &[usize], corner: usize, budget: &mut Budget) -> bool {
     let count = left.len();
     let at = |corner: usize| flat[left[corner % count]];
@@ -145,13 +145,13 @@ mod tests {
     }
 
     #[test]
-    fn a_convex_face_is_a_fan() {
+    fn a_convex_face_becomes_a_fan() {
         let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         assert_eq!(cut(&face), [[0, 1, 2], [0, 2, 3]]);
     }
 
     #[test]
-    fn a_convex_face_of_many_corners_is_no_bundle_of_slivers() {
+    fn a_convex_face_of_many_corners_does_not_become_slivers() {
         let circle = |count: usize| -> Vec<[f32; 3]> {
             let angle = |corner: usize| corner as f32 * std::f32::consts::TAU / count as f32;
             let corners = (0..count).map(|corner| angle(corner).sin_cos());
@@ -162,9 +162,9 @@ mod tests {
         assert_eq!(triangles.len(), face.len() - 2);
         let covered: f64 = triangles.iter().map(|triangle| area_of(&face, *triangle)).sum();
         assert!((covered - std::f64::consts::PI).abs() < 1e-4, "{covered}");
-        // Three corners beside each other lie on a line, but for the rounding of their places.
+        // Three neighboring corners lie on a line except for rounding.
         assert!(triangles.iter().all(|triangle| area_of(&face, *triangle) > -1e-10));
-        // Longest edges, squared: those of a fan would be 60 000 together.
+        // Squares of the longest edges. Those of a fan would add up to 60 000.
         let long = |triangle: &[usize; 3]| {
             let [a, b, c] = triangle.map(|corner| Vec3::from(face[corner]));
             a.distance_squared(b)
@@ -176,8 +176,8 @@ mod tests {
     }
 
     #[test]
-    fn the_work_for_hollow_faces_has_a_limit() {
-        // A spiral of two arms, most of whose corners are no ears.
+    fn the_work_for_concave_faces_is_limited() {
+        // A spiral with two arms, most of whose corners are not ears.
         let arm = |corner: usize, width: f32| {
             let turn = corner as f32 * 0.01;
             let (y, x) = turn.sin_cos();
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hollow_face_is_covered_once() {
+    fn a_concave_face_is_covered_exactly_once() {
         let arrow = [[0.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
         let comb = [
             [0.0, 0.0, 0.0],

@@ -1,13 +1,13 @@
-//! Materials whose textures repeat, so that UVs outside the unit square are no UDIM tiles.
+//! Finds materials whose textures repeat, so that UVs outside of the unit square are not UDIM tiles.
 
 use std::collections::BTreeSet;
 
 use crate::model::{Model, TextureRef, Wrap};
 
-/// First and last UDIM number of four digits that programs write into file names.
+/// First and last four-digit UDIM number that programs write into file names.
 const UDIM_NUMBERS: std::ops::RangeInclusive<u32> = 1001..=1999;
 
-/// Returns the materials with a texture that repeats on the chosen UV set. Pictures of one UDIM tile do not count.
+/// Returns the materials with a texture that repeats on the chosen UV set. Images of a single UDIM tile do not count.
 pub(super) fn repeating(model: &Model) -> BTreeSet<u32> {
     let repeats = |used: &TextureRef| {
         let picture = model.images.get(used.image);
@@ -20,7 +20,7 @@ pub(super) fn repeating(model: &Model) -> BTreeSet<u32> {
     found.map(|(index, _)| index as u32).collect()
 }
 
-/// Returns true if the name of a picture has a UDIM number or the word that stands for one.
+/// Returns true if the name of an image contains a UDIM number or the placeholder for it.
 fn is_udim_picture(name: &str) -> bool {
     let numbers = name.split(|letter: char| !letter.is_ascii_digit());
     let has_number = numbers
@@ -34,7 +34,7 @@ mod tests {
     use super::is_udim_picture;
 
     #[test]
-    fn pictures_of_a_tile_have_its_number_in_their_name() {
+    fn images_of_a_udim_tile_have_its_number_in_their_name() {
         for name in ["wall.1001.png", "wall_1042.exr", "wall.<UDIM>.png", "1999"] {
             assert!(is_udim_picture(name), "{name}");
         }

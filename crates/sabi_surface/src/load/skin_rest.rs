@@ -1,25 +1,27 @@
-//! Rest of skinned meshes: the one transform by which all joints place a mesh while its skeleton stands as it was bound.
+//! Rest pose of skinned meshes: the common transform with which all joints place a mesh while its skeleton is in the pose
+//! in which it was bound.
 
 use glam::{DMat3, DMat4};
 
 use super::warnings::Warnings;
 
-/// Largest relative difference between the transforms of joints at rest that rounding explains.
+/// Maximum relative difference between the transforms of joints in the rest pose that is explained by rounding.
 const SAME: f64 = 1e-3;
 
 /// Placement of a mesh by one joint.
 pub(super) struct Placement {
     pub(super) file_from_mesh: DMat4,
-    /// Distance of the joint from the origin, the scale of the transform's rounding error.
+    /// Distance of the joint from the origin, to which the rounding error of the transform is proportional.
     pub(super) reach: f64,
 }
 
-/// Most joints and matrices of all skins of a file together.
+/// Maximum number of joints and matrices of all skins of a file together.
 const MOST_JOINTS: u64 = 1 << 22;
 /// Reason why a skin is not read.
 pub(super) const TOO_MANY_JOINTS: &str = "the skins of the file have too many joints together";
 
-/// Joints and matrices that may still be read. Meshes and skins may share them, so that they are not bounded by the size of a file.
+/// Number of joints and matrices that may still be read. Meshes and skins may share them, so that the size of the file does
+/// not limit their number.
 pub(super) struct JointBudget(u64);
 
 impl Default for JointBudget {
@@ -29,23 +31,23 @@ impl Default for JointBudget {
 }
 
 impl JointBudget {
-    /// Takes joints or matrices; `None` where there are too many.
+    /// Takes joints or matrices from the budget; `None` if not enough are left.
     pub(super) fn take(&mut self, count: u64) -> Option<()> {
         self.0 = self.0.checked_sub(count)?;
         Some(())
     }
 }
 
-/// Rest of a skin, which is the same for all meshes that it places.
+/// Rest pose of a skin. It is the same for all meshes that use the skin.
 #[derive(Clone, Copy)]
 pub(super) enum Rest {
-    /// Nothing is known of its joints.
+    /// Nothing is known about its joints.
     Unknown,
-    /// All joints place the mesh so.
+    /// All joints place the mesh with this transform.
     At(DMat4),
-    /// The joints do not agree, or leave nothing of the mesh.
+    /// The joints have different transforms, or scale the mesh to nothing.
     Posed,
-    /// It has too many joints.
+    /// The skin has too many joints.
     TooLarge,
 }
 
@@ -64,7 +66,7 @@ impl Rest {
         }
     }
 
-    /// Returns the transform of the mesh `name`, which is `bound` where the skin does not tell another.
+    /// Returns the transform of the mesh `name`; this is `bound` unless the skin defines another one.
     pub(super) fn file_from_bound(self, bound: DMat4, name: &str, warnings: &mut Warnings) -> DMat4 {
         match self {
             Rest::Unknown => bound,
@@ -88,7 +90,7 @@ impl Rest {
     }
 }
 
-/// Returns true if two joints place a mesh the same, up to rounding.
+/// Returns true if two joints place a mesh in the same way, up to rounding.
 pub(super) fn agree(a: &Placement, b: &Placement) -> bool {
     let [a_turns, b_turns] = [a, b].map(|placement| DMat3::from_mat4(placement.file_from_mesh));
     let size = a_turns

@@ -1,8 +1,7 @@
 //! STL, as text and binary: facets without anything else.
 //!
-//! Facets are flat, and their outside is where their corners turn counter-clockwise; the normals that the file adds are not
-//! read. Corners at exactly one position are one vertex. The format has no units and no axis that points up: lengths are taken
-//! as they are.
+//! Facets are flat. Their outside is the side from which the corners are counter-clockwise; the normals in the file are ignored. Corners
+//! at exactly the same position become one vertex. The format defines neither units nor an up axis: lengths are read unchanged.
 
 use sabi_cancel::Looking as _;
 use std::collections::{BTreeSet, HashMap};
@@ -26,7 +25,7 @@ use crate::model::Model;
 
 /// Bytes before the facets of a binary file: a text and their number.
 const HEADER_BYTES: usize = 84;
-/// Bytes of a binary facet: a normal, three corners, two bytes of any meaning.
+/// Bytes of a binary facet: a normal, three corners, two bytes without a defined meaning.
 const FACET_BYTES: usize = 50;
 
 /// Word in the header of files whose facets have colors.
@@ -34,7 +33,7 @@ const COLORED: &[u8] = b"COLOR=";
 
 /// Bytes among which the first line of a text is looked for.
 const START_BYTES: usize = 4096;
-/// Beginnings of lines of remarks, which programs write although the format has none.
+/// Starts of comment lines, which some programs write although the format has none.
 const REMARKS: [&[u8]; 4] = [b"#", b"//", b";", b"!"];
 
 /// Reads an `.stl` file.
@@ -74,31 +73,31 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     assembly.into_model(name, resolve, options, warnings)
 }
 
-/// Returns true if the size is that of a binary file of as many facets as it says, or if its beginning is no text. Binary
-/// files may begin with the word of text files.
+/// Returns true if the file has the size of a binary file with its number of facets, or if it does not start with text.
+/// Binary files may start with the same word as text files.
 fn is_binary(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(FACET_BYTES * 8)];
     has_binary_size(bytes) || !begins_as_text(bytes) || start.contains(&0)
 }
 
-/// Returns true if a file is as large as a binary one of its number of facets.
+/// Returns true if a file has the size of a binary file with its number of facets.
 pub(super) fn has_binary_size(bytes: &[u8]) -> bool {
     binary_size(bytes) == Some(bytes.len() as u64)
 }
 
-/// Returns true if a file of an unknown ending looks like STL.
+/// Returns true if a file with an unknown extension looks like STL.
 pub(super) fn is_likely(bytes: &[u8]) -> bool {
     has_binary_size(bytes) || begins_as_text(bytes)
 }
 
-/// Returns true if the first line of a file that is no remark begins as text files do.
+/// Returns true if the first line that is not a comment starts like a text file.
 fn begins_as_text(bytes: &[u8]) -> bool {
     let lines = bytes[..bytes.len().min(START_BYTES)].split(|byte| matches!(byte, b'\n' | b'\r'));
     let first = lines
         .map(<[u8]>::trim_ascii)
         .find(|line| !line.is_empty() && !REMARKS.iter().any(|mark| line.starts_with(mark)));
     let word = first.and_then(|line| line.split(u8::is_ascii_whitespace).next());
-    // Some programs leave out the line of the solid.
+    // Some programs omit the line with `solid`.
     word.is_some_and(|word| {
         [&b"solid"[..], b"facet"]
             .iter()
@@ -106,7 +105,7 @@ fn begins_as_text(bytes: &[u8]) -> bool {
     })
 }
 
-/// Size that a binary file says it has.
+/// Returns the size that a binary file should have according to its header.
 fn binary_size(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(HEADER_BYTES - 4..HEADER_BYTES)?;
     let count = u32::from_le_bytes(count.try_into().ok()?);
@@ -125,7 +124,7 @@ struct Solid {
 impl Solid {
     /// Adds a corner of the open facet.
     fn corner(&mut self, at: [f64; 3]) {
-        // + 0.0 turns −0 into 0.
+        // Adding 0.0 converts −0 to 0.
         let at = at.map(|x| x + 0.0);
         let next = self.faces.positions.len() as u32;
         let position = *self.known.entry(at.map(f64::to_bits)).or_insert(next);
@@ -144,7 +143,7 @@ fn read_binary(bytes: &[u8], memory_bytes: u64, warnings: &mut Warnings) -> Resu
     let (there, rest) = body.as_chunks::<FACET_BYTES>();
     let claim = (size - HEADER_BYTES as u64) / FACET_BYTES as u64;
     let facets = match usize::try_from(claim).ok().and_then(|claim| there.get(..claim)) {
-        // A program that does not know the number when it begins to write says 0.
+        // A program that does not know the number when it starts to write writes 0.
         Some([]) if !there.is_empty() && rest.is_empty() => there,
         Some(facets) => facets,
         None if rest.is_empty() => there,
@@ -191,8 +190,8 @@ struct TextReader<'w> {
     warnings: &'w mut Warnings,
 }
 
-/// Reads the solids of a text, each `solid NAME`, then `facet … outer loop vertex x y z … endloop endfacet`; the ends may be two
-/// words.
+/// Reads the solids of a text, each `solid NAME` followed by `facet … outer loop vertex x y z … endloop endfacet`. The end
+/// keywords may be written as two words.
 fn read_text(text: &str, warnings: &mut Warnings) -> Result<Vec<Solid>, Fault> {
     let mut reader = TextReader {
         solids: Vec::new(),
@@ -222,7 +221,7 @@ fn read_text(text: &str, warnings: &mut Warnings) -> Result<Vec<Solid>, Fault> {
 }
 
 impl TextReader<'_> {
-    /// Reads a line, which may hold a whole facet and more.
+    /// Reads a line, which may contain a whole facet and more.
     fn read(&mut self, line: &str) -> Result<(), String> {
         let mut words = line.split_ascii_whitespace();
         while let Some(word) = words.next() {
@@ -251,7 +250,7 @@ impl TextReader<'_> {
         Ok(())
     }
 
-    /// The solid that is read; the line that begins the first may be missing.
+    /// Returns the current solid. The line that starts the first solid may be missing.
     fn solid(&mut self) -> &mut Solid {
         if self.solids.is_empty() {
             self.solids.push(Solid::default());

@@ -12,25 +12,25 @@ use crate::model::{Mesh, MissingUvs, TextureUvs};
 /// Triangles with one set of vertex attributes, in the space of their mesh. Attributes that the file lacks are empty.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Submesh {
-    /// Around [`Submesh::origin`].
+    /// Positions relative to [`Submesh::origin`].
     pub(crate) positions: Vec<[f32; 3]>,
-    /// Origin of the positions in the space of the mesh: zero, except for a mesh whose vertices are far from its own origin.
+    /// Origin of the positions in the space of the mesh. It is zero unless the vertices are far from the mesh's own origin.
     pub(crate) origin: DVec3,
-    /// Triangles that lost their shape when positions were rounded to 32 bits.
+    /// Number of triangles that lost their shape when positions were rounded to 32 bits.
     pub(crate) blurred: usize,
-    /// Triangles that have lost it in the file.
+    /// Number of triangles that had lost their shape in the file already.
     pub(crate) blurred_by_file: usize,
-    /// Zero where a vertex has none.
+    /// Normals; zero for a vertex without one.
     pub(crate) normals: Vec<[f32; 3]>,
-    /// Origin of the normals where they are not those of the file.
+    /// How normals were computed that do not come from the file.
     pub(crate) made_normals: Option<MadeNormals>,
     pub(crate) tangents: Vec<[f32; 4]>,
     pub(crate) uvs: Vec<[f32; 2]>,
-    /// Sets besides `uvs` that textures of its material use, numbers rising.
+    /// Other UV sets that textures of the material use, by ascending number.
     pub(crate) texture_uvs: Vec<TextureUvs>,
-    /// The set of its material's normal map.
+    /// UV set of the material's normal map.
     pub(crate) normal_set: Option<u32>,
-    /// Vertex of the mesh or file that it was made from for each vertex; empty where it is not needed.
+    /// For each vertex, the vertex of the mesh or file from which it was made; empty if this is not needed.
     pub(crate) sources: Vec<u32>,
     pub(crate) colors: Vec<[f32; 4]>,
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -38,14 +38,14 @@ pub(crate) struct Submesh {
     pub(crate) materials: Vec<u32>,
     /// Part of each triangle.
     pub(crate) parts: Vec<u32>,
-    /// Smoothing of each triangle, for missing normals; empty where the format has none.
+    /// Smoothing of each triangle, for missing normals; empty if the format has none.
     pub(crate) smoothing: Vec<Smoothing>,
 }
 
-/// Smoothing of shading over a triangle's edges, as the file has it.
+/// Smoothing of shading across a triangle's edges, as stored in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Smoothing {
-    /// Not given: edges are smooth unless they turn sharply.
+    /// Not given: edges are smooth unless the angle is large.
     ByAngle,
     /// Flat.
     Off,
@@ -53,20 +53,19 @@ pub(crate) enum Smoothing {
     Group(u32),
 }
 
-/// Origin of normals that are none of the file's.
+/// How normals were computed that do not come from the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum MadeNormals {
-    /// One for each triangle, where the file has none at all.
+    /// One for each triangle; the file has no normals.
     Flat,
-    /// Smooth up to a crease, where the file has none at all.
+    /// Smooth up to a fixed angle; the file has no normals.
     Crease,
-    /// Smooth up to an angle between faces, degrees, in place of the file's.
+    /// Smooth up to this angle between faces, in degrees; replaces the file's normals.
     Smooth(f32),
 }
 
 impl Submesh {
-    /// Removes triangles with a position that is no number, and vertices that no triangle uses; returns the number of triangles
-    /// removed.
+    /// Removes triangles with a position that is not finite, and vertices that no triangle uses. Returns the number of triangles removed.
     pub(super) fn drop_broken(&mut self) -> usize {
         let finite: Vec<bool> = self
             .positions
@@ -121,7 +120,7 @@ impl Submesh {
         }
     }
 
-    /// Sets texture coordinates and colors that are no numbers to zero and white; returns the number of vertices with any.
+    /// Replaces texture coordinates and colors that are not finite by zero and white. Returns the number of affected vertices.
     pub(super) fn repair_attributes(&mut self) -> usize {
         let mut repaired = 0;
         let others = self.texture_uvs.iter_mut().flat_map(|other| &mut other.uvs);
@@ -140,9 +139,9 @@ impl Submesh {
         repaired
     }
 
-    /// Returns for each vertex the first one at exactly its position.
+    /// Returns for each vertex the first vertex at exactly the same position.
     pub(super) fn first_at_position(&self) -> Vec<u32> {
-        // + 0.0 turns −0 into 0.
+        // Adding 0.0 converts −0 to 0.
         let bits = |vertex: u32| self.positions[vertex as usize].map(|x| (x + 0.0).to_bits());
         let mut order: Vec<u32> = (0..self.positions.len() as u32).collect();
         let cancel = Cancel::current();
@@ -159,8 +158,8 @@ impl Submesh {
         first_at
     }
 
-    /// Gives each vertex the value of its corners, splitting vertices whose corners disagree.
-    /// `corners` has three values a triangle; the result has one a vertex. Triangles keep their order.
+    /// Assigns the values of corners to their vertices. Vertices whose corners have different values are split. `corners`
+    /// has three values for each triangle; the result has one for each vertex. Triangles keep their order.
     pub(crate) fn split_by<const N: usize>(&mut self, corners: &[[f32; N]]) -> Vec<[f32; N]> {
         let count = self.positions.len();
         let mut origins: Vec<u32> = Vec::new();
@@ -192,12 +191,12 @@ impl Submesh {
             repeat(&mut other.uvs, &origins);
             repeat(&mut other.tangents, &origins);
         }
-        // A vertex that no triangle uses has no corner; its value is never read.
+        // A vertex that no triangle uses has no corner, and its value is never read.
         values.into_iter().map(|value| value.unwrap_or([0.0; N])).collect()
     }
 
-    /// Returns the submesh transformed by `world_from_mesh`. A mirroring transform reverses the winding of triangles, so that
-    /// their outside stays outside.
+    /// Returns the submesh transformed by `world_from_mesh`. If the transform mirrors, the winding of triangles is
+    /// reversed, so that their outside stays outside.
     pub(super) fn placed(&self, world_from_mesh: DMat4) -> Submesh {
         let mut placed = self.clone();
         let world_from_mesh = world_from_mesh * DMat4::from_translation(self.origin);
@@ -208,7 +207,7 @@ impl Submesh {
         let linear = glam::DMat3::from_mat4(world_from_mesh);
         let mirrored = linear.determinant() < 0.0;
         let sign = if mirrored { -1.0 } else { 1.0 };
-        // The cofactor matrix is the inverse transpose times the determinant, and exists for singular matrices as well.
+        // The cofactor matrix is the inverse transpose times the determinant, and is also defined for singular matrices.
         let [a, b, c] = [linear.x_axis, linear.y_axis, linear.z_axis];
         let normal_from_normal = glam::DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * sign;
         let exact = |vertex: usize| world_from_mesh.transform_point3(Vec3::from(self.positions[vertex]).as_dvec3());
@@ -218,7 +217,7 @@ impl Submesh {
         let error = |vertex: usize| exact(vertex).distance(Vec3::from(placed.positions[vertex]).as_dvec3());
         placed.blurred = self.blurred.max(blurred(&self.triangles, exact, error));
         for normal in placed.normals.iter_mut().looking() {
-            // A singular transform leaves no direction; the normal of the file stays.
+            // If the transform is singular, there is no direction, and the normal of the file is kept.
             *normal = unit(normal_from_normal * Vec3::from(*normal).as_dvec3()).unwrap_or(*normal);
         }
         let others = placed.texture_uvs.iter_mut().map(|other| &mut other.tangents);
@@ -238,7 +237,7 @@ impl Submesh {
         placed
     }
 
-    /// Records the sets of `mesh` that the submesh lacks, before its triangles are appended.
+    /// Records in `mesh` the sets that the submesh lacks, before its triangles are appended.
     fn note_missing(&self, mesh: &mut Mesh, with_uvs: bool) {
         let first = mesh.triangles.len() as u32;
         let others = mesh.texture_uvs.iter().map(|other| other.set);
@@ -252,8 +251,8 @@ impl Submesh {
         mesh.missing_uvs.extend(found);
     }
 
-    /// Appends the triangles to those of `mesh`, which has all sets that submeshes have; missing texture coordinates become
-    /// zero, missing colors white.
+    /// Appends the triangles to `mesh`, which has all sets of all submeshes. Missing texture coordinates become zero,
+    /// missing colors white.
     pub(super) fn append_to(self, mesh: &mut Mesh, with_uvs: bool, with_colors: bool) {
         let first = mesh.positions.len() as u32;
         let count = self.positions.len();
@@ -263,7 +262,7 @@ impl Submesh {
             let (uvs, tangents) = own.map_or((&[][..], &[][..]), |own| (&own.uvs, &own.tangents));
             set.uvs.extend(uvs);
             set.uvs.resize(first as usize + count, [0.0; 2]);
-            // No normal map uses them, so any tangent is valid.
+            // No normal map uses these tangents, so any tangent is valid.
             let tangents = if tangents.is_empty() { &self.tangents } else { tangents };
             set.tangents.extend(tangents);
         }
@@ -288,7 +287,7 @@ impl Submesh {
 pub(super) fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
     let mut keep = keep.iter();
     values.retain(|_| keep.next() == Some(&true));
-    // Primitives that share their vertices would otherwise each keep memory for all of them.
+    // Primitives that share vertices would otherwise each keep memory for all of them.
     values.shrink_to_fit();
 }
 

@@ -8,16 +8,16 @@ use super::submesh::Submesh;
 use super::unit_vector::{perpendicular, unit};
 use super::warnings::Warnings;
 
-/// Magnitude of positions and texture coordinates beyond which their squares overflow or underflow in single precision.
+/// Binary exponent of positions and texture coordinates beyond which their squares overflow or underflow in single precision.
 const SAFE_EXPONENT: i32 = 24;
 
-/// Most pairs of corners that are compared: a few seconds' work. Real models have some dozens at a position.
+/// Maximum number of pairs of corners that are compared: a few seconds' work. Real models have some dozens at a position.
 const MOST_CROWDED: u64 = 1 << 30;
 
-/// Gives every vertex a tangent; normals must exist. `who` names the submesh in warnings.
+/// Computes a tangent for every vertex. Normals must exist. `who` names the submesh in warnings.
 ///
-/// glTF's convention: the bitangent is `cross(normal, tangent) × w` and points up in the picture, against v.
-/// Without texture coordinates the tangent is any direction along the surface. Returns true if the tangents of the file stand.
+/// glTF's convention: the bitangent is `cross(normal, tangent) × w` and points up in the picture, against v. Without
+/// texture coordinates the tangent is any direction along the surface. Returns true if the tangents of the file were kept.
 pub(super) fn complete(submesh: &mut Submesh, who: &str, warnings: &mut Warnings) -> bool {
     if !submesh.tangents.is_empty() {
         if submesh.tangents.iter_mut().all(normalize) {
@@ -56,7 +56,7 @@ pub(crate) fn for_uvs(submesh: &mut Submesh) {
     complete(submesh, "the model", &mut Warnings::default());
 }
 
-/// Returns the tangents of the corners, or `None` where computing them would take minutes.
+/// Returns the tangents of the corners, or `None` if computing them would take minutes.
 fn mikktspace(submesh: &Submesh) -> Option<Vec<[f32; 4]>> {
     if crowding(submesh) > MOST_CROWDED {
         return None;
@@ -122,7 +122,7 @@ struct Corners<'a> {
     submesh: &'a Submesh,
     positions_scale: f32,
     uvs_scale: f32,
-    /// Three a triangle.
+    /// Tangents, three for each triangle.
     tangents: Vec<[f32; 4]>,
     cancel: Cancel,
 }
@@ -159,7 +159,7 @@ impl Geometry for Corners<'_> {
     fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
         let found = space.and_then(|space| {
             let direction = unit(Vec3::from(space.tangent()).as_dvec3())?;
-            // v grows upward for MikkTSpace and downward in glTF, which reverses the bitangent.
+            // For MikkTSpace v grows upward, in glTF it grows downward. This reverses the bitangent.
             Some(with_sign(
                 direction,
                 if space.is_orientation_preserving() { -1.0 } else { 1.0 },

@@ -1,9 +1,10 @@
-//! Text files of old and new programs.
+//! Decoding of text files from old and new programs.
 
 use sabi_cancel::Looking as _;
 use std::borrow::Cow;
 
-/// Text in UTF-8, or in UTF-16 where it says so, or else in Latin-1, which old programs write: names stay distinct.
+/// Decodes UTF-8, or UTF-16 with a byte order mark, or otherwise Latin-1, which old programs write, so that different names
+/// stay different.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let wide = |from: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].as_chunks().0.iter().map(|unit| from(*unit)).collect();
@@ -20,7 +21,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The bytes of a file without a byte order mark, those of text in UTF-16 that has one as UTF-8.
+/// Returns the bytes of a file without a byte order mark. Text in UTF-16 with such a mark is converted to UTF-8.
 pub(super) fn unmarked(bytes: &[u8]) -> Cow<'_, [u8]> {
     match bytes {
         [0xef, 0xbb, 0xbf, text @ ..] => Cow::Borrowed(text),
@@ -29,7 +30,7 @@ pub(super) fn unmarked(bytes: &[u8]) -> Cow<'_, [u8]> {
     }
 }
 
-/// The lines of a text, each of which may end as those of any system do.
+/// Returns the lines of a text, with the line ends of any system.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = text;
     let lines = std::iter::from_fn(move || {
@@ -47,7 +48,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     lines.looking()
 }
 
-/// The bytes of a text whose lines end in a carriage return alone with line feeds instead.
+/// Returns the bytes of a text, with line ends that are a single carriage return replaced by line feeds.
 pub(super) fn with_line_feeds(text: &[u8]) -> Cow<'_, [u8]> {
     let is_lone = |at: usize| text[at] == b'\r' && text.get(at + 1) != Some(&b'\n');
     if !(0..text.len()).any(is_lone) {
@@ -57,10 +58,10 @@ pub(super) fn with_line_feeds(text: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned((0..text.len()).map(byte).collect())
 }
 
-/// Most bytes of the name of a part: many nodes may share that of one mesh.
+/// Maximum number of bytes of the name of a part. It is limited since many nodes may share the name of one mesh.
 const MOST_NAME_BYTES: usize = 256;
 
-/// Returns a name of a part, or as much of it as is kept.
+/// Returns the name of a part, shortened if it is too long.
 pub(super) fn part_name(name: &str) -> String {
     name[..name.floor_char_boundary(MOST_NAME_BYTES)].to_owned()
 }

@@ -1,4 +1,4 @@
-//! Turning of faces that are inside out. Which ones are is told by the whole model, so all of it is placed first.
+//! Reversal of faces that are inside out. Which faces are inside out depends on the whole model, so all of it is placed first.
 
 use super::submesh::Submesh;
 use super::warnings::Warnings;
@@ -6,7 +6,7 @@ use super::{normals, tangents};
 use crate::model::{Mesh, Model, TextureUvs};
 use crate::orientation::turned_faces;
 
-/// Placed triangles, where faces are to be turned.
+/// Copies of the placed triangles, kept only if faces are to be reversed.
 pub(super) struct Turning {
     held: Option<Vec<Submesh>>,
 }
@@ -18,14 +18,15 @@ impl Turning {
         }
     }
 
-    /// Holds triangles that are appended to the mesh of the model.
+    /// Keeps a copy of triangles that are appended to the mesh of the model.
     pub(super) fn hold(&mut self, placed: &Submesh) {
         if let Some(held) = &mut self.held {
             held.push(placed.clone());
         }
     }
 
-    /// Turns the faces of a model that are inside out. All of its triangles are held, those of a glTF file by placed primitives.
+    /// Reverses the faces of a model that are inside out. Copies of all its triangles must have been kept, for a glTF file
+    /// by placed primitives.
     pub(super) fn apply(self, model: &mut Model, [with_uvs, with_colors]: [bool; 2], warnings: &mut Warnings) {
         let turned = match &self.held {
             Some(_) => turned_faces(&model.mesh),
@@ -52,7 +53,7 @@ impl Turning {
         if let Some(origins) = &mut origins {
             origins.vertices.clear();
         }
-        // Nothing is held of a model whose faces stay.
+        // Without reversal, no copies are kept.
         for (number, mut submesh) in self.held.unwrap_or_default().into_iter().enumerate() {
             let first = model.mesh.triangles.len();
             let is_turned = &is_turned[first..first + submesh.triangles.len()];
@@ -73,7 +74,7 @@ impl Turning {
 }
 
 impl Submesh {
-    /// Turns some of the faces. Tangents are made anew, since those of a file were for its own normals.
+    /// Reverses some of the faces. Tangents are computed again, since those of a file belong to the file's normals.
     fn turn(&mut self, is_turned: &[bool], warnings: &mut Warnings) {
         for (corners, _) in self
             .triangles

@@ -2,10 +2,10 @@
 
 use super::error::Fault;
 
-/// Most sentences that are collected, since a broken file may repeat a fault many times.
+/// Maximum number of sentences that are collected, since a broken file may repeat a fault many times.
 const MOST: usize = 40;
 
-/// Sentences for the artist, each once, in the order they came up.
+/// Sentences for the artist, each once, in the order in which they occurred.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Warnings {
     sentences: Vec<String>,
@@ -61,7 +61,7 @@ impl Warnings {
         Fault::NoTriangles(reasons)
     }
 
-    /// Returns the sentences, with a last one about those that were left out.
+    /// Returns the sentences, followed by one about the number of those that were dropped.
     pub(super) fn finish(mut self) -> Vec<String> {
         if self.left_out > 0 {
             self.sentences

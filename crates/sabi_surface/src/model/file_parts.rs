@@ -1,11 +1,11 @@
-//! Parts that a file has, taken or left out.
+//! Parts of a file, loaded or left out.
 
-/// A part that a file has.
+/// A part of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilePart {
-    /// Its name. Several parts may have one.
+    /// Name, which several parts may share.
     pub name: String,
-    /// Reason that it is no part of the model; none for one that is.
+    /// Reason why it is not a part of the model; `None` if it is.
     pub left_out: Option<LeftOut>,
     /// Name of the node above it by whose meaning it is left out; none where that is no reason.
     pub of_group: Option<String>,
@@ -16,10 +16,10 @@ pub struct FilePart {
 /// Reason that a part of a file is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeftOut {
-    /// Its name, or that of a node above it, says that it is a collision hull.
+    /// Its name marks it as a collision hull.
     Hull,
-    /// Its name, or that of a node above it, says that it is a coarser level of detail of another part.
+    /// Its name marks it as a coarser level of detail of another part.
     CoarserLevel,
-    /// The choice of parts does not have it.
+    /// The user's choice of parts excludes it.
     Chosen,
 }

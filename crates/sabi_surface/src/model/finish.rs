@@ -1,4 +1,4 @@
-//! What few materials of a model have: a clear coat, anisotropy, a sheen, light below the surface.
+//! Rare properties of a material: a clear coat, anisotropy, a sheen, light below the surface.
 
 use super::TextureRef;
 
@@ -11,14 +11,14 @@ pub struct Scaled<T> {
     pub texture: Option<TextureRef>,
 }
 
-/// Factors and textures of glTF's material extensions; all factors are zero where a material has none of them.
+/// Factors and textures of glTF's material extensions. All factors are zero if a material uses none of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModelFinish {
-    /// Share below a clear coat, 0..1; R of the texture (KHR_materials_clearcoat).
+    /// Strength of a clear coat, 0..1; R of the texture (KHR_materials_clearcoat).
     pub coat: Scaled<f32>,
     /// Roughness of the coat; G of the texture.
     pub coat_roughness: Scaled<f32>,
-    /// Strength, 0..1; B of the texture, which has the direction in the tangent frame in R and G (KHR_materials_anisotropy).
+    /// Strength, 0..1; B of the texture, which contains the direction in the tangent frame in R and G (KHR_materials_anisotropy).
     pub anisotropy: Scaled<f32>,
     /// Angle by which the direction is turned, counter-clockwise, radians.
     pub anisotropy_rotation: f32,
@@ -30,7 +30,7 @@ pub struct ModelFinish {
     pub subsurface: Scaled<f32>,
     /// Color of that light; the texture is sRGB.
     pub subsurface_color: Scaled<[f32; 3]>,
-    /// Share of the light that goes through; R of the texture (KHR_materials_transmission).
+    /// Share of the light that passes through; R of the texture (KHR_materials_transmission).
     pub transmission: Scaled<f32>,
 }
 

@@ -1,12 +1,12 @@
-//! Texture coordinates that the file stores under a transform.
+//! Texture coordinates that the file stores with a transform.
 
-/// Transform from stored to meant texture coordinates, as quantizers write it: `uv = stored × scale + offset`. In glTF it stands
-/// as KHR_texture_transform at each texture of the material.
+/// Transform from stored to actual texture coordinates, as written by quantizers: `uv = stored × scale + offset`. In glTF
+/// it is stored as KHR_texture_transform at each texture of the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvDecoding {
     /// Factor of u and v, above 0.
     pub scale: [f32; 2],
-    /// Summand of u and v.
+    /// Offset of u and v.
     pub offset: [f32; 2],
 }
 
@@ -22,9 +22,9 @@ impl UvDecoding {
         [[scale_u, 0.0, offset_u], [0.0, scale_v, offset_v]]
     }
 
-    /// Returns the transform that does to decoded coordinates the same as `transform` does to stored ones.
+    /// Returns the transform that has the same effect on decoded coordinates as `transform` has on stored ones.
     pub(crate) fn undone(&self, transform: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
-        // Inverting this one would leave rounding errors.
+        // Inverting the matrix would leave rounding errors.
         if transform == self.rows() {
             return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         }

@@ -1,13 +1,13 @@
-//! A short list of triangles, which a ray tries eight at a time.
+//! A short list of triangles that are tested against a ray, eight at a time.
 
 use glam::Vec3A;
 
-/// Triangles of a row: wide enough for the units of any processor, whose compiler sees to the rest.
+/// Number of triangles in a row: wide enough for the vector units of any CPU. The compiler vectorizes the code.
 const LANES: usize = 8;
-/// Rows from which on following a ray through the hierarchy is quicker.
+/// Number of rows from which tracing a ray through the hierarchy is faster.
 const MOST_ROWS: usize = 8;
 
-/// Triangles that may stop rays, in scaled space.
+/// Triangles that can stop rays, in scaled space.
 #[derive(Default)]
 pub(super) struct Blockers {
     rows: Vec<Row>,
@@ -16,8 +16,8 @@ pub(super) struct Blockers {
     is_overfull: bool,
 }
 
-/// The first corner of each triangle, the edge to it from the second, that from it to the third, and their cross product, each
-/// component for all triangles of the row. Zero where there is none.
+/// For each triangle: the first corner, the edge from the second corner to the first, the edge from the first to the third,
+/// and the cross product of both edges. Each component is stored for all triangles of the row. Zero for unused entries.
 #[derive(Clone, Copy, Default)]
 struct Row {
     corner: [[f32; LANES]; 3],
@@ -35,14 +35,14 @@ impl Blockers {
         self.is_overfull = false;
     }
 
-    /// Knows nothing about what is in the way.
+    /// Resets, so that it is unknown which triangles can stop rays.
     pub(super) fn give_up(&mut self) {
         self.clear();
         self.counts = true;
         self.is_overfull = true;
     }
 
-    /// Adds a triangle, of which a hit counts or only stops a ray.
+    /// Adds a triangle. `counts` is false if it stops a ray but its hits do not count.
     pub(super) fn add(&mut self, number: u32, [v0, v1, v2]: [Vec3A; 3], counts: bool) {
         self.counts |= counts;
         let lane = self.count % LANES;
@@ -73,12 +73,12 @@ impl Blockers {
         self.counts
     }
 
-    /// Returns true if all that is in the way is in the list.
+    /// Returns true if the list contains every triangle that can stop rays.
     pub(super) fn is_whole(&self) -> bool {
         !self.is_overfull
     }
 
-    /// The first hit of a ray: number and distance. Of two at the same distance the one that was added first.
+    /// Returns the first hit of a ray: number and distance. If two triangles are at the same distance, the one added first is returned.
     pub(super) fn nearest(&self, origin: Vec3A, direction: Vec3A, reach: f32) -> Option<(u32, f32)> {
         let mut best = None;
         let mut within = reach;
@@ -109,7 +109,7 @@ impl Row {
             let u = (sx * bx + sy * by + sz * bz) * inverse;
             let v = (sx * ax + sy * ay + sz * az) * inverse;
             let distance = (nx * x + ny * y + nz * z) * inverse;
-            // False for the numbers that a triangle without area, or along the ray, gives.
+            // These comparisons are false for NaN, which results for a triangle without area or parallel to the ray.
             let is_hit = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0) & (distance >= 0.0);
             distances[lane] = if is_hit { distance } else { f32::INFINITY };
         }

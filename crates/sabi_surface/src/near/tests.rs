@@ -1,11 +1,11 @@
-//! Hits that are found near a place are those of the hierarchy.
+//! Hits found near a place are the same as those of the hierarchy.
 
 use glam::{DVec3, Vec3};
 
 use super::*;
 use crate::model::Mesh;
 
-/// Numbers from 0 to 1, evenly spread: multiples of the golden ratio.
+/// Returns numbers from 0 to 1, evenly distributed: multiples of the golden ratio.
 fn dice(state: &mut u32) -> f32 {
     *state += 1;
     (*state as f32 * 0.618_034).fract()
@@ -15,7 +15,7 @@ const SIDE: u32 = 24;
 /// Share of the ground's width that rays reach.
 const REACH: f32 = 0.12;
 
-/// Ground of `SIDE` × `SIDE` squares, with bumps of a height and a wall across it.
+/// Creates a ground of `SIDE` × `SIDE` squares, with bumps of some height and a wall across it.
 fn ground(bump: f32, wall: f32) -> Mesh {
     let mut state = 7;
     let mut mesh = Mesh::default();
@@ -37,7 +37,7 @@ fn ground(bump: f32, wall: f32) -> Mesh {
     mesh
 }
 
-/// Rays to all sides from a place on a triangle, lifted off it to the side that each goes to.
+/// Returns rays in all directions from a place on a triangle, whose starts are offset to the side to which each ray goes.
 fn rays(mesh: &Mesh, triangle: u32, state: &mut u32) -> Vec<PlaceRay> {
     let [a, b, c] = mesh.corners(triangle).map(DVec3::as_vec3);
     let normal = (b - a).cross(c - a).normalize();
@@ -55,8 +55,8 @@ fn rays(mesh: &Mesh, triangle: u32, state: &mut u32) -> Vec<PlaceRay> {
     (0..32).map(|_| ray()).collect()
 }
 
-/// Rays of all triangles: how many are known to miss, to hit, and not at all, and how many of the known differ from what the
-/// hierarchy finds.
+/// Counts for rays of all triangles: known misses, known hits and unknown ones; and how many of the known results differ
+/// from those of the hierarchy.
 fn known(mesh: &Mesh, least_turn: Option<f32>) -> ([usize; 3], usize) {
     let bvh = Bvh::build(mesh);
     let mut state = 3;
@@ -86,10 +86,10 @@ fn known(mesh: &Mesh, least_turn: Option<f32>) -> ([usize; 3], usize) {
 }
 
 #[test]
-fn rays_of_a_place_hit_what_they_hit_in_the_hierarchy() {
+fn rays_of_a_place_have_the_same_hits_as_in_the_hierarchy() {
     for (bump, wall) in [(0.0, 0.0), (0.02, 0.0), (0.0, 0.1), (0.05, 0.3)] {
         let ([misses, hits, _], differ) = known(&ground(bump, wall), None);
-        // A ray through an edge may see it from either side.
+        // A ray through an edge may hit either of its two triangles.
         assert!(
             differ * 1000 <= misses + hits,
             "{bump} {wall}: {differ} of {misses} and {hits}"
@@ -99,7 +99,7 @@ fn rays_of_a_place_hit_what_they_hit_in_the_hierarchy() {
 }
 
 #[test]
-fn hits_on_what_turns_little_are_not_looked_for_and_those_on_a_wall_are() {
+fn hits_on_slightly_turned_triangles_are_ignored_but_not_those_on_a_wall() {
     let gentle = ground(0.004, 0.0);
     let ([_, all, _], _) = known(&gentle, None);
     let ([_, counting, _], _) = known(&gentle, Some(0.5));
@@ -109,7 +109,7 @@ fn hits_on_what_turns_little_are_not_looked_for_and_those_on_a_wall_are() {
 }
 
 #[test]
-fn a_place_among_too_many_triangles_knows_nothing() {
+fn with_too_many_nearby_triangles_nothing_is_known() {
     let mesh = ground(0.02, 0.0);
     let bvh = Bvh::build(&mesh);
     let (mut near, mut around) = (NearTriangles::default(), Surroundings::default());
@@ -123,7 +123,7 @@ fn a_place_among_too_many_triangles_knows_nothing() {
 }
 
 #[test]
-fn a_place_on_a_triangle_without_area_knows_nothing() {
+fn on_a_triangle_without_area_nothing_is_known() {
     let mut mesh = ground(0.02, 0.1);
     let line = mesh.triangles.len() as u32;
     mesh.triangles.push([0, 1, 1]);

@@ -5,7 +5,7 @@ use crate::model::Mesh;
 
 const NOTHING: [u32; 0] = [];
 
-/// Grid of a unit sphere: closed, with outward faces.
+/// Creates a closed unit sphere with outward faces.
 fn ball(center: Vec3, radius: f32, part: u32) -> Mesh {
     let (rings, slices) = (8, 12);
     let mut positions = vec![Vec3::Y, Vec3::NEG_Y];
@@ -41,7 +41,7 @@ fn ball(center: Vec3, radius: f32, part: u32) -> Mesh {
     }
 }
 
-/// Sheet of so many squares along a side, all of whose faces look to +Z.
+/// Creates a sheet with `side` squares along each side, all facing +Z.
 fn sheet(side: u32) -> Mesh {
     let positions = (0..=side).flat_map(|y| (0..=side).map(move |x| [x as f32, y as f32, 0.0]));
     let at = |x: u32, y: u32| y * (side + 1) + x;
@@ -91,7 +91,7 @@ fn of(count: usize, is_it: impl Fn(u32) -> bool) -> Vec<u32> {
 }
 
 #[test]
-fn the_faces_of_a_closed_body_that_look_inward_are_found() {
+fn faces_of_a_closed_body_that_face_inward_are_found() {
     let body = ball(Vec3::new(5.0, 0.0, 0.0), 1.0, 0);
     let count = body.triangles.len();
     let cases: [(&str, &dyn Fn(u32) -> bool); 5] = [
@@ -108,7 +108,7 @@ fn the_faces_of_a_closed_body_that_look_inward_are_found() {
 }
 
 #[test]
-fn an_open_sheet_is_never_inside_out_but_some_of_its_faces_may_be() {
+fn an_open_sheet_is_never_inside_out_but_single_faces_may_be() {
     let plane = sheet(6);
     let count = plane.triangles.len();
     assert_eq!(turned_faces(&plane), NOTHING);
@@ -134,7 +134,7 @@ fn an_open_sheet_is_never_inside_out_but_some_of_its_faces_may_be() {
 }
 
 #[test]
-fn a_cavity_looks_inward_rightly() {
+fn a_cavity_correctly_faces_inward() {
     let outer = ball(Vec3::ZERO, 2.0, 0);
     let count = outer.triangles.len();
     for part in [0, 1] {
@@ -167,7 +167,7 @@ fn a_body_may_be_made_of_several_parts() {
     let inward = |face: u32| face % 14 > 6 || face == 2;
     let count = body.triangles.len();
     assert_eq!(turned_faces(&with_turned(body, inward)), of(count, inward));
-    // Sheets of different parts that meet in an edge say nothing about each other.
+    // Sheets of different parts that meet in an edge are not compared.
     let mut tent = sheet(2);
     for (number, part) in tent.triangle_part.iter_mut().enumerate() {
         *part = u32::from(number >= 4);
@@ -176,8 +176,8 @@ fn a_body_may_be_made_of_several_parts() {
 }
 
 #[test]
-fn a_band_with_one_side_has_no_face_that_is_turned() {
-    // Möbius: the last square meets the first one upside down.
+fn a_one_sided_band_has_no_faces_that_are_inside_out() {
+    // A Möbius strip: the last square meets the first one upside down.
     let squares = 12;
     let edge = |step: u32| {
         let turn = std::f32::consts::TAU * step as f32 / squares as f32;

@@ -4,7 +4,7 @@ use super::{ConnectedMesh, PlacedTriangle, Site, Unfolder, walk};
 use crate::atlas::topology::Topology;
 use crate::model::Mesh;
 
-/// A cube of side 2 around the origin, two triangles a side, corners shared.
+/// Creates a cube of side 2 around the origin, with two triangles on each side and shared corners.
 fn cube() -> Mesh {
     let corner = |bits: u32| [0, 1, 2].map(|axis| if bits >> axis & 1 == 1 { 1.0 } else { -1.0 });
     let sides = [
@@ -29,7 +29,7 @@ fn cube() -> Mesh {
     }
 }
 
-/// A ball of radius 1 with `4 × 4^halvings × 2` triangles: an octahedron whose triangles are cut in four again and again.
+/// Creates a ball of radius 1 with `4 × 4^halvings × 2` triangles: an octahedron whose triangles are repeatedly divided into four.
 fn ball(halvings: u32) -> Mesh {
     let mut triangles: Vec<[DVec3; 3]> = Vec::new();
     for signs in 0..8_u32 {
@@ -83,7 +83,7 @@ fn on(mesh: &Mesh, topology: &Topology, position: DVec3) -> Site {
 }
 
 #[test]
-fn lengths_over_the_edges_of_a_cube_are_those_of_the_unrolled_cube() {
+fn lengths_over_the_edges_of_a_cube_equal_those_of_the_unrolled_cube() {
     let mesh = cube();
     let topology = Topology::new(&mesh);
     let surface = ConnectedMesh {
@@ -93,7 +93,7 @@ fn lengths_over_the_edges_of_a_cube_are_those_of_the_unrolled_cube() {
     let start = on(&mesh, &topology, DVec3::new(1.0, 0.3, 0.2));
     let mut patch = Vec::new();
     Unfolder::new(12).unfold(surface, start, DVec3::Y, 2.5, &mut patch);
-    // Up the side x = 1 and on over the top y = 1: 0.7 up, then 1.2 inward, and 0.3 aside.
+    // Up the side x = 1, then over the top y = 1: 0.7 up, then 1.2 inward, and 0.3 sideways.
     let end = on(&mesh, &topology, DVec3::new(-0.2, 1.0, 0.5));
     let place = place_of(surface, &patch, end);
     assert!(
@@ -103,7 +103,7 @@ fn lengths_over_the_edges_of_a_cube_are_those_of_the_unrolled_cube() {
 }
 
 #[test]
-fn lengths_on_a_ball_are_those_of_great_circles() {
+fn lengths_on_a_ball_equal_those_of_great_circles() {
     let mesh = ball(5);
     let topology = Topology::new(&mesh);
     let surface = ConnectedMesh {
@@ -127,7 +127,7 @@ fn lengths_on_a_ball_are_those_of_great_circles() {
 }
 
 #[test]
-fn the_other_side_of_a_thin_plate_is_as_far_as_the_way_around_its_edge() {
+fn the_distance_to_the_other_side_of_a_thin_plate_goes_around_its_edge() {
     let mut mesh = cube();
     for position in &mut mesh.positions {
         position[2] *= 0.01;
@@ -144,7 +144,7 @@ fn the_other_side_of_a_thin_plate_is_as_far_as_the_way_around_its_edge() {
 }
 
 #[test]
-fn a_walk_goes_around_a_corner_and_stops_where_it_would_turn_back() {
+fn a_walk_goes_around_a_corner_and_stops_at_the_nearest_point() {
     let mesh = cube();
     let topology = Topology::new(&mesh);
     let surface = ConnectedMesh {
@@ -154,13 +154,13 @@ fn a_walk_goes_around_a_corner_and_stops_where_it_would_turn_back() {
     let start = on(&mesh, &topology, DVec3::new(1.0, 0.9, 0.1));
     let end = walk(surface, start, DVec3::new(0.7, 1.0, 0.1));
     assert!(end.position.distance(DVec3::new(0.7, 1.0, 0.1)) < 1e-9, "{end:?}");
-    // Straight out of the middle of a side: it is as near as it can be already.
+    // In front of the middle of a side: the start is the nearest point already.
     let outside = walk(surface, start, DVec3::new(5.0, 0.9, 0.1));
     assert!(outside.position.distance(start.position) < 1e-9);
 }
 
 #[test]
-fn a_walk_ends_on_a_border() {
+fn a_walk_ends_at_a_border() {
     let mut mesh = cube();
     mesh.triangles.truncate(2);
     mesh.triangle_part.truncate(2);

@@ -1,17 +1,17 @@
-//! A way over the surface toward a point in space.
+//! A path over the surface toward a point in space.
 
 use glam::DVec3;
 
 use super::{ConnectedMesh, Site};
 use crate::atlas::topology::NO_TWIN;
 
-/// Most triangles that a walk enters.
+/// Maximum number of triangles that a walk enters.
 const STEPS_LIMIT: usize = 4096;
-/// Most triangles that are looked at around a corner, where many are equally near to the point.
+/// Maximum number of triangles that are examined around a corner, where many are equally near to the point.
 const CORNER_LIMIT: usize = 64;
 
-/// Walks from a site to the place of the connected surface that is nearest to a point, going from triangle to triangle as long as
-/// that leads nearer: the foot of the point on the surface around the site, or on its border.
+/// Walks from a site to the nearest point of the connected surface to a target, going from triangle to triangle as long as the distance
+/// decreases. The result is the foot of the perpendicular from the target to the surface, or a point on the border.
 pub fn walk(surface: ConnectedMesh<'_>, from: Site, target: DVec3) -> Site {
     let mut site = Site {
         position: surface.nearest_in(from.triangle, target),
@@ -26,7 +26,7 @@ pub fn walk(surface: ConnectedMesh<'_>, from: Site, target: DVec3) -> Site {
     site
 }
 
-/// A place nearer to a point on a triangle next to a site's, or beyond triangles that are as near.
+/// Returns a point nearer to the target, on a neighbor of the site's triangle or beyond triangles that are equally near.
 fn nearer(surface: ConnectedMesh<'_>, site: Site, target: DVec3) -> Option<Site> {
     let least = site.position.distance_squared(target);
     let mut seen = vec![site.triangle];
@@ -43,7 +43,7 @@ fn nearer(surface: ConnectedMesh<'_>, site: Site, target: DVec3) -> Option<Site>
             if distance < least * (1.0 - 1e-12) {
                 return Some(Site { triangle, position });
             }
-            // Around a corner, triangles that touch it are equally near until one leads on.
+            // Around a corner, the triangles that touch it are equally near until one of them leads closer.
             if position.distance_squared(site.position) <= 1e-18 * (least + f64::MIN_POSITIVE)
                 && seen.len() < CORNER_LIMIT
             {

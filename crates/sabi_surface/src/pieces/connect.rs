@@ -64,7 +64,7 @@ fn is_line(topology: &Topology, triangle: usize) -> bool {
     corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]
 }
 
-/// Joins triangles at nonmanifold edges within a part, where solids touch: pairs that bound the same solid.
+/// Joins triangles at nonmanifold edges within a part, where solids touch: pairs of triangles that bound the same solid are joined.
 fn join_nonmanifold(mesh: &Mesh, topology: &Topology, sets: &mut DisjointSets) {
     let mut open: Vec<(u32, u64, u32)> = Vec::new();
     for (edge, &twin) in topology.twins.iter().enumerate().looking() {
@@ -85,13 +85,13 @@ fn join_nonmanifold(mesh: &Mesh, topology: &Topology, sets: &mut DisjointSets) {
     }
 }
 
-/// Joins every triangle at an edge with the first one of opposite direction about the edge, on the side of its solid. Sorted
-/// by angle, which takes O(n log n) time for n triangles.
+/// Joins every triangle at an edge with the next triangle of opposite direction around the edge, on the side of its solid.
+/// Triangles are sorted by angle, which takes O(n log n) time for n triangles.
 fn join_about_edge(sides: &[EdgeSide], sets: &mut DisjointSets) {
     let Some(first) = sides.first() else { return };
     let turns: Vec<f64> = sides.iter().map(|side| first.turn_to(side)).collect();
     for forward in [false, true] {
-        // The solid of a side that runs backward lies counter-clockwise of it, of one that runs forward clockwise.
+        // The solid of a backward side is counter-clockwise of it, that of a forward side clockwise.
         let turn = |side: usize| {
             if forward {
                 (4.0 - turns[side]) % 4.0
@@ -112,7 +112,8 @@ fn join_about_edge(sides: &[EdgeSide], sets: &mut DisjointSets) {
     }
 }
 
-/// Triangles at smaller angles coincide, and count as a full turn apart, since their solids are on opposite sides.
+/// Smallest angle between triangles. At smaller angles they coincide and count as a full turn apart, since their solids are
+/// on opposite sides.
 const SAME_TURN: f64 = 1e-4;
 
 /// Welded vertices of an edge, the lesser first.
@@ -155,9 +156,8 @@ impl EdgeSide {
         })
     }
 
-    /// Returns the counter-clockwise turn about the edge from this triangle to another, from 0 to below 4 quarter
-    /// turns. Within a quarter it is linear along a diamond instead of a circle, which keeps the order and needs no arc
-    /// tangent.
+    /// Returns the counter-clockwise angle around the edge from this triangle to another, from 0 to less than 4 quarter turns. Within a
+    /// quarter turn it is linear along a diamond instead of a circle, which keeps the order and needs no arc tangent.
     fn turn_to(&self, other: &EdgeSide) -> f64 {
         let (x, y) = (other.across.dot(self.across), other.across.dot(self.onward));
         let part = y.abs() / (x.abs() + y.abs()).max(1e-300);

@@ -8,7 +8,7 @@ use crate::model::Mesh;
 type Loose = (u32, [DVec3; 3]);
 type Soup = Vec<Loose>;
 
-/// A mesh from loose triangles; every corner is a vertex of its own, as hard edges make them.
+/// Creates a mesh from separate triangles. Every corner is a vertex of its own, as with hard edges.
 fn mesh(triangles: &[Loose]) -> Mesh {
     let mut mesh = Mesh::default();
     for (part, corners) in triangles {
@@ -25,7 +25,7 @@ fn quad([a, b, c, d]: [DVec3; 4]) -> [[DVec3; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
-/// A box from one corner to the other, each face cut into `cuts` strips.
+/// Creates a box from one corner to the other, with each face divided into `cuts` strips.
 fn solid(low: DVec3, high: DVec3, cuts: usize) -> Vec<[DVec3; 3]> {
     let size = high - low;
     let mut triangles = Vec::new();
@@ -116,7 +116,7 @@ fn cases() -> Vec<Case> {
             BOARD,
         ),
         ("board at 37°", board(turn(37.0, 0.0)), turn(37.0, 0.0).to_cols(), BOARD),
-        // Of the second axis' equal components the first counts, so it points down.
+        // The first of the second axis' equal components decides its sign, so it points down.
         (
             "board at 45°",
             board(turn(45.0, 0.0)),
@@ -146,14 +146,14 @@ fn cases() -> Vec<Case> {
 }
 
 #[test]
-fn the_box_stands_as_the_piece_does() {
+fn the_box_is_oriented_like_the_piece() {
     // Tolerances are those of positions in f32.
     for (name, triangles, axes, size) in cases() {
         let found = pieces(triangles);
         assert_eq!(found.boxes.len(), 1, "{name}");
         let around = found.boxes[0];
         let near = |a: Vec3, b: DVec3| (a.as_dvec3() - b).length() < 1e-5;
-        // A ball of triangles is a little smaller than a ball.
+        // A ball made of triangles is slightly smaller than an exact ball.
         let size_slack = if name == "ball" { 0.02 } else { 1e-5 };
         let off = (Vec3::from(around.size).as_dvec3() - size).length();
         assert!(off < size_slack, "{name}: {:?}, not {size}", around.size);
@@ -177,7 +177,7 @@ impl Columns for DMat3 {
     }
 }
 
-/// The box around all triangles, whether they hang together or not.
+/// Returns the box around all triangles, whether they are connected or not.
 fn around(triangles: Vec<[DVec3; 3]>) -> PieceBox {
     let mesh = mesh(&of_part(0, triangles));
     let all: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
@@ -185,7 +185,7 @@ fn around(triangles: Vec<[DVec3; 3]>) -> PieceBox {
 }
 
 #[test]
-fn a_box_does_not_depend_on_how_the_surface_is_cut() {
+fn a_box_does_not_depend_on_the_triangulation() {
     let at = turn(33.0, 12.0);
     let board = |cuts| around(turned(solid(DVec3::ZERO, BOARD, cuts), at));
     let (coarse, fine) = (board(1), board(9));
@@ -197,8 +197,8 @@ fn a_box_does_not_depend_on_how_the_surface_is_cut() {
 }
 
 #[test]
-fn a_block_on_a_corner_does_not_turn_the_box_of_a_board() {
-    // The middle of such a board and its spread are askew, its sides are not.
+fn a_block_on_a_corner_does_not_rotate_the_box_of_a_board() {
+    // The principal axes of such a board are skewed, but its sides are not.
     let mut triangles = solid(DVec3::ZERO, BOARD, 1);
     triangles.extend(solid(dvec3(0.7, 0.05, 0.025), dvec3(1.0, 0.1, 0.08), 1));
     let at = turn(25.0, 40.0);
@@ -218,7 +218,7 @@ fn a_single_triangle_has_a_box_and_its_longest_side_is_the_first_axis() {
 }
 
 #[test]
-fn what_hangs_together_is_one_piece_and_what_only_touches_is_not() {
+fn connected_triangles_are_one_piece_and_touching_solids_are_not() {
     let block = |x: f64, part: u32| of_part(part, solid(dvec3(x, 0.0, 0.0), dvec3(x + 1.0, 1.0, 0.5), 1));
     let sheet = |over: bool| {
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| dvec3(x, y, 0.0));
@@ -265,7 +265,7 @@ fn what_hangs_together_is_one_piece_and_what_only_touches_is_not() {
     }
 }
 
-/// Wedges around one edge that reach from each angle to the next but one, with so many triangles on each of their faces.
+/// Creates wedges around one edge, each with `layers` triangles on each of its faces.
 fn fan(wedges: u32, layers: u32) -> Vec<[DVec3; 3]> {
     let place = |at: u32| {
         let (sine, cosine) = (std::f64::consts::TAU * f64::from(at) / f64::from(2 * wedges)).sin_cos();
@@ -281,8 +281,8 @@ fn fan(wedges: u32, layers: u32) -> Vec<[DVec3; 3]> {
 }
 
 #[test]
-fn wedges_around_an_edge_stay_apart_however_many_triangles_share_it() {
-    // Each wedge has its solid between an even face and the odd one after it; compared in pairs the last row takes minutes.
+fn wedges_around_an_edge_stay_separate_however_many_triangles_share_it() {
+    // The solid of each wedge is between an even face and the next odd one. Comparing all pairs would take minutes for the last case.
     for (wedges, layers) in [(2, 1), (3, 1), (500, 1), (500, 100)] {
         let pieces = pieces(fan(wedges, layers));
         assert_eq!(pieces.boxes.len(), wedges as usize, "{wedges} wedges, {layers} layers");

@@ -88,7 +88,7 @@ impl Extent {
         (self.low + self.high) * 0.5
     }
 
-    /// Returns half the surface of the box, which unlike its volume distinguishes boxes around flat pieces.
+    /// Returns half the surface area of the box. Unlike the volume, it distinguishes boxes around flat pieces.
     fn face(&self) -> f64 {
         let DVec3 { x, y, z } = self.size();
         x * y + y * z + z * x
@@ -98,7 +98,7 @@ impl Extent {
 /// Returns axes and lengths in the order and with the signs that [`PieceBox`] describes.
 fn ordered(frame: DMat3, size: DVec3) -> [(DVec3, f64); 3] {
     let mut left: Vec<(DVec3, f64)> = (0..3).map(|at| (frame.col(at), size[at])).collect();
-    // Slightly off the model's axes, so that a rotation by 45° leaves no tie.
+    // The preferred directions are slightly off the model's axes, so that a rotation by 45° causes no tie.
     let mut take = |toward: DVec3| {
         let nearness = |axis: &(DVec3, f64)| axis.0.dot(toward).abs();
         let most = (1..left.len()).fold(0, |most, at| {
@@ -126,7 +126,7 @@ fn ordered(frame: DMat3, size: DVec3) -> [(DVec3, f64); 3] {
     axes
 }
 
-/// Returns the axis with the sign that makes its largest component positive; of nearly equal components the first counts.
+/// Returns the axis with the sign that makes its largest component positive. Of nearly equal components, the first decides.
 fn oriented(axis: DVec3) -> DVec3 {
     let weighed = axis.abs() * DVec3::new(1.0, 0.97, 0.94);
     let largest = (1..3).fold(0, |most, at| if weighed[at] > weighed[most] { at } else { most });

@@ -7,14 +7,14 @@ use super::spread::Cells;
 use super::texels::TexelGraph;
 use super::{Flow, Lists};
 
-/// Sides of the polygon around the texels of a cell, which bounds it at the border of an open surface.
+/// Number of sides of the polygon around the texels of a cell. It bounds the cell at the border of an open surface.
 const BOUND_SIDES: u32 = 16;
 /// Radius that no cell exceeds, in spacings.
 const WIDEST: f64 = 1.6;
-/// Least area of a cell as a share of all that flows to it, so that the steps of time stay stable.
+/// Minimum area of a cell as a share of the flows to it, so that time steps are stable.
 const LEAST_AREA: f64 = 0.25;
 
-/// A corner of a cell, and the point beyond the side that begins there.
+/// A corner of a cell, and the point beyond the side that starts there.
 #[derive(Clone, Copy)]
 struct Corner {
     place: DVec2,
@@ -34,7 +34,7 @@ pub(super) fn flows(
         .map(|point| conductances(graph, cells, [members.of(point), around.of(point)], spacing))
         .collect();
     let scales = scales(cells, &sides);
-    // As much flows one way as the other: the mean of how both see it.
+    // The flow must be the same in both directions: use the mean of both estimates.
     let mut both: Vec<Vec<(u32, f64)>> = vec![Vec::new(); sides.len()];
     for (point, sides) in sides.iter().enumerate() {
         for (other, conductance) in sides {
@@ -59,9 +59,9 @@ pub(super) fn flows(
     }))
 }
 
-/// Factor of what flows to each point, so that a coordinate in space flows as it should: its slope along the surface, squared and
-/// summed over the three coordinates, is 2 everywhere, and the cell has a quarter of it times the area from each side. The cells
-/// in the tangent plane alone are too large where the surface is bent.
+/// Returns a factor for the flows to each point, chosen so that coordinates in space flow correctly: the squared slope of a
+/// coordinate along the surface, summed over the three coordinates, is 2 everywhere, and the cell has a quarter of it times
+/// the area from each side. Cells in the tangent plane alone are too large where the surface is curved.
 fn scales(cells: &Cells, sides: &[Vec<(u32, f64)>]) -> Vec<f64> {
     let of_point = |(point, sides): (usize, &Vec<(u32, f64)>)| {
         let slopes = sides.iter().map(|(other, conductance)| {
@@ -78,7 +78,7 @@ fn scales(cells: &Cells, sides: &[Vec<(u32, f64)>]) -> Vec<f64> {
     sides.iter().enumerate().map(of_point).collect()
 }
 
-/// For each point whose cell shares a side with that of the first of `around`: the length of the side over the distance.
+/// Returns for each point whose cell shares a side with the cell of the first of `around` the length of that side divided by the distance.
 fn conductances(graph: &TexelGraph, cells: &Cells, [members, around]: [&[u32]; 2], spacing: f64) -> Vec<(u32, f64)> {
     let Some((point, others)) = around.split_first() else {
         return Vec::new();
@@ -86,7 +86,7 @@ fn conductances(graph: &TexelGraph, cells: &Cells, [members, around]: [&[u32]; 2
     let center = cells.centers[*point as usize];
     let up = cells.areas[*point as usize].normalize_or(DVec3::Y);
     let (right, ahead) = up.any_orthonormal_pair();
-    // Unrolled: as far away as it is in space.
+    // Unrolled: the distance in the plane is that in space.
     let flat = |place: DVec3| {
         let away = place - center;
         DVec2::new(away.dot(right), away.dot(ahead)).normalize_or_zero() * away.length()

@@ -9,7 +9,7 @@ use super::texels::{Texel, TexelGraph};
 use super::{CellTexel, Lists, SurfacePoint};
 use crate::atlas::EMPTY;
 
-/// Times that points move to the centers of their cells.
+/// Number of times that points are moved to the centers of their cells.
 const MOVES: usize = 2;
 
 /// Cells of texels around points.
@@ -35,11 +35,11 @@ pub(super) fn cells(graph: &TexelGraph, spacing: f64) -> Cells {
     cells
 }
 
-/// Texels no two of which are nearer than a spacing along the surface, and none of which can be added.
+/// Returns texels that are at least a spacing apart along the surface, such that no more can be added.
 fn darts(graph: &TexelGraph, spacing: f64) -> Vec<u32> {
     let mut order: Vec<u32> = (0..graph.texels.len() as u32).collect();
     order.sort_by_key(|texel| (shuffled(*texel), *texel));
-    // The last dart that each texel is within reach of.
+    // For each texel, the last dart whose reach contains it.
     let mut reached = vec![EMPTY; graph.texels.len()];
     let mut darts = Vec::new();
     let mut open = Vec::new();
@@ -61,12 +61,12 @@ fn darts(graph: &TexelGraph, spacing: f64) -> Vec<u32> {
             }
         }
     }
-    // In the order of the texels, so that neighbors lie near each other in memory.
+    // Sort in the order of the texels, so that neighbors are near each other in memory.
     darts.sort_unstable();
     darts
 }
 
-/// A number that looks random (PCG).
+/// Returns a pseudo-random number (PCG).
 fn shuffled(number: u32) -> u32 {
     let state = number.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
@@ -74,7 +74,7 @@ fn shuffled(number: u32) -> u32 {
 }
 
 impl Cells {
-    /// Gives each texel to the nearest of some texels, as cells grow along the surface.
+    /// Assigns each texel to the nearest seed, with cells that grow along the surface.
     fn of(graph: &TexelGraph, seeds: &[u32]) -> Cells {
         let point_of_texel = grown(graph, seeds);
         let mut sums = vec![DVec3::ZERO; seeds.len()];
@@ -151,15 +151,15 @@ impl Cells {
     }
 }
 
-/// Area of a texel; a little where its triangle is a line, so that every texel counts.
+/// Returns the area of a texel. A texel on a triangle without area gets a small one, so that every texel counts.
 fn texel_size(area: DVec3) -> f64 {
     area.length().max(f64::MIN_POSITIVE.sqrt())
 }
 
-/// The seed of each texel: the one that reaches it first, by the straight distance to the seed.
+/// Returns the seed of each texel: the one that reaches it first, ordered by straight distance to the seed.
 fn grown(graph: &TexelGraph, seeds: &[u32]) -> Vec<u32> {
     let mut point_of_texel = vec![EMPTY; graph.texels.len()];
-    // The nearest seed that was seen for each texel, by distance and number: others need not wait in line.
+    // For each texel the nearest seed so far, by distance and number: farther ones need not be queued.
     let mut least = vec![(u64::MAX, EMPTY); graph.texels.len()];
     let mut open: BinaryHeap<Reverse<(u64, u32, u32)>> = seeds
         .iter()
@@ -175,7 +175,7 @@ fn grown(graph: &TexelGraph, seeds: &[u32]) -> Vec<u32> {
         for near in graph.neighbors.of(texel as usize) {
             if point_of_texel[*near as usize] == EMPTY {
                 let away = graph.texels[*near as usize].position.distance_squared(center);
-                // Bits of numbers that are not negative are in the order of the numbers.
+                // The bits of non-negative floats are in the same order as the floats.
                 let seen = (away.to_bits(), point);
                 if seen < least[*near as usize] {
                     least[*near as usize] = seen;

@@ -30,7 +30,7 @@ fn ball() -> (Mesh, Atlas) {
                 place[(axis + 1) % 3] = s * sign;
                 place[(axis + 2) % 3] = t;
                 let out = Vec3::from(place).normalize();
-                // Rounded, so that the corners of neighboring faces are at the same place.
+                // Rounded, so that the corners of neighboring faces are at exactly the same place.
                 mesh.positions
                     .push((out * 32768.0).round().to_array().map(|x| x / 65536.0));
                 mesh.normals.push(out.to_array());
@@ -78,7 +78,7 @@ fn every_texel_is_in_a_cell_and_every_cell_has_texels() {
 }
 
 #[test]
-fn points_keep_their_distance_and_leave_no_gap() {
+fn points_keep_their_minimum_distance_and_leave_no_gap() {
     let (mesh, atlas) = ball();
     let spacing = 0.05;
     let points = SurfacePoints::spread(&mesh, &atlas, spacing);
@@ -105,7 +105,7 @@ fn points_keep_their_distance_and_leave_no_gap() {
     assert!(least > 0.6 * spacing && most < 2.0 * spacing, "{least} to {most}");
 }
 
-/// Rate at which heat leaves a pattern that decays evenly: what flows to each point times its value, over the whole area.
+/// Returns the rate at which a heat pattern decays: the flow to each point times its value, over the whole area.
 fn decay(points: &SurfacePoints, value: impl Fn(DVec3) -> f64) -> f64 {
     let place = |point: &SurfacePoint| Vec3::from(point.position).as_dvec3();
     let values: Vec<f64> = points.points.iter().map(|point| value(place(point))).collect();
@@ -133,7 +133,7 @@ fn patterns_on_a_ball_decay_as_spherical_harmonics_do() {
 }
 
 #[test]
-fn what_one_point_gains_another_loses() {
+fn the_gain_of_one_point_is_the_loss_of_another() {
     let (mesh, atlas) = ball();
     let points = SurfacePoints::spread(&mesh, &atlas, 0.05);
     let mut limited = 0;
@@ -188,7 +188,7 @@ fn the_sides_of_a_thin_wall_stay_apart() {
 fn points_across_a_seam_are_neighbors() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/sphere.glb");
     let mesh = load(&path, &LoadOptions::default()).unwrap().mesh;
-    // Borders of its charts lie in the middle of texels on some of these maps, so that links end between ghosts.
+    // On some of these maps, chart borders are in the middle of texels, so that links end between ghosts.
     for size in [128, 200, 256] {
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
         let spacing = 8.0 / f64::from(size);
@@ -209,7 +209,7 @@ fn points_across_a_seam_are_neighbors() {
 
 #[test]
 fn every_texel_of_a_rough_map_is_in_a_cell() {
-    // Charts of a few texels, with links between their ghosts that lead one way only.
+    // Charts of a few texels, where some links between ghosts lead in only one direction.
     for (name, size) in [
         ("bench", 32),
         ("bench", 64),

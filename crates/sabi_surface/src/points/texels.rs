@@ -1,4 +1,4 @@
-//! The owned texels of an atlas as a graph: where each lies, how large it is, and which ones it touches.
+//! The owned texels of an atlas as a graph: position and size of each texel, and its neighbors.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -7,10 +7,10 @@ use super::Lists;
 use crate::atlas::{Atlas, EMPTY, GHOST_BIT, Ghost, Owner};
 use crate::model::Mesh;
 
-/// Steps to the texels beside one; first those that share a side with it.
+/// Offsets to neighboring texels; first those that share a side.
 const STEPS: [[i32; 2]; 8] = [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]];
 
-/// Largest distance between a ghost beside a chart and its own reflection in the border of the surface, texels.
+/// Maximum distance between a ghost and its reflection in the border of the surface, in texels.
 const TURNED_BACK: f32 = 2.5;
 
 /// An owned texel.
@@ -26,13 +26,13 @@ pub(super) struct Texel {
     pub(super) is_at_border: bool,
 }
 
-/// Texels that own a part of the surface, and the texels beside each, over seams too.
+/// Texels that own a part of the surface, and the neighbors of each, also across seams.
 pub(super) struct TexelGraph {
     pub(super) texels: Vec<Texel>,
     pub(super) neighbors: Lists<u32>,
 }
 
-/// Plane of a triangle over the texels of its chart: a point of it, and its steps for a texel along u and v.
+/// Plane of a triangle over the texels of its chart: a point, and the steps for a texel along u and v.
 struct Plane {
     origin: DVec3,
     texel: [f64; 2],
@@ -84,8 +84,7 @@ impl TexelGraph {
     }
 }
 
-/// Makes each texel a neighbor of its neighbors: a link over a seam may lead one way only, and what is reached from one side is
-/// to be reached from the other.
+/// Makes neighborhood mutual: a link across a seam may lead in only one direction, but neighbors must be reachable from both sides.
 fn add_ways_back(neighbors: &mut [Vec<u32>]) {
     let one_way: Vec<(u32, u32)> = neighbors
         .par_iter()
@@ -98,7 +97,7 @@ fn add_ways_back(neighbors: &mut [Vec<u32>]) {
     }
 }
 
-/// Content of the texel that is a step away from a texel.
+/// Returns the content of the texel at an offset from a texel.
 fn beside(atlas: &Atlas, index: u32, [right, down]: [i32; 2]) -> ([u32; 3], Owner) {
     let [width, height] = atlas.page_size;
     let page = index / (width * height);
@@ -107,7 +106,7 @@ fn beside(atlas: &Atlas, index: u32, [right, down]: [i32; 2]) -> ([u32; 3], Owne
     ([x, y, page], atlas.owner(x, y, page))
 }
 
-/// Index of the owned texel that is a step away from an owned texel, over a seam too.
+/// Returns the index of the owned texel at an offset from an owned texel, also across a seam.
 fn neighbor(atlas: &Atlas, index: u32, step: [i32; 2]) -> Option<usize> {
     let index_of = |[x, y, page]: [u32; 3]| {
         let [width, height] = atlas.page_size;
@@ -135,7 +134,7 @@ fn owned_near(atlas: &Atlas, ghost: &Ghost) -> Option<[u32; 3]> {
     owned.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, texel)| texel)
 }
 
-/// Returns whether the surface ends beside an owned texel: walks turn back there, so the ghost continues the chart itself.
+/// Returns whether the surface ends beside an owned texel. Walks are mirrored there, so the ghost continues the chart itself.
 fn is_at_border(atlas: &Atlas, index: u32) -> bool {
     STEPS[..4].iter().any(|step| match beside(atlas, index, *step) {
         (_, Owner::Triangle(_)) => false,
@@ -153,7 +152,7 @@ impl Plane {
     fn of(mesh: &Mesh, atlas: &Atlas, triangle: usize) -> Plane {
         let corners = mesh.triangles[triangle].map(|vertex| vertex as usize);
         let position = corners.map(|corner| glam::Vec3::from(mesh.positions[corner]).as_dvec3());
-        // Differences of UVs: corners on the page are rounded.
+        // Differences of UVs are used, since corners on the page are rounded.
         let uv = corners.map(|corner| mesh.uvs[corner].map(|value| f64::from(value) * f64::from(atlas.size)));
         let [a, b, c, d] = [[1, 0], [1, 1], [2, 0], [2, 1]].map(|[to, axis]: [usize; 2]| uv[to][axis] - uv[0][axis]);
         let determinant = a * d - b * c;

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::model::Mesh;
 
-/// Area of a triangle in space; 0 where it is within the rounding error of its positions.
+/// Returns the area of a triangle in space; 0 if it is within the rounding error of its positions.
 pub(super) fn area(mesh: &Mesh, triangle: u32) -> f64 {
     let [a, b, c] = mesh.corners(triangle);
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));

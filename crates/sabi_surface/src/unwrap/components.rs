@@ -1,4 +1,4 @@
-//! Connected components of a mesh, and similar ones among them: copies that were moved, rotated or scaled.
+//! Connected components of a mesh, and groups of similar ones: copies that were moved, rotated or scaled.
 
 use sabi_cancel::{Looking as _, look};
 use std::collections::BTreeMap;
@@ -17,11 +17,11 @@ const SIMILARITY_TOLERANCE: f64 = 1e-3;
 pub(super) struct Component {
     /// In rising order.
     pub(super) triangles: Vec<u32>,
-    /// Vertices in the order of their first use by the triangles; of those with equal position and normal, the first.
+    /// Vertices in the order of their first use by the triangles. Of vertices with equal position and normal, only the first is listed.
     pub(super) vertices: Vec<u32>,
     /// Corners as indices into `vertices`.
     pub(super) corners: Vec<u32>,
-    /// First component that is similar to this one, maybe itself, and the scale of this one relative to it.
+    /// First component that is similar to this one, which may be itself, and the scale of this one relative to it.
     pub(super) similar_to: (usize, f64),
 }
 
@@ -68,12 +68,12 @@ pub(super) fn components(mesh: &Mesh) -> Vec<Component> {
     components
 }
 
-/// Returns for each vertex the first one with its position and normal, so that the unwrapper may cut at hard edges, and not
-/// at seams of an earlier layout, where vertices differ in texture coordinates and tangents alone.
+/// Returns for each vertex the first one with its position and normal. The unwrapper may then cut at hard edges, but not at
+/// seams of an earlier layout, where vertices differ only in texture coordinates and tangents.
 fn first_equal_vertices(mesh: &Mesh) -> Vec<u32> {
-    // + 0.0 turns −0 into 0.
+    // Adding 0.0 converts −0 to 0.
     let bits = |values: [f32; 3]| values.map(|value| (value + 0.0).to_bits());
-    // Without normals, vertices are compared by position alone.
+    // Without normals, only positions are compared.
     let normal = |vertex: usize| mesh.normals.get(vertex).copied().unwrap_or_default();
     let mut order: Vec<([u32; 3], [u32; 3], u32)> = mesh
         .positions
@@ -116,7 +116,7 @@ fn numbered(mesh: &Mesh, triangles: Vec<u32>, first: &[u32], local: &mut [u32]) 
 }
 
 /// Finds similar components: the same corners in the same order, the same neighbors, and edges of the same lengths up to a
-/// common scale. They are flattened once.
+/// common scale. Similar components are flattened only once.
 fn find_similar(mesh: &Mesh, topology: &Topology, components: &mut [Component]) {
     let mut first_of: BTreeMap<[u8; 32], Vec<usize>> = BTreeMap::new();
     for index in 0..components.len() {
@@ -128,7 +128,7 @@ fn find_similar(mesh: &Mesh, topology: &Topology, components: &mut [Component]) 
             .find_map(|&first| Some((first, scale(&edge_lengths(mesh, &components[first]), &lengths)?)));
         // A component without an earlier similar one is similar to itself.
         components[index].similar_to = found.unwrap_or((index, 1.0));
-        // Few components with the same connectivity are compared, not thousands.
+        // Only a few components with the same connectivity are compared, not thousands.
         if found.is_none() && candidates.len() < 16 {
             candidates.push(index);
         }
@@ -139,7 +139,7 @@ fn find_similar(mesh: &Mesh, topology: &Topology, components: &mut [Component]) 
 fn connectivity(component: &Component, topology: &Topology) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     hasher.update(bytemuck::cast_slice(&component.corners));
-    // Neighbors are those by position, since vertices may be split.
+    // Neighbors are determined by position, since vertices may be split.
     let local = |edge: u32| match component.triangles.binary_search(&(edge / 3)) {
         Ok(triangle) => 3 * triangle as u32 + edge % 3,
         Err(_) => NO_TWIN,
@@ -170,7 +170,7 @@ fn scale(from: &[f64], to: &[f64]) -> Option<f64> {
     if !(scale.is_finite() && scale > 0.0) {
         return None;
     }
-    // Relative rounding is larger for short edges, so those are compared relative to the mean length.
+    // Relative rounding is larger for short edges, so the differences are compared to the mean length.
     let mean = after / to.len() as f64;
     let differ = |(from, to): (&f64, &f64)| (from * scale - to).abs() > SIMILARITY_TOLERANCE * to.max(mean);
     (!from.iter().zip(to).any(differ)).then_some(scale)

@@ -10,34 +10,33 @@ use super::area::{area, flat_area};
 use super::components::Component;
 use crate::model::Mesh;
 
-/// Charts of components with more triangles than this are kept small, since the time to flatten a chart grows faster than its
-/// size.
+/// Number of triangles above which the charts of a component are kept small, since the time to flatten a chart grows faster than its size.
 const LARGE: usize = 12_000;
 /// Approximate limit of triangles of a chart of a large component.
 const CHART_TRIANGLES: f64 = 3_000.0;
 
-/// Most pairs of triangles of a component that the solver may compare: it sorts them into squares as large as four of them by their
-/// boxes, and slivers fill many squares.
+/// Maximum number of pairs of triangles of a component that the solver may compare. It sorts triangles by their bounding
+/// boxes into grid squares of about four triangles, and slivers fall into many squares.
 const MOST_PAIRS: f64 = 4e9;
 
 /// A flattened chart.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FlatChart {
     pub(super) triangles: Vec<u32>,
-    /// Their corners in model units, counter-clockwise in a picture, where u goes right and v goes down.
+    /// Corners in model units, counter-clockwise in the image, where u goes right and v goes down.
     pub(super) corners: Vec<[DVec2; 3]>,
 }
 
 /// All charts of a mesh.
 pub(super) struct Flattened {
     pub(super) charts: Vec<FlatChart>,
-    /// Components that were flattened; the others are copies of those.
+    /// Number of components that were flattened; the others are copies of these.
     pub(super) distinct: u32,
     /// Sentences about components that could not be flattened as a whole.
     pub(super) warnings: Vec<String>,
 }
 
-/// Flattens all components, similar ones once. Triangles without area are on no chart.
+/// Flattens all components; similar ones are flattened once. Triangles without area are on no chart.
 pub(super) fn flatten(mesh: &Mesh, components: &[Component]) -> Flattened {
     let is_first = |&index: &usize| components[index].similar_to.0 == index;
     let firsts: Vec<usize> = (0..components.len()).filter(is_first).collect();
@@ -89,9 +88,9 @@ fn failure_warning(reason: &str, count: usize) -> String {
 /// Indices into a component's list of triangles, and their flattened corners.
 type LocalChart = (Vec<u32>, Vec<[DVec2; 3]>);
 
-/// Returns the charts of a component, and the solver's error where each triangle had to become a chart of its own.
+/// Returns the charts of a component, and the solver's error if each triangle had to become a separate chart.
 fn charts_of(mesh: &Mesh, component: &Component) -> (Vec<LocalChart>, Option<String>) {
-    // A single triangle needs no solver, and a model of a million loose triangles would take a million calls.
+    // A single triangle needs no solver. A model with a million loose triangles would otherwise need a million calls.
     if let [triangle] = component.triangles[..] {
         return (triangle_charts(mesh, &[triangle]), None);
     }
@@ -144,7 +143,7 @@ fn unwrapped(mesh: &Mesh, component: &Component) -> Result<Vec<LocalChart>, Stri
     whole.ok_or_else(|| "the result has no place for some of its vertices".to_owned())
 }
 
-/// Estimates the pairs of triangles that the solver compares: those in one square.
+/// Estimates the number of pairs of triangles that the solver compares: those in the same grid square.
 fn pairs(mesh: &Mesh, component: &Component, total_area: f64) -> f64 {
     let count = component.triangles.len() as f64;
     let square = 4.0 * total_area / count;
@@ -154,7 +153,7 @@ fn pairs(mesh: &Mesh, component: &Component, total_area: f64) -> f64 {
             .length_squared()
             .max((c - b).length_squared())
             .max((a - c).length_squared());
-        // A sliver in any direction fills half of the square over its longest edge, and a regular triangle about one.
+        // A sliver in any direction covers half of the square over its longest edge, a regular triangle about one grid square.
         (0.5 * longest / square).max(1.0)
     };
     let filled: f64 = component.triangles.iter().map(squares).sum();
@@ -162,11 +161,11 @@ fn pairs(mesh: &Mesh, component: &Component, total_area: f64) -> f64 {
     0.5 * filled * in_each
 }
 
-/// Resolution in which the crate returns its charts, texels for the longest side of a component; they are not rounded to it.
+/// Resolution at which the crate returns its charts, in texels for the longest side of a component. Coordinates are not rounded to it.
 const TEXELS: f32 = 512.0;
 
-/// Sorts the crate's result by chart; `None` when it lacks a vertex. Its triangles have a positive area in (u, v), which is
-/// clockwise in a picture.
+/// Sorts the crate's result by chart; `None` if a vertex is missing. The triangles have a positive area in (u, v), which is
+/// clockwise in the image.
 fn charts(mesh: &Mesh, component: &Component, found: &uvunwrap::OutputMesh, page: DVec2) -> Option<Vec<LocalChart>> {
     let mut by_chart: BTreeMap<u32, LocalChart> = BTreeMap::new();
     for (member, corners) in found.indices.as_chunks::<3>().0.iter().enumerate() {
@@ -181,7 +180,7 @@ fn charts(mesh: &Mesh, component: &Component, found: &uvunwrap::OutputMesh, page
             |vertex: &uvunwrap::OutputVertex| DVec2::new(f64::from(vertex.uv[0]), f64::from(vertex.uv[1])) * page;
         let Some(chart) = a.chart else { continue };
         let corners = [a, b, c].map(place);
-        // The solver shrinks triangles that are too thin to a point or a line.
+        // The solver shrinks very thin triangles to a point or a line.
         if flat_area(corners) <= 0.0 {
             continue;
         }
@@ -192,7 +191,7 @@ fn charts(mesh: &Mesh, component: &Component, found: &uvunwrap::OutputMesh, page
     Some(by_chart.into_values().collect())
 }
 
-/// Returns every triangle as a chart in its own plane, for a component that the solver cannot flatten.
+/// Returns every triangle as a separate chart in its own plane, for a component that the solver cannot flatten.
 fn triangle_charts(mesh: &Mesh, triangles: &[u32]) -> Vec<LocalChart> {
     let with_area = (0..triangles.len() as u32).filter(|&member| area(mesh, triangles[member as usize]) > 0.0);
     with_area

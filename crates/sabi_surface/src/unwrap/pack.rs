@@ -19,10 +19,9 @@ const CELLS: [u32; 2] = [512, 4096];
 const MANY: usize = 10_000;
 /// Bisection steps of the scale: to 1/2⁷ of the range between a scale that fits and one that does not.
 const STEPS: u32 = 7;
-/// Share of the sheet that no packing covers.
+/// Share of the sheet that no packing reaches.
 const TOO_FULL: f64 = 0.95;
-/// Most cells of the bounding boxes of all charts, a bit for each in each of four turns: 64 MB. A sheet has an eighth of them at most;
-/// charts that fill less of their boxes are splinters, and are laid out smaller.
+/// Maximum number of texels in the bounding boxes of all charts, at one bit each: 256 MB.
 const MOST_BOXED: f64 = (1u64 << 27) as f64;
 
 /// Two corners of a triangle, model units.
@@ -63,7 +62,7 @@ impl Shape<'_> {
         }
     }
 
-    /// Returns a corner in texels from the lower corner of the bounding box.
+    /// Returns a corner in texels, relative to the lower corner of the bounding box.
     fn texel(&self, corner: DVec2, scale: f64) -> DVec2 {
         (corner - self.origin) * scale
     }
@@ -73,7 +72,7 @@ impl Shape<'_> {
         (self.side * scale).floor().as_uvec2().to_array().map(|side| side + 1)
     }
 
-    /// Returns a corner as [`Shape::texel`] does, after quarter turns as those of [`Mask::turned`].
+    /// Returns a corner like [`Shape::texel`], after quarter turns like those of [`Mask::turned`].
     fn turned_texel(&self, corner: DVec2, scale: f64, turns: u32) -> DVec2 {
         let DVec2 { x, y } = self.texel(corner, scale);
         let [width, height] = self.texels(scale).map(f64::from);
@@ -96,7 +95,7 @@ impl Shape<'_> {
                 mask.set(y, x0.max(0), x1.min(i64::from(width)));
             });
         }
-        // Texel centers alone would miss thin parts, so every texel along the outline is set, too.
+        // Texel centers alone would miss thin parts, so all texels along the outline are set, too.
         for edge in &self.outline {
             let [from, to] = edge.map(|corner| self.texel(corner, scale));
             let steps = (2.0 * (to - from).abs().max_element()).ceil() as u32 + 1;
@@ -115,14 +114,14 @@ impl Shape<'_> {
 struct Packing {
     /// Texels per model unit.
     scale: f64,
-    /// Texels along a side of the sheet that it was packed for.
+    /// Side of the sheet for which it was packed, in texels.
     size: u32,
     /// Quarter turns of each chart, and the lower corner of its bounding box after them, texels.
     places: Vec<(u32, DVec2)>,
 }
 
-/// Packs charts as large as they fit with [`GAP`] texels between them on a sheet of `size` texels. Where there are too many
-/// of them, the sheet has more texels, up to `finest`, so that gaps are narrower.
+/// Packs charts as large as they fit, with [`GAP`] texels between them, on a sheet of `size` texels. If there are too many
+/// charts, the sheet has more texels, up to `finest`, so that gaps are narrower.
 pub(super) fn pack(mesh: &Mesh, charts: &[FlatChart], [size, finest]: [u32; 2]) -> Result<UnwrapLayout, UnwrapError> {
     let shapes: Vec<Shape> = charts.par_iter().map(Shape::new).collect();
     let total: f64 = charts
@@ -173,7 +172,7 @@ fn largest(shapes: &[Shape], total: f64, size: u32) -> Option<Packing> {
     let mut best = None;
     let (mut low, mut high) = (0.0, 1.0);
     for step in 0..STEPS {
-        // Most layouts fill the sheet by half to three quarters.
+        // Most layouts fill half to three quarters of the sheet.
         let share = if step == 0 { 0.7 } else { (low + high) / 2.0 };
         match fit(shapes, ceiling * share, size) {
             Some(packing) => {
@@ -220,7 +219,7 @@ fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
     for index in order {
         look();
         let found = turned[index].each_ref().map(|mask| packer.find(mask));
-        // The turn that ends highest leaves the most room below.
+        // The rotation that ends topmost leaves the most space.
         let reach = |turns: usize| (found[turns].page, found[turns].row + turned[index][turns].height, turns);
         // The minimum of four turns exists.
         let turns = (0..4).min_by_key(|&turns| reach(turns)).unwrap_or(0);
@@ -229,7 +228,7 @@ fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
             return None;
         }
         packer.take(&turned[index][turns], position);
-        // The mask begins half a gap before its shape.
+        // The mask starts half a gap before its shape.
         let place = |cells: u32| f64::from(cells * cell + GAP / 2);
         places[index] = (turns as u32, DVec2::new(place(position.column), place(position.row)));
     }
@@ -251,8 +250,8 @@ fn turns(mask: Mask, cell: u32) -> [Mask; 4] {
     [mask, once, twice, thrice].map(|mask| mask.cells(cell))
 }
 
-/// Returns the ratio between the singular values of the map from a triangle in space to the sheet: its mean by area, and its
-/// maximum over 99.9 % of the area.
+/// Returns the mean by area, and the maximum over 99.9 % of the area, of the ratio between the singular values of the map
+/// from a triangle in space to the sheet.
 fn stretch(mesh: &Mesh, charts: &[FlatChart]) -> (f32, f32) {
     let members = charts
         .par_iter()

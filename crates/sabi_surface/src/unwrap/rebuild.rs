@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use crate::load::{Submesh, tangents_for_uvs};
 use crate::model::{Mesh, TextureUvs};
 
-/// Returns the mesh with new texture coordinates, given for each corner, and for each vertex the one that it was made from.
-/// `unwrapped` are the materials that have new sheets; `None` for all of them on one sheet.
+/// Returns the mesh with new texture coordinates, given for each corner, and for each vertex the vertex from which it was
+/// made. `unwrapped` are the materials with new sheets; `None` means all of them, on one sheet.
 pub(super) fn rebuild(mesh: &Mesh, corners: &[[[f32; 2]; 3]], unwrapped: Option<&BTreeSet<u32>>) -> (Mesh, Vec<u32>) {
     let mut submesh = Submesh {
         positions: mesh.positions.clone(),

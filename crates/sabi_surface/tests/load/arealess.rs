@@ -1,4 +1,4 @@
-//! Geometry without an area: it is seen nowhere, so it counts for nothing.
+//! Geometry without area is never visible, so it is ignored.
 
 use sabi_surface::load::{LoadOptions, load_bytes};
 use sabi_surface::model::Model;
@@ -46,7 +46,7 @@ fn dae() -> String {
 }
 
 #[test]
-fn what_has_no_area_counts_in_no_bounds() {
+fn geometry_without_area_does_not_affect_bounds() {
     let mut scaled = Gltf::triangle();
     scaled.push(
         "nodes",
@@ -97,7 +97,7 @@ fn what_has_no_area_counts_in_no_bounds() {
 }
 
 #[test]
-fn a_far_model_is_brought_near_whatever_is_scaled_to_nothing_at_the_origin() {
+fn a_far_model_is_recentered_in_spite_of_empty_geometry_at_the_origin() {
     let mut file = Gltf::triangle();
     file.json["nodes"][0]["translation"] = json!([4_000_000, 0, 0]);
     file.push("nodes", json!({ "name": "ghost", "mesh": 0, "scale": [0, 0, 0] }));
@@ -107,7 +107,7 @@ fn a_far_model_is_brought_near_whatever_is_scaled_to_nothing_at_the_origin() {
 }
 
 #[test]
-fn lines_that_close_the_surface_stay() {
+fn lines_that_close_the_surface_are_kept() {
     // A square whose left half has a corner more on the common edge, and a line that closes the slit.
     let slit = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 1 1 0\nv 2 0 0\nv 2 2 0\n\
                 f 1 2 5\nf 1 5 4\nf 4 5 3\nf 2 6 7\nf 2 7 3\nf 2 3 5\n";

@@ -1,4 +1,4 @@
-//! Files that a model names: each is read once, none without end, and all within the memory for a model.
+//! Files to which a model refers: each is read once, endless ones are refused, and all must fit into the memory limit.
 
 use std::cell::Cell;
 use std::fs;
@@ -97,7 +97,7 @@ fn what_does_not_fit_into_memory_is_a_sentence() {
             format!("it takes {needed} MiB of memory, and {limit} MiB are for a model; nothing of it was read");
         assert_eq!(said, expected, "{memory}");
     }
-    // A picture is left out, and the model is shown without it.
+    // An image that does not fit is left out, and the model is loaded without it.
     let mut file = Gltf::triangle();
     file.json["images"] = json!([{ "uri": "wood.png" }]);
     file.json["textures"] = json!([{ "source": 0 }]);

@@ -28,7 +28,7 @@ fn missing_normals_are_flat_and_split_the_vertices() {
 }
 
 #[test]
-fn normals_without_a_direction_are_made_anew() {
+fn normals_without_a_direction_are_computed() {
     let mut file = folded();
     let normals = file.floats(
         "VEC3",
@@ -45,7 +45,7 @@ fn normals_without_a_direction_are_made_anew() {
 }
 
 #[test]
-fn tangents_point_along_u_and_their_bitangent_upward_in_the_picture() {
+fn tangents_point_along_u_and_bitangents_upward_in_the_image() {
     let mesh = Gltf::triangle().model().mesh;
     assert_eq!(mesh.tangents, [[1.0, 0.0, 0.0, 1.0]; 3]);
 }
@@ -67,7 +67,7 @@ fn a_vertex_between_mirrored_triangles_is_split() {
 }
 
 #[test]
-fn stored_tangents_are_kept_unless_they_are_none() {
+fn stored_tangents_are_kept_if_they_are_valid() {
     let mut file = Gltf::triangle();
     let normals = file.floats("VEC3", &[0.0, 0.0, 1.0].repeat(3));
     let good = file.floats("VEC4", &[0.0, -1.0, 0.0, -1.0].repeat(3));
@@ -85,7 +85,7 @@ fn stored_tangents_are_kept_unless_they_are_none() {
 }
 
 #[test]
-fn a_crowd_in_one_place_is_not_waited_for() {
+fn many_vertices_at_one_place_do_not_take_quadratic_time() {
     let mut file = Gltf::triangle();
     let corners = 90_000;
     let positions = file.floats("VEC3", &vec![1.0; corners * 3]);
@@ -165,7 +165,7 @@ fn the_asked_uv_set_is_read() {
 }
 
 #[test]
-fn triangles_at_positions_that_are_no_numbers_are_dropped() {
+fn triangles_with_positions_that_are_not_finite_are_dropped() {
     let mut file = Gltf::new();
     let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, f32::NAN, 0.0, 0.0];
     let positions = file.floats("VEC3", &positions);
@@ -191,7 +191,7 @@ fn triangles_at_positions_that_are_no_numbers_are_dropped() {
 }
 
 #[test]
-fn texture_coordinates_that_are_no_numbers_become_zero() {
+fn texture_coordinates_that_are_not_finite_become_zero() {
     let mut file = Gltf::triangle();
     let uvs = file.floats("VEC2", &[0.0, f32::INFINITY, 1.0, 1.0, 0.0, 0.0]);
     file.primitive()["attributes"]["TEXCOORD_0"] = json!(uvs);

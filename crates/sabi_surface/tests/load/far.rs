@@ -157,7 +157,7 @@ fn a_ball_far_away_stays_a_ball_in_all_formats() {
 }
 
 #[test]
-fn corners_that_no_face_names_do_not_keep_a_model_far() {
+fn unused_vertices_do_not_prevent_recentering() {
     let idle = format!("{}v 0 0 0\nv nan 0 0\n", obj(MIDDLE));
     assert!(DVec3::from(read("ball.obj", idle.as_bytes()).middle).distance(MIDDLE.into()) < 1e-9);
     // Nor does a face without an area, but one with an area does.
@@ -168,7 +168,7 @@ fn corners_that_no_face_names_do_not_keep_a_model_far() {
 }
 
 #[test]
-fn shape_that_is_lost_even_so_is_told() {
+fn a_loss_of_shape_after_recentering_is_reported() {
     let reaching = format!("{}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 7 8 9\n", obj(MIDDLE));
     let told = "The shape of 8 triangles is lost: the model reaches so far that positions of 32 bits are too coarse for it. \
                 Export parts that are far apart as models of their own, and leave out what lies far away.";
@@ -185,7 +185,7 @@ fn shape_that_is_lost_even_so_is_told() {
 }
 
 #[test]
-fn shape_that_the_file_has_lost_is_told() {
+fn a_loss_of_shape_in_the_file_is_reported() {
     let told = "The shape of 8 triangles of the model is lost in the file: it stores positions in 32 bits, which are too coarse so \
                 far from its origin. Export the model near the origin.";
     let binary = binary_ply("float", |x| (x as f32).to_le_bytes().to_vec());
@@ -216,7 +216,7 @@ fn shape_that_the_file_has_lost_is_told() {
 }
 
 #[test]
-fn far_nodes_of_gltf_keep_their_distance() {
+fn far_nodes_of_gltf_keep_their_distances() {
     let mut file = Gltf::triangle();
     let second = [MIDDLE[0] + 1.125, MIDDLE[1] + 0.0625, MIDDLE[2]];
     let [x, y, z] = second;

@@ -42,7 +42,7 @@ fn every_file_gives_a_whole_model_or_a_sentence() {
             .is_some_and(|ending| ["gltf", "glb", "obj"].iter().any(|known| ending == *known))
     };
     files.retain(is_model);
-    // Here all that lies about is taken for a model.
+    // Every file in these folders is loaded as a model, whatever its extension.
     for folder in ["assimp-invalid", "tinygltf-models", "tinygltf-tests"] {
         files_under(&data.join("hostile").join(folder), &mut files);
     }

@@ -1,4 +1,4 @@
-//! A plan as commands, one item a line, for programs that run lines.
+//! A plan as commands, one item per line, for programs that run lines.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use super::not_text;
 use super::shell_word::shell_word;
 use crate::exit::{Exit, Failure};
 
-/// Commands, each for an item.
+/// Returns the commands, one for each item.
 pub(super) fn commands(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     let path = file.to_str().ok_or_else(|| not_text(file))?;
-    // Programs that run lines would run the second half as a command, quoted or not.
+    // A program that runs lines would run the part after a line break as a second command, even inside quotes.
     if path.contains(char::is_control) {
         let why = format!(
             "{} cannot be named in commands, each of which is a line, because it has a line break or another control character; \

@@ -7,12 +7,12 @@ use sabi_engine::BakePlan;
 use super::names;
 use crate::exit::{Exit, Failure};
 
-/// Longest name of a job, letters.
+/// Greatest length of a job's name, in letters.
 const LONGEST_NAME: usize = 100;
-/// The template, with words in capitals for what differs from plan to plan.
+/// Template, with words in capitals in the places that differ between plans.
 const TEMPLATE: &str = include_str!("openjd_template.yaml");
 
-/// A template for the folder of the plan: its paths start there.
+/// Returns a template to be used in the folder of the plan, from which its relative paths start.
 pub(super) fn template(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     let (name, stem) = names(file)?;
     let job: String = stem
@@ -21,7 +21,7 @@ pub(super) fn template(file: &Path, plan: &BakePlan) -> Result<String, Failure> 
         .take(LONGEST_NAME)
         .collect();
     let last = plan.items.len().saturating_sub(1).to_string();
-    // The name of the file may have any words, so it comes last.
+    // The name of the file is inserted last, since it may contain the words in capitals.
     let text = TEMPLATE.replace("LAST_ITEM", &last);
     let (before, after) = text
         .split_once("JOB_NAME")
@@ -30,7 +30,7 @@ pub(super) fn template(file: &Path, plan: &BakePlan) -> Result<String, Failure> 
     Ok(format!("{before}{}{after}", quoted(&format!("sabi {job}"))?))
 }
 
-/// A text in quotes as YAML and JSON have them.
+/// Returns a text in quotes that are valid in YAML and JSON.
 fn quoted(text: &str) -> Result<String, Failure> {
     serde_json::to_string(text)
         .map_err(|error| Failure::new(Exit::Defect, format!("cannot write the template: {error}")))

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// Quotes a word so that a shell takes it as it is.
+/// Quotes a word so that a shell does not change it.
 pub(in crate::commands) fn shell_word(word: &str) -> Cow<'_, str> {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./:=+,@".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {

@@ -8,10 +8,10 @@ use super::names;
 use super::shell_word::shell_word;
 use crate::exit::Failure;
 
-/// Most jobs of an array: Slurm takes indices below 1001 unless it is set up for more.
+/// Greatest number of jobs in an array: by default, Slurm accepts indices below 1001.
 const MOST_JOBS: usize = 1000;
 
-/// A script that is submitted from the folder of the plan.
+/// Returns a script that is submitted from the folder of the plan.
 pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     let (name, stem) = names(file)?;
     let job: String = stem
@@ -28,7 +28,7 @@ pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     let chunk = count.div_ceil(MOST_JOBS).max(1);
     let last_job = count.div_ceil(chunk).saturating_sub(1);
     let (name, items) = (shell_word(name), items_of_job(count, chunk));
-    // `exec` lets a signal of Slurm reach the program, which then cleans up.
+    // With `exec`, a signal of Slurm reaches the program, which then cleans up.
     Ok(format!(
         "#!/bin/bash\n\
          #SBATCH --job-name={job}\n\
@@ -42,7 +42,7 @@ pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     ))
 }
 
-/// Lines that set the items of a job.
+/// Returns the lines that set the items of a job.
 fn items_of_job(count: usize, chunk: usize) -> String {
     if chunk == 1 {
         return "items=$SLURM_ARRAY_TASK_ID\n".to_owned();

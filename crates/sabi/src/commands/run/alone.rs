@@ -1,4 +1,4 @@
-//! A single item, in this process.
+//! Bake of a single item in this process.
 
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ use crate::progress::ShownProgress;
 use crate::stopping::cancel_when_input_ends;
 use crate::terminal::{Terminal, json_failure};
 
-/// Bakes the first of the chosen items. A failure is told by the process that started this one.
+/// Bakes the first of the chosen items. The process that started this one prints a failure.
 pub(super) fn run(
     arguments: &RunArguments,
     trusted: &TrustedPaths,

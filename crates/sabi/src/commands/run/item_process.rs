@@ -1,4 +1,4 @@
-//! Process of one item: what it says, and how it ends.
+//! Process of one item: its messages and its result.
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
@@ -17,7 +17,7 @@ use crate::printable::printable;
 pub(crate) struct BakedItem {
     /// Maps that were written.
     pub(crate) maps: usize,
-    /// Time that it took.
+    /// Time that the bake took.
     pub(crate) seconds: f64,
     /// Warnings with their remedies.
     pub(crate) warnings: Vec<String>,
@@ -28,11 +28,11 @@ pub(crate) struct BakedItem {
 pub(crate) enum Ended {
     Baked(BakedItem),
     Failed(Failure),
-    /// It was stopped.
+    /// The bake was stopped.
     Stopped,
 }
 
-/// Starts the process of an item. It stops once its standard input is closed, which the system does, too, if this process ends.
+/// Starts the process of an item. It stops once its standard input is closed; the system closes it if this process ends.
 pub(super) fn start(
     arguments: &RunArguments,
     trusted: &TrustedPaths,
@@ -73,12 +73,12 @@ pub(super) fn start(
     Ok((child, input))
 }
 
-/// Waits for the end of an item. `step` is called for its progress; what else it says on standard error is said here.
+/// Waits for the end of an item. Calls `step` for its progress, and prints its other lines on standard error.
 pub(super) fn ended(mut child: Child, step: impl Fn(Phase, usize, usize)) -> Ended {
     let errors = child.stderr.take();
     let out = child.stdout.take();
     let read = thread::scope(|scope| {
-        // Both are read at once, since a pipe that is full holds its process up.
+        // Both streams are read at the same time, since a full pipe would block the process.
         let said = scope.spawn(move || {
             let mut said = String::new();
             let read = out.map_or(Ok(0), |mut out| out.read_to_string(&mut said));
@@ -92,7 +92,7 @@ pub(super) fn ended(mut child: Child, step: impl Fn(Phase, usize, usize)) -> End
             match step_of(&line) {
                 Some((phase, done, of)) => step(phase, done, of),
                 None if is_event(&line) => {}
-                // Standard error may be closed, and then there is nowhere to say so.
+                // Standard error may be closed; then the line is lost.
                 None => drop(writeln!(io::stderr().lock(), "{}", printable(&line))),
             }
         }
@@ -111,7 +111,7 @@ fn is_event(line: &str) -> bool {
     line.starts_with("{\"event\":")
 }
 
-/// The step that an event tells of.
+/// Returns the step that an event describes.
 fn step_of(line: &str) -> Option<(Phase, usize, usize)> {
     let event: Json = is_event(line).then(|| serde_json::from_str(line).ok()).flatten()?;
     let phase = event.get("phase")?.as_str()?;
@@ -142,7 +142,7 @@ fn unknown(sentence: &str) -> Ended {
     Ended::Failed(Failure::new(Exit::Defect, sentence.to_owned()))
 }
 
-/// The failure of a report that a command prints.
+/// Returns the failure in a report that a command prints.
 fn failure(json: &Json) -> Option<Failure> {
     let error = json.get("error")?;
     let text = |json: &Json| json.as_str().map(str::to_owned);
@@ -160,7 +160,7 @@ fn failure(json: &Json) -> Option<Failure> {
     Some(failure)
 }
 
-/// Sentence about a process that did not tell how it ended.
+/// Returns a sentence about a process that ended without a result.
 fn sentence(status: ExitStatus) -> String {
     #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {

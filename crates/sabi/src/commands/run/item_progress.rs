@@ -11,7 +11,7 @@ use crate::exit::Failure;
 use crate::openjd;
 use crate::terminal::Terminal;
 
-/// Ends of the phases of a bake, as shares of its time: what they mostly take.
+/// Typical ends of the phases of a bake, as shares of its time.
 const ENDS: [(Phase, f64); 5] = [
     (Phase::Load, 0.1),
     (Phase::Atlas, 0.2),
@@ -25,9 +25,9 @@ pub(super) struct ItemProgress {
     terminal: Terminal,
     of: usize,
     done: usize,
-    /// Share of each item that is baked now.
+    /// Share that is done of each item in work.
     shares: BTreeMap<usize, f64>,
-    /// Tenths of a percent that were told.
+    /// Progress that was last printed, in tenths of a percent.
     told: u64,
 }
 
@@ -42,7 +42,7 @@ impl ItemProgress {
         }
     }
 
-    /// Tells a step of an item's phase.
+    /// Prints a step of an item's phase.
     pub(super) fn step(&mut self, item: usize, phase: Phase, done: usize, of: usize) -> Result<(), Failure> {
         let share = self.shares.entry(item).or_insert(0.0);
         *share = share.max(share_of(phase, done, of));
@@ -56,7 +56,7 @@ impl ItemProgress {
         }
     }
 
-    /// Tells that an item has ended; `sentence` says how.
+    /// Prints that an item has ended, and `sentence` with the result.
     pub(super) fn end(&mut self, item: usize, status: ItemStatus, sentence: &str) -> Result<(), Failure> {
         self.shares.remove(&item);
         self.done += 1;
@@ -79,7 +79,7 @@ impl ItemProgress {
         }
     }
 
-    /// Tells the share of the run that is done, if it is one percent more than was told.
+    /// Prints the share of the run that is done, if it is at least one percent more than the last one printed.
     fn tell_share(&mut self) -> Result<(), Failure> {
         let done = self.done as f64 + self.shares.values().sum::<f64>();
         let share = (done / self.of.max(1) as f64).clamp(0.0, 1.0);
@@ -93,7 +93,7 @@ impl ItemProgress {
     }
 }
 
-/// Share of a bake that is done.
+/// Returns the share of a bake that is done.
 fn share_of(phase: Phase, done: usize, of: usize) -> f64 {
     let at = ENDS.iter().position(|(known, _)| *known == phase);
     let Some(at) = at else { return 0.0 };

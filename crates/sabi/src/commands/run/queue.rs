@@ -12,10 +12,10 @@ use super::item_process::{Ended, ended, start};
 use crate::arguments::RunArguments;
 use crate::exit::{Exit, Failure};
 
-/// Time between two looks at whether the run was stopped.
+/// Time between two checks whether the run was stopped.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Something that happened to an item.
+/// Event of an item.
 #[derive(Debug)]
 pub(super) enum Happened {
     /// Steps of a phase are done.
@@ -27,12 +27,12 @@ pub(super) enum Happened {
     Ended(Ended),
 }
 
-/// Items that wait and those that are baked.
+/// Items that wait, and items that are being baked.
 pub(super) struct Queue<'a> {
     arguments: &'a RunArguments,
     trusted: &'a TrustedPaths,
     waiting: VecDeque<usize>,
-    /// Items that are baked; closing its input stops one.
+    /// Standard inputs of the items that are being baked; closing one stops its item.
     running: Vec<(usize, Option<ChildStdin>)>,
     sender: Sender<(usize, Happened)>,
     happened: Receiver<(usize, Happened)>,
@@ -51,8 +51,8 @@ impl<'a> Queue<'a> {
         }
     }
 
-    /// Starts as many items as run at a time, and waits for what happens next; `None` once all have ended. A run that is stopped
-    /// starts none, and waits until those that are baked have cleaned up.
+    /// Starts as many items as may run at the same time, and waits for the next event; `None` once all have ended. A stopped run
+    /// starts no items, and waits until those that are being baked have cleaned up.
     pub(super) fn next(&mut self, is_canceled: impl Fn() -> bool) -> Option<(usize, Happened)> {
         loop {
             if is_canceled() {
@@ -77,7 +77,7 @@ impl<'a> Queue<'a> {
                     return Some((item, happened));
                 }
                 Err(RecvTimeoutError::Timeout) => {}
-                // This end of the channel has a sender, too.
+                // This process holds a sender too, so the channel cannot be closed.
                 Err(RecvTimeoutError::Disconnected) => return None,
             }
         }
@@ -86,7 +86,7 @@ impl<'a> Queue<'a> {
     fn start(&mut self, item: usize) {
         let sender = self.sender.clone();
         let tell = move |happened: Happened| {
-            // A run that has ended takes no more reports.
+            // Sending fails once the run has ended, which does not matter.
             let _ = sender.send((item, happened));
         };
         match start(self.arguments, self.trusted, item) {

@@ -41,11 +41,11 @@ struct ItemSummary {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ItemStatus {
-    /// It was finished before.
+    /// The item was finished by an earlier run.
     Finished,
     Baked,
     Failed,
-    /// It is not baked, since that was not asked for, or the run was stopped.
+    /// The item is not baked, because it was not requested or the run was stopped.
     Waiting,
 }
 
@@ -61,7 +61,7 @@ impl ItemStatus {
 }
 
 impl Summary {
-    /// Summary of items that all wait.
+    /// Returns a summary in which all items wait.
     pub(crate) fn new(path: &Path, plan: &BakePlan, chosen: &[usize]) -> Summary {
         let chosen = chosen.iter().filter_map(|at| plan.items.get(*at));
         let items: Vec<ItemSummary> = chosen
@@ -126,18 +126,18 @@ impl Summary {
     }
 
     fn item(&mut self, at: usize) -> Option<&mut ItemSummary> {
-        // Items stand in their order.
+        // Items are sorted by their order in the plan.
         let found = self.items.binary_search_by_key(&at, |item| item.item).ok()?;
         self.items.get_mut(found)
     }
 
-    /// A line for each item.
+    /// Returns a line for each item.
     pub(crate) fn table(&self) -> Page {
         let line = |item: &ItemSummary| format!("{:>4}  {:8}  {}", item.item, item.status.name(), item.out);
         self.items.iter().map(line).collect()
     }
 
-    /// A sentence with the counts.
+    /// Returns a sentence with the counts.
     pub(crate) fn sentence(&self, is_dry: bool) -> String {
         let counts = [
             (self.baked, "baked"),

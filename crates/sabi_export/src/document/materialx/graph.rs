@@ -7,7 +7,7 @@ use super::super::numbers::list;
 use super::super::xml::Element;
 use crate::Channel;
 
-/// Node graph under construction. Nodes and outputs are made when they are first asked for.
+/// Node graph under construction. Nodes and outputs are created when they are first requested.
 pub(super) struct Graph<'m> {
     material: &'m DocumentMaterial,
     name: String,
@@ -53,7 +53,7 @@ impl<'m> Graph<'m> {
         Some(element)
     }
 
-    /// An input of a shader with a channel as it is; none if the material does not have the channel.
+    /// Returns an input of a shader with an unchanged channel; `None` if the material does not have the channel.
     pub(super) fn input(&mut self, input: &'static str, channel: &Channel) -> Option<Element> {
         let (name, look) = (channel.name(), self.material.channels.get(channel)?);
         Some(match look {
@@ -77,7 +77,7 @@ impl<'m> Graph<'m> {
             Look::Value(_) => None,
             Look::Rgb(map) => {
                 let picture = self.picture(map)?;
-                // Of a color, all components have one divisor.
+                // All components of a color have the same divisor.
                 let [[scale, _], ..] = self.material.maps.get(map)?.decoding;
                 let is_scaled = *channel != Channel::Normal && scale != 1.0;
                 let made = match (channel, picture.ty) {
@@ -158,7 +158,7 @@ impl<'m> Graph<'m> {
         node
     }
 
-    /// A component of a picture.
+    /// Returns a component of an image.
     pub(super) fn component(&mut self, picture: &Node, index: usize) -> Node {
         let name = format!("{}_{index}", picture.name);
         let index = Argument::Value("integer", index.to_string());
@@ -178,7 +178,7 @@ impl<'m> Graph<'m> {
         self.node("convert", &name, ty, &[("in", Argument::Node(value))])
     }
 
-    /// The normal of the geometry, bent by a picture of one.
+    /// Returns the normal of the geometry, modified by a normal map.
     fn normal(&mut self, picture: &Node) -> Node {
         let frame = self.frame();
         let mut arguments = vec![("in", Argument::Node(picture))];
@@ -188,7 +188,7 @@ impl<'m> Graph<'m> {
         self.node("normalmap", "normal_map", "vector3", &arguments)
     }
 
-    /// Tangent and bitangent of the UV set of the maps; none for the first set, which shaders take by themselves.
+    /// Returns tangent and bitangent of the UV set of the maps; `None` for the first set, which shaders use by default.
     fn frame(&mut self) -> Option<[Node; 2]> {
         (self.material.uv_set != 0).then(|| ["tangent", "bitangent"].map(|tag| self.frame_vector(tag)))
     }
@@ -198,7 +198,7 @@ impl<'m> Graph<'m> {
         let space = ("space", Argument::Value("string", "world".to_owned()));
         let index = ("index", Argument::Value("integer", self.material.uv_set.to_string()));
         let arguments = [space, index];
-        // Normals have no set.
+        // Normals do not depend on a UV set.
         let count = if tag == "normal" { 1 } else { 2 };
         self.node(tag, &format!("world_{tag}"), "vector3", &arguments[..count])
     }
@@ -221,7 +221,7 @@ impl<'m> Graph<'m> {
         }
         let mut element = Element::new("image").with("name", &name).with("type", ty).holding(path);
         if self.is_rgb_of(map, &Channel::Normal) {
-            // Without the file, the surface stays flat.
+            // If the file is missing, the surface stays flat.
             element.extend([constant("default", ty, flat_normal(ty))]);
         }
         if self.material.uv_set != 0 {
@@ -237,8 +237,8 @@ impl<'m> Graph<'m> {
         Some(Node { name, ty })
     }
 
-    /// The type of a file's pixels: colors go through color management, numbers never do. Alpha is read only from four
-    /// components.
+    /// Returns the type of a file's pixels: color management is applied to colors but not to numbers. Alpha is read only
+    /// from four components.
     fn picture_type(&self, map: usize, file: &DocumentMap) -> &'static str {
         let colors = [
             Channel::BaseColor,

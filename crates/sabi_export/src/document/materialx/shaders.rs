@@ -6,7 +6,7 @@ use super::super::xml::Element;
 use super::graph::{Argument, Graph, Node, constant};
 use crate::{Channel, Value};
 
-/// Mean free path below the surface, units of the scene: the material has a color for light there, but no length.
+/// Mean free path below the surface, in units of the scene. A material only has a color for subsurface light, not a length.
 const SUBSURFACE_RADIUS: f32 = 0.01;
 /// Least divisor of a color.
 const LEAST: f32 = 1e-6;
@@ -17,7 +17,7 @@ pub(super) struct Shader {
     pub(super) inputs: Vec<Element>,
 }
 
-/// The shader of glTF's materials; it has no light below the surface.
+/// Returns the shader of glTF's materials. It does not support subsurface light.
 pub(super) fn gltf(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader {
     let same = [
         ("base_color", Channel::BaseColor),
@@ -63,7 +63,7 @@ pub(super) fn gltf(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader
     }
 }
 
-/// OpenPBR, which has no occlusion.
+/// Returns the OpenPBR shader. It does not support occlusion.
 pub(super) fn open_pbr(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader {
     let same = [
         ("base_color", Channel::BaseColor),
@@ -86,12 +86,12 @@ pub(super) fn open_pbr(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Sh
     }
     if has(material, &Channel::Coat) {
         inputs.extend(graph.input("geometry_coat_normal", &Channel::Normal));
-        // The coat of the material has this index, and darkens nothing below it.
+        // The coat of a material has this refractive index, and does not darken the layers below.
         inputs.push(constant("coat_ior", "float", "1.5"));
         inputs.push(constant("coat_darkening", "float", "0"));
     }
     if has(material, &Channel::Transmission) {
-        // Light goes through as through thin glass, and takes the color of the base.
+        // Light passes through as through thin glass, and is tinted by the base color.
         inputs.extend(graph.input("transmission_color", &Channel::BaseColor));
         inputs.push(constant("geometry_thin_walled", "boolean", "true"));
     }
@@ -174,8 +174,8 @@ fn anisotropy(graph: &mut Graph<'_>) -> Option<[Node; 2]> {
     ])
 }
 
-/// Anisotropy of OpenPBR: a strength, and a tangent turned toward the direction. It takes the strength for another curve than
-/// glTF, so that highlights are only nearly as long.
+/// Returns the anisotropy of OpenPBR: a strength, and a tangent rotated toward the direction. OpenPBR interprets the
+/// strength differently from glTF, so highlights have only approximately the same length.
 fn drawn_out(graph: &mut Graph<'_>, material: &DocumentMaterial) -> Vec<Element> {
     let input = "specular_roughness_anisotropy";
     let (strength, turn) = match material.channels.get(&Channel::Anisotropy) {
@@ -196,7 +196,7 @@ fn drawn_out(graph: &mut Graph<'_>, material: &DocumentMaterial) -> Vec<Element>
         },
         None => return Vec::new(),
     };
-    // MaterialX turns the other way: bxdf/gltf_pbr.mtlx multiplies by −180/π as well.
+    // MaterialX rotates in the opposite direction: bxdf/gltf_pbr.mtlx also multiplies by −180/π.
     let turn = match turn {
         Turn::Value(radians) => Turn::Value(-radians.to_degrees()),
         Turn::Node(rotation) => Turn::Node(graph.arithmetic("multiply", &rotation, -180.0 / std::f32::consts::PI)),

@@ -16,7 +16,7 @@ fn with_buffer(buffer: Json, binary: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn only_zeros_that_fill_the_chunk_up_are_dropped() {
+fn only_padding_zeros_of_the_chunk_are_dropped() {
     let data = [1, 2, 3, 4, 5, 6, 7, 0, 0, 0, 0, 0];
     let cases = [
         ("right", json!(12), 12),
@@ -35,7 +35,7 @@ fn only_zeros_that_fill_the_chunk_up_are_dropped() {
 }
 
 #[test]
-fn a_chunk_that_is_no_buffer_stays_where_it_was_and_takes_nothing_up() {
+fn a_chunk_that_is_not_a_buffer_is_kept_and_gets_no_new_data() {
     for buffer in [json!({ "byteLength": 4, "uri": "a.bin" }), json!(null)] {
         let file = with_buffer(buffer, &[1, 2, 3, 4]);
         let (mut container, mut document) = Container::split(&file).unwrap();
@@ -46,14 +46,14 @@ fn a_chunk_that_is_no_buffer_stays_where_it_was_and_takes_nothing_up() {
 }
 
 #[test]
-fn what_does_not_fit_into_32_bits_is_refused() {
+fn sizes_that_do_not_fit_into_32_bits_are_refused() {
     assert_eq!(length(u64::from(u32::MAX)), Ok([0xff; 4]));
     assert_eq!(length(1 << 32), Err(1 << 32));
 }
 
 #[test]
-fn cuts_move_every_view_behind_them_by_all_bytes_before_it() {
-    // Views of 40 bytes, each of its own number; every other one is dead, and a live one reaches into the last of these.
+fn cuts_move_every_later_view_by_the_bytes_removed_before_it() {
+    // Views of 40 bytes, filled with the number of the view. Every other one is dead, and a live one extends into the last of these.
     let view = |from: usize, size: usize| json!({ "buffer": 0, "byteOffset": from, "byteLength": size });
     let binary: Vec<u8> = (0..400_u32).map(|at| (at / 40) as u8).collect();
     let mut live: Vec<Json> = (0..5).map(|pair| view(pair * 80, 40)).collect();

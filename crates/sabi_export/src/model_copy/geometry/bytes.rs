@@ -30,8 +30,8 @@ pub(super) struct OfPrimitive {
 }
 
 impl FileBytes {
-    /// Reads the buffers that the `file` of a model names, and unpacks what is packed; what cannot be read is left out. A file that
-    /// is named under several spellings is held once.
+    /// Reads the buffers to which the `file` of a model refers, and unpacks packed data. Unreadable data is left out. A
+    /// file with several spellings of its path is kept once.
     pub(in crate::model_copy) fn read(source: CopySource<'_>, file: &[u8], document: &Json) -> FileBytes {
         let CopySource { path, model, .. } = source;
         let list = document["buffers"].as_array();
@@ -156,7 +156,7 @@ impl FileBytes {
         let view = document["bufferViews"].get(index)?;
         let bytes = match self.unpacked.views.get(&index) {
             Some(unpacked) => unpacked,
-            // Its plain bytes have no meaning.
+            // If the view is packed, its plain bytes have no meaning.
             None if PACKED.iter().any(|name| view["extensions"].get(name).is_some()) => return None,
             None => {
                 let buffer = number(view, "buffer")?;

@@ -1,12 +1,12 @@
-//! Directions of the model, in the space of a mesh of its file.
+//! Converts directions from the model to the space of a mesh of its file.
 
 use glam::{DMat3, DVec3, Vec3};
 use sabi_surface::model::PlacedPrimitive;
 
-/// The way back from the model to a mesh of the file.
+/// The inverse transform, from the model to a mesh of the file.
 pub(super) struct Frame {
     model_from_file: DMat3,
-    /// Up to a length.
+    /// The matrix, up to a scale factor.
     file_from_model: DMat3,
     pub(super) is_mirrored: bool,
 }
@@ -31,7 +31,7 @@ impl Frame {
         self.model_from_file == DMat3::IDENTITY
     }
 
-    /// A unit normal. The inverse transpose of the node's matrix carries it to the model, so the transpose carries it back.
+    /// Converts a unit normal. The inverse transpose of the node's matrix converts it to the model, so the transpose converts it back.
     pub(super) fn normal(&self, normal: [f32; 3]) -> [f32; 3] {
         if self.is_identity() {
             return normal;
@@ -40,7 +40,7 @@ impl Frame {
         unit(back).unwrap_or(normal)
     }
 
-    /// A tangent. A node that flattens the mesh has no way back, and leaves any direction.
+    /// Converts a tangent. If a node flattens the mesh, there is no inverse, and any direction is valid.
     pub(super) fn tangent(&self, tangent: [f32; 4]) -> [f32; 4] {
         if self.is_identity() {
             return tangent;

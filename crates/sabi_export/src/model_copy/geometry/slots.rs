@@ -1,10 +1,10 @@
-//! Vertices of a primitive as a copy writes them.
+//! Vertices of a primitive in the order in which a copy writes them.
 
 use std::collections::HashMap;
 
 use sabi_surface::model::FileOrigins;
 
-/// Exact values of the attributes that a copy writes at a vertex: what they are, vertices of one origin have apart.
+/// Exact values of the attributes that a copy writes for a vertex. Vertices with the same origin differ in these.
 pub(super) type Written = [u32; 9];
 
 /// Vertices and triangles of a primitive. Vertices come in the order of the file.

@@ -1,5 +1,4 @@
-//! Treatment of each property of a glTF material that got maps: the table of docs/model-copy.md, which
-//! has the reasons, as data.
+//! Treatment of each property of a glTF material that gets maps: the table of docs/model-copy.md, which contains the reasons, as data.
 
 use serde::Serialize;
 
@@ -11,7 +10,7 @@ pub enum Treatment {
     Removed,
     /// It is as the model has it.
     Kept,
-    /// The copy has it from the graph's material; it is absent where that is glTF's default.
+    /// The copy has it from the graph's material. It is absent if that has glTF's default value.
     Set,
 }
 

@@ -19,7 +19,7 @@ fn the_document_has_the_treatment_of_every_property() {
     assert_eq!(documented, RULES.each_ref().map(of_rule));
 }
 
-/// A material with a bit of everything.
+/// Creates a material with many different properties.
 fn rich() -> Json {
     let texture = json!({ "index": 0 });
     json!({
@@ -40,7 +40,7 @@ fn rich() -> Json {
 }
 
 #[test]
-fn nothing_of_the_earlier_look_is_left() {
+fn nothing_of_the_earlier_appearance_remains() {
     let mut material = rich();
     strip(&mut material, false);
     let left = json!({
@@ -51,7 +51,7 @@ fn nothing_of_the_earlier_look_is_left() {
 }
 
 #[test]
-fn a_kept_look_loses_only_what_maps_replace() {
+fn a_kept_appearance_loses_only_properties_that_maps_replace() {
     let mut material = rich();
     strip(&mut material, true);
     let extensions: Vec<&String> = material["extensions"].as_object().unwrap().keys().collect();

@@ -1,4 +1,4 @@
-//! Vertex colors of baked primitives. Viewers multiply base color by them, so they stay in the file under names of its own.
+//! Vertex colors of baked primitives. Viewers multiply the base color by them, so they are kept in the file under other names.
 
 use serde_json::{Map, Value as Json};
 

@@ -102,7 +102,7 @@ fn glb_of(document: &Json, binary: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn a_file_that_is_not_taken_in_is_named() {
+fn a_file_that_is_not_embedded_is_reported() {
     let (mut document, binary) = document();
     document["images"][3] = json!({ "uri": "gone.png" });
     let file = super::super::container::tests::glb(&document, &binary);

@@ -5,7 +5,7 @@ use super::super::wrap::{CLAMP_TO_EDGE, REPEAT};
 use super::*;
 
 #[test]
-fn a_buffer_that_claims_too_little_loses_nothing() {
+fn a_buffer_with_a_too_small_declared_length_loses_nothing() {
     let (mut document, binary) = document();
     document["buffers"][0]["byteLength"] = json!(120);
     let finished = copied("it.glb", &[("it.glb", &glb(&document, &binary))], &[(1, all_maps())]);
@@ -34,7 +34,7 @@ fn maps_lie_beside_a_glb_whose_first_buffer_is_a_file() {
 }
 
 #[test]
-fn only_files_in_the_folder_of_the_model_come_along() {
+fn only_files_in_the_folder_of_the_model_are_copied() {
     let outside = tempfile::tempdir().unwrap();
     let folder = outside.path().join("model");
     fs::create_dir_all(folder.join("maps")).unwrap();
@@ -86,9 +86,9 @@ fn only_files_in_the_folder_of_the_model_come_along() {
 }
 
 #[test]
-fn a_model_is_gltf_where_its_reader_said_so() {
+fn a_model_counts_as_gltf_if_its_reader_says_so() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nf 1/1 2/2 3/3\n";
-    // The reader of OBJ ignores unknown statements, so the file is OBJ although it begins like JSON.
+    // The OBJ reader ignores unknown statements, so this is an OBJ file although it starts like JSON.
     let file = format!("{{ left by a program }}\n{obj}");
     let finished = copied("it.obj", &[("it.obj", file.as_bytes())], &[]);
     assert_eq!(finished.copy.name, "it.glb");
@@ -134,8 +134,8 @@ fn maps_repeat_on_the_materials_whose_uvs_leave_the_square() {
 }
 
 #[test]
-fn numbers_come_out_as_they_went_in() {
-    // Of 16 and 17 digits: more than 53 bits hold, so that the quick way to read most of them is off in the last digit.
+fn numbers_are_written_exactly_as_they_were_read() {
+    // Numbers with 16 and 17 digits need more than 53 bits, so a fast but inexact parser would change the last digit.
     let numbers = json!([
         0.30000000000000004,
         0.0009221885624698875,

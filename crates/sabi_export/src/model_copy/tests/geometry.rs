@@ -68,7 +68,7 @@ fn assert_same(what: &str, file: &File, options: &LoadOptions) -> Json {
     parts(&finished.copy.bytes).0
 }
 
-/// Numbers of an accessor's elements as `f64`, by the loader's own rules but written again.
+/// Reads the numbers of an accessor's elements as `f64`. This repeats the loader's rules in independent code.
 fn elements(file: &[u8], accessor: &Json) -> Vec<Vec<f64>> {
     let (document, view) = parts(file);
     let accessor = &document["accessors"][accessor.as_u64().unwrap() as usize];
@@ -184,7 +184,7 @@ fn tangents_are_those_of_the_mesh_wherever_nodes_place_it() {
     ] {
         file.node(placed);
     }
-    // A model has the first placement's tangents as the others do, but not to the last digit.
+    // Placements have the same tangents as the first one, except for the last digits.
     for (up, smooth_degrees) in [(Up::Y, None), (Up::Z, None), (Up::Z, Some(60.0))] {
         let options = LoadOptions {
             up,

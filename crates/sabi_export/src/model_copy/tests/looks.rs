@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn a_kept_look_keeps_the_finish_and_is_told() {
+fn a_kept_appearance_keeps_rare_properties_and_reports_them() {
     let options = CopyOptions {
         keeps_look: true,
         ..CopyOptions::default()
@@ -84,7 +84,7 @@ fn a_file_whose_references_are_all_known_keeps_nothing_unused() {
 }
 
 #[test]
-fn what_features_refer_to_stays_theirs() {
+fn entries_used_by_feature_metadata_are_kept() {
     let (mut document, binary) = document();
     edit::remove(&mut document, "extensions");
     edit::remove(&mut document["nodes"][0], "extensions");

@@ -21,7 +21,7 @@ fn assert_finite(atlas: &Atlas) {
 }
 
 #[test]
-fn errors_say_what_to_do() {
+fn errors_advise_what_to_do() {
     let mesh = cube(1);
     let mut bare = mesh.clone();
     bare.uvs.clear();
@@ -77,7 +77,7 @@ fn errors_say_what_to_do() {
 }
 
 #[test]
-fn sizes_that_no_memory_holds_are_refused_before_anything_is_allocated() {
+fn sizes_that_do_not_fit_into_memory_are_refused_before_allocation() {
     let mut mesh = Mesh::default();
     for layer in 0..300 {
         let place = [f64::from(layer) * 2.0, 0.0, 0.0];
@@ -95,9 +95,9 @@ fn sizes_that_no_memory_holds_are_refused_before_anything_is_allocated() {
 }
 
 #[test]
-fn a_fin_is_a_border_and_the_sheet_it_stands_on_goes_on() {
+fn a_third_triangle_at_an_edge_is_a_border_and_the_sheet_stays_connected() {
     let mut mesh = square(Frame::straight([0.3, 0.5], 0.4), 2);
-    // The sheet's middle edge gets a third triangle with vertices of its own.
+    // The middle edge of the sheet gets a third triangle with its own vertices.
     let first = mesh.positions.len() as u32;
     mesh.positions
         .extend([[0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.25, 0.4]]);
@@ -116,7 +116,7 @@ fn a_fin_is_a_border_and_the_sheet_it_stands_on_goes_on() {
             warning == "1 edge is shared by more than two triangles; filters treat those as borders"
         })
     );
-    // If all three share their vertices, no two of them belong together: all get a border.
+    // If all three triangles share their vertices, the connection is ambiguous, and each of them gets a border.
     let last = mesh.triangles.len() - 1;
     mesh.triangles[last] = [1, 4, first + 2];
     let atlas = build(&mesh, 128).unwrap();
@@ -125,7 +125,7 @@ fn a_fin_is_a_border_and_the_sheet_it_stands_on_goes_on() {
 }
 
 #[test]
-fn two_sheets_on_one_another_stay_two_sheets() {
+fn two_coincident_sheets_stay_separate() {
     let mut mesh = square(Frame::straight([0.3, 0.5], 0.4), 3);
     let front = mesh.triangles.len();
     patch(
@@ -143,10 +143,10 @@ fn two_sheets_on_one_another_stay_two_sheets() {
 }
 
 #[test]
-fn triangles_without_area_do_no_harm() {
+fn triangles_without_area_are_handled() {
     let mut mesh = cube(3);
     let vertices = mesh.positions.len() as u32;
-    // No area in UV, none in space, none in either, one point only, and a sliver between two neighbors.
+    // No area in UV, no area in space, neither, a single point, and a sliver between two neighbors.
     for k in 0..24 {
         let at = k * 7 % vertices;
         triangle(&mut mesh, [at, at, (at + 1) % vertices]);
@@ -171,7 +171,7 @@ fn triangles_without_area_do_no_harm() {
 }
 
 #[test]
-fn numbers_that_are_none_do_no_harm() {
+fn nan_and_infinity_are_handled() {
     let mut mesh = cube(4);
     for (k, value) in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE]
         .into_iter()
@@ -186,8 +186,8 @@ fn numbers_that_are_none_do_no_harm() {
 }
 
 #[test]
-fn links_pass_through_triangles_that_have_no_place_on_the_maps() {
-    // Two patches in a plane, joined by a strip whose UVs are a line.
+fn links_pass_through_triangles_without_a_place_on_the_maps() {
+    // Two patches in a plane, joined by a strip whose UVs lie on a line.
     let mut mesh = Mesh::default();
     patch(
         &mut mesh,
@@ -218,7 +218,7 @@ fn links_pass_through_triangles_that_have_no_place_on_the_maps() {
 }
 
 #[test]
-fn a_fold_of_one_chart_makes_two() {
+fn a_folded_chart_becomes_two_charts() {
     let mut mesh = Mesh::default();
     mesh.positions
         .extend([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
@@ -260,7 +260,7 @@ fn charts_too_small_for_a_texel_are_reported() {
 }
 
 #[test]
-fn an_atlas_that_takes_more_memory_than_there_is_is_refused_before_it_is_taken() {
+fn an_atlas_that_needs_too_much_memory_is_refused_before_allocation() {
     // Charts of the whole square: 4 at 2048 texels have 16 MiB of texels with 8 bytes each.
     let mut mesh = square(Frame::straight([0.0, 0.0], 1.0), 1);
     let one = mesh.clone();

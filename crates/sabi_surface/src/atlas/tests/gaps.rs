@@ -1,4 +1,4 @@
-//! Parts of a chart that lie close to each other in UV alone are placed apart.
+//! Parts of a chart that are close to each other in UV but not on the surface are placed separately.
 
 use std::collections::BTreeSet;
 
@@ -16,13 +16,13 @@ use crate::model::Mesh;
 
 const SIZE: u32 = 256;
 
-/// Texels.
+/// Width of a tooth in texels.
 const TOOTH: f64 = 8.0;
 const LENGTH: f64 = 80.0;
 const BACK: f64 = 12.0;
 const ROW: f64 = 4.0;
 
-/// A comb: teeth in a row on a back, one chart. In space every other tooth is bent down and those between them up.
+/// Creates a comb: teeth in a row on a strip, forming one chart. In space every other tooth is bent down and the others are bent up.
 pub(super) fn comb(teeth: u32, gap: f64, turn: f64) -> Mesh {
     let mut mesh = Mesh::default();
     let columns = 2 * teeth;
@@ -55,8 +55,8 @@ pub(super) fn comb(teeth: u32, gap: f64, turn: f64) -> Mesh {
     mesh
 }
 
-/// The farthest that a texel of a tooth is, on the surface, from what is read up to two texels away. Texels near the back,
-/// where teeth lie close to each other, do not count.
+/// Returns the largest distance, on the surface, between a texel of a tooth and the points read up to two texels away from
+/// it. Texels near the strip, where teeth are close to each other, do not count.
 fn farthest_read(mesh: &Mesh, atlas: &Atlas) -> (f64, usize) {
     let position = |triangle: u32, texel: [f64; 2]| {
         let chart = &atlas.charts[atlas.triangle_chart[triangle as usize] as usize];
@@ -95,7 +95,7 @@ fn farthest_read(mesh: &Mesh, atlas: &Atlas) -> (f64, usize) {
 
 #[test]
 fn no_texel_reads_across_a_narrow_gap_of_its_chart() {
-    // Two texels each way on a slope of two.
+    // Two texels in each direction on a slope of two.
     let straight = 40.0_f64.sqrt();
     for gap in [0.2, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0] {
         for turn in [0.0, 0.3, std::f64::consts::FRAC_PI_4] {
@@ -113,8 +113,8 @@ fn no_texel_reads_across_a_narrow_gap_of_its_chart() {
 }
 
 #[test]
-fn a_chart_is_divided_at_narrow_gaps_alone() {
-    // Teeth with another one between them may stay together.
+fn a_chart_is_divided_only_at_narrow_gaps() {
+    // Teeth that have another tooth between them may stay in one part.
     for (teeth, gap, charts) in [
         (2, 12.0, 1..=1),
         (5, 6.0, 1..=1),
@@ -139,7 +139,7 @@ fn a_chart_is_divided_at_narrow_gaps_alone() {
 }
 
 #[test]
-fn gaps_are_parted_even_when_there_are_too_many_to_look_for_good_cuts() {
+fn all_gaps_are_separated_even_if_there_are_too_many_to_find_good_cuts() {
     let mesh = comb(12, 2.0, 0.0);
     let topology = Topology::new(&mesh);
     let uvs = Uvs::check(&mesh, SIZE).unwrap();
@@ -218,8 +218,8 @@ fn copies_are_divided_alike_whatever_the_order_of_their_triangles() {
 }
 
 #[test]
-fn a_chart_whose_parts_would_take_too_much_room_stays_whole_with_a_warning() {
-    // Teeth of two texels, half a texel apart: each takes six texels with its rings.
+fn a_chart_whose_parts_would_be_too_large_stays_whole_with_a_warning() {
+    // Teeth of two texels, half a texel apart. Each takes six texels including its rings.
     let size = 64;
     for (teeth, is_whole) in [(20, false), (700, true)] {
         let atlas = Atlas::build(&comb(teeth, 2.0, 0.0), &AtlasOptions::new(size)).unwrap();

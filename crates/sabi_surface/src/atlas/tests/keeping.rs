@@ -6,7 +6,7 @@ use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions, atlas_key, cached};
 
 #[test]
-fn an_atlas_comes_back_from_disk_as_it_was() {
+fn an_atlas_is_read_back_from_disk_unchanged() {
     let folder = tempfile::tempdir().unwrap();
     for (mesh, size) in [(cube(3), 128), (ball(8), 64)] {
         for page_limit in [8192, 104] {
@@ -61,7 +61,7 @@ fn a_damaged_file_is_replaced() {
 }
 
 #[test]
-fn bytes_that_only_look_like_an_atlas_are_refused() {
+fn bytes_that_only_resemble_an_atlas_are_refused() {
     let bytes = crate::atlas::codec::encode(&Atlas::build(&cube(1), &AtlasOptions::new(32)).unwrap());
     let mut dice = Dice(11);
     for _ in 0..2000 {
@@ -69,7 +69,7 @@ fn bytes_that_only_look_like_an_atlas_are_refused() {
         let at = dice.next() as usize % bytes.len();
         damaged[at] = dice.next() as u8;
         damaged.truncate(bytes.len() - (dice.next() % 3) as usize * 7);
-        // Damaged bytes may decode or not, and never panic.
+        // Damaged bytes may or may not decode, but must never cause a panic.
         let _ = crate::atlas::codec::decode(&damaged);
     }
     assert!(crate::atlas::codec::decode(&bytes[..bytes.len() - 1]).is_none());

@@ -1,11 +1,11 @@
-//! Rings of charts never touch, and charts keep their place where they can.
+//! Rings of charts never touch, and charts keep their place if possible.
 
 use super::gaps::comb;
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasError, AtlasOptions, EMPTY, GHOST_BIT, Owner, RINGS, TILE};
 use crate::model::Mesh;
 
-/// Charts of any size and turn, anywhere, on top of one another.
+/// Creates charts of random size, rotation and place, which may cover each other.
 fn scattered(seed: u32, charts: u32) -> Mesh {
     let mut dice = Dice(seed);
     let mut mesh = Mesh::default();
@@ -27,7 +27,7 @@ fn scattered(seed: u32, charts: u32) -> Mesh {
     mesh
 }
 
-/// Every texel within the rings around owned texels of a chart is a ghost of that chart or owned by it.
+/// Asserts that every texel within the rings around owned texels of a chart is owned by that chart or is its ghost.
 fn assert_rings_are_whole(atlas: &Atlas) {
     let [width, height] = atlas.page_size.map(i64::from);
     let ring = i64::from(RINGS);
@@ -121,7 +121,7 @@ fn charts_spread_over_pages_when_one_is_full() {
 }
 
 #[test]
-fn a_clean_layout_stays_where_it_is() {
+fn a_valid_layout_keeps_its_place() {
     let mesh = cube(2);
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(256)).unwrap();
     assert_eq!(atlas.page_size, [256, 256]);
@@ -130,7 +130,7 @@ fn a_clean_layout_stays_where_it_is() {
 }
 
 #[test]
-fn a_layout_that_touches_the_border_moves_as_one() {
+fn a_layout_that_touches_the_border_is_moved_as_a_whole() {
     let mesh = square(Frame::straight([0.5, 0.5], 1.0), 2);
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(64)).unwrap();
     assert_eq!(atlas.page_size, [80, 80]);
@@ -181,11 +181,11 @@ fn a_chart_that_overlaps_itself_is_split() {
         }
     }
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(128)).unwrap();
-    // At least three; a full turn is divided again, since its end lies beside its start.
+    // At least three. A full turn is divided again, since its end lies beside its start.
     assert!((3..=8).contains(&atlas.charts.len()), "{} charts", atlas.charts.len());
     assert_whole(&atlas, &mesh);
     assert_eq!(atlas.report.unlinked_ghosts, 0);
-    // Three rings' worth of texels, none lost.
+    // All texels of three turns, with no texel lost.
     let ring = std::f64::consts::PI * (0.45f64.powi(2) - 0.2f64.powi(2)) * 128.0 * 128.0;
     let owned: u32 = atlas.charts.iter().map(|chart| chart.texels).sum();
     assert!(

@@ -1,4 +1,4 @@
-//! Links lead where a straight line over the surface leads.
+//! Links lead to the point that a straight line over the surface reaches.
 
 use glam::{DMat2, DVec2, DVec3};
 
@@ -48,7 +48,7 @@ struct Case {
     /// The anchor triangle's texel axes in space.
     axes: [DVec3; 2],
     end: DVec3,
-    /// The images of those axes after the walk.
+    /// These axes after the walk.
     carried: [DVec3; 2],
     start_metric: [f64; 3],
     end_metric: [f64; 3],
@@ -82,8 +82,8 @@ fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<Case> {
     atlas.ghosts.iter().map(case).collect()
 }
 
-/// Returns the end of a straight line over the cube from −½ to ½, and the vectors carried along, from the geometry of its
-/// faces.
+/// Returns the end of a straight line over the cube from −½ to ½, and the vectors transported along it, computed from the
+/// geometry of the cube.
 fn over_the_cube(mut at: DVec3, mut step: DVec3, mut vectors: [DVec3; 2]) -> (DVec3, [DVec3; 2]) {
     let mut face = (0..3).max_by(|&a, &b| at[a].abs().total_cmp(&at[b].abs())).unwrap();
     let mut normal = DVec3::ZERO;
@@ -107,7 +107,7 @@ fn over_the_cube(mut at: DVec3, mut step: DVec3, mut vectors: [DVec3; 2]) -> (DV
         at += step * time;
         let mut over = DVec3::ZERO;
         over[axis] = step[axis].signum();
-        // The component across the edge turns into the plane of the next face.
+        // The component across the edge is rotated into the plane of the next face.
         let turn = |v: DVec3| {
             let out = v.dot(over);
             v - over * out - normal * out
@@ -133,7 +133,7 @@ fn links_over_a_cube_of_turned_and_mirrored_charts_end_where_straight_lines_end(
         for case in cases(&mesh, &atlas) {
             let (end, carried) = over_the_cube(case.start, case.step, case.axes);
             if case.end.distance(end) > 1e-5 {
-                // Through a corner of the cube either way is straight.
+                // Through a corner of the cube, both ways around are straight.
                 pulled += u32::from(case.start.abs().min_element() < 0.47);
                 continue;
             }
@@ -170,7 +170,7 @@ fn carrying_vectors_keeps_their_lengths_and_angles() {
             all += 1;
             linked += usize::from((0..3).all(|k| (found[k] - case.start_metric[k]).abs() <= 1e-4 * scale));
         }
-        // Unlinked ghosts read their anchor, with the identity as their matrix.
+        // Unlinked ghosts read their anchor with the identity matrix.
         assert!(
             linked + atlas.report.unlinked_ghosts as usize >= all,
             "{linked} of {all}"
@@ -180,7 +180,7 @@ fn carrying_vectors_keeps_their_lengths_and_angles() {
 }
 
 #[test]
-fn a_strip_cut_in_two_charts_is_one_plane_to_its_links() {
+fn a_strip_cut_into_two_charts_is_one_plane_for_its_links() {
     let mut mesh = Mesh::default();
     let left = Frame {
         center: [0.25, 0.3],
@@ -197,7 +197,7 @@ fn a_strip_cut_in_two_charts_is_one_plane_to_its_links() {
     patch(&mut mesh, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], left, 3);
     patch(&mut mesh, [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], right, 3);
     let atlas = atlas(&mesh, 256);
-    // Beyond the strip's border it is mirrored.
+    // Beyond the border of the strip the line is mirrored.
     let fold = |value: f64, high: f64| {
         if value < 0.0 {
             -value
@@ -218,7 +218,7 @@ fn a_strip_cut_in_two_charts_is_one_plane_to_its_links() {
 }
 
 #[test]
-fn links_fold_over_the_edge_of_two_sheets_at_a_right_angle() {
+fn links_bend_over_the_edge_of_two_sheets_at_a_right_angle() {
     let mut mesh = Mesh::default();
     patch(
         &mut mesh,
@@ -247,7 +247,7 @@ fn links_fold_over_the_edge_of_two_sheets_at_a_right_angle() {
 }
 
 #[test]
-fn a_border_turns_links_back() {
+fn links_are_mirrored_at_a_border() {
     let mesh = square(
         Frame {
             center: [0.5, 0.5],
@@ -274,7 +274,7 @@ fn a_border_turns_links_back() {
         elsewhere += u32::from(case.end.distance(expected) > 1e-5);
         let turned = case.transport.determinant();
         let corner = [0, 1].iter().all(|&axis| !(0.0..=1.0).contains(&straight[axis]));
-        // Once mirrored, or twice at a corner.
+        // Mirrored once, or twice at a corner.
         assert!(
             (turned - if corner { 1.0 } else { -1.0 }).abs() < 1e-4,
             "{turned} at {straight:?}"

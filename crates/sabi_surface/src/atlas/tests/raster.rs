@@ -1,4 +1,4 @@
-//! Every center belongs to the triangle that holds it, and to one only.
+//! Every texel center belongs to exactly one of the triangles that contain it.
 
 use super::shapes::*;
 use crate::atlas::fixed::{UNIT, Uvs};
@@ -20,7 +20,7 @@ fn a_fan_of_triangles_covers_each_center_exactly_once() {
     let mut dice = Dice(7);
     for _ in 0..200 {
         let hub = [dice.between(2000.0, 8000.0) as i64, dice.between(2000.0, 8000.0) as i64];
-        // Corners on centers and on texel borders are the hard ones.
+        // Corners on texel centers and on texel borders are the difficult cases.
         let snap = |value: i64| if value % 3 == 0 { value & -128 } else { value };
         let hub = hub.map(snap);
         let rim = [[128, 128], [9856, 128], [9856, 9856], [128, 9856]];
@@ -43,7 +43,7 @@ fn a_fan_of_triangles_covers_each_center_exactly_once() {
 }
 
 #[test]
-fn spans_are_the_centers_that_exact_edge_functions_find() {
+fn spans_contain_the_centers_that_exact_edge_functions_find() {
     let side = 32;
     let mut dice = Dice(3);
     for _ in 0..500 {
@@ -76,7 +76,7 @@ fn spans_are_the_centers_that_exact_edge_functions_find() {
 }
 
 #[test]
-fn every_covered_center_belongs_to_a_triangle_that_holds_it() {
+fn every_covered_center_belongs_to_a_triangle_that_contains_it() {
     for (mesh, size) in [(cube(5), 200), (ball(9), 128)] {
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
         let uvs = Uvs::check(&mesh, size).unwrap();
@@ -101,7 +101,7 @@ fn every_covered_center_belongs_to_a_triangle_that_holds_it() {
 }
 
 #[test]
-fn owners_answer_for_any_texel() {
+fn the_owner_can_be_queried_for_any_texel() {
     let atlas = Atlas::build(&cube(1), &AtlasOptions::new(64)).unwrap();
     assert_eq!(atlas.owner(0, 0, 7), Owner::Empty);
     assert_eq!(atlas.owner(u32::MAX, u32::MAX, 0), Owner::Empty);
@@ -115,7 +115,7 @@ fn owners_answer_for_any_texel() {
 }
 
 #[test]
-fn moving_the_layout_by_whole_texels_moves_the_atlas_and_changes_nothing() {
+fn moving_the_layout_by_whole_texels_only_moves_the_atlas() {
     let size = 256;
     let build = |shift: [f32; 2]| {
         let mut mesh = Mesh::default();
@@ -125,7 +125,7 @@ fn moving_the_layout_by_whole_texels_moves_the_atlas_and_changes_nothing() {
             Frame::straight([0.25, 0.25], 0.25),
             3,
         );
-        // Exact in single precision, so that only whole texels change.
+        // Exact in single precision, so that the UVs move by exactly whole texels.
         for uv in &mut mesh.uvs {
             *uv = [0, 1].map(|axis| (uv[axis] * 4096.0).round() / 4096.0 + shift[axis]);
         }

@@ -1,4 +1,4 @@
-//! The report counts what is there.
+//! The report counts correctly.
 
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions};
@@ -34,9 +34,9 @@ fn stacked_and_mirrored_copies_are_found() {
     let report = &atlas.report;
     assert_eq!(report.overlapping_charts, [(0, 1, 256), (0, 2, 256), (1, 2, 256)]);
     assert_eq!(report.overlap_texels, 3 * 256);
-    // The mirrored one has its diagonals the other way round, but the same texels.
+    // The mirrored copy has its diagonals in the other direction, but covers the same texels.
     assert_eq!(report.stacked_charts, 2);
-    // A patch whose v grows upward is a mirrored one by glTF's convention, and the mirrored one is not.
+    // By glTF's convention, a patch whose v grows upward counts as mirrored, and its mirror image does not.
     assert_eq!(report.mirrored_charts, 3);
     assert_eq!(report.coverage, 4.0 * 256.0 / 4096.0);
     assert_eq!(report.border_edges, 4 * 8);
@@ -52,7 +52,7 @@ fn charts_in_other_tiles_overlap_as_repeating_textures_do() {
     let mut mesh = Mesh::default();
     patch(&mut mesh, at(0.0), Frame::straight([0.25, 0.25], 0.25), 1);
     patch(&mut mesh, at(2.0), Frame::straight([3.25, -1.75], 0.25), 1);
-    // Over the border of the square: half of it comes in again on the left.
+    // Across the border of the square: half of it is wrapped to the left side.
     patch(&mut mesh, at(4.0), Frame::straight([1.0, 0.75], 0.25), 1);
     patch(&mut mesh, at(6.0), Frame::straight([0.0, 0.75], 0.25), 1);
     let atlas = build(&mesh, 64);
@@ -68,7 +68,7 @@ fn charts_in_other_tiles_overlap_as_repeating_textures_do() {
 }
 
 #[test]
-fn materials_have_a_unit_square_each_and_links_cross_them() {
+fn each_material_has_its_own_unit_square_and_links_cross_between_them() {
     let mut mesh = Mesh::default();
     patch(&mut mesh, at(0.0), Frame::straight([0.5, 0.5], 0.5), 1);
     patch(&mut mesh, at(1.0), Frame::straight([0.5, 0.5], 0.5), 1);
@@ -85,7 +85,7 @@ fn materials_have_a_unit_square_each_and_links_cross_them() {
 }
 
 #[test]
-fn a_texture_that_repeats_within_one_chart_is_no_overlap_of_charts() {
+fn a_texture_that_repeats_within_one_chart_does_not_count_as_overlap() {
     let atlas = build(&square(Frame::straight([0.5, 0.5], 3.0), 2), 64);
     assert_eq!(atlas.charts.len(), 1);
     assert_eq!(atlas.report.overlap_texels, 0);
@@ -93,7 +93,7 @@ fn a_texture_that_repeats_within_one_chart_is_no_overlap_of_charts() {
 }
 
 #[test]
-fn uneven_texels_are_told() {
+fn texels_of_uneven_size_are_reported() {
     let mut mesh = Mesh::default();
     patch(&mut mesh, at(0.0), Frame::straight([0.3, 0.3], 0.5), 1);
     patch(&mut mesh, at(2.0), Frame::straight([0.8, 0.8], 0.1), 1);
@@ -104,7 +104,7 @@ fn uneven_texels_are_told() {
 }
 
 #[test]
-fn a_tiling_wall_of_many_stacked_charts_is_counted_in_bounds() {
+fn many_stacked_charts_of_a_tiling_wall_are_counted_in_limited_time() {
     let mut mesh = Mesh::default();
     for brick in 0..400 {
         patch(

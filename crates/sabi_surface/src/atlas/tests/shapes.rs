@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::model::Mesh;
 
-/// PCG hash: the same numbers on every run.
+/// Generator of numbers that are the same in every run (PCG hash).
 pub(super) struct Dice(pub(super) u32);
 
 impl Dice {
@@ -14,7 +14,7 @@ impl Dice {
         (word >> 22) ^ word
     }
 
-    /// 0 to 1.
+    /// Returns a number from 0 to 1.
     pub(super) fn unit(&mut self) -> f64 {
         f64::from(self.next()) / f64::from(u32::MAX)
     }
@@ -24,7 +24,7 @@ impl Dice {
     }
 }
 
-/// An affine map from a patch's own coordinates to UV: turned by `turn` radians about `center`.
+/// An affine map from a patch's own coordinates to UV: rotated by `turn` radians about `center`.
 #[derive(Clone, Copy)]
 pub(super) struct Frame {
     pub(super) center: [f64; 2],
@@ -51,7 +51,7 @@ impl Frame {
     }
 }
 
-/// Adds a grid of `cells × cells` quads over `origin + x·a + y·b`, x and y from 0 to 1, as a chart of its own.
+/// Adds a grid of `cells × cells` quads over `origin + x·a + y·b`, with x and y from 0 to 1, as a separate chart.
 pub(super) fn patch(mesh: &mut Mesh, axes: [[f64; 3]; 3], frame: Frame, cells: u32) {
     let [origin, a, b] = axes.map(DVec3::from);
     let first = mesh.positions.len() as u32;
@@ -79,7 +79,7 @@ pub(super) fn triangle(mesh: &mut Mesh, corners: [u32; 3]) {
     mesh.triangle_part.push(0);
 }
 
-/// A cube from −½ to ½ with six charts, turned by odd angles, of several sizes, some mirrored.
+/// Creates a cube from −½ to ½ with six charts of several sizes, rotated by odd angles, some mirrored.
 pub(super) fn cube(cells: u32) -> Mesh {
     let mut mesh = Mesh::default();
     let turns = [0.0f64, 30.0, 90.0, 200.0, 45.0, 137.0];
@@ -124,7 +124,7 @@ pub(super) fn ball(cells: u32) -> Mesh {
     for row in 0..=cells {
         for column in 0..=2 * cells {
             let latitude = std::f64::consts::PI * (f64::from(row) / f64::from(cells) - 0.5);
-            // The last column closes the ball: the same place to the bit.
+            // The last column closes the ball with exactly the same positions as the first.
             let around = f64::from(column % (2 * cells)) / f64::from(2 * cells);
             let longitude = std::f64::consts::TAU * around;
             let ring = if row == 0 || row == cells { 0.0 } else { latitude.cos() };
@@ -139,7 +139,7 @@ pub(super) fn ball(cells: u32) -> Mesh {
     for row in 0..cells {
         for column in 0..2 * cells {
             let at = row * width + column;
-            // At the poles one of the two would be a line.
+            // At the poles, one of the two triangles would have no area.
             if row + 1 < cells {
                 triangle(&mut mesh, [at, at + width, at + width + 1]);
             }

@@ -1,4 +1,4 @@
-//! UDIM tiles told apart from textures that repeat.
+//! UDIM tiles are distinguished from textures that repeat.
 
 use std::collections::BTreeSet;
 
@@ -42,7 +42,7 @@ fn is_udim(mesh: &Mesh, udim: Udim) -> bool {
 }
 
 #[test]
-fn several_tiles_are_udim_unless_something_tells_of_a_repeating_texture() {
+fn several_tiles_are_udim_unless_a_texture_seems_to_repeat() {
     let cases = [
         (
             "different charts in two tiles",
@@ -109,14 +109,14 @@ fn several_tiles_are_udim_unless_something_tells_of_a_repeating_texture() {
 }
 
 #[test]
-fn a_corner_on_a_border_between_steps_does_not_hide_that_charts_are_alike() {
+fn corners_on_a_rounding_border_do_not_hide_that_charts_are_congruent() {
     // 0.5 is a border of the comparison; three units further its sum is rounded down.
     let mesh = squares(&[([0.5, 0.25], 0.3), ([3.499_999_8, 0.25], 0.3)]);
     assert!(!is_udim(&mesh, Udim::Auto));
 }
 
 #[test]
-fn a_texture_of_the_model_that_repeats_is_no_udim() {
+fn a_model_with_a_repeating_texture_is_not_udim() {
     let mesh = Mesh {
         repeating: BTreeSet::from([0]),
         ..squares(&[([0.1, 0.1], 0.5), ([1.2, 0.1], 0.6)])
@@ -126,7 +126,7 @@ fn a_texture_of_the_model_that_repeats_is_no_udim() {
 }
 
 #[test]
-fn udim_can_be_asked_for_and_refused() {
+fn udim_can_be_turned_on_and_off() {
     let alike = squares(&[([0.1, 0.1], 0.5), ([1.1, 0.1], 0.5)]);
     assert!(is_udim(&alike, Udim::On));
     let different = squares(&[([0.1, 0.1], 0.5), ([1.2, 0.1], 0.6)]);
@@ -134,8 +134,8 @@ fn udim_can_be_asked_for_and_refused() {
 }
 
 #[test]
-fn udim_that_is_asked_for_refuses_tiles_without_a_number() {
-    // v grows downward; programs that show tiles count it upward.
+fn udim_refuses_tiles_without_a_number() {
+    // v grows downward here, but programs that show tiles count it upward.
     for (place, u, v) in [
         ([-0.8, 0.1], -1, 0),
         ([10.2, 0.1], 10, 0),
@@ -164,7 +164,7 @@ fn udim_that_is_asked_for_refuses_tiles_without_a_number() {
 }
 
 #[test]
-fn uvs_that_repeat_too_often_are_found_and_udim_and_stacks_are_not() {
+fn only_uvs_that_repeat_too_often_are_found_not_udim_or_stacks() {
     let times = |mesh: &Mesh, udim: Udim| {
         let found = repeats(mesh, udim);
         found
@@ -198,8 +198,8 @@ fn uvs_that_repeat_too_often_are_found_and_udim_and_stacks_are_not() {
 }
 
 #[test]
-fn charts_that_cover_more_than_an_atlas_holds_are_refused_before_a_texel_is_covered() {
-    // 256 charts of a whole map of 2048² are twice what an atlas holds.
+fn charts_with_too_many_texels_are_refused_before_rasterization() {
+    // 256 charts of a whole map of 2048² texels are twice the maximum of an atlas.
     let stacked: Vec<([f32; 2], f32)> = (0..256).map(|_| ([0.0, 0.0], 1.0)).collect();
     let error = Atlas::build(&squares(&stacked), &AtlasOptions::new(2048)).unwrap_err();
     let AtlasError::TooManyTexels { charts, needed, .. } = error else {

@@ -8,7 +8,7 @@ fn half_side(mesh: &Mesh) -> f32 {
     values.fold(0.0, |most: f32, at| most.max(at.abs()))
 }
 
-/// The place on the mesh that a texel of a chart shows, extended over the edge of the triangle it is nearest to.
+/// Returns the point of the mesh at a texel of a chart, extrapolated from the nearest triangle if it is outside of the chart.
 fn place_of(mesh: &Mesh, atlas: &Atlas, chart: u32, texel: [f32; 2]) -> Vec3 {
     let of_chart = (0..mesh.triangles.len()).filter(|triangle| atlas.triangle_chart[*triangle] == chart);
     let places = of_chart.map(|triangle| {
@@ -24,7 +24,7 @@ fn place_of(mesh: &Mesh, atlas: &Atlas, chart: u32, texel: [f32; 2]) -> Vec3 {
 }
 
 #[test]
-fn a_cube_that_sinks_or_rises_evenly_is_a_smaller_or_larger_cube() {
+fn a_cube_with_constant_heights_becomes_a_smaller_or_larger_cube() {
     let (mesh, atlas) = asset("cube.glb");
     let half = half_side(&mesh);
     for height in [-0.1, -0.02, 0.05] {
@@ -53,10 +53,10 @@ fn places_keep_their_order_beside_a_sunk_edge() {
 }
 
 #[test]
-fn heights_that_are_a_chamfer_make_a_plane_over_the_edge() {
+fn chamfer_heights_give_a_plane_over_the_edge() {
     let (mesh, atlas) = asset("cube.glb");
     let (half, width) = (half_side(&mesh), 0.2);
-    // The two largest coordinates: of the face, and of the nearest edge.
+    // The two largest coordinates: that of the face, and that of the nearest edge.
     let sorted = |at: Vec3| {
         let mut values = at.abs().to_array();
         values.sort_by(|a, b| b.total_cmp(a));
@@ -82,7 +82,7 @@ fn heights_that_are_a_chamfer_make_a_plane_over_the_edge() {
 }
 
 #[test]
-fn a_cracked_cube_keeps_inside_its_faces() {
+fn a_cube_with_sunk_cracks_stays_inside_its_faces() {
     let (mesh, atlas) = asset("cube.glb");
     let half = half_side(&mesh);
     let rough = |chart: u32, [x, y]: [f32; 2]| Some(-0.08 * noise(&[chart, x as u32 / 4, y as u32 / 4]));

@@ -1,4 +1,4 @@
-//! The tree of elements, and what is said about all of it.
+//! The tree of elements, and properties of the whole file.
 
 use sabi_cancel::Looking as _;
 use std::collections::HashMap;
@@ -11,7 +11,8 @@ use crate::load::error::{Fault, damaged};
 use crate::load::numbers::number;
 use crate::load::warnings::Warnings;
 
-/// Most attributes of an element. The parser compares each with all before it; elements of COLLADA have ten at most.
+/// Maximum number of attributes of an element. The parser compares each attribute with all before it. Elements of COLLADA
+/// have ten at most.
 const MOST_ATTRIBUTES: usize = 1000;
 
 /// Memory of an element with the text behind it.
@@ -40,8 +41,8 @@ pub(super) fn parsed(text: &str, memory_bytes: u64) -> Result<roxmltree::Documen
         .or_else(|error| damaged(format!("its XML cannot be read ({error})")))
 }
 
-/// Returns the largest number of attributes of any element, counted by their signs of equality outside of quotes; none without
-/// elements. Text and comments count as elements where they have the marks of these.
+/// Returns the largest number of attributes of any element, counted by equals signs outside of quotes; `None` if there are
+/// no elements. Text and comments that look like elements are counted, too.
 fn most_attributes(text: &str) -> Option<usize> {
     let tags = text.split('<').skip(1);
     let count = |tag: &str| {
@@ -65,7 +66,7 @@ fn most_attributes(text: &str) -> Option<usize> {
 pub(super) struct Document<'d> {
     pub(super) root: Node<'d, 'd>,
     ids: HashMap<&'d str, Node<'d, 'd>>,
-    /// To meters and +Y up.
+    /// Transform to meters and +Y up.
     pub(super) file_from_scene: DMat4,
 }
 
@@ -83,7 +84,7 @@ impl<'d> Document<'d> {
         }
         let asset = child(root, "asset");
         let unit = asset.and_then(|asset| child(asset, "unit")?.attribute("meter"));
-        // The unit of a file that names none is a meter.
+        // If the file declares no unit, it is a meter.
         let unit = unit.map_or(1.0, |unit| meters(unit, warnings));
         let up = asset.and_then(|asset| child(asset, "up_axis")?.text());
         let up = match up.map(str::trim) {
@@ -104,7 +105,7 @@ impl<'d> Document<'d> {
         })
     }
 
-    /// The element that a reference such as `#shape` names.
+    /// Returns the element to which a reference such as `#shape` refers.
     pub(super) fn target(&self, reference: &str) -> Option<Node<'d, 'd>> {
         self.by_id(reference.strip_prefix('#')?)
     }
@@ -114,7 +115,7 @@ impl<'d> Document<'d> {
         self.ids.get(id).copied()
     }
 
-    /// The element that an attribute of a node references.
+    /// Returns the element to which an attribute of a node refers.
     pub(super) fn referenced(&self, node: Node<'_, '_>, attribute: &str) -> Option<Node<'d, 'd>> {
         self.target(node.attribute(attribute)?)
     }
@@ -125,7 +126,7 @@ impl<'d> Document<'d> {
     }
 }
 
-/// The length of a file's unit, which is a meter where it is no length.
+/// Returns the length of a file's unit in meters; 1 if it is not a valid length.
 fn meters(written: &str, warnings: &mut Warnings) -> f64 {
     let length = number(written.trim(), warnings);
     length
@@ -153,7 +154,7 @@ pub(super) fn text<'d>(node: Node<'d, 'd>) -> &'d str {
     node.text().map_or("", str::trim)
 }
 
-/// The numbers of a text. Words that are no number are NaN.
+/// Returns the numbers of a text. Words that are not numbers become NaN.
 pub(super) fn numbers(node: Node<'_, '_>, warnings: &mut Warnings) -> Vec<f64> {
     let words = node.text().map_or("", str::trim).split_ascii_whitespace();
     let numbers = words.looking().map(|word| number(word, warnings).unwrap_or(f64::NAN));

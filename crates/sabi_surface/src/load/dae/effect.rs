@@ -17,10 +17,10 @@ use crate::model::{ModelMaterial, TextureRef};
 /// Materials of the file, and how the instances use them.
 pub(super) struct Looks<'d, 'r> {
     document: &'r Document<'d>,
-    /// In the file's order.
+    /// Materials in the file's order.
     materials: Vec<Node<'d, 'd>>,
     by_id: BTreeMap<&'d str, u32>,
-    /// UV set of a material's textures by the name that these have for it, as the first instance says.
+    /// UV set of a material's textures, by the name that the material uses for the set, according to the first instance.
     sets: BTreeMap<(u32, &'d str), u32>,
 }
 
@@ -40,8 +40,8 @@ impl<'d, 'r> Looks<'d, 'r> {
         }
     }
 
-    /// Returns the material of the file for each symbol of a geometry, and notes the UV sets that the instance gives their
-    /// textures.
+    /// Returns the material of the file for each symbol of a geometry, and records the UV sets that the instance assigns to
+    /// their textures.
     pub(super) fn bound(&mut self, shown: &Shown<'d>, geometry: &Geometry<'d>) -> Vec<u32> {
         let techniques = child(shown.instance, "bind_material").and_then(|bound| child(bound, "technique_common"));
         let bindings = techniques
@@ -57,7 +57,7 @@ impl<'d, 'r> Looks<'d, 'r> {
             by_symbol.entry(symbol).or_insert(material);
             for input in children(binding, "bind_vertex_input") {
                 let set = input.attribute("input_set").and_then(|set| set.parse().ok());
-                // Without a number it is the first set.
+                // Without a number, the first set is used.
                 let set = set.map_or(Some(0), |set| geometry.uv_set(set));
                 if let (Some(semantic), Some(set)) = (input.attribute("semantic"), set) {
                     self.sets.entry((material, semantic)).or_insert(set);
@@ -66,7 +66,7 @@ impl<'d, 'r> Looks<'d, 'r> {
         }
         let material = |symbol: &&str| {
             let bound = by_symbol.get(symbol).copied();
-            // Some programs write the material itself instead of a symbol.
+            // Some programs write the id of the material instead of a symbol.
             bound.or_else(|| self.by_id.get(symbol).copied()).unwrap_or(NONE)
         };
         geometry.symbols.iter().map(material).collect()
@@ -77,7 +77,7 @@ impl<'d, 'r> Looks<'d, 'r> {
         let materials = self.materials.iter().zip(0..);
         let read = materials.map(|(node, number)| {
             let name = node.attribute("name").filter(|name| !name.is_empty());
-            // Without a name and an id it is unnamed.
+            // A material without name and id is unnamed.
             let name = name.or(node.attribute("id")).unwrap_or_default().to_string();
             let effect = child(*node, "instance_effect");
             let effect = effect.and_then(|effect| self.document.referenced(effect, "url"));
@@ -118,7 +118,7 @@ impl<'d> Effect<'_, 'd> {
         };
         let models = ["phong", "blinn", "lambert", "constant"];
         if let Some(model) = models.into_iter().find_map(|model| child(technique, model)) {
-            // A material that is not lit has its color as emission, and no other.
+            // An unlit material has only its color, as emission.
             let diffuse = child(model, "diffuse");
             material.base_color = diffuse.and_then(|diffuse| self.texture(diffuse, "base color"));
             if let Some([r, g, b, _]) = diffuse.and_then(|diffuse| self.color(diffuse)) {
@@ -137,7 +137,8 @@ impl<'d> Effect<'_, 'd> {
         material
     }
 
-    /// COLLADA 1.4, 7.3: opacity by the alpha of a color (`A_ONE`), or transparency by its luminance (`RGB_ZERO`).
+    /// Reads the opacity, which is the alpha of a color (`A_ONE`) or follows from its luminance as transparency
+    /// (`RGB_ZERO`); COLLADA 1.4, 7.3.
     fn read_opacity(&mut self, model: Node<'d, 'd>, material: &mut ModelMaterial) {
         let transparent = child(model, "transparent");
         let amount = child(model, "transparency").and_then(|amount| child(amount, "float"));
@@ -159,7 +160,7 @@ impl<'d> Effect<'_, 'd> {
         set_opacity(material, opacity, self.warnings);
     }
 
-    /// Reads what programs add: a normal map, and whether both sides are seen.
+    /// Reads common extensions: a normal map, and whether both sides are visible.
     fn read_extras(&mut self, technique: Node<'d, 'd>, material: &mut ModelMaterial) {
         let extras = children(technique, "extra").chain(children(self.profile, "extra"));
         let extras: Vec<Node> = extras.flat_map(|extra| children(extra, "technique")).collect();
@@ -180,7 +181,7 @@ impl<'d> Effect<'_, 'd> {
         }
     }
 
-    /// The value of a color: four finite numbers, or three of an opaque one.
+    /// Returns a color from four finite numbers, or from three for an opaque color.
     fn color(&mut self, of: Node<'d, 'd>) -> Option<[f32; 4]> {
         let numbers = numbers(child(of, "color")?, self.warnings);
         match numbers[..] {
@@ -212,7 +213,7 @@ impl<'d> Effect<'_, 'd> {
         let path = path(image);
         let id = image.attribute("id").unwrap_or(path);
         let number = self.pictures.number(id, || place(path));
-        // Textures without a name for their set use the first.
+        // Textures without a name for their set use the first one.
         let set = texture
             .attribute("texcoord")
             .and_then(|name| self.looks.sets.get(&(self.number, name)));
@@ -222,7 +223,8 @@ impl<'d> Effect<'_, 'd> {
         })
     }
 
-    /// The image of a sampler: through its surface in version 1.4, by itself in 1.5, or named directly.
+    /// Returns the image of a sampler, which refers to it by its surface in version 1.4, or directly in 1.5; some files
+    /// name the image itself.
     fn image(&self, sampler: &str) -> Option<Node<'d, 'd>> {
         let document = self.looks.document;
         let parameter =
@@ -240,7 +242,7 @@ impl<'d> Effect<'_, 'd> {
     }
 }
 
-/// The path of an image: a text in version 1.4, an element in 1.5.
+/// Returns the path of an image, which is a text in version 1.4 and an element in 1.5.
 fn path<'d>(image: Node<'d, 'd>) -> &'d str {
     let from = child(image, "init_from");
     let inner = from.and_then(|from| child(from, "ref")).or(from);
@@ -251,7 +253,7 @@ fn place(path: &str) -> (String, Place) {
     match Uri::parse(path) {
         Uri::Data(bytes) => ("a picture in the file".to_string(), Place::Inside(bytes.into())),
         Uri::Beside(decoded) => (file_name(&decoded), Place::Beside(places(&[&decoded, path], &[]))),
-        // Absolute paths are written with a scheme.
+        // Absolute paths are written with a URI scheme.
         Uri::Damaged(_) | Uri::Unusable(_) => (file_name(path), Place::Beside(places(&[path], &[]))),
     }
 }

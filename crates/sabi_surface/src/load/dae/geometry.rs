@@ -18,9 +18,9 @@ use crate::load::warnings::Warnings;
 pub(super) struct Geometry<'d> {
     /// Name in warnings.
     pub(super) who: String,
-    /// The `set` of its UV sets, rising: their order gives them numbers.
+    /// Values of `set` of the UV sets, ascending. The position in this list is the number of the UV set.
     pub(super) uv_sets: Vec<u32>,
-    /// Symbols of its materials, to which instances give materials.
+    /// Symbols of the materials. Instances assign materials to them.
     pub(super) symbols: Vec<&'d str>,
     pub(super) lists: Vec<List<'d>>,
 }
@@ -28,7 +28,7 @@ pub(super) struct Geometry<'d> {
 /// Polygons with one material.
 pub(super) struct List<'d> {
     polygons: Polygons<'d>,
-    /// Place in [`Geometry::symbols`]; [`NONE`] for none.
+    /// Index in [`Geometry::symbols`]; [`NONE`] without a material.
     material: u32,
 }
 
@@ -39,7 +39,7 @@ impl<'d> Geometry<'d> {
         node: Node<'d, 'd>,
         warnings: &mut Warnings,
     ) -> Result<Geometry<'d>, Fault> {
-        // A geometry that an instance names has an id.
+        // A geometry that is instantiated has at least an id.
         let name = node.attribute("name").or(node.attribute("id")).unwrap_or_default();
         let mut geometry = Geometry {
             who: format!("mesh `{name}`"),
@@ -81,7 +81,7 @@ impl<'d> Geometry<'d> {
         self.lists.iter().map(|list| list.polygons.triangles()).sum()
     }
 
-    /// The number of the UV set that the file calls `set`.
+    /// Returns the number of the UV set with the file's number `set`.
     pub(super) fn uv_set(&self, set: u32) -> Option<u32> {
         let place = self.uv_sets.binary_search(&set).ok()?;
         Some(place as u32)
@@ -168,7 +168,7 @@ fn vector(row: &[f64]) -> Option<[f32; 3]> {
     position(row).map(single)
 }
 
-/// v grows upward in the file.
+/// Returns UV coordinates. v grows upward in the file.
 fn coordinate(row: &[f64]) -> Option<[f32; 2]> {
     let [u, v] = row.first_chunk()?;
     Some(single([*u, 1.0 - v]))
@@ -177,7 +177,7 @@ fn coordinate(row: &[f64]) -> Option<[f32; 2]> {
 fn color(row: &[f64]) -> Option<[f32; 4]> {
     let light = single(*row.first_chunk::<3>()?);
     let [r, g, b] = light.map(|share| linear_from_srgb(share.clamp(0.0, 1.0)));
-    // Rows of three numbers are opaque.
+    // A color of three numbers is opaque.
     Some([r, g, b, row.get(3).map_or(1.0, |alpha| *alpha as f32)])
 }
 

@@ -7,7 +7,7 @@ use super::document::{Document, child, children};
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
-/// Most indices of a corner: there are a few attributes, and sets of texture coordinates.
+/// Maximum number of indices of a corner. A real file has a few attributes and sets of texture coordinates.
 const MOST_OFFSETS: usize = 1024;
 
 /// Attribute of the corners.
@@ -16,9 +16,9 @@ pub(super) struct Input<'d> {
     semantic: &'d str,
     /// The `source` of its numbers.
     pub(super) source: Node<'d, 'd>,
-    /// Place among the indices of a corner.
+    /// Position of the index among the indices of a corner.
     offset: usize,
-    /// Number by which a file tells texture coordinates apart.
+    /// Number by which a file distinguishes sets of texture coordinates.
     pub(super) set: u32,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Polygons<'d> {
 }
 
 impl<'d> Polygons<'d> {
-    /// Reads a list of the mesh `who`; `None` for other elements.
+    /// Reads a list of the mesh `who`; `None` if the element is not a list of polygons.
     pub(super) fn read(
         document: &Document<'d>,
         list: Node<'d, 'd>,
@@ -85,12 +85,12 @@ impl<'d> Polygons<'d> {
         Ok(Some(polygons))
     }
 
-    /// Number of triangles that the polygons become.
+    /// Returns the number of triangles into which the polygons are divided.
     pub(super) fn triangles(&self) -> u64 {
         self.counts.iter().map(|count| u64::from(*count) - 2).sum()
     }
 
-    /// The first input of a meaning.
+    /// Returns the first input with this semantic.
     pub(super) fn input(&self, semantic: &str) -> Option<Input<'d>> {
         self.inputs.iter().copied().find(|input| input.semantic == semantic)
     }
@@ -105,7 +105,7 @@ impl<'d> Polygons<'d> {
         self.indices.iter().skip(input.offset).step_by(self.stride).copied()
     }
 
-    /// Adds polygons of so many corners each.
+    /// Adds polygons with the given numbers of corners.
     fn add(&mut self, rows: &[u32], counts: impl Iterator<Item = u32>, warnings: &mut Warnings) -> Result<(), Fault> {
         let mut rest = rows;
         for count in counts.looking() {
@@ -144,12 +144,12 @@ impl<'d> Polygons<'d> {
     }
 }
 
-/// The attributes of a list's corners; those of vertices share the index of the vertex.
+/// Returns the attributes of a list's corners. Attributes of vertices share the index of the vertex.
 fn inputs<'d>(document: &Document<'d>, list: Node<'d, 'd>) -> Vec<Input<'d>> {
     let mut inputs = Vec::new();
     for input in children(list, "input") {
         let number = |name: &str| input.attribute(name).and_then(|value| value.parse().ok());
-        // Without an offset there is one index for all; without a set there is one set.
+        // Without offsets, all inputs share one index. Without sets, there is one set.
         let [offset, set] = ["offset", "set"].map(|name| number(name).unwrap_or(0u32));
         let add = |of: Node<'d, 'd>| {
             Some(Input {

@@ -12,12 +12,12 @@ use crate::load::parts::Groups;
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
-/// Most nodes that are visited: nodes may be used many times, and the nodes below them again.
+/// Maximum number of nodes that are visited: a node may be used many times, together with all nodes below it.
 const MOST_NODES: usize = 1 << 20;
-/// Most elements of all these nodes.
+/// Maximum number of elements of all visited nodes.
 const MOST_ELEMENTS: usize = 1 << 26;
 
-/// A mesh that a node shows.
+/// A mesh that a node instantiates.
 pub(super) struct Shown<'d> {
     /// The `geometry`.
     pub(super) mesh: Node<'d, 'd>,
@@ -47,7 +47,7 @@ pub(super) fn shown<'d>(
 ) -> Result<Vec<Shown<'d>>, Fault> {
     let mut joints = Joints::default();
     let mut visited: Vec<Visit> = Vec::new();
-    // An explicit stack, since a chain of nodes may be as long as the file.
+    // An explicit stack is used, since a chain of nodes may be as long as the file.
     let mut stack: Vec<Visit> = Vec::new();
     if let Some(scene) = scene(document) {
         push_nodes(children(scene, "node"), None, DMat4::IDENTITY, &mut stack);
@@ -106,7 +106,7 @@ pub(super) fn shown<'d>(
     Ok(all)
 }
 
-/// Elements of a node that a visit looks at: those directly in it, and those of the meshes that it shows.
+/// Returns the number of elements that are examined when a node is visited: those directly inside it, and those of its meshes.
 fn elements_of(node: Node<'_, '_>) -> usize {
     let instances = ["instance_geometry", "instance_controller"].into_iter();
     let below: usize = instances
@@ -116,7 +116,7 @@ fn elements_of(node: Node<'_, '_>) -> usize {
     1 + below + node.children().count()
 }
 
-/// The scene that the file shows, else its first one.
+/// Returns the scene that the file selects, otherwise its first scene.
 fn scene<'d>(document: &Document<'d>) -> Option<Node<'d, 'd>> {
     let instance = document
         .first("scene")
@@ -133,7 +133,7 @@ fn push_nodes<'d>(
 ) {
     let first = stack.len();
     stack.extend(nodes.map(|node| Visit { node, group, placed }));
-    // In reverse, so that the stack returns them in order.
+    // Reversed, so that the stack returns them in order.
     stack[first..].reverse();
 }
 
@@ -155,7 +155,7 @@ fn shown_mesh<'d>(visit: Visit<'d>, instance: Node<'d, 'd>, mesh: Node<'d, 'd>) 
     })
 }
 
-/// A mesh with a skin or morph targets, which are left out.
+/// Returns a mesh with a skin or morph targets. These are ignored.
 fn controlled<'d>(
     document: &Document<'d>,
     visit: Visit<'d>,
@@ -167,7 +167,7 @@ fn controlled<'d>(
     let mut source = document.referenced(instance, "url")?;
     let node = visit.node;
     let mut placed = visit.placed;
-    // A skin may have morph targets below it, and these a mesh.
+    // A skin may contain morph targets, and these a mesh.
     for _ in 0..2 {
         if let Some(morph) = child(source, "morph") {
             let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
@@ -186,7 +186,7 @@ fn controlled<'d>(
     shown_mesh(Visit { placed, ..visit }, instance, source)
 }
 
-/// COLLADA 1.4, 5.3.2: the transforms of a node apply in their order, the last one to the mesh first.
+/// Returns the transform of a node. Its transforms apply in order, the last one first to the mesh (COLLADA 1.4, 5.3.2).
 fn parent_from_node(node: Node<'_, '_>, warnings: &mut Warnings) -> DMat4 {
     let mut placed = DMat4::IDENTITY;
     for step in node.children() {
@@ -214,7 +214,7 @@ fn parent_from_node(node: Node<'_, '_>, warnings: &mut Warnings) -> DMat4 {
     placed
 }
 
-/// The transform of a kind with these numbers; `None` where they are none of it.
+/// Returns the transform of a kind with these numbers; `None` if they are invalid for it.
 fn transform(kind: &str, values: &[f64]) -> Option<DMat4> {
     if !values.iter().all(|value| value.is_finite()) {
         return None;

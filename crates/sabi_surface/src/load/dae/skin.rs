@@ -9,7 +9,7 @@ use super::document::{Document, child, children, numbers, text};
 use crate::load::skin_rest::{JointBudget, Placement, Rest};
 use crate::load::warnings::Warnings;
 
-/// Transforms of nodes by their ids, and by the names that skins use for joints; of several nodes the first counts.
+/// Transforms of nodes by their ids, and by the names with which skins refer to joints. If several nodes share a name, the first is used.
 #[derive(Default)]
 pub(super) struct Joints<'d>(HashMap<&'d str, DMat4>);
 
@@ -24,17 +24,17 @@ impl<'d> Joints<'d> {
     }
 }
 
-/// Rests of the skins of a file, each found once.
+/// Rest poses of the skins of a file, each computed once.
 #[derive(Default)]
 pub(super) struct Skins {
-    /// With the transform of the mesh before the joints.
+    /// Rest poses with the transform of the mesh that applies before the joints.
     known: HashMap<NodeId, (Rest, DMat4)>,
     joints: JointBudget,
 }
 
 impl Skins {
-    /// COLLADA 1.4, 4.7: a joint transforms a vertex by its own transform times its inverse bind matrix times the bind shape matrix.
-    /// At rest the transforms of all joints are equal.
+    /// Returns the transform of a skinned mesh. A joint transforms a vertex by its own transform times its inverse bind
+    /// matrix times the bind shape matrix (COLLADA 1.4, 4.7). In the rest pose these transforms are equal for all joints.
     pub(super) fn scene_from_bound<'d>(
         &mut self,
         document: &Document<'d>,
@@ -48,7 +48,7 @@ impl Skins {
             None => {
                 let shape =
                     child(skin, "bind_shape_matrix").map_or(DMat4::IDENTITY, |shape| matrix(&numbers(shape, warnings)));
-                // A skin that does not say enough leaves its mesh where its node stands.
+                // If a skin is incomplete, its mesh gets the transform of its node.
                 let rest = self
                     .rest(document, skin, shape, joints, warnings)
                     .unwrap_or(Rest::Unknown);
@@ -59,7 +59,7 @@ impl Skins {
         (rest, scene_from_node * shape)
     }
 
-    /// The rest by all joints that the scene has; `None` where the skin does not say enough.
+    /// Returns the rest pose according to all joints that exist in the scene; `None` if the skin is incomplete.
     fn rest<'d>(
         &mut self,
         document: &Document<'d>,
@@ -76,7 +76,7 @@ impl Skins {
         let names = source("JOINT")?;
         let names = child(names, "Name_array").or_else(|| child(names, "IDREF_array"))?;
         let binds = child(source("INV_BIND_MATRIX")?, "float_array")?;
-        // Skins may share them: names of a letter each, and matrices of sixteen digits, each with a space.
+        // Skins may share these lists. A name takes at least a letter and a space, and a matrix sixteen digits with a space each.
         let most = text(names).len() / 2 + text(binds).len() / 32;
         if self.joints.take(most as u64).is_none() {
             return Some(Rest::TooLarge);
@@ -94,7 +94,7 @@ impl Skins {
     }
 }
 
-/// A matrix whose rows follow each other.
+/// Returns a matrix from its rows.
 fn matrix(values: &[f64]) -> DMat4 {
     let values: Option<[f64; 16]> = values.try_into().ok();
     values.map_or(DMat4::IDENTITY, |values| DMat4::from_cols_array(&values).transpose())

@@ -27,7 +27,7 @@ impl Source {
         Source {
             numbers: child(node, "float_array")
                 .map(|array| numbers(array, warnings))
-                // A source of names has no numbers.
+                // A source of names contains no numbers.
                 .unwrap_or_default(),
             offset: number("offset").unwrap_or(0),
             // Without one it is that of the parameters, whatever the format says.
@@ -48,12 +48,12 @@ pub(super) struct Sources(HashMap<NodeId, Rc<Source>>);
 /// An attribute of the corners of polygons.
 pub(super) struct Gathered<const N: usize, T> {
     pub(super) attribute: Attribute<N, T>,
-    /// An index that the source does not have, or whose row is too short; its corners have no value.
+    /// An index that the source does not have, or whose row is too short. Its corners have no value.
     pub(super) beyond: Option<u32>,
 }
 
 impl Sources {
-    /// Returns the values of an input that corners use, in the order of their first use. `value` makes one of a row.
+    /// Returns the values of an input that corners use, in the order of their first use. `value` converts a row to a value.
     pub(super) fn gathered<'d, const N: usize, T: Default>(
         &mut self,
         polygons: &Polygons<'d>,

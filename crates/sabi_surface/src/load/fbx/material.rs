@@ -1,5 +1,5 @@
-//! Materials of the scene: those of Blender, 3ds Max, Arnold and others by their metallic-roughness values, older ones by
-//! diffuse color, shininess and transparency.
+//! Materials of the scene. Those of Blender, 3ds Max, Arnold and others are read by their metallic-roughness values, older
+//! ones by diffuse color, shininess and transparency.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::model::{ModelMaterial, TextureRef};
 pub(super) struct Looks<'s> {
     textures: Textures<'s>,
     pub(super) pictures: Pictures,
-    /// The first mesh that shows each material: its names of UV sets are those that textures use.
+    /// The first mesh that uses each material: textures refer to UV sets by the names in this mesh.
     mesh_of: BTreeMap<u32, &'s Mesh>,
 }
 
@@ -98,7 +98,7 @@ impl<'s> Looks<'s> {
     fn read_surface(&mut self, material: &Material, look: &mut ModelMaterial, warnings: &mut Warnings) {
         let pbr = &material.pbr;
         let is_gloss = material.features.roughness_as_glossiness.enabled;
-        // The shininess of older materials is a power, whose map has no meaning as roughness.
+        // The shininess of older materials is an exponent. A map of it cannot be used as roughness.
         let is_power = matches!(material.shader_type, ShaderType::FbxPhong | ShaderType::Unknown);
         if connected(&pbr.glossiness).is_some() || is_power && connected(&pbr.roughness).is_some() {
             warnings.add(format!(
@@ -119,7 +119,7 @@ impl<'s> Looks<'s> {
             Some(_) => 1.0,
             None => number(&pbr.metalness, 0.0).clamp(0.0, 1.0),
         };
-        // One picture for both is packed as engines have it: roughness in G, metallic in B.
+        // If both use one image, it is packed as in game engines: roughness in G, metallic in B.
         if look.roughness.is_some() && look.roughness == look.metallic {
             look.metallic_roughness = look.roughness.take();
             look.metallic = None;
@@ -160,7 +160,7 @@ impl<'s> Looks<'s> {
         let mesh = self.mesh_of.get(&material.element.typed_id).copied();
         let set = |name: &str| {
             let place = mesh.and_then(|mesh| mesh.uv_sets.iter().position(|set| *set.name == *name));
-            // Textures often name no set, or one that is called otherwise: they use the first.
+            // Textures often name no set, or one with another name. In these cases the first set is used.
             place.map_or(0, |place| place as u32)
         };
         let of = label(material);
@@ -177,7 +177,7 @@ fn is_given(map: &MaterialMap) -> bool {
     map.has_value || connected(map).is_some()
 }
 
-/// The value, finite; `otherwise` where the file has none.
+/// Returns the value if it is finite; `otherwise` if the file has no value.
 fn number(map: &MaterialMap, otherwise: f32) -> f32 {
     let value = map.value_vec4.x as f32;
     if map.has_value && value.is_finite() {
@@ -187,7 +187,7 @@ fn number(map: &MaterialMap, otherwise: f32) -> f32 {
     }
 }
 
-/// The value, finite; `otherwise` where the file has none.
+/// Returns the value if it is finite; `otherwise` if the file has no value.
 fn color(map: &MaterialMap, otherwise: [f32; 3]) -> [f32; 3] {
     let value = [map.value_vec4.x, map.value_vec4.y, map.value_vec4.z].map(|share| share as f32);
     if map.has_value && value.iter().all(|share| share.is_finite()) {

@@ -1,4 +1,4 @@
-//! A mesh of the scene becomes a submesh.
+//! Conversion of a mesh of the scene to a submesh.
 
 use glam::DVec3;
 use sabi_color::linear_from_srgb;
@@ -51,13 +51,13 @@ impl Reader<'_> {
     }
 }
 
-/// Returns true if the mesh has normals, or smoothing by which they were computed.
+/// Returns true if the mesh has normals, or smoothing from which they were computed.
 fn has_own_smoothing(mesh: &Mesh) -> bool {
     let has_smoothing = !mesh.face_smoothing.is_empty() || !mesh.edge_smoothing.is_empty();
     mesh.vertex_normal.exists && (!mesh.generated_normals || has_smoothing)
 }
 
-/// The faces that are kept, as ranges of the mesh's own corners, with their numbers.
+/// Returns the faces that are kept, as ranges of the mesh's own corners, with their numbers.
 fn kept_faces(mesh: &Mesh) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> {
     let is_hole = |face: usize| mesh.face_hole.get(face).copied() == Some(true);
     let faces = mesh.faces.iter().enumerate();
@@ -69,7 +69,7 @@ fn kept_faces(mesh: &Mesh) -> impl Iterator<Item = (usize, std::ops::Range<usize
     })
 }
 
-/// The mesh's own numbers of the corners that are kept.
+/// Returns the mesh's own numbers of the corners that are kept.
 fn kept_corners(mesh: &Mesh) -> Vec<usize> {
     kept_faces(mesh).flat_map(|(_, corners)| corners).collect()
 }
@@ -80,7 +80,7 @@ fn outlines(mesh: &Mesh, who: &str, warnings: &mut Warnings) -> Faces {
     for (number, corners) in kept_faces(mesh) {
         let count = corners.len();
         let named = &mesh.vertex_indices.as_ref()[corners];
-        // The library has clamped them; a vertex that is not there would be its fault.
+        // The library has clamped the indices. A missing vertex would be an error in the library.
         faces.corners.extend(
             named
                 .iter()

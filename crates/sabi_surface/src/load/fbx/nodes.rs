@@ -1,4 +1,4 @@
-//! Nodes that show a mesh.
+//! Nodes that have a mesh.
 
 use glam::{DMat4, DVec3};
 use ufbx::{ElementType, Matrix, Mesh, Node};
@@ -10,7 +10,7 @@ use crate::load::skin_rest::{JointBudget, Placement, Rest};
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
-/// A node with the mesh that it shows.
+/// A node with its mesh.
 pub(super) struct Shown<'s> {
     pub(super) node: &'s Node,
     pub(super) mesh: &'s Mesh,
@@ -21,7 +21,7 @@ pub(super) struct Shown<'s> {
 /// The meshes of the scene in the order of its nodes, and the nodes above them.
 pub(super) fn shown<'s>(scene: &'s ufbx::Scene, groups: &mut Groups, warnings: &mut Warnings) -> Vec<Shown<'s>> {
     let mut shown = Vec::new();
-    // An explicit stack, since a chain of nodes may be as long as the file.
+    // An explicit stack is used, since a chain of nodes may be as long as the file.
     let mut stack: Vec<(&Node, Option<usize>)> = vec![(&scene.root_node, None)];
     while let Some((node, above)) = stack.pop() {
         if !node.visible && !node.is_root {
@@ -77,7 +77,7 @@ impl Shown<'_> {
         )
     }
 
-    /// The instance of the mesh that stands at `place` in the assembly.
+    /// Returns the instance of the mesh at index `place` in the assembly.
     pub(super) fn instance(&self, place: usize, source: &Source, warnings: &mut Warnings) -> Instance {
         let name = self.name();
         let bound = matrix(&self.node.geometry_to_world);
@@ -92,7 +92,7 @@ impl Shown<'_> {
             name,
             group: self.group,
             file_from_mesh,
-            // A node may show its mesh with other materials than the mesh names.
+            // A node may assign other materials than the mesh.
             materials: self
                 .node
                 .materials

@@ -1,4 +1,4 @@
-//! Pictures of the scene, and where they are.
+//! Images of the scene, and where they are stored.
 
 use glam::DAffine2;
 use ufbx::{MaterialMap, Texture, TextureFile, TextureType, WrapMode};
@@ -7,12 +7,12 @@ use crate::load::pictures::{Pictures, Place, file_name, places};
 use crate::load::warnings::Warnings;
 use crate::model::{TextureRef, Wrap};
 
-/// The texture that is connected to a value of a material, if it is switched on.
+/// Returns the texture that is connected to a value of a material, if it is enabled.
 pub(super) fn connected(map: &MaterialMap) -> Option<&Texture> {
     map.texture.as_deref().filter(|_| map.texture_enabled)
 }
 
-/// Textures of the scene become pictures of the model.
+/// Converts textures of the scene to images of the model.
 pub(super) struct Textures<'s> {
     scene: &'s ufbx::Scene,
     /// Name of the model's file without its ending.
@@ -24,8 +24,7 @@ impl<'s> Textures<'s> {
         Textures { scene, stem }
     }
 
-    /// Returns the use of a texture over the UV set that `set` returns for its name. `of` names the material and `what` the value
-    /// in warnings.
+    /// Returns how a texture is used. `set` returns the UV set for its name. In warnings, `of` is the material and `what` the value.
     pub(super) fn used(
         &self,
         texture: &Texture,
@@ -34,7 +33,7 @@ impl<'s> Textures<'s> {
         pictures: &mut Pictures,
         warnings: &mut Warnings,
     ) -> Option<TextureRef> {
-        // Layers and the textures of programs have pictures below them.
+        // Layered textures and procedural textures have image textures below them.
         let file = if texture.has_file {
             Some(texture)
         } else {
@@ -69,9 +68,9 @@ impl<'s> Textures<'s> {
         })
     }
 
-    /// Name of a picture, and the places where it may be: in the file, as the file says relative to itself, in the folder
-    /// of the same name into which the programs of FBX unpack pictures, and by its bare name. Absolute paths are those of another
-    /// computer: only their last part is used.
+    /// Returns the name of an image and the places where it may be: inside the file, at the path relative to the file, in
+    /// the folder of the same name into which FBX programs extract images, and by its bare file name. Absolute paths belong
+    /// to another computer, so only their last part is used.
     fn place(&self, picture: &TextureFile, texture: &Texture) -> (String, Place) {
         let paths = [
             &picture.relative_filename,
@@ -98,8 +97,8 @@ impl<'s> Textures<'s> {
     }
 }
 
-/// Rows of the transform of coordinates, whose v grows upward in the scene and downward in the model: with V = 1 − v on both
-/// sides. It is the inverse of the texture's own in two dimensions alone, since some programs (assimp) scale the third by 0.
+/// Returns the rows of the transform of coordinates. v grows upward in the scene and downward in the model, so that V = 1 − v on both
+/// sides. It is the inverse of the texture's own transform in two dimensions only, since some programs (assimp) scale the third by 0.
 fn transform(texture: &Texture) -> [[f32; 3]; 2] {
     let own = &texture.texture_to_uv;
     let up = DAffine2::from_cols_array(&[own.m00, own.m10, own.m01, own.m11, own.m03, own.m13]).inverse();

@@ -10,7 +10,7 @@ use super::storage::{Meaning, Storage, largest};
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
-/// Elements without stored bytes that any file may have; a larger file may have one for each of its bytes.
+/// Number of elements without stored bytes that any file may have. A larger file may have one for each of its bytes.
 const UNSTORED: u64 = 1 << 16;
 
 /// An accessor with a checked type.
@@ -21,7 +21,7 @@ struct Head<'a> {
     shape: Type,
     /// Name in messages.
     who: String,
-    /// Content in messages: `positions of mesh 3`.
+    /// Description of the content in messages: `positions of mesh 3`.
     what: String,
 }
 
@@ -33,12 +33,12 @@ pub(super) struct Indices {
 }
 
 impl Source<'_> {
-    /// Returns the most elements that an accessor may have without storing them.
+    /// Returns the maximum number of elements that an accessor may have without storing them.
     pub(super) fn most_unstored(&self) -> u64 {
         UNSTORED.max(self.buffers.total_bytes())
     }
 
-    /// The number of elements that an accessor claims to have.
+    /// Returns the number of elements that an accessor declares.
     pub(super) fn claimed_count(&self, index: usize) -> u64 {
         self.document
             .accessors
@@ -46,14 +46,14 @@ impl Source<'_> {
             .map_or(0, |accessor| accessor.count.0)
     }
 
-    /// Returns true if an accessor stores integers, fractions of 1 among them.
+    /// Returns true if an accessor stores integers, including normalized ones.
     pub(super) fn is_integer(&self, index: usize) -> bool {
         let accessor = self.document.accessors.get(index);
         let component = accessor.map(|accessor| accessor.component_type);
         matches!(component, Some(Checked::Valid(component)) if component.0 != ComponentType::F32)
     }
 
-    /// Reads vectors of `N` numbers, one for each vertex; `what` names them in messages.
+    /// Reads vectors of `N` numbers, one for each vertex. `what` describes them in messages.
     pub(super) fn floats<const N: usize>(
         &self,
         index: usize,
@@ -143,7 +143,7 @@ impl Source<'_> {
         Ok(Indices { corners, restart })
     }
 
-    /// Warns of a byte stride, which only vertex attributes may have (glTF 2.0, 3.6.2.4).
+    /// Warns about a byte stride, which is allowed only for vertex attributes (glTF 2.0, 3.6.2.4).
     fn warn_of_stride(&self, view: usize, what: &str, warnings: &mut Warnings) {
         if self
             .document
@@ -226,7 +226,7 @@ impl Source<'_> {
         Ok(values)
     }
 
-    /// Puts the sparse elements of `size` bytes over `values`.
+    /// Replaces elements of `values` by the sparse elements of `size` bytes.
     fn replace_sparse<T>(
         &self,
         head: &Head,
@@ -292,12 +292,12 @@ fn unsigned(bytes: &[u8]) -> u32 {
         .fold(0, |number, byte| number << 8 | u32::from(*byte))
 }
 
-/// glTF 2.0, 3.6.2.2 and 3.11: normalized integers mean 0..1 or -1..1, others their own value.
+/// Reads numbers. Normalized integers stand for 0..1 or -1..1, others for their own value (glTF 2.0, 3.6.2.2 and 3.11).
 fn number<const N: usize>(bytes: &[u8], component: ComponentType, normalized: bool) -> [f32; N] {
     let mut parts = bytes.chunks_exact(component.size());
     // `normalized` has no effect on floats.
     std::array::from_fn(|_| {
-        // An element has bytes for all of its N components.
+        // An element always has bytes for all of its N components.
         let part = parts.next().unwrap_or_default();
         let raw = unsigned(part);
         let value = match component {

@@ -12,18 +12,18 @@ use super::meshopt::{PackedView, Place};
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
-/// All buffers of a file. A missing one is a fault only when it is read.
+/// All buffers of a file. A missing buffer is a fault only when it is read.
 pub(super) struct Buffers<'a> {
     buffers: Vec<Result<Bytes<'a>, Fault>>,
-    /// Packed buffer views by their numbers.
+    /// Packed buffer views, by number.
     packed: BTreeMap<usize, PackedView>,
     unpacked_bytes: u64,
 }
 
-/// Most bytes of all packed buffer views together once unpacked: the vertices and indices of the largest model.
+/// Maximum unpacked size of all packed buffer views together: the vertices and indices of the largest model.
 const MOST_UNPACKED_BYTES: u64 = 8 << 30;
 
-/// Bytes of the file itself, decoded, or read once for all buffers that name the same file.
+/// Bytes of the file itself, decoded bytes, or bytes that were read once for all buffers that refer to the same file.
 #[derive(Clone)]
 enum Bytes<'a> {
     Whole(Cow<'a, [u8]>),
@@ -56,7 +56,7 @@ impl<'a> Elements<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// Fetches the buffers that the views of the file are in; what they unpack to takes at most `memory_bytes`.
+    /// Reads the buffers that the views of the file use. Unpacked data takes at most `memory_bytes`.
     pub(super) fn gather(
         document: &Document,
         binary: Option<&'a [u8]>,
@@ -76,7 +76,7 @@ impl<'a> Buffers<'a> {
             .iter()
             .enumerate()
             .map(|(index, buffer)| match (&buffer.uri, binary) {
-                // Nothing reads it.
+                // This buffer is not read.
                 _ if !used.contains(&index) => Ok(Bytes::Whole(Cow::Borrowed(&[]))),
                 (Some(uri), _) => fetch(uri, index, &mut fetched, resolve),
                 (None, Some(binary)) if index == 0 => Ok(Bytes::Whole(Cow::Borrowed(binary))),
@@ -116,18 +116,18 @@ impl<'a> Buffers<'a> {
         self.packed.keys().copied()
     }
 
-    /// Returns the size that all packed buffer views claim to have once unpacked.
+    /// Returns the unpacked size that all packed buffer views declare.
     pub(super) fn unpacked_bytes(&self) -> u64 {
         self.unpacked_bytes
     }
 
-    /// Returns the size of all buffers together, packed where they are.
+    /// Returns the size of all buffers together, without unpacking.
     pub(super) fn total_bytes(&self) -> u64 {
         let lengths = self.buffers.iter().flatten().map(|bytes| bytes.get().len() as u64);
         lengths.sum()
     }
 
-    /// The bytes of a buffer view, unpacked. A file that does not require the extension has them plain as well.
+    /// Returns the bytes of a buffer view, unpacked. A file that does not require the extension also has the plain bytes.
     pub(super) fn view(&self, document: &Document, index: usize) -> Result<&[u8], Fault> {
         let Some(view) = document.views.get(index) else {
             return damaged(format!("there is no bufferViews[{index}]"));
@@ -146,7 +146,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// A range of a buffer that belongs to the buffer view `index`.
+    /// Returns a range of a buffer; `index` is the buffer view for messages.
     fn range(&self, place: Place, index: usize) -> Result<&[u8], Fault> {
         let Place { buffer, offset, length } = place;
         let Some(bytes) = self.buffers.get(buffer) else {
@@ -167,7 +167,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// `count` elements of `size` bytes in a buffer view; `who` names the accessor in messages.
+    /// Returns `count` elements of `size` bytes in a buffer view. `who` describes the accessor in messages.
     pub(super) fn elements(
         &self,
         document: &Document,
@@ -192,7 +192,7 @@ impl<'a> Buffers<'a> {
                 bytes.len()
             ));
         }
-        // Both fit into usize: they are within the bytes.
+        // Both fit into usize, since they are within the bytes.
         let bytes = if count == 0 { &[] } else { &bytes[offset as usize..] };
         Ok(Elements {
             bytes,

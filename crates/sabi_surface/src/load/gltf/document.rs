@@ -1,5 +1,5 @@
-//! The container and its JSON, parsed object by object, so that an error names the object, and objects that are not read
-//! here (animations, cameras, lights) may be invalid.
+//! The container and its JSON. The JSON is parsed object by object, so that an error names the object, and objects that are
+//! not used here (animations, cameras, lights) may be invalid.
 
 use gltf::json;
 use serde::Deserialize;
@@ -9,7 +9,7 @@ use super::tidy::gltf_json;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
-/// Extensions of materials that describe more than base color, roughness, metal and emission.
+/// Material extensions that describe more than base color, roughness, metallic and emission.
 pub(super) const FINISHES: [&str; 5] = [
     "KHR_materials_clearcoat",
     "KHR_materials_anisotropy",
@@ -20,7 +20,7 @@ pub(super) const FINISHES: [&str; 5] = [
 
 /// Extension of primitives that are packed.
 pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
-/// Extensions of packed buffer views; the first is read where a view has both.
+/// Extensions of packed buffer views. If a view has both, the first is read.
 pub(super) const MESHOPT: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
 
 /// A scene of a file.
@@ -32,7 +32,7 @@ pub(super) struct Scene {
     pub(super) nodes: Vec<u64>,
 }
 
-/// A node of a file. Its numbers have 64 bits, since a node may place a mesh far away.
+/// A node of a file. Its numbers have 64 bits, since it may place a mesh far away.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Node {
@@ -50,7 +50,7 @@ pub(super) struct Node {
     pub(super) extensions: Map<String, Value>,
 }
 
-/// The lists of a glTF file that matter here.
+/// The lists of a glTF file that are used here.
 #[derive(Default)]
 pub(super) struct Document {
     pub(super) accessors: Vec<json::Accessor>,
@@ -60,7 +60,7 @@ pub(super) struct Document {
     pub(super) materials: Vec<json::Material>,
     pub(super) meshes: Vec<json::Mesh>,
     pub(super) nodes: Vec<Node>,
-    /// Not parsed yet, since a broken skin is no reason to refuse the mesh.
+    /// Skins, not parsed yet, since an invalid skin is no reason to refuse the mesh.
     pub(super) skins: Vec<Value>,
     pub(super) samplers: Vec<json::texture::Sampler>,
     pub(super) textures: Vec<json::Texture>,
@@ -71,7 +71,7 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// Splits a GLB container where there is one, and reads the JSON, which takes at most `memory_bytes`; also gives the binary chunk.
+    /// Splits a GLB container, if the file is one, and parses the JSON. Also returns the binary chunk.
     pub(super) fn parse<'a>(
         bytes: &'a [u8],
         memory_bytes: u64,
@@ -128,7 +128,7 @@ impl Document {
         Ok((document, binary))
     }
 
-    /// Refuses files that require an extension that is not read here.
+    /// Refuses files that require an unsupported extension.
     pub(super) fn check_extensions(&self, warnings: &mut Warnings) -> Result<(), Fault> {
         for name in &self.required {
             match name.as_str() {
@@ -137,7 +137,7 @@ impl Document {
                 "EXT_texture_webp" | "KHR_texture_basisu" => {}
                 name if name == DRACO || MESHOPT.contains(&name) => {}
                 "KHR_node_visibility" => {}
-                // These add to a scene, and leave its surfaces as they are.
+                // These add something to a scene but do not change its surfaces.
                 "KHR_lights_punctual" | "KHR_animation_pointer" | "KHR_xmp_json_ld" => {}
                 "MSFT_texture_dds" | "EXT_texture_avif" => {
                     warnings.add(format!("The file needs {name}: pictures stored that way are left out."));
@@ -207,7 +207,7 @@ fn old_version() -> Fault {
     )
 }
 
-/// One list of the file, read object by object.
+/// Parses one list of the file, object by object.
 fn list<T>(
     root: &mut serde_json::Map<String, Value>,
     key: &str,
@@ -289,7 +289,7 @@ fn chunks<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(&'a [u8], Opt
             b"BIN\0" if text.is_some() && binary.is_none() => binary = Some(chunk),
             _ if text.is_none() => return damaged("its first chunk is not JSON"),
             b"JSON" | b"BIN\0" => warnings.add("The file has more than one chunk of a kind; the first one is read."),
-            // glTF 2.0, 4.4.3: others belong to extensions.
+            // Other chunks belong to extensions (glTF 2.0, 4.4.3).
             _ => {}
         }
         at += 8 + size as usize;

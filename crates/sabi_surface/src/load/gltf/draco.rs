@@ -8,21 +8,21 @@ use gltf::json::accessor::ComponentType;
 use super::storage::largest;
 use crate::load::error::{Fault, damaged};
 
-/// Vertices that a packed primitive may have besides those of its triangles.
+/// Number of vertices that a packed primitive may have in addition to those of its triangles.
 const UNUSED_VERTICES: u64 = 1 << 16;
-/// Attributes that Draco data may have besides those that accessors take.
+/// Number of attributes that Draco data may have in addition to those that accessors use.
 const UNLISTED_ATTRIBUTES: u64 = 1;
-/// Most bytes of an attribute of a vertex: four numbers of double precision.
+/// Maximum size of an attribute of a vertex in bytes: four numbers of double precision.
 const BYTES_OF_A_VALUE: u64 = 32;
 
 /// The triangles and vertices of one primitive.
 pub(super) struct UnpackedMesh {
     mesh: Mesh,
-    /// Draco's id of the attribute that is the content of an accessor.
+    /// Draco's id of the attribute that contains the data of an accessor.
     attribute_of: BTreeMap<usize, u32>,
 }
 
-/// Most triangles and vertices that a primitive may have.
+/// Maximum number of triangles and vertices of a primitive.
 #[derive(Clone, Copy)]
 pub(super) struct Claim {
     pub(super) triangles: u64,
@@ -30,7 +30,7 @@ pub(super) struct Claim {
 }
 
 impl UnpackedMesh {
-    /// Unpacks the primitive `label`; `attribute_of` is Draco's id of the attribute that is the content of each accessor.
+    /// Unpacks the primitive `label`. `attribute_of` maps each accessor to Draco's id of its attribute.
     pub(super) fn unpack(
         bytes: &[u8],
         attribute_of: BTreeMap<usize, u32>,
@@ -57,8 +57,8 @@ impl UnpackedMesh {
         Ok(UnpackedMesh { mesh, attribute_of })
     }
 
-    /// Corners of the triangles of a primitive of `vertices` vertices. Draco has no strips: those were unrolled when the
-    /// file was written.
+    /// Returns the corners of the triangles of a primitive with `vertices` vertices. Draco has no strips: they were
+    /// converted to triangles when the file was written.
     pub(super) fn triangles(&self, label: &str, vertices: usize) -> Result<Vec<[u32; 3]>, Fault> {
         let triangles: Vec<[u32; 3]> = self.mesh.faces().iter().map(|face| face.map(|point| point.0)).collect();
         match triangles
@@ -71,7 +71,8 @@ impl UnpackedMesh {
         }
     }
 
-    /// The elements of an accessor as its type stores them; `None` where they are not packed. `who` names it in messages.
+    /// Returns the elements of an accessor in the form that its type stores; `None` if they are not packed. `who` describes
+    /// it in messages.
     pub(super) fn elements(
         &self,
         accessor: usize,
@@ -101,8 +102,8 @@ impl UnpackedMesh {
     }
 }
 
-/// Returns the factor from the numbers of a Draco attribute to those of an accessor. Integers stay what they are; between
-/// integers and floats, normalized ones are fractions of the largest (glTF 2.0, 3.6.2.2).
+/// Returns the factor from the numbers of a Draco attribute to those of an accessor. Integers stay unchanged. Between
+/// integers and floats, normalized numbers are fractions of the largest integer (glTF 2.0, 3.6.2.2).
 fn scale(attribute: &PointAttribute, component: ComponentType, normalized: bool) -> f32 {
     let is_float = component == ComponentType::F32;
     match attribute.data_type() {
@@ -115,7 +116,7 @@ fn scale(attribute: &PointAttribute, component: ComponentType, normalized: bool)
     }
 }
 
-/// The first bytes of the result are the number, little-endian, as an accessor stores it.
+/// Returns a number as an accessor stores it, little-endian, in the first bytes of the result.
 fn word(number: f32, component: ComponentType) -> [u8; 4] {
     let whole = number.round();
     match component {

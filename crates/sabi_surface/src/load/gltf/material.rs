@@ -1,4 +1,4 @@
-//! Materials in use, their textures, and the pictures behind them.
+//! Materials that are used, their textures, and the images of these.
 
 mod finish;
 
@@ -17,7 +17,7 @@ use super::uv_decoding::UvDecodings;
 use crate::load::warnings::Warnings;
 use crate::model::{Model, ModelMaterial, TextureRef, Wrap};
 
-/// Extensions that keep a texture's picture elsewhere, and whether pictures of that format are read.
+/// Extensions that store the image of a texture elsewhere, and whether images of that format are supported.
 const OTHER_SOURCES: [(&str, bool); 4] = [
     ("EXT_texture_webp", true),
     ("KHR_texture_basisu", true),
@@ -28,15 +28,15 @@ const OTHER_SOURCES: [(&str, bool); 4] = [
 /// Extension of an older material model, which some files use instead of metallic-roughness.
 const SPECULAR_GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 
-/// The materials that triangles use, numbered in order of first use until [`Materials::finish`] puts them in file order.
+/// The materials that triangles use, numbered in order of first use until [`Materials::finish`] sorts them in file order.
 #[derive(Default)]
 pub(super) struct Materials {
-    /// Slot of each material; the default material's key sorts last.
+    /// Slot of each material. The key of the default material is the last.
     slots: BTreeMap<(bool, usize), u32>,
 }
 
 impl Materials {
-    /// The slot of a material of the file; `None` is the default material.
+    /// Returns the slot of a material of the file; `None` stands for the default material.
     pub(super) fn slot(&mut self, material: Option<usize>) -> u32 {
         let next = self.slots.len() as u32;
         *self
@@ -46,7 +46,7 @@ impl Materials {
             .or_insert(next)
     }
 
-    /// Returns the place in file order that [`Materials::finish`] gives a material; `None` where no triangle uses it.
+    /// Returns the index in file order that [`Materials::finish`] assigns to a material; `None` if no triangle uses it.
     pub(super) fn place(&self, material: Option<usize>) -> Option<u32> {
         let places = self.slots.keys();
         // The first part of the key already distinguishes glTF's default material.
@@ -57,7 +57,7 @@ impl Materials {
             .map(|(_, place)| place)
     }
 
-    /// Reads the materials in use and the pictures they name into `model`, and puts its triangles' materials in file order.
+    /// Reads the materials that are used and their images into `model`, and sorts the triangles' materials in file order.
     pub(super) fn finish(
         self,
         source: &Source,
@@ -101,15 +101,15 @@ impl Materials {
     }
 }
 
-/// Pictures in the order in which materials name them.
+/// Images in the order in which materials refer to them.
 struct Pictures<'a> {
     source: &'a Source<'a>,
-    /// An image of the file and whether it is in a format that is not read, to its place in the model.
+    /// Index in the model, by the image of the file and whether it is in an unsupported format.
     slots: BTreeMap<(usize, Option<&'static str>), usize>,
     warnings: &'a mut Warnings,
 }
 
-/// Common part of all kinds of texture use.
+/// Properties common to all kinds of texture use.
 struct Use<'a> {
     texture: usize,
     uv_set: u32,
@@ -141,7 +141,7 @@ impl Pictures<'_> {
         let finish = self.finish(material, &label);
         let ignores_alpha = matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque));
         if base_color_factor[3] == 0.0 && !ignores_alpha {
-            // The format says what alpha means, so that it is believed.
+            // The format defines the meaning of alpha, so the file is followed.
             self.warnings
                 .add(format!("The file has {label} invisible: its alpha is 0."));
         }
@@ -175,7 +175,7 @@ impl Pictures<'_> {
     }
 
     fn emission_factor(&mut self, material: &json::Material, label: &str) -> [f32; 3] {
-        // Factors above 1, which glTF forbids, are from before the extension for emission strength.
+        // Factors above 1, which glTF forbids, were used before the extension for emission strength existed.
         let factor = self.within(material.emissive_factor.0, f32::MAX, "emission", label);
         let extensions = material.extensions.as_ref();
         let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
@@ -184,7 +184,7 @@ impl Pictures<'_> {
         finite(factor.map(|factor| factor * strength), 0.0)
     }
 
-    /// Clamps factors to 0..=`most`, with a warning unless the difference is rounding.
+    /// Clamps factors to 0..=`most`, with a warning unless the difference is only rounding.
     fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
         factors.map(|factor| {
             let within = factor.clamp(0.0, most);

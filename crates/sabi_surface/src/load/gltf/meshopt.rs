@@ -1,4 +1,4 @@
-//! Buffer views packed by meshoptimizer: EXT_meshopt_compression, and KHR_meshopt_compression, which has one filter more.
+//! Buffer views packed by meshoptimizer: EXT_meshopt_compression, and KHR_meshopt_compression, which has one more filter.
 
 use std::sync::OnceLock;
 
@@ -13,8 +13,8 @@ use serde_json::Value;
 use super::document::MESHOPT;
 use crate::load::error::{Fault, damaged};
 
-/// Bytes in memory for each packed one. Of vertices, a block of 256 takes at least one byte for every four of a vertex; a
-/// triangle takes at least one byte, and so does an index (EXT_meshopt_compression, "Bitstream").
+/// Maximum number of unpacked bytes for each packed byte. A block of 256 vertices takes at least one byte for every four
+/// bytes of a vertex; a triangle and an index take at least one byte each (EXT_meshopt_compression, "Bitstream").
 const ATTRIBUTES_BEST_RATIO: u64 = 1024;
 const TRIANGLES_BEST_RATIO: u64 = 12;
 const INDICES_BEST_RATIO: u64 = 4;
@@ -27,7 +27,7 @@ pub(super) struct PackedView {
     unpacked: OnceLock<Result<Vec<u8>, Fault>>,
 }
 
-/// Bytes of a buffer, and what they are unpacked to.
+/// Bytes of a buffer, and the form into which they are unpacked.
 struct Packed {
     index: usize,
     place: Place,
@@ -62,7 +62,7 @@ enum Filter {
 }
 
 impl PackedView {
-    /// The packed form of a buffer view that has one; its faults are reported when it is read.
+    /// Returns the packed form of a buffer view, if it has one. Its faults are reported when it is read.
     pub(super) fn of(view: &json::buffer::View, index: usize) -> Option<PackedView> {
         let others = &view.extensions.as_ref()?.others;
         let extension = MESHOPT.into_iter().find(|name| others.contains_key(*name))?;
@@ -73,12 +73,12 @@ impl PackedView {
         })
     }
 
-    /// Returns the size that it claims to have once unpacked.
+    /// Returns the unpacked size that the view declares.
     pub(super) fn claimed_bytes(&self) -> u64 {
         self.packed.as_ref().map_or(0, Packed::claimed_bytes)
     }
 
-    /// Buffer that its packed bytes are in; one that does not exist where that cannot be told.
+    /// Returns the buffer that contains the packed bytes; if it is unknown, the number of a buffer that does not exist.
     pub(super) fn buffer(&self) -> usize {
         self.packed.as_ref().map_or(usize::MAX, |packed| packed.place.buffer)
     }
@@ -113,7 +113,7 @@ impl Packed {
         Ok(Packed {
             index,
             place: Place {
-                // No buffer has the number that takes its place.
+                // A number that no buffer has stands for an invalid one.
                 buffer: usize::try_from(number("buffer", None)?).unwrap_or(usize::MAX),
                 // 0 is the extension's default.
                 offset: number("byteOffset", Some(0))?,
@@ -165,7 +165,7 @@ impl Packed {
         let whole = |number| usize::try_from(number).map_err(|_| Error::SizeOverflow);
         let (count, stride) = (whole(self.count)?, whole(self.stride)?);
         let workspace = &mut Workspace::new(Limits {
-            // The claim is checked, and allocators may round it up.
+            // The declared size was checked, but allocators may round it up.
             max_bytes: whole(self.claimed_bytes())?.saturating_mul(2),
             max_work: u64::MAX,
         });

@@ -17,7 +17,7 @@ pub(super) fn extension(primitive: &json::mesh::Primitive) -> Option<&Value> {
 }
 
 impl Source<'_> {
-    /// Unpacks the primitive `label`; `None` where it is not packed, or has the same data plain as well.
+    /// Unpacks the primitive `label`; `None` if it is not packed, or if the file has the same data unpacked.
     pub(super) fn unpacked_mesh(
         &self,
         primitive: &json::mesh::Primitive,
@@ -44,7 +44,7 @@ impl Source<'_> {
         UnpackedMesh::unpack(bytes, attribute_of, claim, label).map(Some)
     }
 
-    /// Files that do not require the extension have all data plain as well.
+    /// Returns true if the packed data is needed. Files that do not require the extension also have all data unpacked.
     fn needs_unpacking(&self, primitive: &json::mesh::Primitive) -> bool {
         let mut accessors = primitive.attributes.values().chain(&primitive.indices);
         let is_plain = |index: &json::Index<json::Accessor>| {

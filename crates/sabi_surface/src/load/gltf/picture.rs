@@ -1,4 +1,4 @@
-//! The encoded bytes of pictures: in the file, in a buffer view, or beside the model.
+//! The encoded bytes of images: in the file, in a buffer view, or beside the model.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,18 +9,18 @@ use super::Resolve;
 use super::source::Source;
 use crate::model::ModelImage;
 
-/// Pictures that were read, each in memory once however many textures use it.
+/// Images that were read. Each is in memory only once, however many textures use it.
 #[derive(Default)]
 pub(super) struct PictureCache {
     beside: BTreeMap<String, Result<Arc<[u8]>, String>>,
-    /// Pictures in buffer views, by buffer, place and length.
+    /// Images in buffer views, by buffer, offset and length.
     in_views: BTreeMap<[u64; 3], Arc<[u8]>>,
-    /// Bytes of those together.
+    /// Total size of the images in buffer views, in bytes.
     bytes_in_views: u64,
 }
 
 impl PictureCache {
-    /// Reads the picture `index` of the file; `unread` is the extension that its format needs and that is not read.
+    /// Reads the image `index` of the file. `unread` is the unsupported extension that its format needs, if any.
     pub(super) fn read(
         &mut self,
         source: &Source,
@@ -54,7 +54,7 @@ impl PictureCache {
         ModelImage { name, bytes }
     }
 
-    /// Reads a picture in a buffer view. Different ones with more bytes together than the buffers overlap, which is refused.
+    /// Reads an image in a buffer view. If different images together have more bytes than the buffers, they overlap, which is refused.
     fn in_view(&mut self, source: &Source, index: usize) -> Result<Arc<[u8]>, String> {
         let bytes = source.buffers.view(source.document, index);
         let bytes = bytes.map_err(|fault| fault.to_string())?;

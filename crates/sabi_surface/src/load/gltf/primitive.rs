@@ -1,4 +1,5 @@
-//! Primitives become [`Submesh`]s: attributes read, strips and fans unrolled, normals and tangents completed.
+//! Conversion of primitives to [`Submesh`]s: attributes are read, strips and fans are converted to triangles, normals and
+//! tangents are completed.
 
 use sabi_cancel::{Cancel, look};
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,11 +28,11 @@ use crate::model::TextureUvs;
 #[derive(Default)]
 pub(super) struct LoadedPrimitive {
     pub(super) submesh: Submesh,
-    /// Its material in the file; `None` is glTF's default material.
+    /// Its material in the file; `None` for glTF's default material.
     pub(super) material: Option<usize>,
     /// Its UV sets.
     pub(super) uv_sets: BTreeSet<u32>,
-    /// True if the tangents of the chosen set are those of the file.
+    /// True if the tangents of the chosen set come from the file.
     pub(super) has_own_tangents: bool,
     /// True if the coordinates of the chosen set are stored as integers.
     pub(super) has_integer_uvs: bool,
@@ -62,14 +63,13 @@ impl Source<'_> {
         Ok(by_mesh)
     }
 
-    /// Returns the number of vertices that a primitive claims to have.
+    /// Returns the number of vertices that a primitive declares.
     pub(super) fn claimed_vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
         let positions = attribute(primitive, Semantic::Positions);
         positions.map_or(0, |index| self.claimed_count(index.value()))
     }
 
-    /// Returns the number of vertices that a primitive claims to have, limited by the size of the file where it says how many
-    /// it can have.
+    /// Returns the number of vertices that a primitive declares, limited by the size of the file if that bounds their number.
     pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
         let claimed = self.claimed_vertices(primitive);
         match packed::extension(primitive) {
@@ -78,7 +78,7 @@ impl Source<'_> {
         }
     }
 
-    /// Returns the number of triangles that a primitive claims to have.
+    /// Returns the number of triangles that a primitive declares.
     pub(super) fn claim(&self, primitive: &json::mesh::Primitive) -> u64 {
         let counted = primitive.indices.or_else(|| attribute(primitive, Semantic::Positions));
         let corners = counted.map_or(0, |index| self.claimed_count(index.value()));
@@ -186,7 +186,7 @@ impl Source<'_> {
         if !corners.contains(&restart) {
             return Ok(triangles(mode, &corners, label, warnings));
         }
-        // Every graphics API restarts there, in lists as well as in strips.
+        // Graphics APIs restart at this index, in lists as well as in strips.
         warnings.add(format!(
             "The indices of {label} use {restart}, by which strips begin anew, as no vertex; no triangle reaches over it."
         ));
@@ -208,7 +208,7 @@ impl Source<'_> {
         if let Some(index) = attribute(primitive, Semantic::Normals) {
             submesh.normals = self.floats(index.value(), Meaning::Direction, &what("normals"), warnings)?;
             check("normals", submesh.normals.len())?;
-            // Without normals, glTF has tangents ignored.
+            // glTF requires that tangents without normals are ignored.
             if let Some(index) = attribute(primitive, Semantic::Tangents) {
                 tangents = self.floats(index.value(), Meaning::Direction, &what("tangents"), warnings)?;
                 check("tangents", tangents.len())?;
@@ -221,7 +221,7 @@ impl Source<'_> {
         self.read_uvs(primitive, label, tangents, submesh, warnings)
     }
 
-    /// Reads the chosen UV set and those that textures use; the file's `tangents` go to the set that they belong to.
+    /// Reads the chosen UV set and those that textures use. The file's `tangents` are assigned to the set to which they belong.
     fn read_uvs(
         &self,
         primitive: &json::mesh::Primitive,
@@ -234,8 +234,8 @@ impl Source<'_> {
         let material = primitive.material.map(|index| index.value());
         let material = material.and_then(|index| self.document.materials.get(index));
         let sets = material.map_or_else(TextureSets::default, TextureSets::of);
-        // glTF 2.0, 3.7.2.1: a file's tangents are those of the normal map's texture coordinates.
-        // Without a normal map the tangents are those of set 0.
+        // A file's tangents belong to the texture coordinates of the normal map (glTF 2.0, 3.7.2.1), or to set 0 if there
+        // is no normal map.
         let framed_set = sets.normal.unwrap_or(0);
         submesh.normal_set = sets.normal;
         let mut wanted = sets.all;
@@ -306,7 +306,7 @@ fn attribute(primitive: &json::mesh::Primitive, semantic: Semantic) -> Option<js
     primitive.attributes.get(&Checked::Valid(semantic)).copied()
 }
 
-/// glTF 2.0, 3.7.2.1: corners of triangles, strips and fans.
+/// Returns the corners of triangles, also for strips and fans (glTF 2.0, 3.7.2.1).
 fn triangles(mode: Mode, corners: &[u32], label: &str, warnings: &mut Warnings) -> Vec<[u32; 3]> {
     match mode {
         Mode::TriangleStrip => corners

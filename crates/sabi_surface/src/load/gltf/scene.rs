@@ -1,4 +1,4 @@
-//! Scenes and nodes: placed meshes.
+//! Scenes and nodes, which place meshes.
 
 use glam::{DMat4, DQuat, DVec3};
 use sabi_cancel::look;
@@ -13,12 +13,12 @@ use crate::load::parts::Groups;
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
-/// Largest deviation of a quaternion from unit length by rounding alone: exporters write as few as three digits.
+/// Maximum deviation of a quaternion from unit length that counts as rounding: exporters write as few as three digits.
 const ROUNDED: f64 = 2e-3;
 
 /// A mesh that a node places.
 pub(super) struct Instance {
-    /// None where the scene shows no mesh.
+    /// Node that places the mesh; `None` if the scene contains no mesh.
     pub(super) node: Option<usize>,
     pub(super) mesh: usize,
     pub(super) name: String,
@@ -58,7 +58,7 @@ pub(super) fn read(source: &Source, warnings: &mut Warnings) -> Result<Scene, Fa
     let mut shown = Vec::new();
     let mut groups = Groups::default();
     let mut file_from_node: Vec<Option<DMat4>> = vec![None; document.nodes.len()];
-    // An explicit stack, since a chain of nodes may be as long as the file.
+    // An explicit stack is used, since a chain of nodes may be as long as the file.
     let mut stack: Vec<Step> = below(&roots(source, warnings)?, None, DMat4::IDENTITY, false).collect();
     while let Some(step) = stack.pop() {
         look();
@@ -148,7 +148,8 @@ fn instance(document: &Document, shown: Shown, skins: &mut Skins, warnings: &mut
     }
 }
 
-/// Root nodes of the chosen scene, else of the default one, else of the first one, else all nodes without a parent.
+/// Returns the root nodes of the chosen scene, otherwise of the default scene, otherwise of the first scene, otherwise all
+/// nodes without a parent.
 fn roots(source: &Source, warnings: &mut Warnings) -> Result<Vec<u64>, Fault> {
     let Source { document, scene, .. } = *source;
     if let Some(asked) = scene {
@@ -161,7 +162,7 @@ fn roots(source: &Source, warnings: &mut Warnings) -> Result<Vec<u64>, Fault> {
             },
         });
     }
-    // glTF viewers show the first scene where the file names none.
+    // If the file names no scene, glTF viewers show the first one.
     let index = document.default_scene.unwrap_or(0);
     let shown = usize::try_from(index).ok();
     match shown.and_then(|index| Some((index, document.scenes.get(index)?))) {
@@ -184,7 +185,7 @@ fn roots(source: &Source, warnings: &mut Warnings) -> Result<Vec<u64>, Fault> {
     }
 }
 
-/// Most scenes that a message names.
+/// Maximum number of scenes that a message lists.
 const MOST_SCENES_NAMED: usize = 8;
 
 /// Labels of scenes, as a list.
@@ -208,7 +209,7 @@ fn parentless(document: &Document) -> Vec<u64> {
     roots.map(|node| node as u64).collect()
 }
 
-/// The node's name, else the mesh's, else its number.
+/// Returns the name of the node, otherwise of the mesh, otherwise its number.
 fn name(document: &Document, node: Option<&str>, mesh: usize) -> String {
     let of_mesh = document.meshes.get(mesh).and_then(|mesh| mesh.name.as_deref());
     let named = [node, of_mesh].into_iter().flatten().find(|name| !name.is_empty());
@@ -234,7 +235,7 @@ fn parent_from_node(node: &Node, label: &str, warnings: &mut Warnings) -> DMat4 
                 "The rotation of the {label} is not of unit length; it is taken as if it were."
             ));
         }
-        // A quaternion of zeros is no rotation.
+        // A quaternion of zeros is not a rotation.
         if length.is_finite() && length > 0.0 {
             quaternion / length
         } else {

@@ -10,7 +10,7 @@ use super::storage::Meaning;
 use crate::load::skin_rest::{JointBudget, Placement, TOO_MANY_JOINTS, agree};
 use crate::load::warnings::Warnings;
 
-/// Rests of the skins of a file, each found once.
+/// Rest poses of the skins of a file, each computed once.
 pub(super) struct Skins<'s> {
     source: &'s Source<'s>,
     file_from_node: &'s [Option<DMat4>],
@@ -18,11 +18,11 @@ pub(super) struct Skins<'s> {
     joints: JointBudget,
 }
 
-/// Rest of a skin.
+/// Rest pose of a skin.
 #[derive(Clone, Copy)]
 struct Rest {
     file_from_mesh: DMat4,
-    /// False if its joints do not agree.
+    /// False if its joints have different transforms.
     is_at_rest: bool,
 }
 
@@ -82,7 +82,7 @@ impl<'s> Skins<'s> {
     }
 }
 
-/// Joints and matrices that a skin claims to have. Skins may share matrices, which are read for each.
+/// Returns the number of joints and matrices that a skin declares. Skins may share matrices, which are read again for each skin.
 fn claimed(source: &Source, index: usize) -> u64 {
     let Some(skin) = source.document.skins.get(index) else {
         return 0;
@@ -93,8 +93,8 @@ fn claimed(source: &Source, index: usize) -> u64 {
     joints.saturating_add(accessor.map_or(0, |accessor| accessor.count.0))
 }
 
-/// glTF 2.0, 3.7.3: a joint transforms its mesh by its global transform times its inverse bind matrix. At rest the transforms
-/// of all joints are equal. The node of the mesh is ignored.
+/// Returns the placements by the joints. A joint transforms its mesh by its global transform times its inverse bind matrix
+/// (glTF 2.0, 3.7.3). In the rest pose these transforms are equal for all joints. The node of the mesh is ignored.
 fn placements(
     source: &Source,
     index: usize,

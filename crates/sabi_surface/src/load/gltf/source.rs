@@ -1,15 +1,15 @@
-//! A glTF file and its buffers, as the readers of its parts take them.
+//! A glTF file and its buffers, as input of the readers of its parts.
 
 use super::buffers::Buffers;
 use super::document::Document;
 use super::draco::UnpackedMesh;
 
-/// A file with the bytes it names.
+/// A file with the bytes to which it refers.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a Buffers<'a>,
-    /// The primitive that is read, where it was packed.
+    /// The unpacked data of the primitive that is being read, if it was packed.
     pub(super) unpacked: Option<&'a UnpackedMesh>,
     pub(super) uv_set: u32,
     /// See [`crate::load::LoadOptions::scene`].

@@ -64,8 +64,8 @@ pub(super) fn texture_uses(material: &json::Material) -> Vec<TextureUse> {
         .collect()
 }
 
-/// Returns the uses of textures by a material, and after them those by all its extensions, whether they are read or not: a
-/// quantizer writes the same transform at each.
+/// Returns the uses of textures by a material, and after them the uses by all its extensions, even those that are not read:
+/// a quantizer writes the same transform at each of them.
 pub(super) fn all_texture_uses(material: &json::Material) -> Vec<TextureUse> {
     let extensions = material
         .extensions
@@ -76,7 +76,7 @@ pub(super) fn all_texture_uses(material: &json::Material) -> Vec<TextureUse> {
     texture_uses(material).into_iter().chain(further).collect()
 }
 
-/// The UV sets that a material's textures use.
+/// The UV sets that the textures of a material use.
 #[derive(Default)]
 pub(super) struct TextureSets {
     pub(super) all: BTreeSet<u32>,
@@ -123,7 +123,7 @@ pub(super) fn raw_use(value: &Value) -> Option<RawUse<'_>> {
 /// All uses of textures that are read in the extensions of a material.
 fn raw_uses(material: &json::Material) -> impl Iterator<Item = RawUse<'_>> {
     let extensions = FINISHES.into_iter().filter_map(|name| members(material, name));
-    // The normal map of a coat is not read: the coat follows the material's own.
+    // The normal map of a coat is not read: the coat uses the normal map of the material.
     let read = extensions
         .flat_map(uses_in)
         .filter(|(key, _)| *key != "clearcoatNormalTexture");
@@ -143,7 +143,7 @@ pub(super) fn raw_transform(others: Option<&Map<String, Value>>) -> Option<Textu
 
 /// Returns the UV set of a texture, which KHR_texture_transform may override.
 pub(super) fn overridden(uv_set: u32, transform: Option<&TextureTransform>) -> u32 {
-    // Without a set of its own the transform keeps the texture's.
+    // If the transform names no UV set, the set of the texture applies.
     transform.and_then(|transform| transform.tex_coord).unwrap_or(uv_set)
 }
 
@@ -163,7 +163,7 @@ pub(super) fn rows(transform: Option<&TextureTransform>) -> [[f32; 3]; 2] {
     ]
 }
 
-/// Replaces values that are no numbers.
+/// Replaces values that are not finite numbers.
 pub(super) fn finite<const N: usize>(values: [f32; N], otherwise: f32) -> [f32; N] {
     values.map(|value| if value.is_finite() { value } else { otherwise })
 }

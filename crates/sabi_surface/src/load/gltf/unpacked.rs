@@ -1,4 +1,4 @@
-//! Packed vertices of a file as its accessors would store them.
+//! Packed vertices of a file in the form in which its accessors would store them.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::load::LoadOptions;
 use crate::load::error::Fault;
 use crate::load::warnings::Warnings;
 
-/// Vertices of a glTF file that are packed there, as plain bytes.
+/// Packed vertices of a glTF file as plain bytes.
 #[derive(Debug, Default)]
 pub struct UnpackedVertices {
     /// Bytes of packed buffer views.
@@ -25,7 +25,7 @@ pub struct UnpackedVertices {
 
 /// Unpacks all buffer views and primitives that are packed.
 pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<UnpackedVertices, Fault> {
-    // They were told when the model was read.
+    // The warnings were reported when the model was read.
     let warnings = &mut Warnings::default();
     let (document, binary) = Document::parse(bytes, u64::MAX, warnings)?;
     let buffers = Buffers::gather(&document, binary, resolve, u64::MAX, warnings)?;
@@ -73,7 +73,7 @@ pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<Unp
 }
 
 impl Source<'_> {
-    /// Accessors of the weights of a primitive that are floats; integers are packed without loss.
+    /// Returns the accessors of the weights of a primitive that are floats. Integers are packed without loss.
     fn float_weights(&self, primitive: &json::mesh::Primitive) -> impl Iterator<Item = usize> {
         let is_float =
             move |accessor: &usize| self.document.accessors.get(*accessor).is_some() && !self.is_integer(*accessor);
@@ -98,7 +98,7 @@ impl Source<'_> {
 /// Bytes of four weights of a vertex.
 const WEIGHTS: usize = 16;
 
-/// Makes the weights of each vertex add up to 1, as glTF 2.0, 3.7.3.3 has it: packing rounds them.
+/// Scales the weights of each vertex so that their sum is 1, as required by glTF 2.0, 3.7.3.3. Packing rounds them.
 fn normalize_weights(sets: &mut [Vec<u8>]) {
     let weights = |vertex: &[u8]| -> Vec<f32> {
         let (words, _) = vertex.as_chunks();

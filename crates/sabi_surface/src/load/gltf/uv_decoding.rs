@@ -1,10 +1,10 @@
-//! Choice of the transforms under which texture coordinates are stored.
+//! Chooses the transforms with which stored texture coordinates are decoded.
 //!
-//! Quantizers store UVs as integers, often with 12 bits of 16, and write the way back as KHR_texture_transform at every texture
-//! of the material. The layout that the artist made is the transformed one. The same extension also tiles textures, and then the
-//! stored coordinates are the layout: integers and a layout that is tiny otherwise tell the two apart. Where the artist turned
-//! or mirrored a texture, the quantizer multiplies both into one transform; another texture of the material may have the way back
-//! alone, on another UV set, too, since quantizers store all sets of a material alike.
+//! Quantizers store UVs as integers, often with 12 of 16 bits, and write the inverse transform as KHR_texture_transform at every texture
+//! of the material. The artist's layout is the transformed one. The same extension is also used to tile textures, and in that case the
+//! stored coordinates are the layout. The two cases are distinguished by integers, and by a stored layout that would otherwise be tiny. If
+//! the artist rotated or mirrored a texture, the quantizer multiplies both into one transform. Another texture of the material may have
+//! the inverse transform alone, also on another UV set, since quantizers store all sets of a material in the same way.
 
 use std::collections::BTreeMap;
 
@@ -13,9 +13,9 @@ use super::source::Source;
 use super::texture_use::{TextureUse, all_texture_uses};
 use crate::model::UvDecoding;
 
-/// Least share of the unit square that the box of an ordinary layout takes.
+/// Minimum area, as a share of the unit square, of the bounding box of an ordinary layout.
 const LEAST_AREA: f32 = 1.0 / 64.0;
-/// Largest distance of a layout outside the unit square that is rounding: a step of 12-bit coordinates.
+/// Maximum distance of a layout outside of the unit square that counts as rounding: a step of 12-bit coordinates.
 const ROUNDED: f32 = 1.0 / 4096.0;
 
 /// The transforms of the chosen UV set by material of the file.
@@ -66,7 +66,8 @@ impl UvDecodings {
         self.by_material.get(&material?).copied()
     }
 
-    /// Decodes the coordinates of a primitive. Its tangents stay: a positive scale along u and v turns no direction.
+    /// Decodes the coordinates of a primitive. Its tangents stay unchanged, since a positive scale along u and v does not
+    /// change their directions.
     pub(super) fn apply(&self, primitive: &mut LoadedPrimitive) {
         if let Some(decoding) = self.of(primitive.material) {
             let uvs = &mut primitive.submesh.uvs;
@@ -76,8 +77,8 @@ impl UvDecodings {
 }
 
 impl Stored {
-    /// Returns the decoding among those that the textures of the material tell, which come in the order of precedence; `None`
-    /// where the stored coordinates are the layout.
+    /// Returns the decoding according to the textures of the material, which are listed in order of precedence; `None` if
+    /// the stored coordinates are the layout.
     fn decoding(&self, uses: &[TextureUse], uv_set: u32) -> Option<UvDecoding> {
         let identity = UvDecoding {
             scale: [1.0; 2],
@@ -93,7 +94,7 @@ impl Stored {
         let is_layout = |decoding: &&UvDecoding| self.is_inside(decoding) && self.area(decoding) >= LEAST_AREA;
         let mut decodings = plain(&on_set);
         let fitting = decodings.iter().find(is_layout).copied();
-        // Fractions of the unit square are a layout already; their transforms tile a texture.
+        // Fractions within the unit square already are a layout; transforms of such textures tile them.
         let is_ordinary = self.is_inside(&identity) && !is_tiny;
         match (self.are_integers, fitting) {
             (true, Some(fitting)) => return Some(fitting),
@@ -122,7 +123,7 @@ impl Stored {
     }
 }
 
-/// Returns a matrix without rotation, shear and mirroring as scale and offset. No quantizer writes the others.
+/// Returns a matrix without rotation, shear and mirroring as scale and offset. Quantizers write only such matrices.
 fn scale_and_offset([[scale_u, by_v, offset_u], [by_u, scale_v, offset_v]]: [[f32; 3]; 2]) -> Option<UvDecoding> {
     let is_plain = by_v == 0.0 && by_u == 0.0 && scale_u > 0.0 && scale_v > 0.0;
     is_plain.then_some(UvDecoding {
@@ -131,8 +132,8 @@ fn scale_and_offset([[scale_u, by_v, offset_u], [by_u, scale_v, offset_v]]: [[f3
     })
 }
 
-/// Returns what is left of a matrix that turns or mirrors: the lengths of its columns are the scale, for it scales first. The
-/// offset is left out, as the artist's part of it is not known. `None` where the matrix is plain.
+/// Returns the scale of a matrix that rotates or mirrors: the lengths of its columns, since it scales first. The offset is
+/// dropped, since the artist's part of it is unknown. `None` if the matrix neither rotates nor mirrors.
 fn unturned(rows: [[f32; 3]; 2]) -> Option<UvDecoding> {
     let [[u_by_u, u_by_v, _], [v_by_u, v_by_v, _]] = rows;
     let scale = [u_by_u.hypot(v_by_u), u_by_v.hypot(v_by_v)];

@@ -1,35 +1,36 @@
-//! Colors of vertices, of which the format knows nothing: behind a position, as `x y z r g b` or `x y z r g b a`, or in remarks
-//! `#MRGB` with eight digits a vertex for mask, red, green and blue.
+//! Vertex colors, which the format does not define. They follow a position, as `x y z r g b` or `x y z r g b a`, or are in
+//! comments `#MRGB` with eight digits for each vertex: mask, red, green and blue.
 
 use sabi_color::linear_from_srgb;
 
 use crate::load::warnings::Warnings;
 
-/// Value from which colors are codes of 0 to 255: rounding and light make no share of 1 that large.
+/// Value from which colors are interpreted as codes from 0 to 255: rounding and bright light do not make values that large
+/// from shares of 1.
 const CODES_FROM: f32 = 2.0;
 const LARGEST_CODE: f32 = 255.0;
 /// Stands for the color of a position without one.
 const ABSENT: [f32; 4] = [f32::INFINITY; 4];
-/// Digits of a vertex in a remark.
+/// Number of digits of a vertex in a comment.
 const DIGITS: usize = 8;
 
-/// Colors as the file has them, sRGB.
+/// Colors as stored in the file, sRGB.
 #[derive(Default)]
 pub(super) struct Colors {
-    /// Of the positions with these numbers.
+    /// Colors of positions, by number of the position.
     behind_positions: Vec<[f32; 4]>,
-    /// Of the vertices of the file, in their order.
+    /// Colors of the file's vertices, in order.
     in_remarks: Vec<[f32; 4]>,
 }
 
 impl Colors {
-    /// Adds the color of the position that follows `before` others; those without one are white.
+    /// Adds the color of the position that follows `before` others. Positions without a color are white.
     pub(super) fn push(&mut self, before: usize, color: [f32; 4]) {
         self.behind_positions.resize(before, ABSENT);
         self.behind_positions.push(color);
     }
 
-    /// Adds the colors of a remark.
+    /// Adds the colors of a comment.
     pub(super) fn push_mrgb(&mut self, digits: &str, warnings: &mut Warnings) {
         let (vertices, rest) = digits.as_bytes().as_chunks::<DIGITS>();
         let color = |digits: &[u8; DIGITS]| {
@@ -44,7 +45,7 @@ impl Colors {
         }
     }
 
-    /// Returns linear colors by the numbers of positions; there may be fewer than positions.
+    /// Returns linear colors by number of the position. There may be fewer colors than positions.
     pub(super) fn linear(self, warnings: &mut Warnings) -> Vec<[f32; 4]> {
         let mut colors = self.behind_positions;
         if colors.is_empty() {

@@ -1,4 +1,4 @@
-//! A material of a library (`.mtl`) while its statements are read, as far as they go with metallic-roughness.
+//! A material of a library (`.mtl`) while its statements are read and converted to metallic-roughness as far as possible.
 
 use super::map_statement::MapStatement;
 use crate::load::numbers::number;
@@ -9,19 +9,19 @@ use crate::model::{ModelMaterial, TextureRef};
 
 /// Keyword of a statement.
 pub(super) struct Keyword<'k> {
-    /// As the file has it.
+    /// The keyword as written in the file.
     pub(super) written: &'k str,
-    /// In lower case: programs write all cases.
+    /// The keyword in lower case, since programs write both cases.
     pub(super) lower: String,
 }
 
-/// Statements of lighting models that metallic-roughness has no counterpart for. All files have them.
+/// Statements of lighting models that have no counterpart in metallic-roughness. All files contain them.
 const WITHOUT_COUNTERPART: [&str; 8] = ["ka", "ks", "ns", "ni", "tf", "illum", "sharpness", "km"];
-/// Values of the addition for physically based materials that are not read; programs write zeros.
+/// Values of the extension for physically based materials that are not read. Programs usually write zeros.
 const LAYERS: [&str; 5] = ["ps", "pc", "pcr", "aniso", "anisor"];
-/// Statements that name a picture and do not begin with `map_`.
+/// Statements that name an image and do not start with `map_`.
 const MAPS: [&str; 5] = ["bump", "disp", "decal", "refl", "norm"];
-/// Those of heights.
+/// Statements that name an image of heights.
 const HEIGHTS: [&str; 4] = ["bump", "map_bump", "disp", "map_disp"];
 
 /// Returns true for the keywords, in lower case, that a statement may have.
@@ -33,20 +33,20 @@ pub(super) fn is_known(keyword: &str) -> bool {
 
 /// Returns true for the keywords of statements that name a picture.
 fn is_map(keyword: &str) -> bool {
-    // `map_aat` switches the smoothing of pictures.
+    // `map_aat` switches antialiasing of textures and names no image.
     keyword.starts_with("map_") && keyword != "map_aat" || MAPS.contains(&keyword)
 }
 
 /// A material whose statements are being read.
 pub(super) struct Draft {
     material: ModelMaterial,
-    /// `d`, which is the opacity.
+    /// Value of `d`, the opacity.
     opacity: Option<f32>,
-    /// `Tr`, which is what is missing to it. Counts where there is no `d`.
+    /// Value of `Tr`, which is 1 minus the opacity. It is used if there is no `d`.
     transparency: Option<f32>,
-    /// Number of the picture of `map_d`.
+    /// Number of the image of `map_d`.
     opacity_map: Option<usize>,
-    /// Number of the picture of `map_Ka`, and the statement.
+    /// Number of the image of `map_Ka`, and the statement.
     ambient: Option<(usize, String)>,
 }
 
@@ -88,7 +88,7 @@ impl Draft {
                         material.base_color_factor = [r, g, b, alpha];
                     }
                     "ke" if material.emission.is_none() => material.emission_factor = [r, g, b],
-                    // A picture replaces the color.
+                    // An image replaces the color.
                     _ => {}
                 }
             }
@@ -124,7 +124,7 @@ impl Draft {
         }
     }
 
-    /// Reads a statement that names a picture, which replaces the value, as in the programs that write these files.
+    /// Reads a statement that names an image. The image replaces the value, as in the programs that write these files.
     fn map(&mut self, keyword: &Keyword, rest: &str, whose: &str, pictures: &mut Pictures, warnings: &mut Warnings) {
         let lower = keyword.lower.as_str();
         let is_color = matches!(lower, "map_kd" | "map_ke");
@@ -168,7 +168,7 @@ impl Draft {
         }
     }
 
-    /// Returns the material, of which all statements were read.
+    /// Returns the material after all statements were read.
     pub(super) fn finished(self, warnings: &mut Warnings) -> ModelMaterial {
         let mut material = self.material;
         let transparency = self.transparency.map(|transparency| 1.0 - transparency);
@@ -177,7 +177,7 @@ impl Draft {
         if let Some((image, whose)) = self.ambient
             && base_color != Some(image)
         {
-            // Programs write the picture of the color once more.
+            // Programs often repeat the color image here, so a different image is reported.
             warnings.add(format!("{whose} is left out."));
         }
         if let Some(opacity) = opacity.filter(|opacity| *opacity < 1.0) {

@@ -1,4 +1,4 @@
-//! Material libraries (`.mtl`), as far as they go with metallic-roughness.
+//! Material libraries (`.mtl`), converted to metallic-roughness as far as possible.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,25 +19,25 @@ const MOST_MATERIALS: usize = 1 << 16;
 pub(super) struct Library {
     materials: Vec<ModelMaterial>,
     places: BTreeMap<String, usize>,
-    /// Names of libraries that were looked for.
+    /// Names of libraries that were searched already.
     known: BTreeSet<String>,
     pub(super) pictures: Pictures,
 }
 
 impl Library {
-    /// Index of a material by its name, behind which a remark may stand.
+    /// Returns the index of a material by its name. A comment may follow the name.
     pub(super) fn place(&self, name: &str) -> Option<usize> {
         let bare = name.split_once(" #").map_or(name, |(bare, _)| bare.trim_ascii_end());
         let place = self.places.get(name).or_else(|| self.places.get(bare));
         place.copied()
     }
 
-    /// A copy of a material.
+    /// Returns a copy of a material.
     pub(super) fn take(&self, name: &str) -> Option<ModelMaterial> {
         self.place(name).map(|place| self.materials[place].clone())
     }
 
-    /// Reads the libraries of one `mtllib` statement: a name that may have spaces, or several names.
+    /// Reads the libraries of an `mtllib` statement: one name that may contain spaces, or several names.
     pub(super) fn read(&mut self, names: &str, resolve: &mut Resolve, warnings: &mut Warnings) {
         if !self.is_next(names, warnings) {
             return;
@@ -127,7 +127,7 @@ impl Library {
                 self.finish(current.take(), warnings);
                 current = self.draft(named(rest), warnings);
             } else if keyword.lower.starts_with('#') {
-                // A remark that OBJ files have a meaning for.
+                // A comment of a kind that has a meaning in OBJ files.
             } else if !is_known(&keyword.lower) {
                 unknown.note(keyword.written, line);
             } else if let Some(draft) = &mut current {
@@ -138,7 +138,7 @@ impl Library {
         unknown.warn(&format!("The material library {file}"), warnings);
     }
 
-    /// Adds a material whose statements were read.
+    /// Adds a material after all its statements were read.
     fn finish(&mut self, draft: Option<Draft>, warnings: &mut Warnings) {
         let Some(draft) = draft else { return };
         let material = draft.finished(warnings);

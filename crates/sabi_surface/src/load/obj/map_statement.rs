@@ -1,4 +1,4 @@
-//! The arguments of a statement that names a picture: options, then a path.
+//! The arguments of a statement that names an image: options, then a path.
 
 use super::statements::{named, split_word};
 use crate::load::numbers::number;
@@ -7,27 +7,27 @@ use crate::model::{TextureRef, Wrap};
 
 /// A use of a picture.
 pub(super) struct MapStatement<'s> {
-    /// Empty where there is none.
+    /// Path of the image; empty if it is missing.
     pub(super) path: &'s str,
     /// Factor of a height or a normal (`-bm`).
     pub(super) bump: f32,
     wrap: Wrap,
     /// Factors of u and v (`-s`).
     scale: [f32; 2],
-    /// Summands of u and v (`-o`), v upward.
+    /// Offsets that are added to u and v (`-o`), with v upward.
     offset: [f32; 2],
-    /// Options that change the picture and are not applied, as they are written.
+    /// Options that change the image and are not applied, as written.
     left_out: Vec<String>,
 }
 
-/// Values of an option, of which three are read.
+/// Values of an option, at most three of which are read.
 struct Values<'s> {
     written: &'s str,
     numbers: [Option<f32>; 3],
 }
 
 impl Values<'_> {
-    /// The numbers, those that are left out as `otherwise`.
+    /// Returns the numbers, with `otherwise` for missing ones.
     fn or(&self, otherwise: f32) -> [f32; 3] {
         self.numbers.map(|number| number.unwrap_or(otherwise))
     }
@@ -38,7 +38,7 @@ impl Values<'_> {
 }
 
 impl<'s> MapStatement<'s> {
-    /// Parses what follows the keyword. `is_color` is true for pictures of colors, which are sRGB and have three channels.
+    /// Parses the text after the keyword. `is_color` is true for color images, which are sRGB and have three channels.
     pub(super) fn parse(rest: &'s str, is_color: bool, warnings: &mut Warnings) -> MapStatement<'s> {
         let mut statement = MapStatement {
             path: "",
@@ -49,14 +49,14 @@ impl<'s> MapStatement<'s> {
             left_out: Vec::new(),
         };
         let rest = statement.options(rest, is_color, warnings);
-        // Some programs write the options behind the path.
+        // Some programs write the options after the path.
         let (path, options) = rest.split_at(option_behind(rest).unwrap_or(rest.len()));
         statement.options(options, is_color, warnings);
         statement.path = named(path).trim_matches('"');
         statement
     }
 
-    /// Reads the options at the beginning of a text; returns what follows them.
+    /// Reads the options at the start of a text, and returns the rest.
     fn options<'t>(&mut self, text: &'t str, is_color: bool, warnings: &mut Warnings) -> &'t str {
         let mut rest = text;
         loop {
@@ -91,7 +91,7 @@ impl<'s> MapStatement<'s> {
                 [self.bump, _, _] = values.or(1.0);
                 true
             }
-            // The rest does nothing where its value is the usual one.
+            // Options with their usual values have no effect.
             "-mm" => values.numbers[0].unwrap_or(0.0) == 0.0 && values.numbers[1].unwrap_or(1.0) == 1.0,
             "-t" | "-boost" => values.or(0.0) == [0.0; 3],
             "-blendu" | "-blendv" => values.is(&["on"]),
@@ -99,7 +99,7 @@ impl<'s> MapStatement<'s> {
             "-imfchan" => !is_color && values.is(&["r"]),
             "-colorspace" if is_color => values.is(&["srgb"]),
             "-colorspace" => !values.is(&["srgb"]),
-            // A number of texels to enlarge the picture to.
+            // A number of texels to which the image is enlarged.
             "-texres" => true,
             _ => false,
         };
@@ -108,12 +108,12 @@ impl<'s> MapStatement<'s> {
         }
     }
 
-    /// Returns the use of the picture, which has this number.
+    /// Returns the use of the image with this number.
     pub(super) fn texture(&self, image: usize) -> TextureRef {
         let ([scale_u, scale_v], [offset_u, offset_v]) = (self.scale, self.offset);
         TextureRef {
             wrap: [self.wrap; 2],
-            // v grows upward in the file: its 1 − v here is 1 − (scale × (1 − v) + offset).
+            // v grows upward in the file. Here 1 − v of the file is 1 − (scale × (1 − v) + offset).
             transform: [[scale_u, 0.0, offset_u], [0.0, scale_v, 1.0 - scale_v - offset_v]],
             ..TextureRef::of(image)
         }
@@ -128,7 +128,8 @@ impl<'s> MapStatement<'s> {
     }
 }
 
-/// Returns the most values that an option, in lower case, has; `None` where it is no option, as a file whose name begins with a dash.
+/// Returns the maximum number of values of an option, given in lower case; `None` for anything else, such as a file name
+/// that starts with a dash.
 fn most_values(option: &str) -> Option<usize> {
     match option {
         "-o" | "-s" | "-t" => Some(3),
@@ -139,7 +140,7 @@ fn most_values(option: &str) -> Option<usize> {
     }
 }
 
-/// Place of the first option behind a path.
+/// Returns the position of the first option after a path.
 fn option_behind(text: &str) -> Option<usize> {
     let mut places = text.match_indices(" -").map(|(at, _)| at + 1);
     places.find(|at| {
@@ -148,7 +149,7 @@ fn option_behind(text: &str) -> Option<usize> {
     })
 }
 
-/// Splits up to `most` values off; numbers may be fewer, and the first value may be a word.
+/// Splits off up to `most` values. There may be fewer numbers, and the first value may be a word.
 fn values<'s>(tail: &'s str, most: usize, warnings: &mut Warnings) -> (Values<'s>, &'s str) {
     let mut numbers = [None; 3];
     let mut rest = tail;

@@ -19,9 +19,9 @@ pub(super) const MOST_LIBRARIES: usize = 1000;
 #[derive(Default)]
 pub(super) struct Statements {
     pub(super) faces: Faces,
-    /// Names that `usemtl` gives, and the empty one for faces before any.
+    /// Names given by `usemtl`, and an empty name for faces before the first.
     pub(super) materials: Vec<String>,
-    /// Names that `o` and `g` give, and the empty one for faces before any.
+    /// Names given by `o` and `g`, and an empty name for faces before the first.
     pub(super) parts: Vec<String>,
     /// Names of the objects, which `o` gives.
     pub(super) objects: Vec<String>,
@@ -32,7 +32,7 @@ pub(super) struct Statements {
     colors: Colors,
 }
 
-/// Statements of curves, surfaces, groups of merging and display, which no polygon needs.
+/// Statements of curves, surfaces, merging groups and display, which do not affect polygons.
 const WITHOUT_EFFECT: [&str; 25] = [
     "vp",
     "cstype",
@@ -93,7 +93,7 @@ impl Statements {
             let (keyword, rest) = split_word(&content);
             let read = match statements.statement(keyword, rest, &mut state, warnings) {
                 Ok(false) => {
-                    // Few programs write another case, so that it is tried last.
+                    // Few programs write another case, so this is tried last.
                     let lower = keyword.to_ascii_lowercase();
                     statements.statement(&lower, rest, &mut state, warnings)
                 }
@@ -109,13 +109,13 @@ impl Statements {
         let faces = &mut statements.faces;
         faces.colors = Attribute {
             values: std::mem::take(&mut statements.colors).linear(warnings),
-            // Colors belong to positions, and may end before those do.
+            // Colors belong to positions. There may be fewer colors than positions.
             corners: faces.corners.clone(),
         };
         Ok(statements)
     }
 
-    /// Reads a statement; returns false if its keyword is not known.
+    /// Reads a statement. Returns false if its keyword is unknown.
     fn statement(
         &mut self,
         keyword: &str,
@@ -236,7 +236,7 @@ impl Statements {
         Ok(())
     }
 
-    /// Checks the indices of faces, at the end, since faces may precede the vertices that they name.
+    /// Checks the indices of faces. This is done at the end, since faces may come before the vertices to which they refer.
     fn check_indices(&mut self, warnings: &mut Warnings) -> Result<(), Fault> {
         let faces = &mut self.faces;
         let positions = faces.positions.len();
@@ -256,7 +256,7 @@ impl Statements {
     }
 }
 
-/// An index as files have it: from 1, or backward from the `count` so far.
+/// Converts an index of the file, which counts from 1, or backward from the `count` so far.
 fn from_zero(word: &str, count: usize) -> Result<u32, String> {
     let index: i64 = word.parse().map_err(|_| format!("`{word}` is not an index"))?;
     let from_zero = match index {
@@ -270,7 +270,7 @@ fn from_zero(word: &str, count: usize) -> Result<u32, String> {
     }
 }
 
-/// Up to `N` numbers and how many there were; more are ignored.
+/// Reads up to `N` numbers and returns how many there were. Further numbers are ignored.
 fn numbers<const N: usize>(rest: &str, warnings: &mut Warnings) -> Result<([f64; N], usize), String> {
     let mut values = [0.0; N];
     let mut count = 0;
@@ -292,7 +292,7 @@ fn require(holds: bool, keyword: &str, what: &str) -> Result<(), String> {
     }
 }
 
-/// The number of what has a key, a new one with a name for a new key.
+/// Returns the number of a key. A new key gets a new number and a name.
 fn numbered<K: Ord>(key: K, name: &str, known: &mut BTreeMap<K, u32>, names: &mut Vec<String>) -> u32 {
     *known.entry(key).or_insert_with(|| {
         names.push(name.to_string());
@@ -307,7 +307,8 @@ pub(super) fn split_word(line: &str) -> (&str, &str) {
     (word, rest.trim_ascii())
 }
 
-/// The name that is the rest of a line, without a remark behind it. A `#` inside a name is followed by something: `Material #25`.
+/// Returns the name in the rest of a line, without a comment after it. A `#` inside a name is followed by another
+/// character: `Material #25`.
 pub(super) fn named(rest: &str) -> &str {
     let bytes = rest.as_bytes();
     let is_remark = |at: &usize| {
@@ -320,11 +321,11 @@ pub(super) fn named(rest: &str) -> &str {
     rest[..remark.unwrap_or(rest.len())].trim_ascii_end()
 }
 
-/// Beginning of a remark that holds colors of vertices.
+/// Start of a comment that contains vertex colors.
 const MRGB: &str = "#MRGB";
 
-/// Lines with their numbers, trimmed, without empty lines and remarks; lines that end in a backslash go on in the next, unless
-/// a remark does.
+/// Returns lines with their numbers, trimmed, without empty lines and comments. A line that ends in a backslash continues
+/// in the next one, unless it is in a comment.
 pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = lines(text).zip(1..);
     std::iter::from_fn(move || {
@@ -352,7 +353,7 @@ pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, 
     })
 }
 
-/// Returns true if a remark stands in a line, at its beginning or behind a space.
+/// Returns true if a line contains a comment, at its start or after a space.
 fn has_remark(line: &str) -> bool {
     let mut words = line.split(|c: char| c.is_ascii_whitespace());
     words.any(|word| word.starts_with('#'))

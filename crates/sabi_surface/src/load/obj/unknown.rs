@@ -1,27 +1,27 @@
-//! Statements of a file that are not known.
+//! Unknown statements of a file.
 
 use std::collections::BTreeSet;
 
 use crate::load::warnings::Warnings;
 
-/// Most keywords that a warning names.
+/// Maximum number of keywords that a warning lists.
 const MOST_NAMED: usize = 5;
-/// Most bytes of a keyword in a warning.
+/// Maximum number of bytes of a keyword in a warning.
 const MOST_BYTES: usize = 32;
 
-/// Keywords that are not known, each once, in the order of their first use.
+/// Unknown keywords, each once, in the order of their first use.
 #[derive(Default)]
 pub(super) struct Unknown {
     known: BTreeSet<String>,
     named: Vec<String>,
-    /// Line of the first.
+    /// Line of the first unknown keyword.
     line: usize,
 }
 
 impl Unknown {
-    /// Notes the keyword of a line.
+    /// Records the keyword of a line.
     pub(super) fn note(&mut self, keyword: &str, line: usize) {
-        // One more shows that there are more than are named.
+        // One more keyword is kept, which shows that there are more than can be listed.
         if self.known.len() > MOST_NAMED || self.known.contains(keyword) {
             return;
         }
@@ -33,7 +33,7 @@ impl Unknown {
             .push(keyword[..keyword.floor_char_boundary(MOST_BYTES)].to_owned());
     }
 
-    /// Warns of all of them together. `whose` is the file.
+    /// Adds a warning about all of them. `whose` is the file.
     pub(super) fn warn(&self, whose: &str, warnings: &mut Warnings) {
         let named: Vec<String> = self
             .named

@@ -1,4 +1,4 @@
-//! The elements behind the header of a PLY file.
+//! The elements after the header of a PLY file.
 
 use super::header::{Element, Encoding, Kind};
 use crate::load::error::{Fault, damaged};
@@ -12,11 +12,11 @@ pub(super) enum Value {
     List(Vec<f64>),
 }
 
-/// Bytes that were not read yet.
+/// Bytes that have not been read yet.
 pub(super) struct Body<'b> {
     encoding: Encoding,
     rest: &'b [u8],
-    /// About numbers of a text.
+    /// Warnings about numbers of a text.
     pub(super) warnings: Warnings,
 }
 
@@ -29,7 +29,7 @@ impl<'b> Body<'b> {
         }
     }
 
-    /// Returns a fault where the file is too short for the element's count.
+    /// Returns a fault if the file is too short for the element's count.
     pub(super) fn check_room(&self, element: &Element) -> Result<(), Fault> {
         let least = |binary: usize| match self.encoding {
             // A digit and a space.
@@ -40,7 +40,7 @@ impl<'b> Body<'b> {
         let each: usize = properties
             .map(|property| least(property.list.unwrap_or(property.kind).bytes()))
             .sum();
-        // The last number of a text needs no space behind it.
+        // The last number of a text needs no space after it.
         let needed = element.count.saturating_mul(each as u64);
         if needed > self.rest.len() as u64 + 1 {
             return damaged(format!(
@@ -74,7 +74,7 @@ impl<'b> Body<'b> {
         Ok(())
     }
 
-    /// Passes over the elements.
+    /// Skips the elements.
     pub(super) fn skip(&mut self, element: &Element) -> Result<(), Fault> {
         if element.properties.is_empty() {
             return Ok(());
@@ -118,7 +118,7 @@ impl<'b> Body<'b> {
         if word.is_empty() {
             return damaged("it ends in the middle of its elements; it was cut off");
         }
-        // A word that is not UTF-8 is no number.
+        // A word that is not UTF-8 is not a number.
         let text = String::from_utf8_lossy(word);
         number(&text, &mut self.warnings).ok_or_else(|| Fault::Damaged(format!("`{text}` is not a number")))
     }

@@ -6,7 +6,7 @@ use crate::load::text::decoded;
 /// Most bytes of a header.
 const MOST_BYTES: usize = 1 << 20;
 
-/// Encoding of what follows the header.
+/// Encoding of the data after the header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Text,
@@ -52,7 +52,7 @@ impl Kind {
         }
     }
 
-    /// Code of full intensity, for colors of integers.
+    /// Returns the code of full intensity, for integer colors.
     pub(super) fn largest_code(self) -> Option<f32> {
         match self {
             Kind::U8 => Some(f32::from(u8::MAX)),
@@ -74,7 +74,7 @@ pub(super) struct Property {
     pub(super) list: Option<Kind>,
 }
 
-/// A list of things with the same properties.
+/// A list of items with the same properties.
 pub(super) struct Element {
     pub(super) name: String,
     pub(super) count: u64,
@@ -102,7 +102,7 @@ impl Header {
         self.elements.iter().find(|element| element.name == name)
     }
 
-    /// Parses the header; returns what follows it, too.
+    /// Parses the header, and also returns the rest of the file.
     pub(super) fn parse(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
         let (text, rest) = split(bytes)?;
         let mut encoding = None;
@@ -144,7 +144,7 @@ impl Header {
     }
 }
 
-/// Splits a file behind the line `end_header`.
+/// Splits a file after the line `end_header`.
 fn split(bytes: &[u8]) -> Result<(&[u8], &[u8]), Fault> {
     let start = &bytes[..bytes.len().min(MOST_BYTES)];
     let mut from = 0;

@@ -1,4 +1,4 @@
-//! Guarantees that every unwrapped mesh has to keep.
+//! Guarantees of every unwrapped mesh.
 
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions, Owner};
@@ -52,7 +52,7 @@ fn every_triangle_with_area_has_its_share_of_the_sheet_and_is_not_mirrored() {
             let area = area_in_space(&mesh, triangle);
             if area > 0.0 {
                 let share = (-turned(&found.mesh, triangle) / 2.0 / on_sheet) / (area / total);
-                // The solver's own bound on how much a triangle may shrink or grow is 4.
+                // The solver limits the growth and shrinkage of a triangle to a factor of 4.
                 assert!(
                     (0.25..4.0).contains(&share),
                     "{name}: triangle {triangle} has {share} of its share"
@@ -72,7 +72,7 @@ fn every_triangle_with_area_has_its_share_of_the_sheet_and_is_not_mirrored() {
 fn no_two_triangles_overlap_and_charts_keep_their_distance() {
     for (name, mesh) in shapes() {
         let (found, atlas) = unwrapped(&mesh, SIZE);
-        // A chart that overlapped itself would have been split, two that overlap are counted.
+        // A chart that overlapped itself would have been split; charts that overlap each other are counted.
         let with_texels = atlas.charts.iter().filter(|chart| chart.texels > 0).count();
         assert_eq!(with_texels, found.report.charts as usize, "{name}");
         assert_eq!(atlas.report.overlap_texels, 0, "{name}");
@@ -101,7 +101,7 @@ fn no_two_triangles_overlap_and_charts_keep_their_distance() {
 }
 
 #[test]
-fn vertices_are_split_with_all_that_they_carry() {
+fn vertices_are_split_with_all_their_attributes() {
     let mut mesh = torus();
     let count = mesh.positions.len();
     mesh.colors = (0..count).map(|vertex| [vertex as f32, 0.5, 0.25, 1.0]).collect();
@@ -149,7 +149,7 @@ fn one_thread_and_two_give_the_same_bytes() {
 }
 
 #[test]
-fn copies_of_a_piece_are_worked_out_once_and_lie_alike() {
+fn copies_of_a_piece_are_flattened_once_and_have_the_same_layout() {
     let mut mesh = ball(10);
     for copy in 1..4 {
         join(&mut mesh, &ball(10), [3.0 * copy as f32, 0.1, 0.0], copy);
@@ -168,7 +168,7 @@ fn copies_of_a_piece_are_worked_out_once_and_lie_alike() {
                 turned(&found.mesh, triangle),
                 turned(&found.mesh, copy * count + triangle),
             );
-            // Coordinates are single numbers on a sheet of 1.
+            // Coordinates are single precision numbers on a sheet of size 1.
             assert!(
                 (first * scale - other).abs() < 1e-6,
                 "triangle {triangle} of copy {copy}: {first} and {other}"
@@ -178,10 +178,10 @@ fn copies_of_a_piece_are_worked_out_once_and_lie_alike() {
 }
 
 #[test]
-fn broken_triangles_take_nothing_else_with_them() {
+fn broken_triangles_do_not_affect_the_others() {
     let mut mesh = cube();
     let first = mesh.positions.len() as u32;
-    // A line, a point, the same triangle three times over, and one thinner than its positions are exact.
+    // A line, a point, the same triangle three times, and one thinner than the precision of its positions.
     mesh.positions.extend([
         [2.0, 0.0, 0.0],
         [3.0, 0.0, 0.0],
@@ -214,7 +214,7 @@ fn broken_triangles_take_nothing_else_with_them() {
 }
 
 #[test]
-fn what_cannot_be_unwrapped_is_a_sentence() {
+fn the_reason_why_a_mesh_cannot_be_unwrapped_is_a_sentence() {
     let said = |mesh: &Mesh| unwrap(mesh).unwrap_err().to_string();
     assert!(said(&Mesh::default()).starts_with("the model has no triangles"));
     let line = mesh(vec![[0.0; 3], [1.0; 3], [2.0; 3]], vec![[0, 1, 2]]);
@@ -245,7 +245,7 @@ fn packed(triangles: u32, sizes: [u32; 2]) -> Result<crate::unwrap::UnwrapLayout
 }
 
 #[test]
-fn so_many_charts_that_the_gaps_get_narrow_still_fit() {
+fn very_many_charts_still_fit_with_narrower_gaps() {
     let report = packed(400, [32, 1024]).unwrap().report;
     assert!(report.gap < GAP as f32 && report.coverage > 0.01, "{report:?}");
     assert_eq!(
@@ -257,7 +257,7 @@ fn so_many_charts_that_the_gaps_get_narrow_still_fit() {
 }
 
 #[test]
-fn more_charts_than_a_sheet_has_room_for_are_refused_by_their_number() {
+fn more_charts_than_fit_on_a_sheet_are_refused_with_their_number() {
     assert_eq!(
         packed(400, [32, 64]).unwrap_err().to_string(),
         "the model falls into 400 pieces that can be laid flat, and one sheet has no room for so many; join its triangles, \
@@ -266,8 +266,8 @@ fn more_charts_than_a_sheet_has_room_for_are_refused_by_their_number() {
 }
 
 #[test]
-fn a_triangle_that_shrinks_to_a_point_on_the_sheet_is_told() {
-    // The last one is as flat as a ten millionth of its length: too thin for the solver, with area all the same.
+fn a_triangle_that_shrinks_to_a_point_on_the_sheet_is_reported() {
+    // The height of the last triangle is a ten millionth of its length: too thin for the solver, but not without area.
     let places = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.5, -1e-7, 0.0]];
     let thin = mesh(places, vec![[0, 1, 2], [1, 0, 3]]);
     assert!(area_in_space(&thin, 1) > 0.0);
@@ -280,9 +280,9 @@ fn a_triangle_that_shrinks_to_a_point_on_the_sheet_is_told() {
 }
 
 #[test]
-fn a_piece_that_the_solver_refuses_is_torn_into_triangles_and_told() {
+fn a_piece_that_the_solver_refuses_is_divided_into_triangles_and_reported() {
     let mut tiny = torus();
-    // Lengths whose inverse is no number any more.
+    // The inverses of these lengths are infinite.
     tiny.positions.iter_mut().flatten().for_each(|value| *value *= 1e-40);
     let found = unwrap(&tiny).unwrap();
     assert_eq!(found.report.charts as usize, tiny.triangles.len());
@@ -294,7 +294,7 @@ fn a_piece_that_the_solver_refuses_is_torn_into_triangles_and_told() {
 }
 
 #[test]
-fn a_sheet_comes_back_from_disk_as_it_was() {
+fn a_sheet_is_read_back_from_disk_unchanged() {
     let folder = tempfile::tempdir().unwrap();
     let (built, from_disk) = unwrap_cached(Some(folder.path()), &torus()).unwrap();
     assert!(!from_disk);

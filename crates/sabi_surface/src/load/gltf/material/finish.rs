@@ -1,4 +1,4 @@
-//! Material extensions of glTF that describe more than base color, roughness, metal and emission.
+//! glTF material extensions that describe more than base color, roughness, metallic and emission.
 
 use gltf::json;
 use serde_json::Value;
@@ -59,7 +59,7 @@ impl FinishReader<'_, '_, '_> {
         value.map_or(0.0, |value| value as f32)
     }
 
-    /// A factor between 0 and 1, or its default, with its texture.
+    /// Returns a factor between 0 and 1, or its default, with its texture.
     fn scaled<const N: usize, T: From<Factors<N>>>(
         &mut self,
         extension: &str,
@@ -72,7 +72,7 @@ impl FinishReader<'_, '_, '_> {
         let factors = match (members, given) {
             (Some(_), Some(given)) => self.pictures.within(given, 1.0, factor, self.label),
             (Some(_), None) => default,
-            // Without the extension there is nothing of it.
+            // Without the extension the factor is zero.
             (None, _) => [0.0; N],
         };
         let used = members.and_then(|members| raw_use(members.get(texture)?));
