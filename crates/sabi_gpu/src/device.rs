@@ -10,7 +10,7 @@ use crate::bindings::surface_texture_count;
 use crate::error::GpuError;
 use crate::pace::InFlight;
 use crate::pipeline_cache::PipelineCache;
-use crate::waiting::{OF_A_SLICE, Patience};
+use crate::waiting::{OF_A_SLICE, Patience, STEP};
 
 /// First error that the driver reported outside of a call, and what is to be called for a loss.
 #[derive(Default)]
@@ -110,15 +110,28 @@ impl Gpu {
 
     /// Error of a lost device; none while it works.
     pub fn loss(&self) -> Option<GpuError> {
+        self.loss_after(wgpu::PollType::Poll)
+    }
+
+    /// Loss of the device that may have caused another error; none if it works. Waits for up to a tenth of a second, since a loss is
+    /// known only once all that was submitted before it is done, while calls on the lost device fail at once.
+    pub fn loss_behind_error(&self) -> Option<GpuError> {
+        self.loss_after(wgpu::PollType::Wait {
+            submission_index: None,
+            timeout: Some(STEP),
+        })
+    }
+
+    fn loss_after(&self, poll: wgpu::PollType) -> Option<GpuError> {
         self.recorded_loss().or_else(|| {
             // The loss callback runs when the device is polled.
-            let _ = self.device.poll(wgpu::PollType::Poll);
+            let _ = self.device.poll(poll);
             self.recorded_loss()
         })
     }
 
-    /// Calls this when the device is lost, on whatever thread hears of it first, and nothing that was given before. Does not
-    /// call it for a loss that was heard of already.
+    /// Sets the function that is called when the device is lost, on the thread that notices it first. It replaces an earlier one, and is
+    /// not called for a loss that was noticed before.
     pub fn when_lost(&self, call: impl FnOnce() + Send + 'static) {
         if let Ok(mut when_lost) = self.driver_errors.when_lost.lock() {
             *when_lost = Some(Box::new(call));

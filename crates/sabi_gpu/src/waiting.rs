@@ -6,7 +6,7 @@ use std::time::Duration;
 use crate::error::GpuError;
 
 /// Time of a step.
-const STEP: Duration = Duration::from_millis(100);
+pub(crate) const STEP: Duration = Duration::from_millis(100);
 /// Steps for a slice of a kernel, which should take a fourth of a step where a window shares the device: 20 seconds.
 pub(crate) const OF_A_SLICE: u32 = 200;
 /// Steps for the first use of a kernel, which software drivers compile then: three minutes.

@@ -153,15 +153,14 @@ fn check_lengths(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
             break;
         };
         let size = u32::from_le_bytes(*size) as usize;
-        (count, in_header) = (count + 1, true);
-        if count > MOST_ATTRIBUTES {
-            return Err(unsupported(name, "it has more than 10000 attributes"));
-        }
         if kind == b"chlist" && size > MOST_CHANNEL_BYTES {
             return Err(unsupported(name, "it has too many channels"));
         }
         let Some(behind) = behind.get(size..) else { break };
-        rest = behind;
+        (rest, count, in_header) = (behind, count + 1, true);
+        if count > MOST_ATTRIBUTES {
+            return Err(unsupported(name, "it has more than 10000 attributes"));
+        }
     }
     Ok(())
 }

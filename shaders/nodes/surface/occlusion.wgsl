@@ -23,7 +23,7 @@ struct Params {
 
 /// The rays of a place: by the cosine of their angle, so that what stands upright over it counts most.
 /// @rays params.rays @finds any @reach params.distance
-/// @texel max(min(params.distance / 24, 2 * finest), min(params.distance / 96, 4 * finest))
+/// @texel min(params.distance / 24, 2 * finest)
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     // A ray that ends at a random share of the distance meets what stands at a given distance the less often, the further
     // that is.

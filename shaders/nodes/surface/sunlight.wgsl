@@ -33,7 +33,7 @@ struct Params {
 
 /// The rays of a place, toward the light.
 /// @rays params.rays @finds any @reach params.distance
-/// @texel max(min(params.spread * params.distance / 200, 2 * finest), min(params.spread * params.distance / 600, 4 * finest))
+/// @texel min(params.spread * params.distance / 200, 2 * finest)
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     let sample = ray_sample(at, index, params.seed);
     let square = dot(params.toward, params.toward);

@@ -11,8 +11,8 @@ use crate::theme::{Theme, space, type_size};
 use egui::epaint::RectShape;
 use egui::text::LayoutJob;
 use egui::{
-    Color32, ColorImage, Context, FontId, Id, Modal, Rect, RichText, Sense, TextureHandle, TextureId, TextureOptions,
-    Ui, Vec2, pos2, vec2,
+    Color32, ColorImage, Context, FontId, Id, Modal, Rect, RichText, ScrollArea, Sense, TextureHandle, TextureId,
+    TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::small_picture;
@@ -21,6 +21,9 @@ use sabi_engine::catalog::small_picture;
 const HEIGHT: f32 = 44.0;
 const WITH_PICTURE: f32 = 60.0;
 const PICTURE: f32 = 52.0;
+/// Width of the page, and what stays free above and below it, points.
+const WIDTH: f32 = 720.0;
+const MARGIN: f32 = 40.0;
 /// Pixels along a side of a picture.
 const PIXELS: u32 = 104;
 
@@ -61,17 +64,11 @@ impl View for StartPage {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         let modal = Modal::new(Id::new("start")).show(ui.ctx(), |ui| {
-            ui.set_width(720.0);
-            title(ui, context.theme);
-            ui.add_space(space::WIDE);
-            let recovered = self.recovery_list.show(ui, context, &mut actions);
-            self.load_pictures(ui.ctx());
-            let chosen = self.cards(ui, context).or(recovered);
-            ui.add_space(space::USUAL);
-            let opens_use_view = self.opens_use_view.get_or_insert(context.is_use_view);
-            let switch = ui.checkbox(opens_use_view, Command::Window(WindowCommand::UseView).title());
-            switch.on_hover_text("For those who use a material and do not change its graph");
-            chosen
+            ui.set_width(WIDTH);
+            // On a small screen, or with many graphs to recover, the page is higher than the screen.
+            let most = ui.ctx().content_rect().height() - 2.0 * MARGIN;
+            let page = ScrollArea::vertical().max_height(most);
+            page.show(ui, |ui| self.page(ui, context, &mut actions)).inner
         });
         let should_close = modal.should_close();
         if let Some(chosen) = modal.inner {
@@ -97,6 +94,20 @@ fn title(ui: &mut Ui, theme: &Theme) {
 }
 
 impl StartPage {
+    /// Shows all that is on the page. Returns the action of what was clicked.
+    fn page(&mut self, ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) -> Option<Action> {
+        title(ui, context.theme);
+        ui.add_space(space::WIDE);
+        let recovered = self.recovery_list.show(ui, context, actions);
+        self.load_pictures(ui.ctx());
+        let chosen = self.cards(ui, context).or(recovered);
+        ui.add_space(space::USUAL);
+        let opens_use_view = self.opens_use_view.get_or_insert(context.is_use_view);
+        let switch = ui.checkbox(opens_use_view, Command::Window(WindowCommand::UseView).title());
+        switch.on_hover_text("For those who use a material and do not change its graph");
+        chosen
+    }
+
     /// Shows cards of graphs that can be opened. Returns the action of the clicked one.
     fn cards(&self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
         let theme = context.theme;

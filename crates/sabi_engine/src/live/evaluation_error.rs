@@ -25,7 +25,7 @@ pub(super) enum EvaluationError {
 impl EvaluationError {
     /// Classifies an error of work on this device.
     pub(super) fn of(gpu: &Gpu, error: impl Into<EngineError>) -> EvaluationError {
-        if let Some(loss) = gpu.loss() {
+        if let Some(loss) = gpu.loss_behind_error() {
             return EvaluationError::Lost(loss.into());
         }
         let error = error.into();
@@ -46,6 +46,10 @@ impl EvaluationError {
 
     /// Classifies an error of a run at a size in texels per UV unit.
     pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> EvaluationError {
+        // On a lost device the kernel of a node cannot be made either, which is no fault of the node.
+        if let Some(loss) = gpu.loss_behind_error() {
+            return EvaluationError::Lost(loss.into());
+        }
         let room = match &error {
             GpuError::Node { node, reason } => {
                 return EvaluationError::Node {

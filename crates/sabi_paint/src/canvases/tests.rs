@@ -254,15 +254,17 @@ fn strokes_end_wherever_they_are_stopped_and_nothing_of_them_is_kept() {
         hash(&painted.canvas)
     };
     let wanted = painted(&mut Canvases::default(), &whole);
-    for after in [0, 1, 10, 300, 2000] {
+    for after in [0, 1, 10, 100, 300, 2000] {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= after;
         let mut canvases = Canvases::default();
         painted(&mut canvases, &PaintSurface::new(&mesh, &index).stopped_by(&stop));
         let most = asked.into_inner();
         assert!(most < after + 5000, "asked {most} times, and stopped after {after}");
-        assert!(canvases.kept.iter().all(|kept| kept.strokes.len() < list.strokes.len()));
-        assert!(canvases.growing.is_empty());
+        if most > after {
+            assert!(canvases.kept.iter().all(|kept| kept.strokes.len() < list.strokes.len()));
+            assert!(canvases.growing.is_empty());
+        }
         assert_eq!(painted(&mut canvases, &whole), wanted, "stopped after {after}");
     }
 }

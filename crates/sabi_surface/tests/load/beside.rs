@@ -91,7 +91,8 @@ fn what_does_not_fit_into_memory_is_a_sentence() {
     };
     let all = (text.len() + bytes.len()) as u64;
     assert!(with(all).is_ok());
-    for (memory, needed, limit) in [(all - 1, 4, 3), (text.len() as u64, 4, 0), (1, 1, 0)] {
+    // The JSON of the file alone takes more in memory than its bytes.
+    for (memory, needed, limit) in [(all - 1, 4, 3), (text.len() as u64, 1, 0), (1, 1, 0)] {
         let said = with(memory).unwrap_err().fault.to_string();
         let expected =
             format!("it takes {needed} MiB of memory, and {limit} MiB are for a model; nothing of it was read");
@@ -221,7 +222,7 @@ fn files_are_found_in_another_case_of_letters() {
     let model = load(&written(folder.path(), &text), &LoadOptions::default()).unwrap();
     assert_eq!(model.mesh.triangles.len(), 1);
     // An address of another computer leads to its last part beside the model.
-    let (text, bytes) = spelled(&["file:///C:/Users/me/my%20leaf.bin".to_owned()]);
+    let (text, bytes) = spelled(&["file:///D:/models/my%20leaf.bin".to_owned()]);
     fs::write(folder.path().join("my leaf.bin"), &bytes).unwrap();
     let model = load(&written(folder.path(), &text), &LoadOptions::default()).unwrap();
     assert_eq!(model.mesh.triangles.len(), 1);
