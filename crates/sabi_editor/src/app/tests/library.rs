@@ -253,6 +253,22 @@ fn a_dropped_folder_becomes_a_material() {
     );
     assert!(kinds.contains(&"material/combine".to_owned()));
     assert_eq!(window.steps(), 1);
+    // Its nodes cover none that were there, and are in view, and its material is shown.
+    let canvas = window.editor().shell.dock.rects[&Panel::Canvas];
+    let rects: Vec<_> = window
+        .document()
+        .graph()
+        .ids()
+        .map(|id| (id.clone(), window.rect(id)))
+        .collect();
+    for (at, (id, rect)) in rects.iter().enumerate() {
+        assert!(canvas.contains_rect(*rect), "{id} is in view");
+        let covered = rects[at + 1..].iter().find(|(_, other)| other.intersects(*rect));
+        assert_eq!(covered, None, "{id} covers another node");
+    }
+    let material = window.document().selected_one().expect("the material").clone();
+    let shown = window.editor().looks.shown.clone();
+    assert_eq!(shown, Some(window.editor().chosen(&material)));
     let empty = window.path("empty");
     std::fs::create_dir_all(&empty).expect("a folder");
     window.dropped(&empty);
