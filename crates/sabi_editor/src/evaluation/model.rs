@@ -195,6 +195,11 @@ impl RequestedModel {
         self.refused = Some(left);
     }
 
+    /// Returns whether a model is being read in this way already, so that requesting it again would only begin anew.
+    pub(crate) fn is_being_read(&self, file: &Path, import: &ImportOptions) -> bool {
+        (self.is_replacing() || self.is_first()) && self.file() == file && self.import == *import
+    }
+
     /// Requests the last model again that could be shown.
     fn return_to_good(&mut self) {
         if let Some(good) = &self.good {
