@@ -76,9 +76,12 @@ impl RequestedModel {
         &self.options.path
     }
 
-    /// Warnings about the model at its full size; a coarse one, which nobody asked for, has none.
+    /// Warnings about the model at its full size; a coarse one, which nobody asked for, has none, and neither has one that is
+    /// being read in place of another.
     pub(crate) fn warnings(&self) -> &[Warning] {
+        let is_requested = |model: &&Arc<LiveModel>| model.model_revision >= self.file_since;
         let full = self.received.as_ref().filter(|model| model.size == self.size());
+        let full = full.filter(is_requested);
         full.map_or(&[], |model| &model.warnings)
     }
 

@@ -141,6 +141,12 @@ impl ModelView {
     pub(crate) fn fault_beside(&self, model: &Path) -> Option<&String> {
         self.row.cells.get(model)?.fault.as_ref()
     }
+
+    /// File of the model whose picture is in the place of a model.
+    pub(crate) fn pictured_beside(&self, model: &Path) -> Option<&PathBuf> {
+        let picture = self.row.cells.get(model)?.last.as_ref()?;
+        picture.model.linked.model.files.first()
+    }
 }
 
 impl ModelView {
@@ -225,7 +231,9 @@ impl ModelView {
         first: Rect,
         subject: &Subject<'_>,
     ) -> Option<String> {
-        let newest = evaluation.results.picture(subject.shown).cloned();
+        // That of the model that was in this place before would stand under the name of this one.
+        let newest = evaluation.results.picture(subject.shown);
+        let newest = newest.filter(|picture| !evaluation.is_outdated(picture)).cloned();
         let state = state_of(evaluation, newest.is_some());
         let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
         let picture = newest.or_else(|| own.last.take());
