@@ -79,6 +79,8 @@ impl Editor {
             Action::Model(action) => self.perform_on_model(action),
             Action::Trust(action) => self.trust(action),
             Action::Dropped(path) => self.take_dropped(&path, ui),
+            Action::ImportPictures(path) => self.import_pictures(&path, ui),
+            Action::ShowSet(set) => self.views.flat.set = Some(set),
             Action::GoTo(node) => self.go_to(&node),
             Action::Steps(steps) => {
                 for _ in 0..steps.unsigned_abs() {

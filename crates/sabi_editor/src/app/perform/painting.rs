@@ -47,6 +47,7 @@ impl Editor {
                 self.end_drag();
                 self.keep_strokes();
                 self.shell.settings.remember_brush_color();
+                self.views.flat.set = self.set_of_last_stroke().or(self.views.flat.set);
             }
             PaintAction::Cancel => self.cancel_drag(),
             PaintAction::MarkNew => self.mark_new_decal(),
@@ -117,6 +118,19 @@ impl Editor {
         let top = list.and_then(|list| list.strokes.last().cloned());
         let held = top.filter(|top| top.area.is_single() || top.path.is_some());
         self.looks.marked_strokes = held.map(|held| held.id).into_iter().collect();
+    }
+
+    /// Texture set that the last stroke of the selected node begins on.
+    fn set_of_last_stroke(&self) -> Option<SetKey> {
+        let document = &self.documents.document;
+        let model = self.evaluation.model.received.as_ref()?;
+        let list = painting::strokes_on(document, document.selected_one()?, &model.linked.model.stem)?;
+        let begin = list.strokes.last()?.points.first()?;
+        let atlas = &model.linked.atlas;
+        let chart = atlas.triangle_chart.get(begin.site.triangle as usize)?;
+        let chart = atlas.charts.get(*chart as usize)?;
+        let set = model.sets.iter().find(|set| set.key.is_home_of(chart))?;
+        Some(set.key)
     }
 
     /// Strokes of the open document.

@@ -276,6 +276,43 @@ fn a_dropped_folder_becomes_a_material() {
     assert!(window.harness.query_by_label(&said).is_some());
 }
 
+impl Window {
+    /// Asks for pictures by the menu.
+    fn ask_for_pictures(&mut self) {
+        self.press("File");
+        self.harness.get_by_label_contains("Import pictures").click();
+        self.settle();
+    }
+}
+
+#[test]
+fn a_folder_of_pictures_is_imported_by_the_file_menu_as_by_a_drop() {
+    let mut window = Window::of(GROUPED);
+    let folder = window.path("bricks");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for name in ["Bricks_diff_1k.png", "Bricks_rough_1k.png"] {
+        std::fs::write(folder.join(name), "").expect("a file");
+    }
+    window.ask_for_pictures();
+    // The folder that is listed, or one that is typed.
+    window.typed("bricks");
+    window.click("Import the folder");
+    let found = kinds(&window);
+    assert_eq!(
+        found.iter().filter(|kind| *kind == "source/image").count(),
+        2,
+        "{found:?}"
+    );
+    assert_eq!(window.steps(), 1);
+    // A single picture is a node.
+    std::fs::write(window.path("rust.png"), "").expect("a file");
+    window.ask_for_pictures();
+    window.typed("rust.png");
+    window.click("Import");
+    let added = window.document().selected_one().expect("the picture").clone();
+    assert_eq!(window.param(&added, "file").as_deref(), Some("\"rust.png\""));
+}
+
 #[test]
 fn a_dropped_picture_is_a_node_in_one_step() {
     let mut window = Window::of(GROUPED);
