@@ -14,7 +14,7 @@ use crate::{layers, nodes, wires};
 pub enum HandLayer {
     /// A color over all of the surface.
     Fill,
-    /// Strokes of a brush, which give both the mask and the color.
+    /// Strokes of a brush, which give the mask, the color and the height.
     Paint,
 }
 
@@ -49,15 +49,22 @@ pub(crate) fn add(document: &mut OpenDocument, end: Option<&StackEnd>, what: Han
         HandLayer::Fill => Some(layer),
         HandLayer::Paint => {
             let paint = paint_mask(document, &layer, 0.0)?;
-            let color = OutputRef {
-                node: paint.clone(),
-                port: Some("color".to_owned()),
-            };
-            let map = SlotRef {
-                node: layer,
-                name: "color_map".to_owned(),
-            };
-            wires::connect(document, &color, &map).then_some(paint)
+            // The height map holds lengths already, which a height of 1 leaves as they are.
+            let is_kept = nodes::set_knob(document, &layer, "height", Some(Value::Number(1.0)));
+            let is_wired = [("color", "color_map"), ("height", "height_map")]
+                .iter()
+                .all(|(output, input)| {
+                    let from = OutputRef {
+                        node: paint.clone(),
+                        port: Some((*output).to_owned()),
+                    };
+                    let map = SlotRef {
+                        node: layer.clone(),
+                        name: (*input).to_owned(),
+                    };
+                    wires::connect(document, &from, &map)
+                });
+            (is_kept && is_wired).then_some(paint)
         }
     }
 }

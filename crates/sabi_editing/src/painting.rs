@@ -9,6 +9,7 @@ use sabi_graph::{Edit, NodeId, OutputRef, PortType, Value};
 use crate::new_nodes;
 use crate::node_size::size_of;
 use crate::open_document::OpenDocument;
+use crate::stack::{self, Layer};
 
 /// Kind of the nodes that are painted on.
 pub const PAINT: &str = "source/paint";
@@ -32,6 +33,29 @@ pub fn strokes_of(document: &OpenDocument, node: &NodeId) -> Option<String> {
 pub fn strokes_on(document: &OpenDocument, node: &NodeId, model: &str) -> Option<Arc<StrokeList>> {
     let open = document.session.graph();
     open.strokes.on_model(&open.path, model, &strokes_of(document, node)?)
+}
+
+/// Layer that shows what is painted on a node.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PaintedLayer {
+    /// Title of the layer.
+    pub title: String,
+    /// True if the node is only the mask of the layer, which has its color from elsewhere.
+    pub is_mask_alone: bool,
+}
+
+/// Returns the layer whose mask a paint node is; none if it is no mask of a layer that leads to an output.
+pub fn painted_layer(document: &OpenDocument, node: &NodeId) -> Option<PaintedLayer> {
+    let stacks = stack::all(document);
+    let mut layers = stacks.iter().flat_map(|stack| &stack.layers);
+    let is_mask = |layer: &&Layer| layer.mask.as_ref().is_some_and(|mask| mask.node == *node);
+    let layer = layers.find(is_mask)?;
+    let inputs = &document.node(&layer.node)?.inputs;
+    let colors = inputs.get("color_map");
+    Some(PaintedLayer {
+        title: layer.title.clone(),
+        is_mask_alone: colors.is_none_or(|from| from.node != *node),
+    })
 }
 
 /// Returns whether any node reads a result of this one.

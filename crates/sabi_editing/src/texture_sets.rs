@@ -11,7 +11,7 @@ use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
 use crate::node_size::{NODE_WIDTH, size_of};
 use crate::open_document::OpenDocument;
 use crate::texture_map_names::{MapName, Reading};
-use crate::{new_nodes, relative_paths};
+use crate::{new_nodes, relative_paths, wires};
 
 const IMAGE: &str = "source/image";
 const COMBINE: &str = "material/combine";
@@ -52,8 +52,22 @@ pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> boo
         materials.push(material);
         at[1] = bottom + GAP;
     }
-    let edits = builder.edits;
+    let mut edits = builder.edits;
+    let size = [3.0 * NODE_WIDTH + 2.0 * GAP, at[1] - GAP - pos[1]];
+    move_to_free(document, &mut edits, pos, size);
     document.edit_and_select("Add texture set", edits, materials)
+}
+
+/// Moves nodes that are added in a box of this size, at `pos`, so that the box covers no other node.
+fn move_to_free(document: &OpenDocument, edits: &mut [Edit], pos: [f32; 2], size: [f32; 2]) {
+    let others: Vec<&NodeId> = document.graph().ids().collect();
+    let free = wires::uncovering(document, pos, size, &others);
+    let way = [free[0] - pos[0], free[1] - pos[1]];
+    for edit in edits {
+        if let Edit::AddNode { node, .. } = edit {
+            node.pos = [(node.pos[0] + way[0]).round(), (node.pos[1] + way[1]).round()];
+        }
+    }
 }
 
 /// State while texture sets are added: the edits so far, and the ids that they use.

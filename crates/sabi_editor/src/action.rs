@@ -7,10 +7,10 @@ use std::sync::Arc;
 use egui::Pos2;
 use sabi_editing::command::{EditCommand, NodeSource, PaintCommand};
 use sabi_editing::knob_target::KnobTarget;
-use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
 use sabi_engine::paint::{Stroke, Version};
 use sabi_engine::view::Mode;
+use sabi_engine::{NodeDraft, SetKey};
 use sabi_graph::{NodeId, NodeRef, Value};
 
 use crate::brush_shelf::KeptBrush;
@@ -79,6 +79,10 @@ pub(crate) enum Action {
     Trust(TrustAction),
     /// Open or use a file or a folder that was dropped on the window.
     Dropped(PathBuf),
+    /// Add a picture, or the texture sets that the pictures of a folder are.
+    ImportPictures(PathBuf),
+    /// Show a texture set in the 2D view.
+    ShowSet(SetKey),
     /// Select a node, by its full id, and show it on the canvas.
     GoTo(String),
     /// Undo or redo this many steps; negative is undo.

@@ -2,7 +2,7 @@
 
 use sabi_engine::Activity;
 
-/// Phase of the work with the number of its steps that are done; a single step with its time so far.
+/// Phase of the work with the number of its steps that are done; a single step with the time of the whole work so far.
 pub(crate) fn activity_text(activity: &Activity) -> String {
     let label = activity.phase.label();
     if activity.of > 1 {

@@ -62,6 +62,8 @@ pub(crate) enum FileCommand {
     Save,
     /// Asks for a file to save the graph to.
     SaveAs,
+    /// Asks for a picture, or a folder of pictures, to add.
+    ImportPictures,
     /// Writes the textures as the export panel says.
     Export,
     /// Asks for an archive to write the graph to, with all files that it uses.

@@ -131,7 +131,7 @@ impl ViewContext<'_> {
     /// Returns whether another model stands in for the one that the graph names, which could not be read.
     pub(crate) fn is_named_model_refused(&self) -> bool {
         let refused = self.evaluation.model.refused().map(canonical_if_present);
-        let named = model_of(&self.document.session).and_then(Result::ok);
+        let named = model_of(&self.document.session, self.examples).and_then(Result::ok);
         refused.is_some() && refused == named.as_deref().map(canonical_if_present)
     }
 

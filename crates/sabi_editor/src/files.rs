@@ -105,6 +105,11 @@ impl Questions {
         self.ask_path(PathFor::ModelBeside, of_the_artist(shown), String::new());
     }
 
+    /// Asks for a picture, or a folder of pictures, to add.
+    pub(crate) fn ask_for_pictures(&mut self, document: &OpenDocument) {
+        self.ask_path(PathFor::ImportedPictures, document.session.file(), String::new());
+    }
+
     /// Asks for a file for a picture of the model's view, with a free name beside the graph.
     pub(crate) fn ask_for_picture(&mut self, document: &OpenDocument) {
         self.ask_path(PathFor::Picture, document.session.file(), free_name(document, "png"));
@@ -388,6 +393,7 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::Model => Action::Model(ModelAction::Show(path)),
         PathFor::ModelBeside => Action::Model(ModelAction::ShowBeside(path)),
         PathFor::Missing(lost) => Action::File(FileAction::Find { lost, file: path }),
+        PathFor::ImportedPictures => Action::ImportPictures(path),
         PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),
         PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
         PathFor::Gradient(parameter) => Action::File(FileAction::PickGradient { parameter, file: path }),

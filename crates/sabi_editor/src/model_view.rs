@@ -22,8 +22,8 @@ mod subject;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
-use sabi_engine::ViewSubject;
 use sabi_engine::view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
+use sabi_engine::{SetKey, ViewSubject};
 
 use crate::action::Action;
 use crate::activity_text::activity_text;
@@ -36,7 +36,7 @@ use crate::settings::viewport::ViewChoices;
 use comparison::Comparison;
 use environment_loader::EnvironmentLoader;
 use lights::Lights;
-use navigation::{Navigation, aspect};
+use navigation::{Navigation, aspect, picked_by};
 use pictures::Pictures;
 use row::RowView;
 use saved_picture::SavedPicture;
@@ -161,6 +161,8 @@ impl ModelView {
             self.navigation.frame_new(&picture.model, rect);
             if !self.paint_on(ui, &response, rect, picture, subject, &mut output.actions) {
                 self.move_camera(ui, &response, &cells, subject);
+                let set = self.clicked_set(&response, rect, picture);
+                output.actions.extend(set.map(Action::ShowSet));
             }
             output.color = self.clicked_color(&response, rect, evaluation, picture, subject);
         }
@@ -193,6 +195,17 @@ impl ModelView {
         self.show_brush(ui, &response, rect, subject);
         output.environment = menu::show(self, ui, area, evaluation, subject, &mut output.actions);
         output
+    }
+
+    /// Texture set of the surface that was clicked.
+    fn clicked_set(&self, response: &egui::Response, rect: Rect, picture: &Picture) -> Option<SetKey> {
+        let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
+        let at = Some(at).filter(|at| rect.contains(*at))?;
+        let model = &picture.model;
+        let picked = picked_by(&self.navigation.camera, model, rect, at)?;
+        let chart = model.linked.atlas.charts.get(picked.chart as usize)?;
+        let set = model.sets.iter().find(|set| set.key.is_home_of(chart))?;
+        Some(set.key)
     }
 
     /// Moves the camera by drags; in every cell the pointer moves what is under it.

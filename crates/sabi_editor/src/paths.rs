@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::{Refusal, Session, Unread, canonical};
 
+use crate::files::examples::builtin_file;
+
 /// Endings of font files.
 pub(crate) const FONTS: [&str; 3] = ["ttf", "otf", "ttc"];
 
@@ -61,9 +63,16 @@ pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// File of the model that a graph names, or the reason that the graph may not open it.
-pub(crate) fn model_of(session: &Session) -> Option<Result<PathBuf, Refusal>> {
-    let named = session.document().preview.as_ref()?.mesh.clone()?;
+/// File of the model that a graph names, or the reason that the graph may not open it. Built-in models are in the folder `examples`.
+pub(crate) fn model_of(session: &Session, examples: Option<&Path>) -> Option<Result<PathBuf, Refusal>> {
+    let preview = session.document().preview.as_ref()?;
+    let named = preview.mesh.clone()?;
+    if let Some(file) = examples
+        .zip(preview.builtin_mesh())
+        .and_then(|(folder, name)| builtin_file(folder, name))
+    {
+        return Some(Ok(file));
+    }
     let graph = session.graph();
     Some(match graph.trusted.check(&graph.base(), &named) {
         Err(Unread::Refused(refusal)) => Err(refusal),

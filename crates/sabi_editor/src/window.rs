@@ -197,8 +197,9 @@ fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> R
     if let Some(mesh) = &request.mesh {
         return Ok(in_canonical_folder(mesh));
     }
-    if let Some(Ok(model)) = model_of(session) {
-        return Ok(in_canonical_folder(&model));
+    let examples = folders.examples.as_deref();
+    if let Some(Ok(model)) = model_of(session, examples) {
+        return Ok(in_canonical_folder(&examples::at_home(examples, model)));
     }
     folders.first_model()
 }

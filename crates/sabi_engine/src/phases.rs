@@ -86,7 +86,7 @@ impl Progress for NoProgress {
     }
 }
 
-/// Phase of a piece of work, with its steps and its beginning.
+/// Phase of a piece of work with its steps, and the beginning of the work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Activity {
     /// Its phase.
@@ -95,7 +95,7 @@ pub struct Activity {
     pub done: usize,
     /// Steps of the phase.
     pub of: usize,
-    /// Time when the phase began.
+    /// Time when the work began, with whatever phase.
     pub since: Instant,
 }
 
@@ -114,12 +114,11 @@ impl SharedActivity {
     /// Replaces the activity.
     pub fn set(&self, phase: Phase, done: usize, of: usize) {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let before = known.filter(|activity| activity.phase == phase);
         *known = Some(Activity {
             phase,
             done,
             of,
-            since: before.map_or_else(Instant::now, |activity| activity.since),
+            since: known.map_or_else(Instant::now, |activity| activity.since),
         });
     }
 
@@ -345,6 +344,19 @@ mod tests {
         let told = unless_canceled(&Third::default(), move || ends.recv()).unwrap_err();
         assert_eq!(told.kind, ErrorKind::Interrupted);
         assert_eq!(unless_canceled(&NoProgress, || 7).unwrap(), 7);
+    }
+
+    #[test]
+    fn the_time_of_an_activity_counts_from_the_beginning_of_the_work_over_all_phases() {
+        let shared = SharedActivity::default();
+        shared.set(Phase::Load, 0, 1);
+        let began = shared.get().unwrap().since;
+        thread::sleep(Duration::from_millis(2));
+        shared.set(Phase::Atlas, 0, 1);
+        assert_eq!(shared.get().unwrap().since, began);
+        shared.clear();
+        shared.set(Phase::Load, 0, 1);
+        assert_ne!(shared.get().unwrap().since, began, "other work");
     }
 
     /// Work that tells when it has begun, and looks until it is canceled.

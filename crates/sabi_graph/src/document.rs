@@ -93,7 +93,7 @@ pub struct LibrarySource {
 /// Settings of the preview in the editor.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Preview {
-    /// The model, as a path relative to the graph file.
+    /// The model, as a path relative to the graph file, or [`Preview::BUILTIN`] with the name of one that comes with the program.
     pub mesh: Option<String>,
     /// Folder in which files are looked for that the model names and that are not there, as a path relative to the graph file.
     pub textures: Option<String>,
@@ -111,6 +111,16 @@ pub struct Preview {
     pub views: BTreeMap<String, SavedView>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
+}
+
+impl Preview {
+    /// Beginning of the name of a model that comes with the program.
+    pub const BUILTIN: &str = "builtin:";
+
+    /// Name of the model that comes with the program; `None` if the model is a file, and without a model.
+    pub fn builtin_mesh(&self) -> Option<&str> {
+        self.mesh.as_deref()?.strip_prefix(Preview::BUILTIN)
+    }
 }
 
 /// A view of the model. Lengths are shares of the model's largest side.

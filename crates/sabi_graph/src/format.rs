@@ -263,7 +263,11 @@ pub(crate) static PREVIEW: ObjectKeys = ObjectKeys {
     name: "preview",
     about: "What a graph is shown on while it is edited. Bakes read of it alone how its model is read.",
     keys: &[
-        key("mesh", Shape::Text, "Model, relative to the graph file."),
+        key(
+            "mesh",
+            Shape::Text,
+            "Model, relative to the graph file; `builtin:NAME` for one that comes with the program, such as `builtin:crate`.",
+        ),
         key(
             "textures",
             Shape::Text,

@@ -75,7 +75,12 @@ impl PathRewriter<'_> {
 
     fn preview(&self, preview: Option<&mut Preview>) {
         let Some(preview) = preview else { return };
-        for path in [&mut preview.mesh, &mut preview.textures].into_iter().flatten() {
+        // A model that comes with the program is no file.
+        let mesh = match preview.builtin_mesh() {
+            Some(_) => None,
+            None => preview.mesh.as_mut(),
+        };
+        for path in [mesh, preview.textures.as_mut()].into_iter().flatten() {
             *path = (self.relocation.moved)(path);
         }
     }

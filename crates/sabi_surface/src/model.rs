@@ -252,9 +252,15 @@ impl ModelMaterial {
         all.into_iter().flatten().chain(self.finish.textures_mut())
     }
 
-    /// Returns the material of faces without a material: neither metallic nor smooth.
+    /// Linear base color of surfaces for which a file gives none, unless its format says which one they have: that of unfired
+    /// clay, which shows its form in any light. White burns out where it is lit.
+    pub(crate) const UNKNOWN_COLOR: [f32; 3] = [0.5; 3];
+
+    /// Returns the material of faces without a material: neither metallic nor smooth, with the color of unknown ones.
     pub(crate) fn plain() -> ModelMaterial {
+        let [red, green, blue] = ModelMaterial::UNKNOWN_COLOR;
         ModelMaterial {
+            base_color_factor: [red, green, blue, 1.0],
             metallic_factor: 0.0,
             ..ModelMaterial::default()
         }

@@ -73,7 +73,7 @@ pub enum NodeCommand {
     AddTextureSets {
         /// Image files.
         files: Vec<PathBuf>,
-        /// Upper left corner of the new nodes, canvas points.
+        /// Upper left corner of the new nodes, canvas points; they are moved down or up where they would cover other nodes.
         place: [f32; 2],
     },
     /// Add a node that reads an image file.

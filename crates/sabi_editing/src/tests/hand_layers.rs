@@ -34,6 +34,15 @@ fn a_paint_layer_is_added_on_top_and_shows_painted_colors_unchanged() {
         wire(&document, &format!("{}.color_map", layer.node)),
         format!("{paint}.color")
     );
+    assert_eq!(
+        wire(&document, &format!("{}.height_map", layer.node)),
+        format!("{paint}.height"),
+        "the brush can raise and carve"
+    );
+    assert_eq!(
+        param(&document, layer.node.as_str(), "height"),
+        Some(Value::Number(1.0))
+    );
     // The color of a layer multiplies its color map: gray would darken the painted colors.
     assert_eq!(param(&document, layer.node.as_str(), "color"), Some("#ffffff".into()));
     assert_eq!(document.session.undo_names().collect::<Vec<_>>(), ["Add Paint layer"]);

@@ -10,7 +10,10 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{EngineError, ErrorKind, FileState, Keeping, NodeDraft, Remedy, SavedReading, Session, TrustedPaths};
+use sabi_engine::{
+    EngineError, ErrorKind, FileState, Keeping, NodeDraft, Refusal, Remedy, SavedReading, Session, TrustedPaths,
+};
+use sabi_graph::Preview;
 
 use super::recoveries::Recoveries;
 use crate::action::LibraryKind;
@@ -211,8 +214,13 @@ impl Documents {
 
     /// File of the model that the open graph names and may open.
     pub(crate) fn named_model(&self) -> Option<PathBuf> {
-        let named = model_of(&self.document.session)?.ok()?;
+        let named = self.written_model()?.ok()?;
         Some(examples::at_home(self.folders.examples.as_deref(), named))
+    }
+
+    /// File of the model that the open graph names, or the reason that it may not open it.
+    pub(crate) fn written_model(&self) -> Option<Result<PathBuf, Refusal>> {
+        model_of(&self.document.session, self.folders.examples.as_deref())
     }
 
     /// Takes the open graph, with an empty one in its place, since the window ends.
@@ -331,7 +339,7 @@ impl Documents {
     /// the choice of a model is none.
     pub(crate) fn name_model(&mut self, evaluation: &Evaluation) {
         let model = evaluation.model.file();
-        let named = match model_of(&self.document.session) {
+        let named = match self.written_model() {
             // Another one stands in for one that may not be opened.
             Some(Err(_)) if !self.is_model_chosen => return,
             named => named.and_then(Result::ok),
@@ -346,7 +354,12 @@ impl Documents {
             return;
         }
         let reading = evaluation.model.import_options().saved();
-        let mesh = relative_paths::from_own_folder(&self.document, model);
+        let examples = self.folders.examples.as_deref();
+        let builtin = examples.and_then(|folder| examples::builtin_name(folder, model));
+        let mesh = match builtin {
+            Some(name) => Ok(format!("{}{name}", Preview::BUILTIN)),
+            None => relative_paths::from_own_folder(&self.document, model),
+        };
         let texts = mesh.and_then(|mesh| Ok((mesh, self.textures_text(&reading)?)));
         let (mesh, textures) = match texts {
             Ok(texts) => texts,

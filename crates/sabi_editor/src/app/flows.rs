@@ -20,7 +20,7 @@ use crate::exports::ExportSource;
 use crate::files::Question;
 use crate::files::{examples, new_graph};
 use crate::notices::Work;
-use crate::paths::{canonical_if_present, model_of};
+use crate::paths::canonical_if_present;
 use crate::saved_pictures::{OF_GRAPH, OF_GROUP};
 
 /// Time until the next check whether files are watched.
@@ -297,11 +297,11 @@ impl Editor {
 
     /// Reads the graph again from its file, which another program has changed.
     pub(super) fn reload(&mut self) {
-        let before = model_of(&self.documents.document.session);
+        let before = self.documents.written_model();
         let read = self.documents.document.read_again();
         if self.shell.report(read).is_some() {
             self.documents.is_file_foreign = false;
-            let model = model_of(&self.documents.document.session);
+            let model = self.documents.written_model();
             if let Some(model) = self.documents.named_model().filter(|_| before != model) {
                 self.take_model(&model);
             }

@@ -94,9 +94,9 @@ impl Opened {
         if is_new {
             documents.kinds_reading.read_opened(context, &mut documents.document);
         }
-        let named = model_of(&documents.document.session).and_then(Result::ok);
-        let named = named.filter(|_| is_new && !initial.is_model_given);
         let examples = documents.folders.examples.as_deref();
+        let named = model_of(&documents.document.session, examples).and_then(Result::ok);
+        let named = named.filter(|_| is_new && !initial.is_model_given);
         let model = named.map_or(lost.model, |model| {
             in_canonical_folder(&examples::at_home(examples, model))
         });

@@ -79,6 +79,8 @@ impl Editor {
             Action::Model(action) => self.perform_on_model(action),
             Action::Trust(action) => self.trust(action),
             Action::Dropped(path) => self.take_dropped(&path, ui),
+            Action::ImportPictures(path) => self.import_pictures(&path, ui),
+            Action::ShowSet(set) => self.views.flat.set = Some(set),
             Action::GoTo(node) => self.go_to(&node),
             Action::Steps(steps) => {
                 for _ in 0..steps.unsigned_abs() {
@@ -181,7 +183,9 @@ impl Editor {
     /// Edits the open document: shows the result of a node that was added, and puts copied nodes on the clipboard.
     pub(in crate::app) fn edit(&mut self, command: impl Into<EditCommand>, ui: &Ui) {
         let are_first = new_graph::is_untouched(self.documents.document.graph());
-        match perform(&mut self.documents.document, command.into()) {
+        let command = command.into();
+        let before = finds_places(&command).then(|| self.views.canvas.camera.before_addition(&self.documents.document));
+        match perform(&mut self.documents.document, command) {
             Outcome::Added(id) => {
                 let document = &self.documents.document;
                 self.looks.show(document, &id, None);
@@ -190,6 +194,9 @@ impl Editor {
             }
             Outcome::Copied(text) => ui.ctx().copy_text(text),
             Outcome::Unchanged | Outcome::Done | Outcome::Saved(_) => {}
+        }
+        if let Some(before) = before {
+            self.views.canvas.camera.keep_in_view(&self.documents.document, &before);
         }
     }
 
@@ -376,4 +383,12 @@ impl Editor {
         self.views.canvas.camera.frame_nodes(document, [&id].into_iter());
         self.looks.show(document, &id, None);
     }
+}
+
+/// Returns whether a command puts new nodes where there is room for them, and not at a place of the canvas that the artist chose.
+fn finds_places(command: &EditCommand) -> bool {
+    matches!(
+        command,
+        EditCommand::Layer(_) | EditCommand::Node(NodeCommand::AddTextureSets { .. })
+    )
 }

@@ -74,6 +74,7 @@ const SAVE: &[Option<Command>] = &[
     file(FileCommand::Save),
     file(FileCommand::SaveAs),
     None,
+    file(FileCommand::ImportPictures),
     file(FileCommand::Export),
     file(FileCommand::Pack),
 ];

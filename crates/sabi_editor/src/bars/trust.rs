@@ -28,7 +28,7 @@ fn refusals(context: &ViewContext<'_>) -> BTreeSet<Refusal> {
     let received = evaluation.model.received.iter();
     let of_model = received.flat_map(|model| &model.linked.model.refused);
     let failed = evaluation.model.failure.iter().filter_map(EngineError::refusal);
-    let named = model_of(&context.document.session).and_then(Result::err);
+    let named = model_of(&context.document.session, context.examples).and_then(Result::err);
     let all = evaluation.refused.iter().chain(of_model).chain(failed);
     let all = all.cloned().chain(named);
     all.filter(|refusal| refusal.folder().is_some()).collect()

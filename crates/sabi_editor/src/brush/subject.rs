@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use sabi_editing::painting::{strokes_of, strokes_on};
+use sabi_editing::OpenDocument;
+use sabi_editing::painting::{painted_layer, strokes_of, strokes_on};
 use sabi_engine::LiveModel;
 use sabi_engine::paint::{Stencil, Stroke};
 use sabi_graph::NodeId;
@@ -19,6 +20,7 @@ pub(crate) struct PaintSubject {
     pub(super) node: NodeId,
     /// Versions of its strokes.
     pub(super) strokes: String,
+    /// What strokes change, in words: a layer, the mask of one, or the node.
     pub(crate) title: String,
     pub(crate) brush: BrushChoices,
     /// The picture over the view that strokes are painted through.
@@ -51,7 +53,7 @@ impl PaintSubject {
         let marked = marked_strokes(context, node);
         Some(PaintSubject {
             strokes: strokes_of(document, node)?,
-            title: document.title(node),
+            title: title_of(document, node),
             node: node.clone(),
             decal: marked_decal(context, &marked),
             path: only(&marked).filter(|stroke| stroke.path.is_some()),
@@ -70,6 +72,15 @@ impl PaintSubject {
             picture_from_model: canvas.stencil_map(model, shown)?,
         };
         Some(Arc::new(stencil))
+    }
+}
+
+/// What strokes of a paint node change, in words.
+fn title_of(document: &OpenDocument, node: &NodeId) -> String {
+    match painted_layer(document, node) {
+        Some(layer) if layer.is_mask_alone => format!("the mask of {}", layer.title),
+        Some(layer) => layer.title,
+        None => document.title(node),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Camera of the canvas: the shown part of the graph, and the parts that were shown of other graphs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use egui::{Pos2, Rect, Ui, vec2};
+use egui::{Pos2, Rect, Ui, Vec2, vec2};
 use sabi_editing::notes::approximate_size;
 use sabi_editing::{OpenDocument, navigation, ports};
 use sabi_graph::NodeId;
@@ -28,6 +28,16 @@ pub(crate) struct Camera {
     pub(super) panel: Option<Rect>,
     /// True once the view was fitted to all nodes.
     is_fitted: bool,
+    /// View that shows all nodes, with the size of the panel that it was made for.
+    fitted: Option<(View, Vec2)>,
+}
+
+/// Nodes of the shown graph before an edit.
+pub(crate) struct NodesBefore {
+    /// Those that are wholly in view.
+    seen: BTreeSet<NodeId>,
+    /// All others.
+    others: BTreeSet<NodeId>,
 }
 
 /// Rectangle of a node with the names of its published ports beside it, canvas points.
@@ -62,7 +72,9 @@ impl Camera {
                 None => self.is_fitted = false,
             }
         }
-        if !self.is_fitted {
+        // A view that nobody has moved since then goes along with the shape of the panel.
+        let is_reshaped = |(view, size): (View, Vec2)| view == self.view && size != panel.size();
+        if !self.is_fitted || !is_other && self.fitted.is_some_and(is_reshaped) {
             self.frame_all(document);
         }
         is_other
@@ -75,6 +87,7 @@ impl Camera {
         let notes = notes.map(|note| Rect::from_min_size(note.pos.into(), approximate_size(note).into()));
         self.frame_rects(graph.ids().filter_map(|id| named_rect(document, id)).chain(notes));
         self.is_fitted = true;
+        self.fitted = self.panel.map(|panel| (self.view, panel.size()));
     }
 
     /// Zooms to these nodes.
@@ -93,6 +106,34 @@ impl Camera {
             self.frame_all(document);
         } else if !seen.intersects(rect) {
             self.view.pan_to(panel, rect);
+        }
+    }
+
+    /// Nodes before an edit that adds some wherever there is room for them, and moves others out of their way.
+    pub(crate) fn before_addition(&self, document: &OpenDocument) -> NodesBefore {
+        let seen = self.panel.map(|panel| self.view.visible_rect(panel));
+        let ids = document.graph().ids().cloned();
+        let (seen, others) = ids.partition(|id| {
+            let rect = node_rect(document, id);
+            seen.zip(rect).is_some_and(|(seen, rect)| seen.contains_rect(rect))
+        });
+        NodesBefore { seen, others }
+    }
+
+    /// Zooms to the nodes that were added since, and those that were seen before, where one of them is not in view.
+    pub(crate) fn keep_in_view(&mut self, document: &OpenDocument, before: &NodesBefore) {
+        let Some(panel) = self.panel else { return };
+        let ids = || document.graph().ids();
+        let is_new = |id: &NodeId| !before.seen.contains(id) && !before.others.contains(id);
+        if !ids().any(is_new) {
+            return;
+        }
+        let wanted = || ids().filter(|id| !before.others.contains(*id));
+        let seen = self.view.visible_rect(panel);
+        let mut rects = wanted().filter_map(|id| node_rect(document, id));
+        if !rects.all(|rect| seen.contains_rect(rect)) {
+            drop(rects);
+            self.frame_nodes(document, wanted());
         }
     }
 

@@ -50,6 +50,7 @@ commands! {
     File(FileCommand::Open) "open" "Open…" Window ["Ctrl+O"];
     File(FileCommand::Save) "save" "Save" Window ["Ctrl+S"];
     File(FileCommand::SaveAs) "save_as" "Save as…" Window ["Ctrl+Shift+S"];
+    File(FileCommand::ImportPictures) "import_pictures" "Import pictures…" Window [];
     File(FileCommand::Export) "export" "Export textures" Window ["Ctrl+E"];
     File(FileCommand::Pack) "pack" "Pack with all files…" Window [];
     Graph(GraphCommand::Undo) "undo" "Undo" Window ["Ctrl+Z"];

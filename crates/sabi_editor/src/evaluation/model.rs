@@ -76,9 +76,12 @@ impl RequestedModel {
         &self.options.path
     }
 
-    /// Warnings about the model at its full size; a coarse one, which nobody asked for, has none.
+    /// Warnings about the model at its full size; a coarse one, which nobody asked for, has none, and neither has one that is
+    /// being read in place of another.
     pub(crate) fn warnings(&self) -> &[Warning] {
+        let is_requested = |model: &&Arc<LiveModel>| model.model_revision >= self.file_since;
         let full = self.received.as_ref().filter(|model| model.size == self.size());
+        let full = full.filter(is_requested);
         full.map_or(&[], |model| &model.warnings)
     }
 
@@ -193,6 +196,11 @@ impl RequestedModel {
         let left = self.file().to_owned();
         self.replace(instead, import);
         self.refused = Some(left);
+    }
+
+    /// Returns whether a model is being read in this way already, so that requesting it again would only begin anew.
+    pub(crate) fn is_being_read(&self, file: &Path, import: &ImportOptions) -> bool {
+        (self.is_replacing() || self.is_first()) && self.file() == file && self.import == *import
     }
 
     /// Requests the last model again that could be shown.

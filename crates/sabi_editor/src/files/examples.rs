@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use sabi_engine::{effect_library, free_graph_file, write_whole};
 
+use crate::paths::canonical_if_present;
+
 /// Built-in example: its title, file and model.
 pub(crate) struct Example {
     pub(crate) title: &'static str,
@@ -145,6 +147,22 @@ pub(crate) fn is_own_model(file: &Path) -> bool {
     MODELS.iter().any(|(name, _)| is_named(file, name))
 }
 
+/// File of a built-in model by its name in graphs, whether it was written or not; none if there is no such model.
+pub(crate) fn builtin_file(folder: &Path, name: &str) -> Option<PathBuf> {
+    let mut models = MODELS.iter().map(|(file, _)| *file);
+    let file = models.find(|file| Path::new(file).file_stem().is_some_and(|stem| stem == name))?;
+    Some(folder.join(MESHES).join(file))
+}
+
+/// Name in graphs of a built-in model; none for other files, and for one that was changed since it was written.
+pub(crate) fn builtin_name(folder: &Path, file: &Path) -> Option<String> {
+    let is_same = |own: &PathBuf| canonical_if_present(own) == canonical_if_present(file);
+    let (own, (_, bytes)) = models(folder).zip(MODELS).find(|(own, _)| is_same(own))?;
+    let is_unchanged = fs::read(&own).is_ok_and(|read| read == bytes);
+    let name = own.file_stem().filter(|_| is_unchanged)?;
+    Some(name.to_string_lossy().into_owned())
+}
+
 fn is_named(file: &Path, name: &str) -> bool {
     file.ends_with(Path::new(EXAMPLES_FOLDER).join(MESHES).join(name))
 }
@@ -155,7 +173,7 @@ pub(crate) fn at_home(folder: Option<&Path>, file: PathBuf) -> PathBuf {
     let Some(folder) = folder.filter(|_| !file.exists()) else {
         return file;
     };
-    let is_same = |(name, _): &(&str, &[u8])| is_named(&file, name);
+    let is_same = |(name, _): &(&str, &[u8])| is_named(&file, name) || file == folder.join(MESHES).join(name);
     let Some((name, bytes)) = MODELS.into_iter().find(is_same) else {
         return file;
     };
@@ -223,6 +241,25 @@ mod tests {
         ] {
             assert_eq!(home(other), Path::new(other));
         }
+    }
+
+    #[test]
+    fn a_built_in_model_has_a_name_that_is_found_in_any_folder_until_it_is_changed() {
+        let [here, there] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+        for (file, _) in MODELS {
+            let own = here.path().join(MESHES).join(file);
+            assert_eq!(builtin_name(here.path(), &own), None, "{file} is not written yet");
+            write_model(here.path(), &own).expect("written");
+            let name = builtin_name(here.path(), &own).expect("a name");
+            let other = builtin_file(there.path(), &name).expect("a file");
+            assert_eq!(other, there.path().join(MESHES).join(file));
+            assert_eq!(at_home(Some(there.path()), other.clone()), other);
+            assert!(other.is_file(), "{file} is written when it is needed");
+            fs::write(&own, "mine").expect("a file");
+            assert_eq!(builtin_name(here.path(), &own), None, "{file} was changed");
+        }
+        assert_eq!(builtin_file(here.path(), "hero"), None);
+        assert_eq!(builtin_name(here.path(), &here.path().join("crate.glb")), None);
     }
 
     #[test]

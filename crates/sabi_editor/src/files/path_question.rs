@@ -96,7 +96,12 @@ impl PathQuestion {
             ui.separator();
             let fault = self.fault();
             let buttons = ui.horizontal(|ui| {
-                let confirms = ui.add_enabled(fault.is_none(), Button::new(self.what.verb()));
+                let verb = if self.takes_folder() {
+                    "Import the folder"
+                } else {
+                    self.what.verb()
+                };
+                let confirms = ui.add_enabled(fault.is_none(), Button::new(verb));
                 let confirms = confirms.on_disabled_hover_text(fault.unwrap_or_default()); // Shown where there is one.
                 let words = if dialog.is_some() {
                     "The system's dialog is open…"
@@ -159,6 +164,9 @@ impl PathQuestion {
     /// Reason why the path cannot be chosen.
     fn fault(&self) -> Option<&'static str> {
         let target = self.target();
+        if self.takes_folder() {
+            return None;
+        }
         if self.text.trim().is_empty() {
             return Some("Choose or type a name.");
         }
@@ -174,6 +182,11 @@ impl PathQuestion {
             _ => false,
         };
         is_taken.then_some("There is a file of this name already; choose another one.")
+    }
+
+    /// Returns whether the folder that is listed, or typed, is chosen as a whole.
+    fn takes_folder(&self) -> bool {
+        self.what == PathFor::ImportedPictures && self.target().is_dir()
     }
 
     /// Folder that is listed for the typed text, and the part of a name in it.
@@ -312,10 +325,19 @@ impl PathQuestion {
         if entries.is_empty() {
             let sentence = match narrows && !part.is_empty() {
                 true => format!("No name here contains '{}'.", self.typed),
-                false => format!(
-                    "There are no folders here, and no {} files.",
-                    self.what.endings().join(", ")
-                ),
+                false => {
+                    let endings: Vec<String> = self.what.endings().iter().map(|ending| format!(".{ending}")).collect();
+                    // Who looks for anything else here learns where it is opened.
+                    let elsewhere = if self.what == PathFor::Open {
+                        " Pictures are added by Import pictures… in the File menu, models by + above the 3D view."
+                    } else {
+                        ""
+                    };
+                    format!(
+                        "There are no folders here, and no {} files.{elsewhere}",
+                        endings.join(", ")
+                    )
+                }
             };
             ui.add(Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
         }

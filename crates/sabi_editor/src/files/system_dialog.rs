@@ -25,6 +25,8 @@ pub(crate) enum PathFor {
     ModelBeside,
     /// File that the graph names by this path, where there is none.
     Missing(String),
+    /// Picture to add as a node, or a folder of pictures to add as texture sets.
+    ImportedPictures,
     /// File for a picture of the model's view.
     Picture,
     /// Parameter that names an image file.
@@ -50,6 +52,7 @@ impl PathFor {
             PathFor::Model => "Add a model",
             PathFor::ModelBeside => "Show a model beside the first one",
             PathFor::Missing(_) => "Find a missing file",
+            PathFor::ImportedPictures => "Import a picture, or a folder of pictures",
             PathFor::Picture => "Save a picture of the view",
             PathFor::Image(_) => "Choose an image",
             PathFor::Gradient(_) => "Choose a picture to pick colors from",
@@ -66,6 +69,7 @@ impl PathFor {
             PathFor::Open | PathFor::Brush => "Open",
             PathFor::Save | PathFor::Picture => "Save",
             PathFor::Archive => "Pack",
+            PathFor::ImportedPictures => "Import",
             PathFor::Model | PathFor::ModelBeside => "Add",
             PathFor::Image(_)
             | PathFor::Gradient(_)
@@ -81,6 +85,7 @@ impl PathFor {
         match self {
             PathFor::Save | PathFor::Archive | PathFor::Picture => true,
             PathFor::Open
+            | PathFor::ImportedPictures
             | PathFor::Model
             | PathFor::ModelBeside
             | PathFor::Missing(_)
@@ -105,7 +110,11 @@ impl PathFor {
             },
             PathFor::Picture => &["png"],
             PathFor::Archive => &["zip"],
-            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => &IMAGES,
+            PathFor::ImportedPictures
+            | PathFor::Image(_)
+            | PathFor::Gradient(_)
+            | PathFor::BrushPicture
+            | PathFor::Stencil => &IMAGES,
             PathFor::Brush => &[brush_shelf::ENDING],
             PathFor::Font => &FONTS,
         }
@@ -156,9 +165,12 @@ impl SystemDialog {
             PathFor::Open | PathFor::Save => "Graphs",
             PathFor::Archive => "Archives",
             PathFor::Model | PathFor::ModelBeside => "Models",
-            PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => {
-                "Pictures"
-            }
+            PathFor::ImportedPictures
+            | PathFor::Picture
+            | PathFor::Image(_)
+            | PathFor::Gradient(_)
+            | PathFor::BrushPicture
+            | PathFor::Stencil => "Pictures",
             PathFor::Brush => "Brushes",
             PathFor::Missing(_) => "Files of this kind",
             PathFor::Font => "Fonts",

@@ -13,11 +13,16 @@ use crate::mouse::DragAction;
 /// Time after the last movement until the picture is drawn at full quality.
 pub(super) const REST: Duration = Duration::from_millis(180);
 
+/// Smallest change of a view's aspect for which the camera moves.
+pub(super) const SAME_ASPECT: f32 = 1e-3;
+
 /// Camera of the viewport.
 pub(crate) struct Navigation {
     pub(crate) camera: Camera,
     /// File of the model that the camera was set up for.
     framed: Option<PathBuf>,
+    /// Camera as it was set up last, with the aspect of the view then.
+    set_up: Option<(Camera, f32)>,
     moved: Option<Instant>,
 }
 
@@ -27,18 +32,30 @@ impl Navigation {
         Navigation {
             camera: Camera::seen_from(Viewpoint::THREE_QUARTER, &diagonal, 1.0),
             framed: None,
+            set_up: None,
             moved: None,
         }
     }
 
-    /// Sets up the camera for a new model.
+    /// Sets up the camera for a new model, and again for a view of another shape as long as nobody has moved it.
     pub(super) fn frame_new(&mut self, model: &LiveModel, rect: Rect) {
         let file = model.linked.model.files.first();
-        if file.is_none() || self.framed.as_ref() != file {
+        let is_new = file.is_none() || self.framed.as_ref() != file;
+        let aspect = aspect(rect);
+        let is_reshaped = self
+            .set_up
+            .is_some_and(|(_, before)| (before - aspect).abs() > SAME_ASPECT);
+        if is_new || is_reshaped && self.is_untouched() {
             let points = model.placement.points_in_view(&model.linked.model.mesh);
-            self.camera = Camera::seen_from(Viewpoint::THREE_QUARTER, &points, aspect(rect));
+            self.camera = Camera::seen_from(Viewpoint::THREE_QUARTER, &points, aspect);
             self.framed = file.cloned();
+            self.set_up = Some((self.camera, aspect));
         }
+    }
+
+    /// Returns whether the camera is where it was set up.
+    pub(super) fn is_untouched(&self) -> bool {
+        self.set_up.is_some_and(|(camera, _)| camera == self.camera)
     }
 
     /// Moves the camera by the wheel and by a drag, which may turn the light instead.

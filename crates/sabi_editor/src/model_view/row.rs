@@ -12,7 +12,7 @@ use glam::Vec3;
 use sabi_engine::LiveModel;
 use sabi_engine::view::{Camera, Viewpoint};
 
-use super::navigation::aspect;
+use super::navigation::{SAME_ASPECT, aspect};
 use super::painting::{self, shot_of, unlit_mode};
 use super::pictures::{FIRST_BESIDE, Lighting, PictureRequest};
 use super::{ModelView, Subject, showing};
@@ -28,8 +28,6 @@ use crate::theme::{space, type_size};
 const NAMES: f32 = 20.0;
 /// Time after which the progress of a model is drawn again.
 const DRAWN_AGAIN: Duration = Duration::from_millis(500);
-/// Smallest change of a cell's shape for which the camera moves.
-const SAME_ASPECT: f32 = 1e-3;
 
 /// What the view remembers about the models beside the main one.
 #[derive(Default)]
@@ -141,6 +139,12 @@ impl ModelView {
     pub(crate) fn fault_beside(&self, model: &Path) -> Option<&String> {
         self.row.cells.get(model)?.fault.as_ref()
     }
+
+    /// File of the model whose picture is in the place of a model.
+    pub(crate) fn pictured_beside(&self, model: &Path) -> Option<&PathBuf> {
+        let picture = self.row.cells.get(model)?.last.as_ref()?;
+        picture.model.linked.model.files.first()
+    }
 }
 
 impl ModelView {
@@ -150,7 +154,8 @@ impl ModelView {
         let Some((before, aspect_before)) = self.row.fitted.replace(now) else {
             return;
         };
-        if before == count {
+        // A camera that nobody has moved is set up anew.
+        if before == count || self.navigation.is_untouched() {
             return;
         }
         let points = picture.model.placement.points_in_view(&picture.model.linked.model.mesh);
@@ -225,7 +230,9 @@ impl ModelView {
         first: Rect,
         subject: &Subject<'_>,
     ) -> Option<String> {
-        let newest = evaluation.results.picture(subject.shown).cloned();
+        // That of the model that was in this place before would stand under the name of this one.
+        let newest = evaluation.results.picture(subject.shown);
+        let newest = newest.filter(|picture| !evaluation.is_outdated(picture)).cloned();
         let state = state_of(evaluation, newest.is_some());
         let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
         let picture = newest.or_else(|| own.last.take());

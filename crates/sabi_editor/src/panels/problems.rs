@@ -40,7 +40,10 @@ impl View for Problems {
             .collect();
         actions.extend(update::all(ui, context));
         let others: Vec<&String> = faults.other.iter().chain(&of_kinds).collect();
+        let pictures = pictures_of_model(context);
         let count = usize::from(context.is_named_model_refused())
+            + self.missing(context).len()
+            + pictures.len()
             + faults.faults.len()
             + failures.len()
             + others.len()
@@ -56,7 +59,7 @@ impl View for Problems {
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let lost = self.missing(context);
             actions.extend(missing(ui, context, lost));
-            actions.extend(missing(ui, context, &pictures_of_model(context)));
+            actions.extend(missing(ui, context, &pictures));
             if lost.is_empty() && context.is_named_model_refused() {
                 actions.extend(unread_model(ui, context));
             }

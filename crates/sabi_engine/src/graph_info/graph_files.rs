@@ -66,6 +66,7 @@ fn named_files(open: &OpenGraph, named: &NamedFiles) -> Vec<FileDescription> {
     let pictures = named.pictures.iter();
     let pictures = pictures.map(|(path, naming)| file("picture", path, &naming.written));
     let preview = open.document.preview.as_ref();
+    let preview = preview.filter(|preview| preview.builtin_mesh().is_none());
     let model = preview.and_then(|preview| preview.mesh.as_ref());
     let model = model.map(|written| file("model", &whole_path(&open.base(), written), written));
     groups.chain(unopened).chain(pictures).chain(model).collect()

@@ -250,6 +250,10 @@ fn model_of(
         }
         PackedModel::OfGraph => {
             let preview = graph.open.document.preview.as_ref();
+            if preview.is_some_and(|preview| preview.builtin_mesh().is_some()) {
+                // It comes with the program that the archive is opened with.
+                return Ok((None, kept()));
+            }
             let Some(written) = preview.and_then(|preview| preview.mesh.as_deref()) else {
                 let refused = EngineError::new(ErrorKind::Usage, format!("{shown}: the graph names no model"));
                 return Err(refused.with_remedies([Remedy::NameModel, Remedy::WithoutModel]));

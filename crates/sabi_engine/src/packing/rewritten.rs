@@ -48,9 +48,14 @@ pub(super) fn rewritten(
         false => moved(written),
     });
     let shown = original.preview.as_ref().and_then(|preview| preview.mesh.as_deref());
+    let builtin = original
+        .preview
+        .as_ref()
+        .and_then(|preview| preview.builtin_mesh().and(preview.mesh.clone()));
     let mesh = match model {
         ShownModel::AsWritten => shown.map(str::to_owned),
-        ShownModel::Entry(entry, _) => entry.map(|entry| path_to(entry, name, shown.unwrap_or(""))),
+        ShownModel::Entry(Some(entry), _) => Some(path_to(entry, name, shown.unwrap_or(""))),
+        ShownModel::Entry(None, _) => builtin,
     };
     if mesh.is_some() || document.preview.is_some() {
         let preview = document.preview.get_or_insert_with(Preview::default);

@@ -99,6 +99,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
                 String::new()
             },
             base_color: Some(texture),
+            base_color_factor: [1.0; 4],
             ..ModelMaterial::plain()
         });
     }

@@ -209,6 +209,7 @@ fn instances_of_a_mesh_have_materials_of_their_own() {
     assert_eq!(model.mesh.triangle_material, [1, 1, 0, 0, 2, 2]);
     let painted = &model.materials[0];
     assert_eq!(painted.base_color_factor, [1.0, 1.0, 1.0, 0.5]);
+    assert_eq!(model.materials[2].base_color_factor, [0.5, 0.5, 0.5, 1.0]);
     assert_eq!(
         (painted.emission_factor, painted.is_double_sided),
         ([0.5, 0.25, 0.0], false)

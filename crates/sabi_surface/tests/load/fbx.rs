@@ -43,6 +43,7 @@ fn text_and_binary_give_the_same_model_in_meters() {
     assert_eq!(
         model.materials,
         [ModelMaterial {
+            base_color_factor: [0.5, 0.5, 0.5, 1.0],
             metallic_factor: 0.0,
             ..ModelMaterial::default()
         }]

@@ -255,6 +255,12 @@ fn materials_come_from_the_library_in_its_order() {
     assert_eq!(model.materials[0], metal);
     let paint = &model.materials[1];
     assert_eq!((paint.base_color_factor, paint.metallic_factor), ([1.0; 4], 0.0));
+    let unknown = [0.5, 0.5, 0.5, 1.0];
+    assert_eq!(
+        [&model.materials[2], &model.materials[3]].map(|material| material.base_color_factor),
+        [unknown; 2],
+        "a surface without a color is gray, so that its form is seen"
+    );
     assert_eq!(paint.base_color.as_ref().unwrap().wrap, [Wrap::Clamp; 2]);
     assert_eq!((model.images.len(), model.images[0].name.as_str()), (1, "paint.png"));
     assert_eq!(

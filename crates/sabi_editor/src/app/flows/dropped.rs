@@ -35,6 +35,15 @@ impl Editor {
         }
     }
 
+    /// Adds a picture as a node, or the pictures of a folder as texture sets.
+    pub(in crate::app) fn import_pictures(&mut self, path: &Path, ui: &Ui) {
+        self.shell.dock.bring_up(Panel::Canvas);
+        match path.is_dir() {
+            true => self.take_dropped_folder(path, ui),
+            false => self.add_image(path, ui),
+        }
+    }
+
     /// Marks the window and says what a file that is held over it does when it is dropped.
     pub(in crate::app) fn mark_hovered_file(&self, ui: &Ui) {
         let hovered = ui.input(|input| input.raw.hovered_files.first().cloned());
@@ -68,8 +77,18 @@ impl Editor {
         if files.is_empty() {
             return self.shell.notify(format!("{} holds no pictures", folder.display()));
         }
+        self.add_texture_sets(files, ui);
+    }
+
+    /// Adds the texture sets that some images are, and shows the first of their materials.
+    pub(in crate::app) fn add_texture_sets(&mut self, files: Vec<PathBuf>, ui: &Ui) {
         let place = self.views.canvas.camera.place_for_new(ui);
+        let before = self.documents.document.selection().clone();
         self.edit(NodeCommand::AddTextureSets { files, place }, ui);
+        let document = &self.documents.document;
+        if let Some(material) = document.selection().difference(&before).next() {
+            self.looks.show(document, material, None);
+        }
     }
 
     fn take_environment(&mut self, path: &Path) {

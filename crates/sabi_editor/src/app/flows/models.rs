@@ -21,10 +21,14 @@ impl Editor {
     /// Requests another model.
     pub(crate) fn take_model(&mut self, path: &Path) {
         let path = in_canonical_folder(path);
+        let reading = self.reading(&path);
+        if self.evaluation.model.is_being_read(&path, &reading) {
+            return;
+        }
         // The model that was the first one takes the place of the one that becomes it.
         let before = self.evaluation.model.file().to_owned();
         self.row.replace(&path, &before, self.reading(&before));
-        self.evaluation.model.replace(&path, self.reading(&path));
+        self.evaluation.model.replace(&path, reading);
     }
 
     /// Puts a model that is shown now on the strip, and says why one is not shown.

@@ -9,7 +9,7 @@ use sabi_engine::{PathBase, TrustedPaths, Value};
 use super::super::Editor;
 use crate::action::TrustAction;
 use crate::import_options::ImportOptions;
-use crate::paths::{canonical_if_present, model_of};
+use crate::paths::canonical_if_present;
 
 impl Editor {
     /// Takes over trust that the user gives, for this graph and all later ones.
@@ -113,9 +113,9 @@ impl Editor {
         {
             return self.look_for_textures_beside(file);
         }
-        let before = model_of(&self.documents.document.session);
+        let before = self.documents.written_model();
         let found = missing_files::relocate(&mut self.documents.document, lost, file);
-        if model_of(&self.documents.document.session) != before {
+        if self.documents.written_model() != before {
             self.take_named_model();
         }
         let sentence = match found {

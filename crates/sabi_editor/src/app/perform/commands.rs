@@ -47,6 +47,7 @@ impl Editor {
                 self.shell.dock.bring_up(Panel::Export);
                 self.export(false);
             }
+            FileCommand::ImportPictures => self.views.questions.ask_for_pictures(&self.documents.document),
             FileCommand::Pack => self.ask_to_pack(),
         }
     }

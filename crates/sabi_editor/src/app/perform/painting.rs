@@ -5,14 +5,16 @@ use std::path::Path;
 use egui::Ui;
 use sabi_editing::command::{Outcome, PaintCommand, perform};
 use sabi_editing::painting;
-use sabi_engine::Strokes;
-use sabi_engine::paint::{Action as BrushAction, PictureName, PicturePart, PictureTip};
+use sabi_engine::paint::{Action as BrushAction, CopyOf, PictureName, PicturePart, PictureTip};
+use sabi_engine::{SetKey, Strokes, ViewSubject};
+use sabi_graph::NodeId;
 
 use crate::action::PaintAction;
 use crate::app::Editor;
 use crate::brush::text::{font_bytes, picture_of};
 use crate::brush_shelf::{self, KeptBrush};
 use crate::command::BrushCommand;
+use crate::dock::Panel;
 use crate::files::system_dialog::PathFor;
 use crate::looks::ColorTarget;
 use crate::settings::brush::BrushChoices;
@@ -26,7 +28,10 @@ impl Editor {
                 let brush = &mut self.shell.settings.brush;
                 brush.value = value.unwrap_or(brush.value);
                 self.find_brush_picture();
-                self.begin_painting(ui);
+                if self.begin_painting(ui) {
+                    // What was just added is painted next, for which the brush has to be at hand.
+                    self.shell.dock.bring_up(Panel::Parameters);
+                }
             }
             PaintAction::Begin => {
                 self.find_brush_picture();
@@ -42,6 +47,7 @@ impl Editor {
                 self.end_drag();
                 self.keep_strokes();
                 self.shell.settings.remember_brush_color();
+                self.views.flat.set = self.set_of_last_stroke().or(self.views.flat.set);
             }
             PaintAction::Cancel => self.cancel_drag(),
             PaintAction::MarkNew => self.mark_new_decal(),
@@ -112,6 +118,19 @@ impl Editor {
         let top = list.and_then(|list| list.strokes.last().cloned());
         let held = top.filter(|top| top.area.is_single() || top.path.is_some());
         self.looks.marked_strokes = held.map(|held| held.id).into_iter().collect();
+    }
+
+    /// Texture set that the last stroke of the selected node begins on.
+    fn set_of_last_stroke(&self) -> Option<SetKey> {
+        let document = &self.documents.document;
+        let model = self.evaluation.model.received.as_ref()?;
+        let list = painting::strokes_on(document, document.selected_one()?, &model.linked.model.stem)?;
+        let begin = list.strokes.last()?.points.first()?;
+        let atlas = &model.linked.atlas;
+        let chart = atlas.triangle_chart.get(begin.site.triangle as usize)?;
+        let chart = atlas.charts.get(*chart as usize)?;
+        let set = model.sets.iter().find(|set| set.key.is_home_of(chart))?;
+        Some(set.key)
     }
 
     /// Strokes of the open document.
@@ -254,7 +273,7 @@ impl Editor {
         let paints = self.paints();
         let brush = &mut self.shell.settings.brush;
         match command {
-            BrushCommand::Paint if paints => self.looks.is_painting = false,
+            BrushCommand::Paint if paints => self.end_painting(),
             BrushCommand::Paint => {
                 self.find_brush_picture();
                 self.begin_painting(ui);
@@ -273,23 +292,49 @@ impl Editor {
         self.looks.is_painting && selected.is_some_and(|node| painting::strokes_of(document, node).is_some())
     }
 
-    /// Begins to paint on the selected paint node, or on a new one over the selected mask.
-    fn begin_painting(&mut self, ui: &Ui) {
+    /// Ends painting. What the model showed meanwhile stays: the result of the node that was painted is its mask alone.
+    fn end_painting(&mut self) {
+        let shown = self.looks.on_model(&self.documents.document, &self.shell.settings);
+        self.looks.is_painting = false;
+        if shown == ViewSubject::Outputs {
+            self.looks.followed = None;
+        }
+    }
+
+    /// Has the brush paint where its action would change nothing, as an eraser that was used last does on a new layer.
+    fn leave_idle_action(&mut self, node: &NodeId) {
+        let strokes = painting::strokes_of(&self.documents.document, node);
+        let brush = &mut self.shell.settings.brush;
+        let needs_strokes = match brush.action {
+            BrushAction::Paint => false,
+            BrushAction::Erase | BrushAction::Smear | BrushAction::Blur | BrushAction::Sharpen => true,
+            BrushAction::Clone => brush.copy_of == CopyOf::Paint,
+        };
+        if needs_strokes && strokes.is_some_and(|strokes| strokes.is_empty()) {
+            brush.action = BrushAction::Paint;
+        }
+    }
+
+    /// Begins to paint on the selected paint node, or on a new one over the selected mask. Returns whether drags paint now.
+    fn begin_painting(&mut self, ui: &Ui) -> bool {
         let document = &mut self.documents.document;
         let Some(node) = document.selected_one().cloned() else {
             self.shell
                 .notify("Select the mask to paint over, or a Paint node from the library.");
-            return;
+            return false;
         };
-        if let Outcome::Added(node) = perform(document, PaintCommand::Over(node).into()) {
-            self.looks.show(document, &node, None);
-            if !self.looks.is_compared {
-                self.looks.pinned_3d = None;
-            }
-            self.looks.is_painting = true;
-            self.shell.dock.bring_up(crate::dock::Panel::Viewport);
-            ui.ctx().request_repaint();
+        let Outcome::Added(node) = perform(document, PaintCommand::Over(node).into()) else {
+            return false;
+        };
+        self.looks.show(document, &node, None);
+        if !self.looks.is_compared {
+            self.looks.pinned_3d = None;
         }
+        self.looks.is_painting = true;
+        self.shell.dock.bring_up(Panel::Viewport);
+        ui.ctx().request_repaint();
+        self.leave_idle_action(&node);
+        true
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use egui::{Context, Event, EventFilter, Key, Memory, Modifiers, Popup, Ui, ViewportCommand};
+use egui::{Context, Event, EventFilter, FocusDirection, Key, Memory, Modifiers, Popup, Response, Ui, ViewportCommand};
 use sabi_editing::command::ClipboardCommand;
 use sabi_engine::paint::is_text_of_strokes;
 
@@ -75,6 +75,7 @@ impl Shell {
     pub(crate) fn keys_pressed(&mut self, ui: &Ui, views: &Views, is_dragging: bool) -> Vec<Action> {
         self.follow_pointer(ui);
         let context = ui.ctx();
+        self.take_tab_from_text(ui);
         let scope = self.keyboard.scope();
         let opens_text_field = |key, modifiers| {
             let command = self.keys.command(scope, modifiers, key);
@@ -119,6 +120,33 @@ impl Shell {
             }
         }
         actions
+    }
+
+    /// Takes the keyboard from a text field in another panel than the active one on a Tab that does something there, such as
+    /// adding a node: it would lead to the next widget beside the field, which what is typed next would press.
+    fn take_tab_from_text(&self, ui: &Ui) {
+        let context = ui.ctx();
+        let is_tab = |event: &Event| matches!(event, Event::Key { key: Key::Tab, pressed: true, modifiers, .. } if modifiers.is_none());
+        let is_pressed = context.input(|input| input.events.iter().any(is_tab));
+        let scope = self.keyboard.scope();
+        let command = self.keys.command(scope, Modifiers::NONE, Key::Tab);
+        if !is_pressed || command.is_none_or(|command| command.scope() != scope) || !context.text_edit_focused() {
+            return;
+        }
+        let focused = context.memory(|memory| memory.focused());
+        let field = focused.and_then(|id| context.read_response(id));
+        // Fields of dialogs and menus lie over the panels, and keep the keyboard.
+        let field = field.filter(|field| field.layer_id == ui.layer_id());
+        let is_in = |field: &Response| {
+            let active = self.dock.rects.get(&self.keyboard.active);
+            active.is_some_and(|panel| panel.contains(field.rect.center()))
+        };
+        if field.is_some_and(|field| !is_in(&field)) {
+            context.memory_mut(|memory| {
+                memory.stop_text_input();
+                memory.move_focus(FocusDirection::None);
+            });
+        }
     }
 
     /// Returns whether Escape has an effect elsewhere: it ends typing or a drag out of a panel, or closes a menu.

@@ -87,6 +87,16 @@ impl Window {
         self.drag(entry, at, PointerButton::Primary, Modifiers::NONE);
     }
 
+    /// Shows the two squares, and waits until they are drawn.
+    fn show_squares(&mut self, squares: &Path) {
+        self.harness.state_mut().take_model(squares);
+        self.until("the squares", |editor| {
+            let picture = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
+            let is_of_squares = picture.is_some_and(|picture| picture.model.linked.model.materials.len() == 2);
+            is_of_squares && editor.evaluation.model.file().ends_with("squares.gltf") && !editor.evaluation.is_busy()
+        });
+    }
+
     fn panel(&self, panel: Panel) -> Rect {
         self.editor().shell.dock.rects[&panel]
     }
@@ -103,12 +113,7 @@ impl Window {
 fn a_layer_is_for_the_material_under_the_pointer_with_the_normal_map_there() {
     let mut window = Window::of(TWO_OUTPUTS);
     let squares = write_two_squares(window.folder.path());
-    window.harness.state_mut().take_model(&squares);
-    window.until("the squares", |editor| {
-        let picture = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
-        let is_of_squares = picture.is_some_and(|picture| picture.model.linked.model.materials.len() == 2);
-        is_of_squares && editor.evaluation.model.file().ends_with("squares.gltf") && !editor.evaluation.is_busy()
-    });
+    window.show_squares(&squares);
     let middle = window.panel(Panel::Viewport).center();
     window.point(middle);
     window.key(Key::Num1);
@@ -192,4 +197,50 @@ fn a_layer_that_is_dropped_on_a_node_lies_on_its_material() {
     window.drop_entry("Relief", "relief", output);
     assert_eq!(window.layers("b"), ["Relief", "Steel"]);
     assert_eq!(window.steps(), 2);
+}
+
+#[test]
+fn the_2d_view_shows_the_texture_set_that_is_clicked_or_painted_on_the_model() {
+    let mut window = Window::of(TWO_OUTPUTS);
+    let squares = write_two_squares(window.folder.path());
+    window.show_squares(&squares);
+    let middle = window.panel(Panel::Viewport).center();
+    window.point(middle);
+    window.key(Key::Num1);
+    let shown = |window: &Window| {
+        let model = window.editor().evaluation.model.received.clone().expect("a model");
+        let set = model.set(window.editor().views.flat.set).expect("a set");
+        set.name.clone()
+    };
+    for (way, name) in [(40.0, "right"), (-40.0, "left"), (40.0, "right")] {
+        window.click_at(middle + vec2(way, 0.0));
+        assert_eq!(shown(&window), name);
+    }
+    let paint = window.add([0.2, 0.8], "source paint");
+    window.harness.state_mut().documents.document.select([paint]);
+    window.settle();
+    window.key(Key::B);
+    let left = middle - vec2(40.0, 0.0);
+    window.drag(left, left + vec2(5.0, 20.0), PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(shown(&window), "left");
+}
+
+#[test]
+fn a_model_that_is_being_read_is_not_read_from_the_beginning_again() {
+    let mut window = Window::of(TWO_OUTPUTS);
+    let squares = write_two_squares(window.folder.path());
+    window.until_model();
+    let editor = window.harness.state_mut();
+    editor.take_model(&squares);
+    let begun = editor.evaluation.model.file_since();
+    editor.take_model(&squares);
+    assert_eq!(editor.evaluation.model.file_since(), begun);
+    window.until("the squares", |editor| !editor.evaluation.model.is_replacing());
+    let editor = window.harness.state_mut();
+    editor.take_model(&squares);
+    assert_ne!(
+        editor.evaluation.model.file_since(),
+        begun,
+        "once it is there, it is read anew"
+    );
 }

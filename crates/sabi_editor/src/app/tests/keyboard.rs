@@ -377,3 +377,25 @@ fn escape_in_the_frame_of_the_key_that_opens_a_name_closes_it_again() {
     assert!(!window.editor().views.canvas.holds_keys());
     assert_eq!(window.document().title(&id("n")), "Clouds");
 }
+
+#[test]
+fn tab_over_the_graph_opens_its_menu_while_a_field_of_another_panel_has_the_keyboard() {
+    let mut window = Window::empty();
+    window.open(Panel::Library);
+    let field = window.area("Search the library").center();
+    window.click_at(field);
+    window.point(window.on_canvas([0.5, 0.5]));
+    window.harness.key_press(Key::Tab);
+    for letter in ["f", "l", "o", "o", "d", " ", "f", "i", "l", "l"] {
+        if letter == " " {
+            window.harness.key_press(Key::Space);
+        }
+        window.harness.event(egui::Event::Text(letter.to_owned()));
+    }
+    window.settle();
+    window.settle();
+    assert!(window.document().graph().is_empty(), "typing adds nothing");
+    window.key(Key::Enter);
+    let added = window.document().selected_one().expect("a node").clone();
+    assert_eq!(window.document().title(&added), "Parts");
+}

@@ -253,11 +253,64 @@ fn a_dropped_folder_becomes_a_material() {
     );
     assert!(kinds.contains(&"material/combine".to_owned()));
     assert_eq!(window.steps(), 1);
+    // Its nodes cover none that were there, and are in view, and its material is shown.
+    let canvas = window.editor().shell.dock.rects[&Panel::Canvas];
+    let rects: Vec<_> = window
+        .document()
+        .graph()
+        .ids()
+        .map(|id| (id.clone(), window.rect(id)))
+        .collect();
+    for (at, (id, rect)) in rects.iter().enumerate() {
+        assert!(canvas.contains_rect(*rect), "{id} is in view");
+        let covered = rects[at + 1..].iter().find(|(_, other)| other.intersects(*rect));
+        assert_eq!(covered, None, "{id} covers another node");
+    }
+    let material = window.document().selected_one().expect("the material").clone();
+    let shown = window.editor().looks.shown.clone();
+    assert_eq!(shown, Some(window.editor().chosen(&material)));
     let empty = window.path("empty");
     std::fs::create_dir_all(&empty).expect("a folder");
     window.dropped(&empty);
     let said = format!("{} holds no pictures", empty.display());
     assert!(window.harness.query_by_label(&said).is_some());
+}
+
+impl Window {
+    /// Asks for pictures by the menu.
+    fn ask_for_pictures(&mut self) {
+        self.press("File");
+        self.harness.get_by_label_contains("Import pictures").click();
+        self.settle();
+    }
+}
+
+#[test]
+fn a_folder_of_pictures_is_imported_by_the_file_menu_as_by_a_drop() {
+    let mut window = Window::of(GROUPED);
+    let folder = window.path("bricks");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for name in ["Bricks_diff_1k.png", "Bricks_rough_1k.png"] {
+        std::fs::write(folder.join(name), "").expect("a file");
+    }
+    window.ask_for_pictures();
+    // The folder that is listed, or one that is typed.
+    window.typed("bricks");
+    window.click("Import the folder");
+    let found = kinds(&window);
+    assert_eq!(
+        found.iter().filter(|kind| *kind == "source/image").count(),
+        2,
+        "{found:?}"
+    );
+    assert_eq!(window.steps(), 1);
+    // A single picture is a node.
+    std::fs::write(window.path("rust.png"), "").expect("a file");
+    window.ask_for_pictures();
+    window.typed("rust.png");
+    window.click("Import");
+    let added = window.document().selected_one().expect("the picture").clone();
+    assert_eq!(window.param(&added, "file").as_deref(), Some("\"rust.png\""));
 }
 
 #[test]

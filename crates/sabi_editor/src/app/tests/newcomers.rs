@@ -2,11 +2,12 @@
 
 use std::fs;
 
-use egui::accesskit::Role;
+use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers, PointerButton, Rect, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use sabi_editing::stack;
 use sabi_engine::ViewSubject;
+use sabi_engine::paint::Action as BrushAction;
 
 use super::Window;
 use super::hands::id;
@@ -158,6 +159,11 @@ fn a_paint_layer_is_one_click_from_the_layers_and_is_painted_at_once() {
     window.press("Paint layer");
     assert_eq!(window.titles(), ["Paint layer", "Model"]);
     assert!(window.editor().looks.is_painting);
+    assert!(
+        window.editor().shell.dock.is_shown(Panel::Parameters),
+        "the brush is at hand"
+    );
+    assert!(window.says("Painting on Paint layer."));
     assert_eq!(
         window.editor().seen(),
         ViewSubject::Outputs,
@@ -168,7 +174,15 @@ fn a_paint_layer_is_one_click_from_the_layers_and_is_painted_at_once() {
     let paint = window.document().selected_one().expect("the paint node").clone();
     assert_eq!(window.list(paint.as_str()).expect("strokes").strokes.len(), 1);
     assert_eq!(window.editor().seen(), ViewSubject::Outputs);
+    window.key(Key::B);
+    assert!(!window.editor().looks.is_painting);
+    assert_eq!(
+        window.editor().seen(),
+        ViewSubject::Outputs,
+        "what was shown while painting stays"
+    );
     // Another one is painted on in its turn. The row of the first one has the name of the button.
+    window.open(Panel::Stack);
     let panel = window.editor().shell.dock.rects[&Panel::Stack];
     let named = window.harness.get_all_by_role_and_label(Role::Button, "Paint layer");
     let mut buttons = named
@@ -201,10 +215,52 @@ fn a_mask_that_is_white_is_painted_with_black() {
         window.click(entry);
         assert!(window.editor().looks.is_painting, "{entry}");
         assert_eq!(window.editor().shell.settings.brush.value, value, "{entry}");
+        assert!(window.says("Painting on the mask of Fill layer."), "{entry}");
+        window.open(Panel::Stack);
+        let mask = window.harness.get_by_label("Mask of Fill layer");
+        assert_eq!(mask.accesskit_node().toggled(), Some(Toggled::True), "{entry}");
         let mask = window.reads(&layer, "mask");
         let empty = window.param(&id(&mask), "empty").unwrap_or_else(|| "0".to_owned());
         assert_eq!(empty, format!("{}", 1.0 - value), "{entry}");
         window.key(Key::B);
+    }
+}
+
+#[test]
+fn a_new_layer_is_painted_even_if_the_brush_erased_before() {
+    let mut window = new_graph();
+    window.harness.state_mut().shell.settings.brush.action = BrushAction::Erase;
+    window.open(Panel::Stack);
+    window.press("Paint layer");
+    assert_eq!(window.editor().shell.settings.brush.action, BrushAction::Paint);
+    window.until("rest", |editor| !editor.evaluation.is_busy());
+    window.paint(Modifiers::NONE);
+    let paint = window.document().selected_one().expect("the paint node").clone();
+    let list = window.list(paint.as_str()).expect("strokes");
+    assert_eq!(list.strokes[0].action, BrushAction::Paint);
+    // Where there is something to erase, an eraser stays one.
+    window.harness.state_mut().shell.settings.brush.action = BrushAction::Erase;
+    window.key(Key::B);
+    window.key(Key::B);
+    assert_eq!(window.editor().shell.settings.brush.action, BrushAction::Erase);
+}
+
+#[test]
+fn layers_that_are_added_beside_the_canvas_stay_in_view() {
+    let mut window = new_graph();
+    for layer in ["Fill layer", "Paint layer", "Fill layer"] {
+        window.open(Panel::Stack);
+        let panel = window.editor().shell.dock.rects[&Panel::Stack];
+        let named = window.harness.get_all_by_role_and_label(Role::Button, layer);
+        let mut buttons = named.map(|node| node.rect()).filter(|rect| panel.contains_rect(*rect));
+        let button = buttons.next().expect("the button").center();
+        drop(buttons);
+        window.click_at(button);
+        let canvas = window.editor().shell.dock.rects[&Panel::Canvas];
+        for id in window.document().graph().ids() {
+            let rect = window.rect(id);
+            assert!(canvas.contains_rect(rect), "{id} after {layer}: {rect} in {canvas}");
+        }
     }
 }
 

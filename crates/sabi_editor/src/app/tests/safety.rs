@@ -277,6 +277,30 @@ fn a_saved_graph_opens_again_on_the_model_that_it_was_worked_on() {
 }
 
 #[test]
+fn a_graph_on_a_built_in_model_names_it_without_a_path_and_opens_on_it_anywhere() {
+    let mut window = Window::opened(CLOUDS);
+    let examples = window.editor().documents.folders.examples.clone().expect("a folder");
+    let own = crate::files::examples::first_model(&examples).expect("a model");
+    window.harness.state_mut().take_model(&own);
+    window.until("the model", |editor| {
+        editor.evaluation.model.file().ends_with("bench.glb")
+    });
+    window.keys(Modifiers::COMMAND, Key::S);
+    let text = fs::read_to_string(window.path("graph.sabi")).expect("a graph");
+    assert!(text.contains(r#""mesh": "builtin:bench""#), "{text}");
+    // A save elsewhere leaves the name, and another computer has the model in another folder.
+    let other = Window::with(|folders| {
+        let file = super::beside(folders).join("sent.sabi");
+        fs::write(&file, &text).expect("a graph");
+        Session::open(&file, None).expect("a graph")
+    });
+    let named = other.editor().documents.named_model().expect("a model");
+    assert!(named.ends_with("examples/assets/meshes/bench.glb") && named.is_file());
+    assert_ne!(named, own);
+    assert!(sabi_editing::missing_files::missing(other.document()).is_empty());
+}
+
+#[test]
 fn an_end_that_nobody_asked_for_keeps_what_is_not_saved() {
     let mut window = Window::opened(CLOUDS);
     window.mute();

@@ -10,7 +10,7 @@ use super::hands::id;
 use sabi_editing::clipboard;
 
 use crate::command::{Command, InputPreset, Scope, ViewportCommand};
-use crate::dock::Panel;
+use crate::dock::{Panel, Workspace};
 
 impl Window {
     /// Returns whether a switch is on, by its accessible state.
@@ -234,4 +234,28 @@ fn what_the_menu_opens_on_the_canvas_brings_the_canvas_up_and_no_hidden_menu_hol
     window.press("Model and parameters only");
     assert!(window.editor().is_use_view() && !window.editor().views.canvas.holds_keys());
     window.keys(Modifiers::COMMAND, Key::Z);
+}
+
+#[test]
+fn model_and_graph_are_fitted_to_panels_of_another_shape_until_they_are_moved() {
+    let mut window = Window::opened(
+        r#""a": { "kind": "noise/simplex", "pos": [0, 0] }, "b": { "kind": "adjust/invert", "pos": [900, 0] }"#,
+    );
+    window.until_model();
+    let camera = |window: &Window| window.editor().views.model.navigation.camera;
+    let before = camera(&window);
+    window.harness.state_mut().shell.dock.arrange(Workspace::Material);
+    window.settle();
+    assert_ne!(camera(&window), before);
+    let canvas = window.editor().shell.dock.rects[&Panel::Canvas];
+    for node in ["a", "b"] {
+        assert!(canvas.contains_rect(window.rect(&id(node))), "{node}");
+    }
+    let model = window.editor().shell.dock.rects[&Panel::Viewport].center();
+    window.wheel(model, 60.0);
+    window.wheel(canvas.center(), 60.0);
+    let moved = (camera(&window), window.zoom());
+    window.harness.state_mut().shell.dock.arrange(Workspace::Texture);
+    window.settle();
+    assert_eq!((camera(&window), window.zoom()), moved);
 }

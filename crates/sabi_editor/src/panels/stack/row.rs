@@ -43,7 +43,9 @@ pub(super) fn show(
 ) -> Response {
     let (document, theme) = (context.document, context.theme);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click_and_drag());
-    let is_selected = document.is_selected(&layer.node);
+    // While its mask is selected, as it is while one paints it, the row is what one works on as well.
+    let is_mask_selected = layer.mask.as_ref().is_some_and(|mask| document.is_selected(&mask.node));
+    let is_selected = document.is_selected(&layer.node) || is_mask_selected;
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, &layer.title));
     let fill = match (is_selected, response.hovered()) {
         (true, _) => theme.raised.lerp_to_gamma(theme.accent, 0.25),
@@ -121,9 +123,17 @@ fn mask_of(ui: &Ui, context: &ViewContext<'_>, layer: &Layer, rect: Rect, action
     let Some(mask) = &layer.mask else { return };
     let title = context.document.title(&mask.node);
     let response = ui.interact(rect, ui.id().with(("mask", &layer.node)), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Mask of {}", layer.title)));
-    if response.hovered() {
-        let line = Stroke::new(1.0, context.theme.accent);
+    let is_selected = context.document.is_selected(&mask.node);
+    response.widget_info(|| {
+        WidgetInfo::selected(
+            WidgetType::Button,
+            true,
+            is_selected,
+            format!("Mask of {}", layer.title),
+        )
+    });
+    if is_selected || response.hovered() {
+        let line = Stroke::new(if is_selected { 2.0 } else { 1.0 }, context.theme.accent);
         ui.painter().rect_stroke(rect, space::CORNER, line, StrokeKind::Inside);
     }
     if response.on_hover_text(format!("Mask: {title}")).clicked() {

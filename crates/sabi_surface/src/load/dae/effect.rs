@@ -121,7 +121,9 @@ impl<'d> Effect<'_, 'd> {
             // An unlit material has only its color, as emission.
             let diffuse = child(model, "diffuse");
             material.base_color = diffuse.and_then(|diffuse| self.texture(diffuse, "base color"));
-            if let Some([r, g, b, _]) = diffuse.and_then(|diffuse| self.color(diffuse)) {
+            if material.base_color.is_some() {
+                material.base_color_factor = [1.0; 4];
+            } else if let Some([r, g, b, _]) = diffuse.and_then(|diffuse| self.color(diffuse)) {
                 material.base_color_factor = [r, g, b, 1.0].map(|share| share.clamp(0.0, 1.0));
             }
             let emission = child(model, "emission");

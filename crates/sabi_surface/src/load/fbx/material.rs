@@ -55,7 +55,7 @@ impl<'s> Looks<'s> {
         let tint = if look.base_color.is_some() {
             [1.0; 3]
         } else {
-            color(base, [1.0; 3])
+            color(base, ModelMaterial::UNKNOWN_COLOR)
         };
         let [r, g, b] = tint.map(|share| share * number(&pbr.base_factor, 1.0));
         look.base_color_factor = [r, g, b, 1.0].map(|share| share.clamp(0.0, 1.0));

@@ -33,6 +33,7 @@ fn of_file(command: FileCommand) -> Option<Proof> {
     let proof: Proof = match command {
         FileCommand::Open => (&[], |window, _| window.is_asked_for(&PathFor::Open)),
         FileCommand::SaveAs => (&[], |window, _| window.is_asked_for(&PathFor::Save)),
+        FileCommand::ImportPictures => (&[], |window, _| window.is_asked_for(&PathFor::ImportedPictures)),
         FileCommand::Pack => (&[], |window, _| window.is_asked_for(&PathFor::Archive)),
         FileCommand::Export => (&[], |window, _| {
             let has_begun = window.editor().exports.running.is_some() || window.editor().exports.result.is_some();

@@ -86,6 +86,10 @@ fn a_click_on_a_name_makes_that_model_the_first_one() {
     window.press("sphere beside");
     assert!(window.main_model().ends_with("sphere.glb"));
     assert_eq!(window.beside(), ["cube"]);
+    // The model that was in this place before is not shown under the name of the one that is read for it.
+    let cube = window.editor().row.files().remove(0);
+    let pictured = window.editor().views.model.pictured_beside(&cube);
+    assert!(pictured.is_none_or(|file| file.ends_with("cube.glb")), "{pictured:?}");
     window.until("both", |editor| {
         editor.evaluation.model.loaded().1 && picture_of(editor, 0).is_some()
     });
