@@ -116,6 +116,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Optio
             | Remedy::FreeSpace
             | Remedy::AllowWriting
             | Remedy::SaveUnderOtherName
+            | Remedy::SaveInOtherFolder
             | Remedy::EditUvs
             | Remedy::ReplaceStrokes
             | Remedy::ReplaceFile
