@@ -163,8 +163,13 @@ fn failure_row(ui: &mut Ui, theme: &Theme, sentence: &str) -> bool {
     .inner
 }
 
-/// The sentence with a capital at its beginning: reasons of refusals are written so that they fit behind a colon, too.
+/// The sentence with a capital at its beginning: reasons of refusals are written so that they fit behind a colon, too. One that
+/// begins with the name of a file stays, as `graph.sabi:12:9: …` does.
 pub(crate) fn with_capital(sentence: &str) -> String {
+    let word = sentence.split_whitespace().next().unwrap_or_default();
+    if word.contains(['.', '/', '\\', '_', ':']) {
+        return sentence.to_owned();
+    }
     let mut letters = sentence.chars();
     let first = letters.next().map(char::to_uppercase);
     first.into_iter().flatten().chain(letters).collect()
@@ -178,6 +183,7 @@ mod tests {
     fn a_sentence_begins_with_a_capital() {
         assert_eq!(with_capital("no node is muted"), "No node is muted");
         assert_eq!(with_capital("'Blur' is read"), "'Blur' is read");
+        assert_eq!(with_capital("goat.obj: there is no such file"), "goat.obj: there is no such file");
         assert_eq!(with_capital(""), "");
     }
 
