@@ -64,6 +64,7 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
         | Remedy::TryAgain
         | Remedy::AllowWriting
         | Remedy::SaveUnderOtherName
+        | Remedy::SaveInOtherFolder
         | Remedy::EditUvs
         | Remedy::SaveModelAsGltf => &[],
     }

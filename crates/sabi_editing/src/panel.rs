@@ -21,7 +21,8 @@ pub struct PanelKnob {
     /// Current value, in the shown variant if there is one.
     pub value: Value,
     /// Value that a reset restores: the value without the shown variant; if no variant is shown, the value when the graph
-    /// was opened; for a knob that was published later, the default of its node's kind.
+    /// was opened; for a knob that was published later, the default of its node's kind. In a group that was added later, it is the
+    /// current value.
     pub at_first: Value,
 }
 
@@ -37,8 +38,12 @@ pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
         let inner = document.face(&first.node)?.knob(&first.name)?;
         // If a published knob has a default, that is its value.
         let own = &knob.ty.default;
-        let before = opened.and_then(|face| face.knob(name));
-        let opened_with = before.map_or(&inner.ty.default, |knob| &knob.ty.default);
+        let opened_with = match opened.map(|face| face.knob(name)) {
+            Some(Some(before)) => &before.ty.default,
+            Some(None) => &inner.ty.default,
+            // A group that came later, as an effect of the library does, begins with its own values.
+            None => own,
+        };
         Some(PanelKnob {
             at_first: if variant.is_some() { own } else { opened_with }.clone(),
             name: name.to_owned(),

@@ -128,6 +128,8 @@ impl SetBuilder<'_> {
         };
         image.label = Some(match packs_several {
             true => stem_of(&picture.file),
+            // As artists and their files call the map that slopes are read from.
+            false if stem == "slope" => "Normal".to_owned(),
             false => label_of(&stem),
         });
         match relative_paths::chosen(self.document, &picture.file) {

@@ -44,7 +44,12 @@ pub fn connect(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef) -> b
     let face = document.face(&to.node);
     let started = face.and_then(|face| connections::starting(document, &edit, face));
     let edits = std::iter::once(edit).chain(started).collect();
-    document.edit("Connect", edits)
+    document.edit(&connecting_step(document, from, to), edits)
+}
+
+/// Name of the step that connects an output to an input: `Connect Clouds to Levels`.
+pub(crate) fn connecting_step(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> String {
+    format!("Connect {} to {}", document.title(&from.node), document.title(&to.node))
 }
 
 /// Checks that a wire can connect an output to an input: the types are compatible, and no cycle is closed. The error is the

@@ -21,6 +21,7 @@ use sabi_engine::Gpu;
 
 use crate::action::Action;
 use crate::bars;
+use crate::command::{Command, FileCommand};
 use crate::context::{View, ViewContext};
 use crate::dock::{Dock, Panel};
 use crate::evaluation::{Evaluation, Wanted};
@@ -191,7 +192,9 @@ impl Editor {
         self.shell.leave_hidden_panel(&mut self.views);
         let document = &self.documents.document;
         let said = |sentence: &str| node_paths::with_titles(document, sentence);
-        self.shell.notices.show(ui, &self.shell.theme, &said);
+        if self.shell.notices.show(ui, &self.shell.theme, &said) {
+            actions.push(Action::Do(Command::File(FileCommand::SaveAs)));
+        }
         self.perform_all(actions, ui);
         self.remember_chosen();
         self.set_title();

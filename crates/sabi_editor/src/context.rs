@@ -8,7 +8,7 @@ use std::time::Duration;
 use eframe::egui_wgpu::RenderState;
 use egui::{TextureHandle, TextureId, Ui};
 use sabi_editing::{OpenDocument, node_paths};
-use sabi_engine::Recovery;
+use sabi_engine::{Recovery, Warning};
 use sabi_graph::{LibrarySource, NodeId, NodeRef};
 
 use crate::action::Action;
@@ -139,7 +139,14 @@ impl ViewContext<'_> {
     pub(crate) fn warning_count(&self) -> usize {
         let beside = self.row.beside().iter();
         let of_beside: usize = beside.map(|evaluation| evaluation.model.warnings().len()).sum();
-        self.evaluation.faults.all.warnings.len() + of_beside
+        self.warnings().count() + of_beside
+    }
+
+    /// Warnings of the last evaluation, and those about a model that was received since.
+    pub(crate) fn warnings(&self) -> impl Iterator<Item = &Warning> {
+        let known = &self.evaluation.faults.all.warnings;
+        let of_model = self.evaluation.model.warnings().iter();
+        known.iter().chain(of_model.filter(|warning| !known.contains(warning)))
     }
 
     /// Sentence about why the outputs do not show the graph as it is.

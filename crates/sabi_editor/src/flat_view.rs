@@ -191,7 +191,7 @@ impl FlatView {
         }
         self.probe(ui, &response, square, &values, theme);
         if let Some(shown) = &self.shown {
-            shown.histogram.draw(&painter, rect, theme);
+            shown.histogram.draw(&painter, rect, square, theme);
         }
         if evaluation.is_inspected_outdated() {
             outdated::cover(&painter, rect, evaluation, theme);

@@ -59,6 +59,10 @@ impl Chord {
 /// A key as it is printed on keyboards, where that is one sign; [`Key::from_name`] reads it as well. A plus stays a word, since
 /// it stands between keys.
 fn sign_of(key: Key) -> &'static str {
+    if key == Key::Minus {
+        // Its symbol is the minus of formulas, which no keyboard has.
+        return "-";
+    }
     let sign = key.symbol_or_name();
     let is_printed = sign.len() == 1 && sign != "+" && Key::from_name(sign) == Some(key);
     if is_printed { sign } else { key.name() }

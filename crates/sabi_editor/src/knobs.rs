@@ -28,7 +28,7 @@ mod text_painting;
 mod values;
 
 use egui::{RichText, Ui};
-use sabi_engine::catalog::Knob;
+use sabi_engine::catalog::{Knob, KnobRole};
 use sabi_graph::Value;
 
 pub(crate) use self::free_curve::{CurveMemory, curve_ui};
@@ -83,9 +83,9 @@ impl KnobRow<'_> {
         !self.differs && *self.current() == Value::Bool(true)
     }
 
-    /// Returns whether the value differs from the default.
+    /// Returns whether the value differs from the default. A new node has a random seed, which nobody has changed.
     fn is_changed(&self) -> bool {
-        self.differs || *self.current() != self.knob.ty.default
+        self.differs || self.knob.ty.role != KnobRole::Seed && *self.current() != self.knob.ty.default
     }
 }
 

@@ -4,6 +4,7 @@ use egui::{RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_engine::Warning;
 
+use crate::notices::with_capital;
 use crate::theme::{Theme, type_size};
 
 /// Warnings whose sentences a tip shows.
@@ -21,7 +22,7 @@ pub(crate) fn badge(ui: &mut Ui, theme: &Theme, model: &str, warnings: &[Warning
     badge.widget_info(|| WidgetInfo::labeled(WidgetType::Link, true, &name));
     let badge = badge.on_hover_ui(|ui| {
         for warning in warnings.iter().take(MOST_SHOWN) {
-            ui.label(&warning.sentence);
+            ui.label(with_capital(&warning.sentence));
         }
         if count > MOST_SHOWN {
             ui.label(format!("and {} more", count - MOST_SHOWN));

@@ -16,8 +16,8 @@ const MOST: usize = 4;
 const WIDTH: f32 = 560.0;
 /// Room behind a sentence for the button that closes it, points.
 const CLOSE_WIDTH: f32 = 28.0;
-/// Way from the lower edge of the window to the sentences, points.
-const ABOVE_EDGE: f32 = 40.0;
+/// Way from the lower edge of the window to the sentences, points: above the status bar and the captions of the views.
+const ABOVE_EDGE: f32 = 58.0;
 
 /// Work that can fail. Its next success removes the sentence about the failure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,12 +69,13 @@ impl Notices {
     }
 
     /// Draws the sentences over everything else, as `said` writes them, and removes those whose time is over or that were closed.
-    pub(crate) fn show(&mut self, ui: &Ui, theme: &Theme, said: &dyn Fn(&str) -> String) {
+    /// Returns whether the button was pressed that saves elsewhere what could not be saved.
+    pub(crate) fn show(&mut self, ui: &Ui, theme: &Theme, said: &dyn Fn(&str) -> String) -> bool {
         let context = ui.ctx();
-        let top = self.show_failures(context, theme, said);
+        let (top, saves) = self.show_failures(context, theme, said);
         self.shown.retain(|(since, _)| since.elapsed() < SHOWN_FOR);
         let Some((oldest, _)) = self.shown.front() else {
-            return;
+            return saves;
         };
         context.request_repaint_after(SHOWN_FOR.saturating_sub(oldest.elapsed()));
         let area = Area::new("notices".into()).order(Order::Tooltip).interactable(false);
@@ -87,16 +88,19 @@ impl Notices {
                 });
             }
         });
+        saves
     }
 
-    /// Draws the failures. Returns the way from the lower edge of the window to what is above them, points.
-    fn show_failures(&mut self, context: &Context, theme: &Theme, said: &dyn Fn(&str) -> String) -> f32 {
+    /// Draws the failures. Returns the way from the lower edge of the window to what is above them, points, and whether the graph
+    /// is to be saved elsewhere.
+    fn show_failures(&mut self, context: &Context, theme: &Theme, said: &dyn Fn(&str) -> String) -> (f32, bool) {
         if self.failures.is_empty() {
-            return ABOVE_EDGE;
+            return (ABOVE_EDGE, false);
         }
         let area = Area::new("failures".into()).order(Order::Foreground);
         let corner = context.content_rect().center_bottom() - vec2(0.0, ABOVE_EDGE);
         let mut closed = None;
+        let mut saves = false;
         let shown = area.fixed_pos(corner).pivot(Align2::CENTER_BOTTOM).show(context, |ui| {
             let hidden = self.failures.len().saturating_sub(MOST);
             if hidden > 0 {
@@ -109,6 +113,10 @@ impl Notices {
                     if failure_row(ui, theme, &with_capital(&said(&failure.sentence))) {
                         closed = Some(at);
                     }
+                    // The question that it opens would lie below the message.
+                    if failure.work == Work::Save && ui.button("Save as…").clicked() {
+                        (closed, saves) = (Some(at), true);
+                    }
                 });
             }
         });
@@ -116,7 +124,7 @@ impl Notices {
             self.failures.remove(at);
             context.request_repaint();
         }
-        ABOVE_EDGE + shown.response.rect.height() + 4.0
+        (ABOVE_EDGE + shown.response.rect.height() + 4.0, saves)
     }
 
     /// Lets the sentences grow older.
@@ -155,8 +163,13 @@ fn failure_row(ui: &mut Ui, theme: &Theme, sentence: &str) -> bool {
     .inner
 }
 
-/// The sentence with a capital at its beginning: reasons of refusals are written so that they fit behind a colon, too.
+/// The sentence with a capital at its beginning: reasons of refusals are written so that they fit behind a colon, too. One that
+/// begins with the name of a file stays, as `graph.sabi:12:9: …` does.
 pub(crate) fn with_capital(sentence: &str) -> String {
+    let word = sentence.split_whitespace().next().unwrap_or_default();
+    if word.contains(['.', '/', '\\', '_', ':']) {
+        return sentence.to_owned();
+    }
     let mut letters = sentence.chars();
     let first = letters.next().map(char::to_uppercase);
     first.into_iter().flatten().chain(letters).collect()
@@ -170,6 +183,10 @@ mod tests {
     fn a_sentence_begins_with_a_capital() {
         assert_eq!(with_capital("no node is muted"), "No node is muted");
         assert_eq!(with_capital("'Blur' is read"), "'Blur' is read");
+        assert_eq!(
+            with_capital("goat.obj: there is no such file"),
+            "goat.obj: there is no such file"
+        );
         assert_eq!(with_capital(""), "");
     }
 

@@ -7,6 +7,7 @@ use sabi_engine::{Overlap, PartChoice, Remedy, Udim, advised};
 use crate::action::{Action, ExportAction, ModelAction};
 use crate::bars::WORKING_SIZES;
 use crate::import_options::ImportOptions;
+use crate::notices::with_capital;
 use crate::settings::export::{ExportChoices, SIZES as EXPORT_SIZES};
 
 /// Request that an error or a warning is about.
@@ -30,6 +31,8 @@ pub(crate) fn show(
     let offered = |remedy: &Remedy| button(*remedy, request, import);
     let words = remedies.iter().filter(|remedy| offered(remedy).is_none());
     let text = advised(sentence, words);
+    let lines: Vec<String> = text.lines().map(with_capital).collect();
+    let text = lines.join("\n");
     ui.add(Label::new(RichText::new(text).color(color)).wrap());
     let buttons: Vec<(String, Action)> = remedies.iter().filter_map(offered).collect();
     if buttons.is_empty() {
@@ -116,6 +119,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Optio
             | Remedy::FreeSpace
             | Remedy::AllowWriting
             | Remedy::SaveUnderOtherName
+            | Remedy::SaveInOtherFolder
             | Remedy::EditUvs
             | Remedy::ReplaceStrokes
             | Remedy::ReplaceFile

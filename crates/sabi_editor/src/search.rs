@@ -7,7 +7,7 @@ use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 use sabi_editing::command::NodeSource;
 use sabi_engine::OpenGraph;
-use sabi_engine::catalog::{Catalog, Entry, Faces};
+use sabi_engine::catalog::{Catalog, Entry, Faces, label_of};
 
 use crate::action::LibraryKind;
 
@@ -20,6 +20,8 @@ pub(crate) struct Candidate {
     pub(crate) section: String,
     /// Key of the favorite in settings.
     pub(crate) favorite: String,
+    /// Labels of the variants of a group, which it is found by, too.
+    pub(crate) variants: Vec<String>,
 }
 
 impl Candidate {
@@ -68,6 +70,12 @@ pub(crate) struct LibraryGroup {
 }
 
 impl LibraryGroup {
+    /// Labels of its variants.
+    fn variants(&self) -> Vec<String> {
+        let graph = &self.graph.document.graph;
+        graph.variants().keys().map(|name| label_of(name)).collect()
+    }
+
     /// Key of the favorite: by the name of the library, as links have it, since its folder may move. Those of a project go by
     /// their paths.
     fn favorite(&self) -> String {
@@ -96,6 +104,7 @@ pub(crate) fn candidates(
         favorite: entry.id.clone(),
         section: entry.category().to_owned(),
         face: entry.clone(),
+        variants: Vec::new(),
     });
     let own = groups.iter().filter_map(|name| {
         Some(Candidate {
@@ -103,12 +112,14 @@ pub(crate) fn candidates(
             favorite: format!("group {name}"),
             face: faces.of_group(name)?.clone(),
             section: "groups here".to_owned(),
+            variants: Vec::new(),
         })
     });
     let in_library = library_groups.iter().map(|group| Candidate {
         new: NodeSource::Library(group.file.clone()),
         favorite: group.favorite(),
         face: group.face.clone(),
+        variants: group.variants(),
         section: match (group.library, &group.category) {
             (LibraryKind::Sabi, Some(category)) => format!("effects: {category}"),
             (LibraryKind::Sabi, None) => "effects".to_owned(),
@@ -123,6 +134,7 @@ pub(crate) fn candidates(
 const LABEL: u32 = 8;
 const ALIAS: u32 = 6;
 const ID: u32 = 5;
+const VARIANT: u32 = 4;
 const SUMMARY: u32 = 2;
 /// Weight of a word in the description.
 const DESCRIPTION: u32 = 1;
@@ -203,6 +215,9 @@ fn matched(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Ca
         try_text(&face.id, ID, &mut best);
         for alias in &face.aliases {
             try_text(alias, ALIAS, &mut best);
+        }
+        for variant in &candidate.variants {
+            try_text(variant, VARIANT, &mut best);
         }
         let says = |text: &str| text.to_lowercase().contains(word.as_str());
         if says(&face.summary) {
@@ -304,7 +319,10 @@ mod tests {
     #[test]
     fn effects_are_found_by_what_one_sees() {
         let all = with_effects();
-        let wanted: [(&str, &[&str]); 6] = [
+        let wanted: [(&str, &[&str]); 8] = [
+            ("bronze", &["Bare metal"]),
+            // By its variants, too.
+            ("hammered copper", &["Bare metal"]),
             ("rain", &["Rain runs", "Wet"]),
             ("chipped", &["Edge wear", "Broken edges", "Peeling paint"]),
             ("wet stone", &["Wet", "Cut stone"]),

@@ -41,6 +41,8 @@ pub enum Remedy {
     AllowWriting,
     /// Another file for the graph.
     SaveUnderOtherName,
+    /// Another folder for the graph.
+    SaveInOtherFolder,
     /// The model with a UV layout made by Sabi, in which no charts overlap.
     UnwrapModel,
     /// The model with its own UVs, although they repeat.
@@ -83,7 +85,7 @@ pub enum Remedy {
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 36] = [
+    pub const ALL: [Remedy; 37] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -101,6 +103,7 @@ impl Remedy {
         Remedy::TryAgain,
         Remedy::AllowWriting,
         Remedy::SaveUnderOtherName,
+        Remedy::SaveInOtherFolder,
         Remedy::UnwrapModel,
         Remedy::KeepOwnUvs,
         Remedy::TilesAsUdim,
@@ -143,6 +146,7 @@ impl fmt::Display for Remedy {
             Remedy::TryAgain => "try again",
             Remedy::AllowWriting => "allow writing to it",
             Remedy::SaveUnderOtherName => "save under another name",
+            Remedy::SaveInOtherFolder => "save in another folder",
             Remedy::UnwrapModel => "unwrap the model",
             Remedy::KeepOwnUvs => "keep the model's own UVs",
             Remedy::TilesAsUdim => "make maps for each UV tile",

@@ -1,13 +1,14 @@
 //! Names of ports and parameters.
 
 /// Words whose spelling in labels differs from names.
-const SPELLINGS: [(&str, &str); 6] = [
+const SPELLINGS: [(&str, &str); 7] = [
     ("uv", "UV"),
     ("srgb", "sRGB"),
     ("rgb", "RGB"),
     ("hsv", "HSV"),
     ("id", "ID"),
     ("ao", "AO"),
+    ("fbm", "FBM"),
 ];
 
 /// Returns the label of a name: `tile_size` becomes `Tile size`, and `uv_set` becomes `UV set`.

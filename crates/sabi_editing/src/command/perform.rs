@@ -193,7 +193,8 @@ fn arrange(document: &mut OpenDocument, command: ArrangeCommand) -> Outcome {
 fn wire(document: &mut OpenDocument, command: WireCommand) -> Outcome {
     let is_done = match command {
         WireCommand::Connect { from, to, off } => {
-            document.session.begin("Connect");
+            let step = wires::connecting_step(document, &from, &to);
+            document.session.begin(&step);
             let is_connected = wires::connect(document, &from, &to);
             if let Some(off) = off.filter(|_| is_connected) {
                 wires::disconnect(document, &[off]);

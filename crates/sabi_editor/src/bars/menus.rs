@@ -252,11 +252,12 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
     entries(ui, context, VIEWS, actions);
     let (mut shade, mut preset) = (context.settings.shade, context.settings.input_preset);
     ui.horizontal(|ui| {
+        ui.label("Colors");
         ui.selectable_value(&mut shade, Shade::Dark, "Dark");
         ui.selectable_value(&mut shade, Shade::Light, "Light");
     });
     ui.horizontal(|ui| {
-        ui.label("Keys of");
+        ui.label("Keys");
         for (offered, name) in InputPreset::ALL {
             ui.selectable_value(&mut preset, offered, name);
         }

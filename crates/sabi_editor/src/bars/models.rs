@@ -225,26 +225,26 @@ fn import_menu(ui: &mut Ui, now: &ImportOptions, parts: &[FilePart], actions: &m
     ui.checkbox(&mut wanted.turn_faces, "Turn faces that are inside out")
         .on_hover_text("Faces against those around them, and those of closed bodies that look inward.");
     let mut is_scene_chosen = now.scene.is_some();
-    ui.checkbox(&mut is_scene_chosen, "Choose the scene")
+    ui.checkbox(&mut is_scene_chosen, "Choose another scene of the file")
         .on_hover_text("Takes a scene of a glTF file by its number, in place of the one that the file names.");
     // The first scene is the one that most files name.
     wanted.scene = is_scene_chosen.then(|| settled(ui, "Scene", now.scene.unwrap_or(0), 0..=LAST_SCENE, 0.05));
     ui.separator();
     ui.label("UVs in several tiles");
     for (udim, name) in [
-        (Udim::Auto, "as they look"),
+        (Udim::Auto, "As they look"),
         (Udim::On, "UDIM: maps for each tile"),
-        (Udim::Off, "a texture that repeats"),
+        (Udim::Off, "A texture that repeats"),
     ] {
         ui.radio_value(&mut wanted.udim, udim, name);
     }
     ui.separator();
     ui.label("Where UVs overlap");
     for (overlap, name) in [
-        (Overlap::Auto, "use the first, and unwrap what repeats often"),
-        (Overlap::First, "use the first"),
-        (Overlap::Merge, "take the average"),
-        (Overlap::Unwrap, "unwrap to a new UV set"),
+        (Overlap::Auto, "Use the first, and unwrap what repeats often"),
+        (Overlap::First, "Use the first"),
+        (Overlap::Merge, "Take the average"),
+        (Overlap::Unwrap, "Unwrap to a new UV set"),
     ] {
         ui.radio_value(&mut wanted.overlap, overlap, name);
     }

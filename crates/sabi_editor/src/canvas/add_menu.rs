@@ -1,12 +1,13 @@
 //! The menu at the pointer that adds or replaces a node.
 
-use egui::{Align2, Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
+use egui::{Area, Color32, FontId, Frame, Id, Key, Order, Pos2, Sense, Ui, vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::NodeCommand;
 use sabi_editing::connections::PendingWire;
 use sabi_editing::{OpenDocument, connections, nodes, wires};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
+use super::body::elided;
 use crate::action::Action;
 use crate::search::{Candidate, ranked};
 use crate::theme::{Theme, space, type_size};
@@ -226,8 +227,16 @@ impl AddMenu {
         painter.rect_filled(rect, space::CORNER, fill);
         let mark = egui::Rect::from_min_size(rect.min + vec2(4.0, 6.0), vec2(4.0, ROW - 12.0));
         painter.rect_filled(mark, 2.0, theme.category(face.category()));
+        // The dots of the outputs are beside the name.
+        let dots = 10.0 * face.outputs.len().min(4) as f32;
         let text = |at: egui::Pos2, text: &str, size: f32, color: Color32| {
-            painter.text(at, Align2::LEFT_TOP, text, FontId::proportional(size), color);
+            let right = if size == type_size::BODY {
+                dots + space::USUAL
+            } else {
+                space::TIGHT
+            };
+            let width = rect.right() - at.x - right;
+            painter.galley(at, elided(ui, text, FontId::proportional(size), width, color), color);
         };
         text(rect.min + vec2(16.0, 2.0), &face.label, type_size::BODY, theme.text);
         text(

@@ -92,7 +92,11 @@ pub(super) fn knob_row(ui: &mut Ui, row_context: &mut RowContext, shown: &NodeSu
         knob,
         value: shown.values.get(&knob.name),
         wired: None,
-        mask: ParamMask::NotTaken,
+        mask: match shown.masks.get(&knob.name) {
+            Some(mask) => ParamMask::Of(mask),
+            None if shown.face.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
+            None => ParamMask::NotTaken,
+        },
         exposed: shown.exposed.get(&knob.name).map(String::as_str),
         differs: false,
     };

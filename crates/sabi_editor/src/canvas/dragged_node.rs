@@ -59,7 +59,13 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, theme: &Theme, document: &OpenDocum
         let painter = painter.with_clip_rect(panel);
         wires::draw(&painter, theme, &wire, zoom, wires::WireLook::Highlighted);
     }
-    let rect = Rect::from_min_size(at, vec2(NODE_WIDTH, TITLE_HEIGHT + PICTURE_SIDE) * zoom);
+    // Beside the canvas it is a title alone, which leaves what it is dropped on in sight.
+    let picture = if camera.place_at(at).is_some() {
+        PICTURE_SIDE
+    } else {
+        0.0
+    };
+    let rect = Rect::from_min_size(at, vec2(NODE_WIDTH, TITLE_HEIGHT + picture) * zoom);
     let title = rect.with_max_y(rect.top() + TITLE_HEIGHT * zoom);
     let corner = CornerRadius::same(space::CORNER);
     painter.rect_filled(rect, corner, theme.raised.gamma_multiply(0.7));

@@ -42,6 +42,8 @@ pub(super) struct NodeSummary {
     pub(super) values: BTreeMap<String, Value>,
     /// Names under which the node's parameters are published, by their own names.
     pub(super) exposed: BTreeMap<String, String>,
+    /// Names of the masks that multiply the node's parameters, by their names.
+    pub(super) masks: BTreeMap<String, String>,
 }
 
 /// Settings with which rows of nodes are drawn, and the events of their widgets.

@@ -15,6 +15,7 @@ use sabi_graph::{Body, Edit, NodeId, PortType};
 
 use super::body;
 use super::node_summary::{NodeState, NodeSummary, RowContext};
+use crate::panels::parameters::mask_of;
 
 /// Graph in the canvas crate's type.
 pub(super) type Graph = egui_node_graph::Graph<NodeSummary, CarriedType, Row>;
@@ -203,6 +204,9 @@ impl Snapshot {
             let exposed =
                 knobs.filter_map(|knob| Some((knob.clone(), panel::exposed_as(document, id, knob)?.to_owned())));
             shown.user_data.exposed = exposed.collect();
+            let knobs = face.knobs.iter().map(|knob| &knob.name);
+            let masks = knobs.filter_map(|knob| Some((knob.clone(), mask_of(document, id, knob)?)));
+            shown.user_data.masks = masks.collect();
         }
         self.copy_wires(document);
     }
@@ -247,6 +251,7 @@ impl Snapshot {
             is_pinned: false,
             values: BTreeMap::new(),
             exposed: BTreeMap::new(),
+            masks: BTreeMap::new(),
         };
         let key = self.graph.add_node(String::new(), shown, |graph, key| {
             let inputs = face.inputs.iter().enumerate();

@@ -142,6 +142,11 @@ pub(crate) fn models(folder: &Path) -> impl Iterator<Item = PathBuf> {
     MODELS.iter().map(move |(name, _)| folder.join(name))
 }
 
+/// Folder of the built-in models.
+pub(crate) fn models_folder(folder: &Path) -> Option<PathBuf> {
+    models(folder).next()?.parent().map(Path::to_owned)
+}
+
 /// Returns whether a file is a built-in model, of any computer or user.
 pub(crate) fn is_own_model(file: &Path) -> bool {
     MODELS.iter().any(|(name, _)| is_named(file, name))

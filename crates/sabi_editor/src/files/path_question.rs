@@ -9,12 +9,13 @@ use egui::{
 };
 use egui_phosphor::regular as icon;
 
+use super::examples;
 use super::folder_list::{FolderEntry, FolderList, completed};
 use super::system_dialog::{DialogAnswer, NO_DIALOG, PathFor, SystemDialog, answer_of};
 use crate::context::ViewContext;
 use crate::paths::{canonical_if_present, file_name, with_ending};
 use crate::saved_pictures::OF_GRAPH;
-use crate::theme::Theme;
+use crate::theme::{Theme, space, type_size};
 
 /// Width of the question, of its places, and height of its list, points.
 const WIDTH: f32 = 620.0;
@@ -295,16 +296,38 @@ impl PathQuestion {
         });
     }
 
-    /// Folders that were used before.
+    /// The home folder, that of the built-in models, and folders that were used before.
     fn places(&mut self, ui: &mut Ui, context: &ViewContext<'_>) {
         ui.vertical(|ui| {
             ui.set_width(PLACES);
-            for place in places(context) {
-                let name = format!("{} {}", icon::FOLDER, file_name(&place));
-                let button = ui.add(Button::new(name).frame(false).truncate());
-                if button.on_hover_text(place.display().to_string()).clicked() {
-                    self.enter(place);
+            let mut place = |ui: &mut Ui, sign: &str, name: &str, folder: PathBuf| {
+                let button = ui.add(Button::new(format!("{sign} {name}")).frame(false).truncate());
+                button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
+                if button.on_hover_text(folder.display().to_string()).clicked() {
+                    self.enter(folder);
                 }
+            };
+            let home = std::env::home_dir();
+            let examples = context.examples.and_then(examples::models_folder);
+            let recent = recent_folders(context).into_iter();
+            let recent = recent.filter(|folder| ![&home, &examples].contains(&&Some(folder.clone())));
+            let recent: Vec<PathBuf> = recent.collect();
+            if let Some(home) = home.clone() {
+                place(ui, icon::HOUSE, "Home", home);
+            }
+            if let Some(examples) = examples.clone().filter(|folder| folder.is_dir()) {
+                place(ui, icon::CUBE, "Examples", examples);
+            }
+            if !recent.is_empty() {
+                ui.add_space(space::TIGHT);
+                ui.label(
+                    RichText::new("RECENT")
+                        .size(type_size::SMALL)
+                        .color(context.theme.quiet),
+                );
+            }
+            for folder in recent {
+                place(ui, icon::FOLDER, &file_name(&folder), folder.clone());
             }
         });
     }
@@ -403,8 +426,8 @@ fn entry_row(
     response
 }
 
-/// Folders of the open graph, of recent graphs and of models, and the home folder, each once.
-fn places(context: &ViewContext<'_>) -> Vec<PathBuf> {
+/// Folders of the open graph, of recent graphs and of models, each once.
+fn recent_folders(context: &ViewContext<'_>) -> Vec<PathBuf> {
     let own = context.document.session.file().map(Path::to_owned);
     let files = own
         .iter()
@@ -417,7 +440,5 @@ fn places(context: &ViewContext<'_>) -> Vec<PathBuf> {
             places.push(folder);
         }
     }
-    let home = std::env::home_dir().filter(|home| !places.contains(home));
-    places.extend(home);
     places
 }

@@ -6,10 +6,12 @@ use std::time::SystemTime;
 
 use egui::{Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 use sabi_engine::Recovery;
-use sabi_graph::Document;
+use sabi_engine::catalog::{Catalog, label_of};
+use sabi_graph::{Document, Node};
 
 use crate::action::{Action, FileAction, Next};
 use crate::context::ViewContext;
+use crate::paths::file_stem;
 use crate::theme::{Theme, space, type_size};
 
 /// Size of a drawing, points.
@@ -49,7 +51,12 @@ impl RecoveryList {
         if !drawn.eq(context.recoveries.iter().map(Recovery::path)) {
             let drawing = |recovery: &Recovery| {
                 let graph = recovery.document();
-                (recovery.path().to_owned(), graph.as_ref().map(Drawing::new))
+                (
+                    recovery.path().to_owned(),
+                    graph
+                        .as_ref()
+                        .map(|graph| Drawing::new(graph, context.document.catalog())),
+                )
             };
             self.drawings = context.recoveries.iter().map(drawing).collect();
         }
@@ -120,7 +127,7 @@ fn row(
 }
 
 impl Drawing {
-    fn new(graph: &Document) -> Drawing {
+    fn new(graph: &Document, catalog: &Catalog) -> Drawing {
         let nodes: Vec<_> = graph.graph.nodes().collect();
         let places: BTreeMap<&str, usize> = (0..).zip(&nodes).map(|(at, (id, _))| (id.as_str(), at)).collect();
         let mut wires = Vec::new();
@@ -128,10 +135,7 @@ impl Drawing {
             let from = node.inputs.values().filter_map(|from| places.get(from.node.as_str()));
             wires.extend(from.map(|from| [*from, into]));
         }
-        let names = nodes.iter().map(|(_, node)| {
-            let kind = node.kind.rsplit('/').next().unwrap_or(&node.kind);
-            node.label.clone().unwrap_or_else(|| kind.replace('_', " "))
-        });
+        let names = nodes.iter().map(|(_, node)| title_of(node, catalog));
         let mut words = match nodes.len() {
             0 => "no nodes".to_owned(),
             1 => "1 node".to_owned(),
@@ -184,6 +188,15 @@ impl Drawing {
     }
 }
 
+/// Title of a node as the canvas shows it, as far as it is known without the group files of the graph.
+fn title_of(node: &Node, catalog: &Catalog) -> String {
+    let of_group = || Some(label_of(&file_stem(Path::new(node.group.as_ref()?))));
+    let of_kind = || catalog.entry(&node.kind).map(|entry| entry.label.clone());
+    let plain = || label_of(node.kind.rsplit('/').next().unwrap_or(&node.kind));
+    let own = node.label.clone();
+    own.or_else(of_group).or_else(of_kind).unwrap_or_else(plain)
+}
+
 /// Ages and sizes of what was recovered and of the file that it belongs to, so that the newer one is seen.
 pub(super) fn dates_text(recovery: &Recovery) -> String {
     let with_size = |age: String, bytes: Option<u64>| match bytes {
@@ -232,6 +245,8 @@ fn size_text(bytes: u64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use sabi_engine::Kinds;
+
     use super::*;
 
     #[test]
@@ -240,8 +255,12 @@ mod tests {
             "a": { "kind": "noise/simplex", "label": "Grain" }, "b": { "kind": "noise/white", "pos": [400, 0] },
             "c": { "kind": "blend/mask", "inputs": { "above": "a", "below": "b" }, "pos": [800, 0] },
             "d": { "kind": "adjust/auto_levels" }, "e": { "kind": "lost/kind" } } }"#;
-        let drawing = Drawing::new(&Document::from_json(text).expect("a graph"));
-        assert_eq!(drawing.words, "5 nodes: Grain, white, mask, auto levels, …");
+        let catalog = Catalog::new(&Kinds::builtin());
+        let drawing = Drawing::new(&Document::from_json(text).expect("a graph"), &catalog);
+        assert_eq!(
+            drawing.words,
+            "5 nodes: Grain, White noise, Blend masks, Auto levels, …"
+        );
         assert_eq!((drawing.nodes.len(), drawing.wires), (5, vec![[0, 2], [1, 2]]));
         assert_eq!(drawing.nodes[1].min, pos2(400.0, 0.0));
     }

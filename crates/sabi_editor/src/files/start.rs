@@ -11,8 +11,8 @@ use crate::theme::{Theme, space, type_size};
 use egui::epaint::RectShape;
 use egui::text::LayoutJob;
 use egui::{
-    Color32, ColorImage, Context, FontId, Id, Modal, Rect, RichText, ScrollArea, Sense, TextureHandle, TextureId,
-    TextureOptions, Ui, Vec2, pos2, vec2,
+    Align2, Color32, ColorImage, Context, FontId, Id, Modal, Rect, RichText, ScrollArea, Sense, TextureHandle,
+    TextureId, TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::small_picture;
@@ -116,10 +116,16 @@ impl StartPage {
         ui.columns(2, |columns| {
             let [left, right] = columns else { return };
             left.strong("New");
-            if card(left, theme, "Empty graph", "Begin with nothing but a model", None) {
+            if card(
+                left,
+                theme,
+                "Empty graph",
+                "Begin with nothing but a model",
+                PicturePlace::None,
+            ) {
                 chosen = open(Next::New);
             }
-            if card(left, theme, "Open…", "A graph of yours", None) {
+            if card(left, theme, "Open…", "A graph of yours", PicturePlace::None) {
                 chosen = Some(Action::Do(Command::File(FileCommand::Open)));
             }
             left.add_space(space::USUAL);
@@ -129,7 +135,13 @@ impl StartPage {
             }
             for path in recent.iter().take(5) {
                 let picture = context.pictures.find(left.ctx(), path, OF_GRAPH);
-                if card(left, theme, &file_stem(path), &path.display().to_string(), picture) {
+                if card(
+                    left,
+                    theme,
+                    &file_stem(path),
+                    &path.display().to_string(),
+                    PicturePlace::with(picture),
+                ) {
                     chosen = open(Next::Open(path.clone()));
                 }
             }
@@ -141,7 +153,7 @@ impl StartPage {
                     theme,
                     example.title,
                     example.says,
-                    picture.map(TextureHandle::id),
+                    PicturePlace::with(picture.map(TextureHandle::id)),
                 ) {
                     chosen = open(Next::Example(at));
                 }
@@ -151,9 +163,26 @@ impl StartPage {
     }
 }
 
+/// Place for a picture on a card.
+#[derive(Clone, Copy, PartialEq)]
+enum PicturePlace {
+    /// The card has none.
+    None,
+    /// Without a picture yet: an icon stands there, so that the texts of all cards line up.
+    Free,
+    Of(TextureId),
+}
+
+impl PicturePlace {
+    fn with(picture: Option<TextureId>) -> PicturePlace {
+        picture.map_or(PicturePlace::Free, PicturePlace::Of)
+    }
+}
+
 /// Shows a card with a title, a sentence and perhaps a picture. Returns whether it was clicked.
-fn card(ui: &mut Ui, theme: &Theme, title: &str, whole: &str, picture: Option<TextureId>) -> bool {
-    let height = if picture.is_some() { WITH_PICTURE } else { HEIGHT };
+fn card(ui: &mut Ui, theme: &Theme, title: &str, whole: &str, picture: PicturePlace) -> bool {
+    let has_place = picture != PicturePlace::None;
+    let height = if has_place { WITH_PICTURE } else { HEIGHT };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, title));
     let fill = if response.hovered() || response.has_focus() {
@@ -164,10 +193,16 @@ fn card(ui: &mut Ui, theme: &Theme, title: &str, whole: &str, picture: Option<Te
     let painter = ui.painter().with_clip_rect(rect);
     painter.rect_filled(rect, space::CORNER, fill);
     let mut left = 12.0;
-    if let Some(picture) = picture {
+    if has_place {
         let place = Rect::from_center_size(rect.left_center() + vec2(WITH_PICTURE / 2.0, 0.0), Vec2::splat(PICTURE));
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        painter.add(RectShape::filled(place, space::CORNER, Color32::WHITE).with_texture(picture, whole));
+        if let PicturePlace::Of(picture) = picture {
+            painter.add(RectShape::filled(place, space::CORNER, Color32::WHITE).with_texture(picture, whole));
+        } else {
+            painter.rect_filled(place, space::CORNER, theme.panel);
+            let font = FontId::proportional(type_size::TITLE);
+            painter.text(place.center(), Align2::CENTER_CENTER, icon::GRAPH, font, theme.quiet);
+        }
         left = WITH_PICTURE + space::USUAL;
     }
     let width = rect.width() - left - space::USUAL;
@@ -178,7 +213,7 @@ fn card(ui: &mut Ui, theme: &Theme, title: &str, whole: &str, picture: Option<Te
         job.wrap.break_anywhere = rows == 1;
         painter.layout_job(job)
     };
-    let rows = if picture.is_some() { 2 } else { 1 };
+    let rows = if has_place { 2 } else { 1 };
     let title = line(title, type_size::BODY, theme.text, 1);
     let says = line(whole, type_size::SMALL, theme.quiet, rows);
     let is_cut = says.elided;

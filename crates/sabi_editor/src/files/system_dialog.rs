@@ -1,6 +1,8 @@
 //! System dialogs for files and folders, which do not block the window.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
@@ -124,12 +126,16 @@ impl PathFor {
 /// Sentence about a system without dialogs.
 pub(crate) const NO_DIALOG: &str = "The system's dialog could not be opened: on Linux it needs a desktop portal \
                                     (xdg-desktop-portal), or zenity.";
-/// Time in which nobody can have closed a dialog: one that ends sooner was not opened. The library below tells no difference.
+/// Time in which nobody can have closed a dialog: one that ends sooner was not opened. The library below tells no difference, and
+/// where it looks for a portal and for zenity in vain, that may take longer.
 const AT_ONCE: Duration = Duration::from_millis(300);
 
 /// System dialog that is open.
 pub(crate) struct SystemDialog {
     answer: Receiver<DialogAnswer>,
+    context: Context,
+    /// True once the window has lost the focus since the dialog was asked for.
+    lost_focus: Arc<AtomicBool>,
 }
 
 /// Answer of a system dialog.
@@ -143,11 +149,12 @@ pub(crate) enum DialogAnswer {
 }
 
 impl DialogAnswer {
-    /// Answer of a dialog that gave this path after some time.
-    fn after(path: Option<PathBuf>, lasted: Duration) -> DialogAnswer {
+    /// Answer of a dialog that gave this path after some time. One that opens takes the focus from the window, since nobody can
+    /// close it otherwise.
+    fn after(path: Option<PathBuf>, lasted: Duration, has_lost_focus: bool) -> DialogAnswer {
         match path {
             Some(path) => DialogAnswer::Chosen(path),
-            None if lasted < AT_ONCE => DialogAnswer::NotOpened,
+            None if lasted < AT_ONCE || !has_lost_focus => DialogAnswer::NotOpened,
             None => DialogAnswer::Closed,
         }
     }
@@ -192,10 +199,25 @@ impl SystemDialog {
     /// long.
     fn open(context: &Context, dialog: impl Future<Output = Option<FileHandle>> + Send + 'static) -> SystemDialog {
         let began = Instant::now();
-        SystemDialog::waiting(context, move || {
+        SystemDialog::ending(context, move || {
             let path = pollster::block_on(dialog).map(|file| file.path().to_owned());
-            DialogAnswer::after(path, began.elapsed())
+            (path, began.elapsed())
         })
+    }
+
+    /// Waits for the end of a dialog, with the chosen path and the time for which it was there.
+    pub(crate) fn ending(
+        context: &Context,
+        wait: impl FnOnce() -> (Option<PathBuf>, Duration) + Send + 'static,
+    ) -> SystemDialog {
+        let lost_focus = Arc::new(AtomicBool::new(false));
+        let has_lost = lost_focus.clone();
+        let mut dialog = SystemDialog::waiting(context, move || {
+            let (path, lasted) = wait();
+            DialogAnswer::after(path, lasted, has_lost.load(Ordering::Relaxed))
+        });
+        dialog.lost_focus = lost_focus;
+        dialog
     }
 
     /// Waits for an answer on a thread of its own; `context` draws a frame when it arrives.
@@ -210,11 +232,18 @@ impl SystemDialog {
             drop(sender);
             woken.request_repaint();
         });
-        SystemDialog { answer }
+        SystemDialog {
+            answer,
+            context: context.clone(),
+            lost_focus: Arc::default(),
+        }
     }
 
-    /// The answer, once it has arrived.
+    /// The answer, once it has arrived. Asked in every frame, since it watches the focus of the window, too.
     pub(crate) fn poll(&self) -> Option<DialogAnswer> {
+        if !self.context.input(|input| input.raw.focused) {
+            self.lost_focus.store(true, Ordering::Relaxed);
+        }
         match self.answer.try_recv() {
             Ok(answer) => Some(answer),
             Err(TryRecvError::Empty) => None,
@@ -235,12 +264,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_dialog_that_ends_at_once_without_a_path_was_not_opened() {
+    fn a_dialog_that_ends_at_once_or_without_taking_the_focus_was_not_opened() {
         let path = PathBuf::from("a.sabi");
         let lasted = |milliseconds| Duration::from_millis(milliseconds);
-        assert_eq!(DialogAnswer::after(None, lasted(5)), DialogAnswer::NotOpened);
-        assert_eq!(DialogAnswer::after(None, lasted(2000)), DialogAnswer::Closed);
-        let chosen = DialogAnswer::after(Some(path.clone()), lasted(5));
+        assert_eq!(DialogAnswer::after(None, lasted(5), true), DialogAnswer::NotOpened);
+        assert_eq!(DialogAnswer::after(None, lasted(2000), false), DialogAnswer::NotOpened);
+        assert_eq!(DialogAnswer::after(None, lasted(2000), true), DialogAnswer::Closed);
+        let chosen = DialogAnswer::after(Some(path.clone()), lasted(5), false);
         assert_eq!(chosen, DialogAnswer::Chosen(path));
     }
 }

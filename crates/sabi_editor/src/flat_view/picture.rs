@@ -5,6 +5,8 @@ use sabi_engine::{Inspected, PlaneKind, ResultPlane};
 
 use crate::theme::{Theme, space};
 
+/// Least width of a histogram, points.
+const NARROWEST: f32 = 80.0;
 /// Brightness beside the charts.
 const BESIDE: f32 = 0.45;
 
@@ -36,6 +38,9 @@ pub(super) fn picture_of(values: &Inspected, plane: &ResultPlane, component: Opt
 fn quantized(number: f32) -> u8 {
     (number.clamp(0.0, 1.0) * 255.0).round() as u8
 }
+
+/// Height that the numbers at both ends of a histogram take above its columns, points.
+const ENDS: f32 = 13.0;
 
 /// Histogram of the texels on the surface.
 pub(crate) struct Histogram {
@@ -77,11 +82,16 @@ impl Histogram {
         Histogram { columns, range }
     }
 
-    /// Draws the histogram in the lower right corner.
-    pub(super) fn draw(&self, painter: &Painter, panel: Rect, theme: &Theme) {
-        let size = vec2(150.0, 56.0);
+    /// Draws the histogram in the lower right corner, as wide as there is room beside the texture in `square`; over it where that
+    /// is too little.
+    pub(super) fn draw(&self, painter: &Painter, panel: Rect, square: Rect, theme: &Theme) {
+        let mut size = vec2(150.0, 56.0);
         if panel.width() < 2.0 * size.x || panel.height() < 2.0 * size.y {
             return;
+        }
+        let beside = panel.right() - square.right() - 2.0 * space::USUAL;
+        if beside >= NARROWEST {
+            size.x = size.x.min(beside);
         }
         let rect = Rect::from_min_size(panel.max - size - vec2(space::USUAL, space::USUAL), size);
         self.draw_in(painter, rect, theme);
@@ -117,7 +127,7 @@ impl Histogram {
         for (columns, color) in self.columns.iter().zip(colors) {
             let width = rect.width() / columns.len() as f32;
             for (at, count) in columns.iter().enumerate().filter(|(_, count)| **count > 0) {
-                let height = (*count as f32 / tall as f32).min(1.0) * (rect.height() - 6.0);
+                let height = (*count as f32 / tall as f32).min(1.0) * (rect.height() - ENDS);
                 let x = rect.left() + (at as f32 + 0.5) * width;
                 let stroke = Stroke::new(width.max(1.0), color.gamma_multiply(0.6));
                 painter.line_segment([pos2(x, rect.bottom()), pos2(x, rect.bottom() - height)], stroke);
@@ -125,8 +135,9 @@ impl Histogram {
         }
         let font = egui::FontId::monospace(9.0);
         let ends = [
-            (rect.left_top(), egui::Align2::LEFT_TOP),
-            (rect.right_top(), egui::Align2::RIGHT_TOP),
+            // Beside the line of a parameter at an end.
+            (rect.left_top() + vec2(4.0, 1.0), egui::Align2::LEFT_TOP),
+            (rect.right_top() + vec2(-4.0, 1.0), egui::Align2::RIGHT_TOP),
         ];
         for ((at, align), number) in ends.into_iter().zip(self.range) {
             painter.text(at, align, format!("{number:.2}"), font.clone(), theme.quiet);

@@ -96,7 +96,7 @@ fn beside(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Re
         .accesskit_node_builder(group.id, |node| node.set_value(said(row, chosen)));
     for (at, word) in words.iter().enumerate() {
         let is_chosen = !row.differs && word == chosen;
-        let name = label_of(word);
+        let name = word_label(row, word);
         let place = share_of(rect, at, words.len());
         let response = word_button(ui, knob_ui, id.with(word), place, &name, WordState::of(row, is_chosen));
         response.widget_info(|| WidgetInfo::selected(WidgetType::RadioButton, ui.is_enabled(), is_chosen, &name));
@@ -106,10 +106,18 @@ fn beside(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Re
     }
 }
 
+/// Label of a word. An instance without a variant shows the group as its card "Base" does.
+pub(super) fn word_label(row: &KnobRow<'_>, word: &str) -> String {
+    match (row.knob.name.as_str(), word) {
+        ("variant", "none") => "Base".to_owned(),
+        _ => label_of(word),
+    }
+}
+
 fn said(row: &KnobRow<'_>, chosen: &str) -> String {
     match row.differs {
         true => "mixed".to_owned(),
-        false => label_of(chosen),
+        false => word_label(row, chosen),
     }
 }
 
@@ -163,7 +171,7 @@ pub(super) fn open_list(
         ScrollArea::vertical().max_height(HIGHEST_LIST).show(ui, |ui| {
             for word in words {
                 let is_chosen = !row.differs && word == chosen;
-                let item = ui.selectable_label(is_chosen, label_of(word));
+                let item = ui.selectable_label(is_chosen, word_label(row, word));
                 if response.clicked() && word == chosen {
                     // The list has the keyboard while it is open.
                     item.request_focus();

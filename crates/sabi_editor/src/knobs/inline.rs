@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
 use sabi_editing::node_size::ROW_HEIGHT;
-use sabi_engine::catalog::{KnobRole, label_of};
+use sabi_engine::catalog::KnobRole;
 use sabi_graph::Value;
 
 use super::bar::Bar;
@@ -105,7 +105,14 @@ fn widget(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect
                 knob_ui.theme.raised
             };
             ui.painter().rect_filled(rect, space::CORNER, fill);
-            value(ui, knob_ui, row, rect, &label_of(word), knob_ui.theme.text);
+            value(
+                ui,
+                knob_ui,
+                row,
+                rect,
+                &choice::word_label(row, word),
+                knob_ui.theme.text,
+            );
             choice::open_list(ui, knob_ui, row, &response, words, word);
         }
         (Some(KnobValue::Color(held)), _) => {

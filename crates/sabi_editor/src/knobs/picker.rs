@@ -3,9 +3,10 @@
 use egui::color_picker::{Alpha, color_picker_hsva_2d};
 use egui::ecolor::{hsv_from_rgb, rgb_from_hsv};
 use egui::epaint::Hsva;
-use egui::{Color32, Context, DragValue, Id, Sense, StrokeKind, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{Color32, Context, DragValue, Id, Sense, StrokeKind, TextEdit, Ui, WidgetInfo, WidgetType, vec2};
 
-use super::values::code_of;
+use super::text_field::select_all;
+use super::values::{code_of, color_of};
 
 /// Width of the picker.
 const PICKER: f32 = 190.0;
@@ -13,11 +14,15 @@ const PICKER: f32 = 190.0;
 const MOST_SWATCHES: usize = 16;
 const SWATCH: f32 = 18.0;
 
+/// Length of the code of a color: `#` and six digits.
+const CODE: usize = 7;
+
 /// Shows a picker; returns whether the color has changed.
 pub(crate) fn picker(ui: &mut Ui, picked: &mut Hsva) -> bool {
     ui.spacing_mut().slider_width = PICKER;
     let mut has_changed = color_picker_hsva_2d(ui, picked, Alpha::Opaque);
     has_changed |= numbers(ui, picked);
+    has_changed |= hex(ui, picked);
     if let Some(color) = swatches(ui) {
         *picked = Hsva::from_srgb([color.r(), color.g(), color.b()]);
         has_changed = true;
@@ -61,6 +66,41 @@ fn numbers(ui: &mut Ui, picked: &mut Hsva) -> bool {
         ui.data_mut(|data| data.insert_temp(kept_as, (code, parts)));
     }
     has_changed
+}
+
+/// Field for the code of the color, such as `#6b3a1e`, which is taken as soon as it is whole.
+fn hex(ui: &mut Ui, picked: &mut Hsva) -> bool {
+    let id = ui.id().with("hex");
+    let [r, g, b] = picked.to_srgb();
+    let now = code_of(Color32::from_rgb(r, g, b));
+    let typed = ui.data(|data| data.get_temp::<String>(id));
+    let mut text = typed
+        .filter(|_| ui.memory(|memory| memory.has_focus(id)))
+        .unwrap_or(now);
+    let field = ui.horizontal(|ui| {
+        ui.label("Hex");
+        ui.add(TextEdit::singleline(&mut text).id(id).desired_width(80.0))
+    });
+    let field = field.inner;
+    field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Code of the color"));
+    if field.gained_focus() {
+        select_all(&field, &text);
+    }
+    let has_changed = field.changed();
+    ui.data_mut(|data| data.insert_temp(id, text.clone()));
+    let code = text.trim();
+    let code = if code.starts_with('#') {
+        code.to_owned()
+    } else {
+        format!("#{code}")
+    };
+    // Three digits are a color, too, but most often the beginning of six.
+    let is_whole = has_changed && code.len() == CODE;
+    let Some(color) = color_of(&code).filter(|_| is_whole) else {
+        return false;
+    };
+    *picked = Hsva::from_srgb([color.r(), color.g(), color.b()]);
+    true
 }
 
 /// Hue, saturation and value, each 0 to 1, of an encoded color.

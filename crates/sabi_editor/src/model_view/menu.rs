@@ -151,6 +151,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
     ui.checkbox(&mut view.shot.has_ground, "Shade on the ground");
     ui.checkbox(&mut view.shot.has_relief, "Relief");
     ui.separator();
+    ui.weak("Background");
     for (_, name, background) in BACKGROUNDS {
         ui.selectable_value(&mut view.shot.background, background, name);
     }
@@ -158,6 +159,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
     if let Some(remark) = quality.remark() {
         ui.separator();
         ui.set_max_width(260.0);
-        ui.weak(remark);
+        // Labels of menus are justified, which tears the words of a sentence apart.
+        ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| ui.weak(remark));
     }
 }

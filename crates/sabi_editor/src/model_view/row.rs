@@ -299,6 +299,9 @@ fn failure_of(evaluation: &Evaluation) -> Option<String> {
     failure.map(|error| format!("{}: {error}", file_stem(model.file())))
 }
 
+/// Room for the badge and the cross behind the state of a model in its cell, points.
+const BADGE_AND_CROSS: f32 = 64.0;
+
 /// Name of a model in its cell, which makes it the main one, and the button that removes it.
 fn name_row(
     ui: &mut Ui,
@@ -329,7 +332,14 @@ fn name_row(
                     actions.push(Action::Model(ModelAction::Show(model.to_owned())));
                 }
                 if let Some(state) = state {
-                    ui.label(RichText::new(state).size(type_size::SMALL).color(subject.theme.quiet));
+                    let words = RichText::new(state).size(type_size::SMALL).color(subject.theme.quiet);
+                    let room = ui.available_width() - BADGE_AND_CROSS;
+                    if room > 0.0 {
+                        ui.scope(|ui| {
+                            ui.set_max_width(room);
+                            ui.add(egui::Label::new(words).truncate());
+                        });
+                    }
                 }
                 let warnings = evaluation.model.warnings();
                 if model_warnings::badge(ui, subject.theme, &name, warnings) {

@@ -24,7 +24,7 @@ impl View for History {
         area.show_rows(ui, row, done.len() + undone.len() + 1, |ui, rows| {
             for at in rows {
                 let (name, is_done) = match at.checked_sub(1) {
-                    None => ("Opened", true),
+                    None => ("Start", true),
                     Some(at) if at < done.len() => (done[at], true),
                     Some(at) => (undone[at - done.len()], false),
                 };

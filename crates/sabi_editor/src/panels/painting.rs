@@ -8,7 +8,7 @@ mod strokes;
 mod swatches;
 mod tips;
 
-use egui::{ComboBox, ScrollArea, Ui};
+use egui::{ComboBox, Response, ScrollArea, Ui};
 use egui_phosphor::regular as icon;
 use sabi_editing::painting::PAINT;
 use sabi_graph::NodeId;
@@ -101,13 +101,13 @@ impl Painting {
 }
 
 /// A list to choose one of several from.
-fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(T, &str)]) {
+fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(T, &str)]) -> Response {
     let title = all
         .iter()
         .find(|(one, _)| one == chosen)
         .map_or("", |(_, title)| *title); // Every value is in its list.
-    ui.label(name);
-    ComboBox::from_id_salt((name, "choice"))
+    let label = ui.label(name);
+    let list = ComboBox::from_id_salt((name, "choice"))
         .selected_text(title)
         .width(84.0)
         .show_ui(ui, |ui| {
@@ -115,4 +115,5 @@ fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(
                 ui.selectable_value(chosen, *one, *title);
             }
         });
+    label | list.response
 }

@@ -181,7 +181,7 @@ fn feeder<'n>(node: &'n Node, knob: &Knob) -> Option<&'n OutputRef> {
 }
 
 /// Name of the mask that multiplies a parameter: the title of its node, or the input of the group that it comes from.
-fn mask_of(document: &OpenDocument, id: &NodeId, knob: &str) -> Option<String> {
+pub(crate) fn mask_of(document: &OpenDocument, id: &NodeId, knob: &str) -> Option<String> {
     document.face(id)?.param_mask(knob)?;
     let slot = SlotRef {
         node: id.clone(),

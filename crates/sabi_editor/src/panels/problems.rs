@@ -10,6 +10,7 @@ use sabi_engine::EngineError;
 use super::update;
 use crate::action::{Action, FileAction, ModelAction};
 use crate::context::{View, ViewContext};
+use crate::notices::with_capital;
 use crate::paths::file_stem;
 use crate::remedies::{self, Request};
 
@@ -64,7 +65,7 @@ impl View for Problems {
                 actions.extend(unread_model(ui, context));
             }
             for fault in &faults.faults {
-                let text = format!("{} {}", icon::WARNING, context.said(&fault.sentence));
+                let text = format!("{} {}", icon::WARNING, with_capital(&context.said(&fault.sentence)));
                 actions.extend(at_node(ui, RichText::new(text).color(theme.fault), &fault.node));
             }
             for error in failures {
@@ -79,14 +80,20 @@ impl View for Problems {
                 ));
             }
             for sentence in others {
-                ui.add(egui::Label::new(RichText::new(context.said(sentence)).color(theme.fault)).wrap());
+                ui.add(
+                    egui::Label::new(RichText::new(with_capital(&context.said(sentence))).color(theme.fault)).wrap(),
+                );
             }
-            for warning in &faults.warnings {
-                let sentence = context.said(&warning.sentence);
+            let of_model = evaluation.model.warnings();
+            for warning in context.warnings() {
+                let mut sentence = context.said(&warning.sentence);
+                if of_model.contains(warning) {
+                    sentence = format!("{}: {sentence}", file_stem(evaluation.model.file()));
+                }
                 actions.extend(match &warning.node {
                     Some(node) => at_node(
                         ui,
-                        RichText::new(context.said(&warning.to_string())).color(theme.warning),
+                        RichText::new(with_capital(&context.said(&warning.to_string()))).color(theme.warning),
                         node,
                     ),
                     None => remedies::show(ui, theme.warning, &sentence, &warning.remedies, request, import),

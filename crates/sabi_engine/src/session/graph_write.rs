@@ -115,22 +115,24 @@ fn refuse_write_protected(path: &Path) -> Result<(), EngineError> {
 
 /// Error of a disk that refuses a graph: it names the graph, and not the temporary file that could not be written.
 pub(super) fn not_saved(path: &Path, error: StagedError) -> EngineError {
-    let (reason, is_full) = match &error {
+    // The disk or the folder refuses: a file that is write-protected was refused before.
+    let (reason, is_full, elsewhere) = match &error {
         StagedError::File(error) | StagedError::Commit { error, .. } => (
             error.reason(),
             matches!(
                 error.kind(),
                 ErrorKindOfSystem::StorageFull | ErrorKindOfSystem::QuotaExceeded
             ),
+            Remedy::SaveInOtherFolder,
         ),
         StagedError::Protected { .. } | StagedError::NotAFile { .. } | StagedError::SameName { .. } => {
-            (error.to_string(), false)
+            (error.to_string(), false, Remedy::SaveUnderOtherName)
         }
     };
     let why = format!("{} cannot be saved: {reason}", path.display());
     let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
     let free = is_full.then_some(Remedy::FreeSpace);
-    refused.with_remedies(free.into_iter().chain([Remedy::SaveUnderOtherName]))
+    refused.with_remedies(free.into_iter().chain([elsewhere]))
 }
 
 fn written_by_another(path: &Path) -> EngineError {

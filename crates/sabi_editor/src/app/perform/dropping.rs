@@ -24,6 +24,9 @@ enum DropTarget {
     Canvas([f32; 2], Option<SlotRef>),
 }
 
+/// Way from the lower edge of a view to what stands above its captions, points.
+const ABOVE_CAPTIONS: f32 = 52.0;
+
 impl Editor {
     /// Target of a node at a place of the screen; none where it cannot be dropped.
     fn drop_target(&self, face: &Entry, at: Pos2) -> Option<DropTarget> {
@@ -112,8 +115,12 @@ impl Editor {
         painter.rect_stroke(place, CornerRadius::same(space::CORNER), line, StrokeKind::Inside);
         let font = FontId::proportional(type_size::BODY);
         let text = painter.layout_no_wrap(words.to_owned(), font, theme.on_accent);
-        let corner = place.left_bottom() + vec2(2.5, -2.5);
-        let ground = Align2::LEFT_BOTTOM.anchor_size(corner, text.size() + vec2(2.0 * space::USUAL, space::TIGHT));
+        let size = text.size() + vec2(2.0 * space::USUAL, space::TIGHT);
+        // A view has captions along its lower edge, above which there is room for this one; a row has neither.
+        let ground = match place.height() > 4.0 * ABOVE_CAPTIONS {
+            true => Align2::CENTER_BOTTOM.anchor_size(place.center_bottom() - vec2(0.0, ABOVE_CAPTIONS), size),
+            false => Align2::LEFT_BOTTOM.anchor_size(place.left_bottom() + vec2(2.5, -2.5), size),
+        };
         painter.rect_filled(ground, CornerRadius::same(space::CORNER), theme.accent);
         let at = Align2::CENTER_CENTER.align_size_within_rect(text.size(), ground);
         painter.galley(at.min, text, theme.on_accent);

@@ -104,7 +104,7 @@ fn the_documents_of_a_preset_are_listed_before_and_after_they_are_written() {
     let mut window = ready();
     window.harness.state_mut().shell.settings.export.preset = "usd".to_owned();
     window.harness.step();
-    window.press("Files of usd");
+    window.press("Files for USD");
     assert!(window.says("(model).usdz"), "{:?}", window.labels());
     window.press("Export");
     window.until("the maps", |editor| editor.exports.running.is_none());

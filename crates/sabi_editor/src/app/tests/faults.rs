@@ -7,6 +7,7 @@ use sabi_engine::{EngineError, ErrorKind, Remedy};
 use super::Window;
 use super::hands::id;
 use crate::dock::Panel;
+use crate::notices::with_capital;
 
 /// A blur without the source that it needs, an invert behind it, and clouds that have nothing to do with it.
 const BROKEN: &str = r#"
@@ -31,7 +32,7 @@ fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictu
     window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
     let fault = window.fault_of("blur");
-    assert_eq!(fault, "input 'source' of node 'Blur' must be connected to a mask");
+    assert_eq!(fault, "input 'Source' of node 'Blur' must be connected to a mask");
     assert_eq!(told_of(&window, "blur"), fault);
     assert_eq!(told_of(&window, "invert"), "waiting for node 'Blur'");
     assert_eq!(told_of(&window, "clouds"), "");
@@ -65,7 +66,11 @@ fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
     window.until("the fault", |editor| editor.problem_count() == 1);
     window.open(Panel::Problems);
     let fault = window.fault_of("worn/blur");
-    let at = window.harness.get_by_label_contains(&fault).rect().center();
+    let at = window
+        .harness
+        .get_by_label_contains(&with_capital(&fault))
+        .rect()
+        .center();
     window.click_at(at);
     assert_eq!(navigation::breadcrumb(window.document()).len(), 1);
     assert_eq!(window.document().selected_one(), Some(&id("blur")));
@@ -169,7 +174,13 @@ fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
         Some("waiting for node 'gone'")
     );
     window.open(Panel::Problems);
-    window.click_at(window.harness.get_by_label_contains(&fault).rect().center());
+    window.click_at(
+        window
+            .harness
+            .get_by_label_contains(&with_capital(&fault))
+            .rect()
+            .center(),
+    );
     assert_eq!(window.document().selected_one(), Some(&id("gone")));
 }
 
@@ -182,7 +193,7 @@ fn a_remedy_that_the_window_can_apply_is_a_button_and_the_others_are_words() {
     let error = error.with_remedies([Remedy::LargerSize, Remedy::CloseOtherPrograms]);
     window.harness.state_mut().evaluation.failure = Some(error);
     window.open(Panel::Problems);
-    let words = "there is no room for this; close other programs that use the graphics card";
+    let words = "There is no room for this; close other programs that use the graphics card";
     assert!(window.says(words), "{:?}", window.labels());
     window.press("Work at 256 texels");
     let size = window

@@ -420,3 +420,13 @@ fn f1_shows_the_selected_node_while_a_draft_is_kept_and_lost_only_when_that_is_s
     assert!(window.harness.query_by_label("adjust/threshold").is_some());
     assert!(window.harness.query_by_label("Continue editing adjust/mine").is_none());
 }
+
+#[test]
+fn the_dots_of_an_entry_are_named_beside_it() {
+    let mut window = Window::opened("");
+    window.open(Panel::Library);
+    window.fill("Search the library", "clouds");
+    let entry = window.listed_entry("Clouds").center();
+    window.rest_at(entry);
+    assert!(window.says("Gives") && window.has("Mask"), "{:?}", window.labels());
+}

@@ -74,7 +74,7 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     window.until("the model", is_there);
     window.click("How the model is read");
     window.click("+Z");
-    window.click("take the average");
+    window.click("Take the average");
     window.until("the model", is_there);
     let reading = window.editor().evaluation.model.import_options();
     assert_eq!((reading.up, reading.overlap), (Up::Z, Overlap::Merge));

@@ -29,7 +29,7 @@ impl Window {
     }
 
     /// Entry of the library that is shown.
-    fn listed_entry(&self, name: &str) -> Rect {
+    pub(super) fn listed_entry(&self, name: &str) -> Rect {
         let library = self.editor().shell.dock.rects[&Panel::Library];
         let mut entries = self.harness.query_all_by_label(name).map(|node| node.rect());
         let entry = entries.find(|rect| library.contains(rect.center()));
@@ -451,4 +451,18 @@ fn the_history_names_what_was_added() {
     window.click("Fill layer");
     let names: Vec<&str> = window.document().session.undo_names().collect();
     assert_eq!(names, ["Add Clouds", "Add Fill layer"]);
+}
+
+#[test]
+fn the_history_names_both_ends_of_a_new_wire() {
+    let mut window = Window::opened(
+        r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }, "levels": { "kind": "adjust/levels", "pos": [300, 0] }"#,
+    );
+    let out = window.port(&id("clouds"), "mask");
+    let into = window.port(&id("levels"), "source");
+    window.pull(&[out, into], PointerButton::Primary, Modifiers::NONE);
+    window.button(into, PointerButton::Primary, false);
+    window.settle();
+    let names: Vec<&str> = window.document().session.undo_names().collect();
+    assert_eq!(names, ["Connect Clouds to Levels"]);
 }

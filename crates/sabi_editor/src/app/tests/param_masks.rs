@@ -35,7 +35,7 @@ fn a_parameter_gets_a_new_node_as_its_mask_by_its_menu_and_loses_it_again() {
     assert!(!window.says("× mask of"));
     assert_eq!(window.steps(), 3);
     choose(&mut window, "Variation", "Expose its mask as an input");
-    assert!(window.says("× mask of the input 'variation'"));
+    assert!(window.says("× mask of the input 'Variation'"));
 }
 
 #[test]
@@ -75,4 +75,18 @@ fn a_wire_dropped_on_a_parameter_offers_inputs_and_then_the_parameter_that_is_me
     assert_eq!(window.reads(&id("levels"), "source"), "clouds");
     assert_eq!(window.reads(&id("levels"), "white"), "");
     assert_eq!(window.steps(), 2);
+}
+
+#[test]
+fn a_slider_on_a_node_gets_a_mask_by_its_menu_too() {
+    let mut window = Window::opened(LOOSE);
+    let near = window.rect(&id("levels"));
+    let found = window.harness.query_all_by_label("White");
+    let mut found = found.map(|node| node.rect().center());
+    let slider = found.find(|at| near.contains(*at)).expect("a slider on the node");
+    drop(found);
+    window.click_with(slider, PointerButton::Secondary, Modifiers::NONE);
+    window.press("Multiply by a mask…");
+    let cells = window.pick("cells");
+    assert_eq!(window.reads(&id("levels"), "white"), cells.to_string());
 }

@@ -98,3 +98,10 @@ fn text_and_tab_of_one_frame_complete_what_is_typed_then() {
     let opened = window.document().session.file().map(std::path::Path::to_owned);
     assert_eq!(opened, Some(folder.join("étude.sabi")));
 }
+
+#[test]
+fn places_are_called_home_and_recent() {
+    let mut window = Window::opened("");
+    window.keys(Modifiers::COMMAND, Key::O);
+    assert!(window.has("Home") && window.says("RECENT"), "{:?}", window.labels());
+}

@@ -90,7 +90,7 @@ fn a_wire_is_pulled_from_the_side_of_a_card() {
 
 impl Window {
     /// Rests the pointer until the tooltip is shown.
-    fn rest_at(&mut self, at: egui::Pos2) {
+    pub(super) fn rest_at(&mut self, at: egui::Pos2) {
         self.point(self.on_canvas([0.99, 0.01]));
         self.pause();
         self.point(at);

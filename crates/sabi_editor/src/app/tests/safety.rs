@@ -81,6 +81,26 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
 }
 
 #[test]
+fn a_system_dialog_that_never_took_the_focus_is_told_as_not_opened() {
+    let mut window = Window::untitled();
+    window.keys(Modifiers::COMMAND, Key::S);
+    for (takes_focus, is_told) in [(true, false), (false, true)] {
+        let (ends, end) = channel::<()>();
+        let dialog = SystemDialog::ending(&window.harness.ctx, move || {
+            let _ = end.recv();
+            (None, Duration::from_secs(12))
+        });
+        window.harness.state_mut().views.questions.dialog = Some(dialog);
+        window.harness.input_mut().focused = !takes_focus;
+        window.harness.step();
+        window.harness.input_mut().focused = true;
+        drop(ends);
+        window.until("the end of it", |editor| editor.views.questions.dialog.is_none());
+        assert_eq!(window.says("The system's dialog could not be opened"), is_told);
+    }
+}
+
+#[test]
 fn a_graph_is_saved_under_a_name_and_opens_again_as_it_was() {
     let mut window = Window::untitled();
     window.add([0.3, 0.3], "clouds");

@@ -146,7 +146,7 @@ fn what_can_be_recovered_shows_its_nodes_and_both_dates_and_sizes() {
     let size = format!("{} bytes", window.text().len());
     let saved = format!("{} bytes", super::graph_text(CLOUDS).len());
     let mut window = window.after_a_crash();
-    assert!(window.says("1 node: simplex"), "{:?}", window.labels());
+    assert!(window.says("1 node: Clouds"), "{:?}", window.labels());
     assert!(window.says("Drawing of the graph"));
     let dates = format!("unsaved work from just now, {size}; the file was saved just now, {saved}");
     assert!(window.says(&dates), "{:?}", window.labels());

@@ -11,6 +11,7 @@ use sabi_engine::Session;
 use super::safety::CLOUDS;
 use super::{Window, beside, graph_text};
 use crate::dock::Panel;
+use crate::notices::Work;
 
 /// Two triangles that share all of their UVs.
 const STACKED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n\
@@ -69,6 +70,20 @@ fn a_failed_save_is_told_with_its_file_until_it_is_closed_or_a_save_succeeds() {
         }
         assert!(!window.has_failure("write-protected"));
     }
+}
+
+#[test]
+fn the_message_about_a_failed_save_leads_to_saving_elsewhere() {
+    let mut window = Window::opened(CLOUDS);
+    window
+        .harness
+        .state_mut()
+        .shell
+        .notices
+        .fail(Work::Save, "the disk is full");
+    window.settle();
+    window.press("Save as…");
+    assert!(window.says("Save the graph") && !window.has_failure("the disk is full"));
 }
 
 #[test]

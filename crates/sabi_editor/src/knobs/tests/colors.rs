@@ -67,6 +67,15 @@ fn a_color_is_set_by_hue_saturation_and_value_and_then_offered_to_other_colors()
     assert!(log.contains(&set("emission", "#00ff00")), "{log:?}");
 }
 
+#[test]
+fn the_picker_takes_a_code_too() {
+    let mut board = board([knob("effect/layer.color")]);
+    click(&mut board, "Color");
+    type_code(&mut board, "Code of the color", "#6b3a1e");
+    let log = taken(&mut board);
+    assert!(log.contains(&set("color", "#6b3a1e")), "{log:?}");
+}
+
 fn gradient(stops: &str) -> Board {
     let mut gradient = knob("color/gradient.stops");
     gradient.value = Some(json(stops));

@@ -27,6 +27,14 @@ fn only_what_is_not_the_default_has_a_dot_which_resets_it() {
 }
 
 #[test]
+fn a_random_seed_is_no_change() {
+    let mut seed = knob("noise/simplex.seed");
+    seed.value = Some(Value::Number(77.0));
+    let board = board([seed]);
+    assert!(board.query_by_label("Reset Seed").is_none());
+}
+
+#[test]
 fn the_menu_resets_publishes_and_takes_back() {
     let mut board = changed();
     open_menu(&mut board, "Opacity");

@@ -27,7 +27,7 @@ fn switches_that_differ_are_switched_on_together() {
 #[test]
 fn a_few_short_words_stand_side_by_side() {
     let mut board = board([knob("noise/simplex.mode")]);
-    assert_eq!(board.get_by_role(Role::RadioGroup).value().as_deref(), Some("Fbm"));
+    assert_eq!(board.get_by_role(Role::RadioGroup).value().as_deref(), Some("FBM"));
     click(&mut board, "Ridged");
     assert_eq!(taken(&mut board), [set("mode", "ridged")]);
     assert_eq!(board.get_by_label("Mode").value().as_deref(), Some("Ridged"));

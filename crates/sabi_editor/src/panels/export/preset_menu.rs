@@ -21,14 +21,17 @@ impl PresetMenu {
         }
         let mut wanted = chosen.to_owned();
         ui.label("Preset");
-        let menu = ComboBox::from_id_salt("preset").selected_text(chosen);
+        let listed = self.found.iter().find(|listed| listed.name == chosen);
+        // As high as all that come with Sabi, so that none fades at the edge as if it could not be chosen.
+        let menu = ComboBox::from_id_salt("preset").height(400.0);
+        let menu = menu.selected_text(listed.map_or(chosen, title));
         let shown = menu.show_ui(ui, |ui| {
             for listed in &self.found {
                 let about = match &listed.preset {
                     Ok(preset) => &preset.about,
                     Err(fault) => fault,
                 };
-                let label = ui.selectable_value(&mut wanted, listed.name.clone(), &listed.name);
+                let label = ui.selectable_value(&mut wanted, listed.name.clone(), title(listed));
                 label.on_hover_text(about);
             }
         });
@@ -61,7 +64,7 @@ impl PresetMenu {
                 "What this preset is for has no place for these; an export warns where the material has them",
             );
         }
-        ui.collapsing(format!("Files of {chosen}"), |ui| {
+        ui.collapsing(format!("Files for {}", title(listed)), |ui| {
             ui.label(RichText::new(&preset.about).color(theme.quiet));
             table(&preset, ui, theme);
         });
@@ -69,6 +72,22 @@ impl PresetMenu {
 
     fn read(&mut self) {
         self.found = export_presets(default_preset_folder().as_deref());
+    }
+}
+
+/// Name of a preset as the program that it is for writes its own; the user's own presets have the names of their files.
+fn title(listed: &ListedPreset) -> &str {
+    match (listed.name.as_str(), &listed.file) {
+        ("raw", None) => "Raw channels",
+        ("mesh", None) => "Mesh maps",
+        ("gltf", None) => "glTF",
+        ("unreal", None) => "Unreal",
+        ("unity", None) => "Unity",
+        ("godot", None) => "Godot",
+        ("blender", None) => "Blender",
+        ("materialx", None) => "MaterialX",
+        ("usd", None) => "USD",
+        (other, _) => other,
     }
 }
 
@@ -108,4 +127,16 @@ fn details(file: &PresetFile) -> String {
         "{bits} bits{color}{normalized}{size}; {engine} in an engine; written: {}",
         file.when
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_that_comes_with_sabi_has_a_title() {
+        for listed in export_presets(None) {
+            assert_ne!(title(&listed), listed.name);
+        }
+    }
 }

@@ -6,6 +6,7 @@ use egui::{
     pos2, vec2,
 };
 use egui_phosphor::regular as icon;
+use sabi_engine::catalog::Entry as Face;
 
 use super::pictures::Side;
 use crate::action::{Action, SettingAction};
@@ -13,7 +14,7 @@ use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
 use crate::panels::enlarged;
 use crate::search::Candidate;
-use crate::theme::{space, type_size};
+use crate::theme::{Theme, space, type_size};
 
 /// Heights of entries without and with a picture.
 const HEIGHT: f32 = 22.0;
@@ -30,6 +31,22 @@ pub(super) struct Entry<'a> {
     pub(super) has_picture: bool,
     /// Its picture, once it is loaded.
     pub(super) picture: &'a dyn Fn(Side) -> Option<TextureId>,
+}
+
+/// What an entry gives, each with the dot that stands for it in the list.
+fn outputs(ui: &mut Ui, face: &Face, theme: &Theme) {
+    if face.outputs.is_empty() {
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        let word = |text: &str| RichText::new(text).size(type_size::SMALL).color(theme.quiet);
+        ui.label(word("Gives"));
+        for port in &face.outputs {
+            let (place, _) = ui.allocate_exact_size(Vec2::splat(6.0), Sense::hover());
+            ui.painter().circle_filled(place.center(), 3.0, theme.port(port.ty));
+            ui.label(word(&port.label));
+        }
+    });
 }
 
 impl Entry<'_> {
@@ -91,6 +108,7 @@ impl Entry<'_> {
         enlarged::show(response, context.theme, picture, |ui| {
             ui.strong(&face.label);
             ui.label(&face.summary);
+            outputs(ui, face, context.theme);
             if !face.aliases.is_empty() {
                 let words = RichText::new(face.aliases.join(", ")).size(type_size::SMALL);
                 ui.label(words.color(context.theme.quiet));

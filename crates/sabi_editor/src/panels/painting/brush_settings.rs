@@ -56,10 +56,13 @@ pub(super) fn show(
     });
     ui.horizontal(|ui| {
         if !brush.action.adjusts() {
-            choice(ui, "Lays", &mut brush.area, &Area::ALL);
+            choice(ui, "Lays", &mut brush.area, &Area::ALL).on_hover_text(
+                "What the brush puts on the model: a stroke of stamps, a picture or a text in one piece, or color on a whole part",
+            );
         }
         if brush.action.adjusts() || matches!(brush.area, Area::Way | Area::Ribbon | Area::Inside) {
-            choice(ui, "Drawn", &mut brush.hand, &Hand::ALL);
+            choice(ui, "Drawn", &mut brush.hand, &Hand::ALL)
+                .on_hover_text("How the way of a stroke is given: by a drag, by points, or along edges, seams or borders next to a click");
         }
     });
     details(ui, brush);

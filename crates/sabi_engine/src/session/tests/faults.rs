@@ -218,15 +218,15 @@ fn a_refused_save_names_the_graph_and_what_can_be_done() {
     let faults = [
         (
             ErrorKind::StorageFull,
-            "the disk is full; free some space on the disk, or save under another name",
+            "the disk is full; free some space on the disk, or save in another folder",
         ),
         (
             ErrorKind::PermissionDenied,
-            "you have no permission; save under another name",
+            "you have no permission; save in another folder",
         ),
         (
             ErrorKind::ReadOnlyFilesystem,
-            "the disk is read-only; save under another name",
+            "the disk is read-only; save in another folder",
         ),
     ];
     for (kind, told) in faults {

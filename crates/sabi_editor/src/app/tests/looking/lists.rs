@@ -48,7 +48,7 @@ fn a_click_in_the_history_goes_there() {
     }
     let after = window.text();
     window.open(Panel::History);
-    window.press("Opened");
+    window.press("Start");
     assert_eq!(window.text(), before);
     window.press("Move");
     assert_eq!(window.text(), after, "the last of two that are called so");
