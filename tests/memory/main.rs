@@ -85,9 +85,10 @@ fn pictures_from_ever_other_places_keep_no_memory() {
         ),
     ];
     for (name, mut shot) in shots {
-        let mut kept = 0;
-        // What is kept once is kept after the first of two rounds.
-        for _ in 0..2 {
+        // What is kept once is kept after the first round, and a driver takes memory in blocks, one of which may come late. What is
+        // leaked is leaked in every round.
+        let mut kept = u64::MAX;
+        for _ in 0..4 {
             let before = resident_bytes();
             for _ in 0..PICTURES {
                 shot.camera.turn(1.0);
@@ -95,7 +96,7 @@ fn pictures_from_ever_other_places_keep_no_memory() {
                 shot.exposure_stops += 0.001;
                 pictured.draw(&shot, SIZE);
             }
-            kept = resident_bytes().saturating_sub(before);
+            kept = kept.min(resident_bytes().saturating_sub(before));
         }
         assert!(kept < MOST_KEPT, "{name}: {kept} bytes after {PICTURES} pictures");
     }

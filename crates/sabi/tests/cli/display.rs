@@ -19,8 +19,6 @@ const STILL: Duration = Duration::from_secs(2);
 const DRAG_STEP: Duration = Duration::from_millis(750);
 /// Number of changed pixels that shows that a menu or a node appeared or disappeared: fewer than either has, and more than a caret has.
 const CHANGED_PIXELS: usize = 8000;
-/// Largest step of a channel between neighbors on a lit surface, of 255.
-const SOFT: u8 = 4;
 
 /// Virtual display of one test.
 pub(crate) struct Display {
@@ -174,17 +172,6 @@ impl Screen {
     /// Number of colors in a part of the screen: `[left, top, right, bottom]`.
     pub(crate) fn colors(&self, part: [usize; 4]) -> usize {
         self.part(part).collect::<std::collections::BTreeSet<_>>().len()
-    }
-
-    /// Number of places in a part of the screen where a color goes over into the next one by less than an eye sees, as those of lit
-    /// surfaces do, and those of letters, lines and frames do not.
-    pub(crate) fn soft_places(&self, [left, top, right, bottom]: [usize; 4]) -> usize {
-        let is_soft = |pair: &&[[u8; 3]]| {
-            let most = (0..3).map(|channel| pair[0][channel].abs_diff(pair[1][channel])).max();
-            most.is_some_and(|most| (1..=SOFT).contains(&most))
-        };
-        let rows = (top..bottom).map(|row| &self.pixels[row * self.size[0] + left..row * self.size[0] + right]);
-        rows.map(|row| row.windows(2).filter(is_soft).count()).sum()
     }
 
     fn part(&self, [left, top, right, bottom]: [usize; 4]) -> impl Iterator<Item = &[u8; 3]> {

@@ -147,6 +147,7 @@ impl<'t> Search<'t> {
         if search.refused.is_empty() {
             loaded?;
         }
+        search.forget_own_library(path, &bytes);
         // Those that no material shows are copied with the model by a bake.
         for uri in uris(&bytes) {
             if let Uri::Beside(decoded) = Uri::parse(&uri) {
@@ -154,6 +155,18 @@ impl<'t> Search<'t> {
             }
         }
         Ok(search)
+    }
+
+    /// Forgets that the material library with the model's own name is missing, which the reader of OBJ looks for although the file does
+    /// not name it.
+    fn forget_own_library(&mut self, path: &Path, bytes: &[u8]) {
+        let Some(library) = path.file_stem().map(|stem| format!("{}.mtl", stem.to_string_lossy())) else {
+            return;
+        };
+        let is_named = bytes.windows(library.len()).any(|part| part == library.as_bytes());
+        if !is_named {
+            self.missing.retain(|missing| *missing != library);
+        }
     }
 
     fn find(&mut self, written: &str) -> Result<Vec<u8>, String> {

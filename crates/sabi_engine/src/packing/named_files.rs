@@ -211,11 +211,12 @@ pub(crate) fn all_variants(document: &Document) -> Vec<Overrides> {
     .collect()
 }
 
-/// A document without the model that it is shown on.
+/// A document without the model that it is shown on, and the folder of that model's pictures.
 pub(crate) fn without_model(document: &Document) -> Document {
     let mut document = document.clone();
     if let Some(preview) = &mut document.preview {
         preview.mesh = None;
+        preview.textures = None;
     }
     document
 }
