@@ -171,13 +171,13 @@ impl Recovery {
         Document::from_json(self.kept.as_ref()?.graph.as_ref()?).ok()
     }
 
-    /// Returns the size of the graph in bytes, as its file would have it.
+    /// Returns the size in bytes of the graph's text.
     pub fn graph_bytes(&self) -> Option<u64> {
         let text = self.kept.as_ref()?.graph.as_ref()?;
         Some(text.len() as u64)
     }
 
-    /// Returns whether the graph's own file has another content than when the copy was written.
+    /// Returns true if the content of the graph's own file has changed since the copy was written.
     pub fn is_file_changed(&self) -> bool {
         let now = self
             .file
@@ -216,8 +216,8 @@ impl Recovery {
         UnsavedWork::read(&text).map_err(damaged)
     }
 
-    /// Contents of the graph's own file that a save may replace: that which it had when the copy was written. A copy without a
-    /// hash is of an earlier version, for which `now` counts, the content that it has now.
+    /// Returns the contents of the graph's own file that a save may replace: the content at the time of the copy. A copy by
+    /// an earlier version has no hash; for it, `now`, the present content, is used.
     pub(super) fn known_contents(&self, now: Option<&[u8]>) -> KnownContents {
         match (self.kept.as_ref().and_then(|kept| kept.file_hash.as_deref()), now) {
             (Some(hash), _) => KnownContents::of_stored(hash),
@@ -226,13 +226,13 @@ impl Recovery {
         }
     }
 
-    /// Returns whether strokes lie beside the recovery file.
+    /// Returns true if there are strokes beside the recovery file.
     pub(super) fn has_strokes(&self) -> bool {
         paint_folder(&self.path).is_dir()
     }
 
-    /// Writes a graph's text and drafts of node files durably, unless they were the last that were written; the graph is `None`
-    /// where its own file holds it. Returns whether it wrote.
+    /// Writes a graph's text and drafts of node files durably, unless they were written last. The graph is `None` if it is
+    /// in its own file. Returns true if it wrote.
     pub(super) fn keep(
         &mut self,
         graph: Option<&str>,
@@ -255,7 +255,7 @@ impl Recovery {
         Ok(true)
     }
 
-    /// Begins to write as [`Recovery::keep`] does, on a thread of its own.
+    /// Starts to write like [`Recovery::keep`], on a separate thread.
     pub(super) fn keep_meanwhile(
         &mut self,
         graph: Option<String>,
@@ -300,11 +300,11 @@ impl Recovery {
 
     /// Removes the recovery file and its lock.
     pub fn forget(&mut self) {
-        // A copy that could not be written has left nothing.
+        // If the copy could not be written, there is nothing to remove.
         let was_writing = self.writing.is_some();
         let _ = self.finish_writing();
         if self.kept.take().is_some() || self.fault.take().is_some() || was_writing {
-            // A file that is gone already needs no removal.
+            // The file may already be missing, so errors are ignored.
             let _ = self.disk.remove(&self.path);
         }
         forget_strokes(&self.disk, &self.path);
@@ -313,7 +313,7 @@ impl Recovery {
         }
     }
 
-    /// Marks the file as in use; returns whether no other session has marked it.
+    /// Marks the file as in use. Returns false if another session has marked it.
     pub(super) fn acquire(&mut self) -> bool {
         if self.lock.is_some() {
             return true;
@@ -321,7 +321,7 @@ impl Recovery {
         match FileLock::acquire(&lock_of(&self.path)) {
             Ok(lock) => self.lock = Some(lock),
             Err(LockError::InUse { .. }) => return false,
-            // Some network shares have no locks; work on them is still recovered, only not told apart from work in use.
+            // Some network shares have no locks. Work on them can still be recovered, but it is not distinguished from work in use.
             Err(LockError::Unavailable(_)) => {}
         }
         true
