@@ -1,6 +1,5 @@
-//! Includes the pictures of nodes in `docs/nodes/` and of groups in `docs/library/`, so that whoever shows one can show what it
-//! does; and in release builds the effect library, which debug builds read from the project, so that a changed graph is tried
-//! without compiling anything.
+//! Includes the pictures of nodes in `docs/nodes/` and of groups in `docs/library/`, so that programs can show what each does. Release
+//! builds also include the effect library. Debug builds read it from the project, so that a changed graph can be tried without compiling.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -63,7 +62,7 @@ fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(entries)
 }
 
-/// The name of the node or group whose first result a picture shows: `dots` of `dots.png`, and none of `dots.id.png`.
+/// Returns the name of the node or group if a picture shows its first result: `dots` for `dots.png`, and `None` for `dots.id.png`.
 fn first_result(file: &Path) -> Option<String> {
     let name = file
         .file_stem()

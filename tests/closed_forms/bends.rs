@@ -1,4 +1,4 @@
-//! Curvature, edges and cavity: as geometry says, and whatever the triangles.
+//! Curvature, edges and cavity, compared with geometry. They must not depend on the triangles.
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,8 +22,7 @@ fn bend_of(on_mesh: &mut OnMesh, radius: f64) -> Vec<f32> {
     on_mesh.evaluate("rays").component("mask")
 }
 
-/// A bend against what is expected of each texel for which something is, where rays are stopped on one side only: each that
-/// is counts 2.
+/// Compares a bend with the expected value of each texel that has one. Rays are stopped on one side only, and each stopped ray counts 2.
 fn held(on_mesh: &OnMesh, bend: &[f32], expected: impl Fn(DVec3) -> Option<f64>) -> Held {
     Held::new(on_mesh, bend, RAYS, expected, |bend| 2.0 * bend.abs() - bend * bend)
 }
@@ -43,7 +42,7 @@ fn beside_edge(turn: f64, distance: f64) -> f64 {
 
 /// Texels along a side of the sheet of tubes.
 const SIZE: u32 = 128;
-/// Spread of the texels whose means are fitted by a plane, along an axis: the mean of their squared distances by their weights.
+/// Spread along an axis of the texels whose means are fitted by a plane: the weighted mean of their squared distances.
 const DENOISED_SPREAD: f64 = 1.767;
 
 #[test]
@@ -52,7 +51,7 @@ fn an_edge_gives_its_share_of_a_half_turn_out_and_in_and_falls_off_as_it_turns()
         let turn = TAU / f64::from(sides);
         let side = 2.0 * 0.5 * (turn / 2.0).sin();
         let radius = 0.3 * side;
-        // The table of the profile, since it is asked for at each texel.
+        // The profile is tabulated, since it is needed for each texel.
         let profile: Vec<f64> = (0..=260).map(|at| beside_edge(turn, f64::from(at) / 200.0)).collect();
         for sign in [1.0, -1.0] {
             let quads = tube(sides, 0.5);
@@ -91,7 +90,7 @@ fn a_ball_and_a_tube_bend_as_their_radius_says() {
 }
 
 #[test]
-fn a_saddle_bends_as_much_in_as_out() {
+fn a_saddle_bends_as_much_inward_as_outward() {
     let radius = 0.15;
     let height = |s: f64, t: f64| DVec3::new(s - 0.5, (s - 0.5).powi(2) - (0.5 - t).powi(2), 0.5 - t);
     let mut on_mesh = on(patch(height, PLACE, Cut::even(64)), 96);

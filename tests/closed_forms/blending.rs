@@ -31,7 +31,7 @@ const MODES: [Formula<f64>; 12] = [
     ("divide", |below, above| below / above.max(1e-3)),
 ];
 
-/// Value above that leaves the value below unchanged, for modes that have such a value.
+/// Value of the upper input that leaves the lower input unchanged, for modes that have such a value.
 const NEUTRAL: [(&str, f64); 12] = [
     ("add", 0.0),
     ("subtract", 0.0),
@@ -43,14 +43,14 @@ const NEUTRAL: [(&str, f64); 12] = [
     ("max", 0.0),
     ("difference", 0.0),
     ("divide", 1.0),
-    // Overlay looks at what is below: there is no neutral value, but black and white stay.
+    // Overlay depends on the lower input: it has no neutral value, but black and white are not changed.
     ("overlay", 0.0),
     ("overlay", 1.0),
 ];
 
 const WEIGHTS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// `below` and `above` are ramps that cross each other, so that every texel of the cube is another pair.
+/// Returns a graph in which `below` and `above` are ramps that cross each other, so that every texel of the cube is a different pair.
 fn graph(kind: &str, params: &Json) -> String {
     let ramp = |along: [f64; 3]| json!({ "kind": "surface/position", "params": { "along": along } });
     let tinted = |source: &str, stops: Json| json!({ "kind": "color/gradient", "inputs": { "source": source }, "params": { "stops": stops } });
@@ -213,8 +213,8 @@ fn every_mode_of_colors_is_its_formula_at_every_weight() {
                 let [below, above, value]: [Rgb; 3] =
                     [&below, &above, &values].map(|all| std::array::from_fn(|at| all[at][pixel]));
                 let blended = formula(below, above);
-                // Inputs and result are half floats: a part of a color is off by up to 2⁻¹¹, and what is spread to a
-                // saturation or divided is off by as much more.
+                // Inputs and result are half floats. A component of a color has an error of up to 2⁻¹¹, and scaling to a
+                // saturation or a division enlarges the error.
                 let allowed = match mode {
                     "hue" => 1e-3 + 1e-3 * saturation(below) / saturation(above).max(1e-4),
                     "saturation" => 1e-3 + 1e-3 * saturation(above) / saturation(below).max(1e-4),

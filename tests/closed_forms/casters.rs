@@ -5,7 +5,7 @@ use sabi_gpu::ResultCache;
 use sabi_plan::Mode;
 use sabi_tests::{Asked, MeshFile, OnMesh, Quad, project};
 
-/// Most texels that may differ: where a ray passes an edge within rounding, either answer is right.
+/// Maximum share of texels that may differ: if a ray passes an edge within rounding, either answer is right.
 const OUTLIERS: f64 = 0.002;
 
 fn graph(kind: &str, params: &str) -> String {
@@ -196,7 +196,7 @@ fn a_first_picture_of_a_few_rays_has_the_same_mean_and_is_not_kept() {
     );
     assert_ne!(grainy, fine);
     let mean = |values: &[f32]| values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64;
-    // Two rays a place: four standard deviations of a half over as many as there are.
+    // Two rays for each place: four standard deviations of a half, divided by the root of their number.
     let chance = 4.0 * 0.5 / (2.0 * grainy.len() as f64).sqrt();
     assert!((mean(&grainy) - mean(&fine)).abs() < chance);
 }

@@ -1,9 +1,9 @@
-//! `noise/cells` and `noise/cracks` against all points of the 7 × 7 × 7 cells around, on the processor.
+//! `noise/cells` and `noise/cracks`, compared with a search of all points of the surrounding 7 × 7 × 7 cells on the processor.
 
 use glam::{DMat3, DVec3, IVec3, UVec3, Vec3, dvec2, dvec3, ivec3};
 use sabi_tests::{OnMesh, project};
 
-/// The hash of `lib/hash.wgsl`, written again: Jarzynski and Olano, "Hash Functions for GPU Rendering" (2020).
+/// The hash of `lib/hash.wgsl`, implemented again: Jarzynski and Olano, "Hash Functions for GPU Rendering" (2020).
 fn pcg3d(key: [u32; 3]) -> [u32; 3] {
     let [mut x, mut y, mut z] = key.map(|part| part.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
     for round in 0..2 {
@@ -19,7 +19,7 @@ fn pcg3d(key: [u32; 3]) -> [u32; 3] {
 
 #[test]
 fn the_hash_never_changes() {
-    // Worked out apart from this code, with whole numbers of any size.
+    // Computed independently of this code, with integers of arbitrary size.
     assert_eq!(pcg3d([0, 0, 0]), HASH_OF_ZERO);
     assert_eq!(pcg3d([1, 2, 3]), HASH_OF_ONE_TWO_THREE);
 }
@@ -81,7 +81,7 @@ impl Pattern {
         self.turn().transpose() * position / self.stretch / self.size + DVec3::new(0.2713, 0.3137, 0.2299)
     }
 
-    /// All points around, as seen from the place, with their random numbers, the nearest first.
+    /// Returns all surrounding points relative to the position, with their random numbers, the nearest first.
     fn around(&self, position: DVec3) -> Vec<(DVec3, u32)> {
         let place = self.place(position);
         let cell = place.floor().as_ivec3();
@@ -98,8 +98,8 @@ impl Pattern {
         points
     }
 
-    /// Distances along the plane of `normal` to the planes in the middle between the nearest point and each other one of
-    /// the 27 cells around, and the ways there. Planes that lie almost along it are not walls of cracks.
+    /// Returns the distances along the plane of `normal` to the planes halfway between the nearest point and each other point of the 27
+    /// surrounding cells, and the vectors there. Planes that are almost parallel to it are not walls of cracks.
     fn walls(&self, position: DVec3, points: &[(DVec3, u32)], normal: DVec3) -> Vec<(f64, DVec3)> {
         let (place, own) = (self.place(position), points[0].0);
         let turn = self.turn();
@@ -138,9 +138,9 @@ fn patterns() -> [Pattern; 4] {
     ]
 }
 
-/// Places looked at for each pattern.
+/// Number of places that are examined for each pattern.
 const PLACES: usize = 100_000;
-/// At this size the cube owns more than that.
+/// Size at which the cube owns more texels than that.
 const SIZE: u32 = 512;
 
 fn on_cube(kind: &str, params: &str) -> OnMesh {
@@ -150,7 +150,7 @@ fn on_cube(kind: &str, params: &str) -> OnMesh {
     OnMesh::new(&graph, &project("assets/meshes/cube.glb"), SIZE)
 }
 
-/// Texels to look at, and their triangles.
+/// Returns the texels to examine, and their triangles.
 fn places(on_mesh: &OnMesh) -> Vec<(usize, u32)> {
     let owned: Vec<(usize, u32)> = on_mesh.owned().collect();
     assert!(owned.len() >= PLACES, "{} texels", owned.len());
@@ -178,13 +178,13 @@ fn cells_find_the_nearest_point_of_all() {
             );
             other_ids += usize::from((unit(id) - ids[index]).abs() > 1e-6);
         }
-        // Where two points are equally far, rounding decides which one is nearer.
+        // If two points are equally far, rounding decides which one is nearer.
         let allowed = if jitter > 0.0 { PLACES / 1000 } else { PLACES / 50 };
         assert!(other_ids <= allowed, "jitter {jitter}: {other_ids} other cells");
     }
 }
 
-/// The share of a crack that a square texel sees whose sides are these wide across it, by adding up 32 × 32 parts.
+/// Returns the share of a crack in a square texel whose sides have these widths across it, by summing 32 × 32 parts.
 fn seen(distance: f64, [inner, outer]: [f64; 2], sides: [f64; 2]) -> f64 {
     let middle = |at: u32| (f64::from(at) + 0.5) / 32.0 - 0.5;
     let part = |at: u32| {
@@ -196,7 +196,7 @@ fn seen(distance: f64, [inner, outer]: [f64; 2], sides: [f64; 2]) -> f64 {
 
 #[test]
 fn cracks_are_where_the_walls_between_the_pieces_are() {
-    // So wide and soft that the mask tells the distance wherever there is a wall.
+    // So wide and soft that the mask gives the distance wherever there is a wall.
     const FADE: f64 = 100.0;
     for pattern in patterns() {
         let width = 0.4 * pattern.size;

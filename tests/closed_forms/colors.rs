@@ -126,7 +126,7 @@ fn a_hue_turned_there_and_back_is_the_same() {
         }
     }
     assert!(furthest > 0.05, "nothing was turned: {furthest}");
-    // No paint here is so vivid that it had to become paler on the way.
+    // No color here is so vivid that it has to be desaturated on the way.
     assert!(largest < 2.0 * ROUNDING, "{largest}");
 }
 
@@ -151,7 +151,7 @@ fn value_multiplies_the_light_and_gamma_keeps_black_and_white() {
         }
     }
     for (was, is) in adjusted(&GRAYS, json!({ "gamma": 2 })) {
-        // Half floats below 0.01 are coarse against what a root makes of them.
+        // Half floats below 0.01 are coarse compared with the result of a root.
         let allowed = if was[0] < 0.01 { 0.01 } else { 2.0 * ROUNDING };
         assert!((is[1] - was[1].sqrt()).abs() <= allowed, "{was:?} became {is:?}");
     }

@@ -51,7 +51,7 @@ fn a_curve_goes_through_its_points_and_never_overshoots() {
             .iter()
             .min_by(|one, other| (one.0 - x).abs().total_cmp(&(other.0 - x).abs()));
         let (at, value) = nearest.copied().unwrap_or_default();
-        // Twice the steepest straight line is the steepest slope that the interpolation allows.
+        // The steepest slope that the interpolation allows is twice that of the steepest line between neighboring points.
         assert!(
             (value - y).abs() <= 16.0 * (at - x).abs() + 1e-6,
             "{value} at {at}, not {y} at {x}"

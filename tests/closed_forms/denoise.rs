@@ -39,7 +39,7 @@ fn a_real_border_is_not_denoised() {
     assert!(apart(&on_mesh, &edge, &kept) < 0.01);
 }
 
-/// Occlusion and curvature of so many rays, with a seed.
+/// Returns occlusion or curvature of this many rays, with a seed.
 fn of_rays(kind: &str, rays: u32, seed: u32) -> String {
     format!(
         r#"{{ "format": "sabi", "version": 1, "nodes": {{
@@ -50,7 +50,7 @@ fn of_rays(kind: &str, rays: u32, seed: u32) -> String {
 #[test]
 fn denoised_results_of_few_rays_are_as_good_as_those_of_two_or_three_times_as_many() {
     let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/figure.glb"), 512);
-    // Root mean square errors of 16 rays of occlusion and of 32 of curvature that are not denoised.
+    // Root mean square errors of 16 rays of occlusion and of 32 rays of curvature without denoising.
     for (kind, rays, grain) in [("occlusion", 8, 0.0217), ("curvature", 12, 0.0472)] {
         let [few, many] = [(rays, 0), (1024, 9)].map(|(rays, seed)| {
             on_mesh.set_graph(&of_rays(kind, rays, seed));

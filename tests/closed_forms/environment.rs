@@ -1,4 +1,4 @@
-//! Light from all around as surfaces of every roughness mirror it, against integrals over the sphere.
+//! Reflections of an environment on surfaces of every roughness, compared with integrals over the sphere.
 
 use std::f32::consts::PI;
 
@@ -47,7 +47,7 @@ impl Cube {
     }
 }
 
-/// The prefiltered bytes of a panorama.
+/// Returns the prefiltered bytes of a panorama.
 fn made(panorama: &Panorama) -> Vec<u8> {
     let environment = Environment::new(&device(), panorama).expect("it can be made");
     environment.prefiltered_bytes(&device()).expect("it can be read")
@@ -83,7 +83,7 @@ fn even_light_is_mirrored_evenly_by_every_roughness() {
         for level in 0..LEVELS {
             for (to, color) in cube.texels(level) {
                 let error = color / vec3(1.0, 0.25, 60_000.0) - 1.0;
-                // Half floats may be cut and not rounded, and are so twice.
+                // Half floats may be truncated instead of rounded, twice.
                 assert!(error.abs().max_element() < 2e-3, "level {level}: {color} at {to}");
             }
         }
@@ -103,8 +103,8 @@ fn a_direction_finds_in_the_cube_map_what_the_panorama_has_there() {
     }
 }
 
-/// Light that a surface of GGX width `alpha` mirrors at an angle from a small light whose mean over the sphere is 1.
-/// Divided by the mean of the lobe over all angles, so that even light stays even.
+/// Returns the light that a surface of GGX width `alpha` reflects at an angle from a small light whose mean over the sphere
+/// is 1. It is divided by the mean of the lobe over all angles, so that uniform light stays uniform.
 fn lobe(alpha: f64, cos: f64) -> f64 {
     let shape = |cos: f64| {
         // The half vector lies halfway.
@@ -152,7 +152,7 @@ fn a_sun_of_one_pixel_is_a_smooth_lobe_of_the_right_light() {
     }
 }
 
-/// Seen from the middle of the lobe outward, nothing gets brighter.
+/// From the middle of the lobe outward, the light never becomes brighter.
 #[test]
 fn a_strong_sun_leaves_no_speckles() {
     let sun = vec3(0.3, 0.8, 0.5).normalize();

@@ -1,4 +1,4 @@
-//! Filters that go along the surface, against ways on a ball and on a cube.
+//! Filters that follow the surface, compared with paths on a ball and on a cube.
 
 use glam::DVec3;
 use sabi_tests::{MeshFile, OnMesh, Quad, project};
@@ -76,7 +76,7 @@ fn distances_on_a_ball_are_those_along_great_circles() {
     }
 }
 
-/// A filter of a cap around the pole, with an even map and without one.
+/// Returns a filter of a cap around the pole, once with a constant map and once without a map.
 fn of_cap(filter: &str, map: f64) -> String {
     format!(
         r#""height": {{ "kind": "surface/position", "params": {{ "along": [0.3, 1, 0.2] }} }},
@@ -136,8 +136,8 @@ fn a_streak_is_as_long_as_the_share_of_the_length_that_a_map_gives() {
     }
 }
 
-/// Amount of water on an upright square, depth times area, that runs down from its upper edge: from a source as wide as the
-/// square.
+/// Returns the amount of water (depth times area) that runs down an upright square from its upper edge. The source is as
+/// wide as the square.
 fn water(length: f64, params: &str) -> f64 {
     let made = MeshFile::new(vec![Quad {
         corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],

@@ -1,4 +1,4 @@
-//! Clear coats, sheen and fine scratches where two materials meet, and where a layer lies on them.
+//! Clear coats, sheen and fine scratches where two materials meet, and below a layer.
 
 use sabi_tests::{Evaluated, OnMesh, project};
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ fn on_cube(nodes: &Value, node: &str) -> (OnMesh, Evaluated, Vec<f32>) {
     (on_mesh, result, ramp)
 }
 
-/// Largest difference of a component from what is expected at a value of the ramp, where something is.
+/// Returns the largest difference of a component from its expected value for the value of the ramp, on texels that have one.
 fn off(on_mesh: &OnMesh, values: &[f32], ramp: &[f32], expected: impl Fn(f32) -> Option<f32>) -> f32 {
     let mut largest = 0.0_f32;
     for (index, _) in on_mesh.owned() {

@@ -18,8 +18,8 @@ fn side(normal: DVec3) -> usize {
     2 * axis + usize::from(normal[axis] > 0.0)
 }
 
-/// Counts of the right and the left hand on each side of the cube: of the places where x and y of a result turn from one to
-/// the other as they do in a picture seen from outside, and of those where they turn the other way.
+/// Returns counts of right and left hands on each side of the cube: the number of places where x and y of a result have the
+/// same orientation as in a picture seen from outside, and of those where the orientation is reversed.
 fn hands(kind: &str, params: &str, port: &str) -> [[usize; 2]; 6] {
     let mut on_mesh = OnMesh::new(&graph(kind, params), &project("assets/meshes/cube.glb"), 256);
     let place = on_mesh.evaluate(&format!("node.{port}"));
@@ -35,7 +35,7 @@ fn hands(kind: &str, params: &str, port: &str) -> [[usize; 2]; 6] {
         let ways =
             [one, other].map(|to| on_mesh.position(to).expect("a place") - on_mesh.position(index).expect("a place"));
         let steps = [one, other].map(|to| at(to) - at(index));
-        // Steps over the border of a stamp or a cell are none of a picture.
+        // Steps across the border of a stamp or a cell are not part of a picture.
         if steps.iter().any(|step| step.length() > 0.1) {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Blur as heat flow, against what heat does on a ball and on a cube.
+//! Blur as heat flow, compared with the flow of heat on a ball and on a cube.
 
 use sabi_tests::{OnMesh, extent, project};
 

@@ -1,4 +1,4 @@
-//! Pictures on surfaces: every projection against the picture itself.
+//! Pictures on surfaces: every projection is compared with the picture itself.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -67,7 +67,7 @@ fn pixels(on_mesh: &OnMesh, side: u32) -> Vec<(usize, usize)> {
     on_mesh.owned().map(pixel).collect()
 }
 
-/// Holds every texel of a result along UVs against the pixel under it.
+/// Compares every texel of a result along UVs with the pixel under it.
 fn assert_pixels(params: &Value, port: &str, component: &str, expected: impl Fn(usize) -> f32) {
     let mut on_mesh = on_square(params, SIDE);
     let values = on_mesh.evaluate(&format!("image.{port}")).component(component);
@@ -235,7 +235,7 @@ fn the_slope_of_a_normal_map_is_the_gradient_of_its_height_in_every_projection()
         let along = if is_upward { [-sin, cos] } else { [cos, sin] };
         for (index, _) in on_mesh.owned() {
             let at = on_mesh.position(index).expect("a place");
-            // The decal ends at the square's border where it is turned.
+            // The decal ends at the border of the square where it is rotated.
             if at.x.abs().max(at.y.abs()) > 0.3 {
                 continue;
             }

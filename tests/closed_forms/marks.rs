@@ -1,4 +1,4 @@
-//! Cracks, scratches and dots measured with a ruler, on planes that lie and planes that are tilted.
+//! Measured sizes of cracks, scratches and dots, on flat and on tilted planes.
 
 use std::collections::BTreeMap;
 
@@ -44,7 +44,7 @@ fn a_crack_is_as_wide_on_a_tilted_plane_as_on_a_flat_one() {
             let values = on_mesh.evaluate("noise").component("mask");
             let tilt = degrees.to_radians();
             let (mut inside, mut whole) = (0.0, 0.0);
-            // A window around each wall across x, away from the others.
+            // A window across x around each wall, which contains no other wall.
             let half_window = 0.15;
             for (index, _) in on_mesh.owned() {
                 let position = on_mesh.position(index).expect("an owned texel");
@@ -106,7 +106,7 @@ fn scratches_are_as_long_and_as_wide_as_asked_for() {
         for mark in marks(&mut on_mesh).values() {
             let [from, to] = ends(mark);
             let extent = from.distance(to);
-            // The rest of a scratch that others lie over, or one that leaves the plane.
+            // Part of a scratch that is covered by others, or a scratch that leaves the plane.
             if extent < 0.1 {
                 continue;
             }

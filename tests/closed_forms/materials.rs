@@ -22,7 +22,7 @@ const CHANNELS: [&str; 15] = [
     "transmission",
 ];
 
-/// Components to compare, without the normal: where a height jumps over the cube's edge, it is not the material's own.
+/// Components to compare, without the normal: where a height jumps at the cube's edge, the normal depends on more than the material.
 const COMPONENTS: [&str; 23] = [
     "base_color.r",
     "base_color.g",
@@ -49,7 +49,7 @@ const COMPONENTS: [&str; 23] = [
     "transmission",
 ];
 
-/// `varied`, a material with something in every channel, and these nodes.
+/// Returns a graph of `varied`, a material that sets every channel, and these nodes.
 fn graph(nodes: Json) -> String {
     let clouds = |seed: u32| json!({ "kind": "noise/simplex", "params": { "size": 0.6, "octaves": 2, "seed": seed } });
     let tinted = json!({ "kind": "color/gradient", "inputs": { "source": "one" },
@@ -176,7 +176,7 @@ fn an_adjustment_does_to_each_channel_what_its_name_says() {
     }
 }
 
-/// Mask and height of a relief over everything flat, in the order of the mask.
+/// Returns mask and height of a relief over a flat material, sorted by mask.
 fn relief(params: Json) -> Vec<(f32, f32)> {
     let node = json!({ "kind": "effect/relief", "inputs": { "mask": "ramp" }, "params": params });
     let mut on_mesh = on_cube(json!({ "ramp": { "kind": "surface/position" }, "node": node }));

@@ -13,7 +13,7 @@ fn mirrors() -> Vec<Mirror> {
     [sabi_gpu::mirrors(), sabi_view::mirrors()].concat()
 }
 
-/// All modules of Sabi's own, with what the shader compiler reads in them.
+/// Returns all modules of Sabi, with the declarations that the shader compiler finds in them.
 fn modules() -> Vec<(LinkedModule, Reflection)> {
     let specs = [sabi_gpu::fixed_modules(), sabi_view::view_modules()].concat();
     assert!(specs.len() > 20);

@@ -1,5 +1,5 @@
-//! A copy of a model that uses its new maps shows what was baked: `source/model → output/material` on the copy gives the
-//! maps that it was made of. So do copies of models that were unwrapped, whose triangles stay where they are.
+//! A copy of a model with its new maps shows the baked result: `source/model → output/material` on the copy gives the maps
+//! from which it was made. The same holds for copies of models that were unwrapped, whose triangles keep their positions.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot bake has failed")]
 
@@ -70,7 +70,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         material: None,
         all_maps: false,
         padding: None,
-        // What is read back is held against what was written, texel by texel.
+        // Written values are compared with values that are read back, texel by texel.
         seams: if copies_model { Seams::Erase } else { Seams::Keep },
         fuse: true,
         force: false,
@@ -90,7 +90,7 @@ pub(crate) fn codes(path: &Path) -> Vec<f64> {
     }
 }
 
-/// By material, where charts have their own texels: rings and padding may show what a picture is over its edge.
+/// Returns, for each material, the texels that belong to charts. Rings and padding may show pixels beyond the edge of a picture.
 fn owned(model: &LinkedModel) -> Vec<Vec<bool>> {
     let of_layout = layouts(&model.atlas).into_iter();
     of_layout
@@ -117,7 +117,7 @@ fn constants(report: &Json) -> Vec<String> {
         .collect()
 }
 
-/// Bakes a graph on a model and the copy's own looks on the copy: the folders of the maps, and the two reports.
+/// Bakes a graph on a model, and the copy's own looks on the copy. Returns the folders of the maps, and the two reports.
 fn there_and_back(folder: &Path, graph: &str, model: &Path) -> ([PathBuf; 2], [Json; 2]) {
     let first = bake_to(&folder.join("first"), graph, ModelOptions::new(model, SIZE), true);
     let copy = folder
@@ -242,7 +242,7 @@ fn triangles(model: &Model) -> Vec<(String, Vec<u32>)> {
     all
 }
 
-/// Holds the maps of each material of a copy against those of the sheet.
+/// Compares the maps of each material of a copy with those of the sheet.
 fn assert_shows(folder: &Path, stem: &str, copy: &LinkedModel) {
     let names = set_names(&copy.model);
     assert_eq!(owned(copy).len(), names.len());

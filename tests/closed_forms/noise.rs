@@ -1,4 +1,4 @@
-//! Statistics of noises: what a threshold, a seed and a resolution may rely on.
+//! Statistics of noises: properties on which a threshold, a seed and a resolution may rely.
 
 use glam::DVec3;
 use sabi_tests::{OnMesh, project};

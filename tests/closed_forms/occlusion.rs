@@ -13,7 +13,7 @@ const RAYS: u32 = 64;
 /// Longer than any of these models.
 const FAR: f64 = 1000.0;
 
-/// Occlusion within a distance, against what is expected of each texel for which something is.
+/// Compares occlusion within a distance with the expected value of each texel that has one.
 fn held(on_mesh: &mut OnMesh, distance: f64, expected: impl Fn(DVec3) -> Option<f64>) -> Held {
     let params = format!(r#""rays": {RAYS}, "distance": {distance}"#);
     on_mesh.set_graph(&graph("occlusion", &params));

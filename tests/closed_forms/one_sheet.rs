@@ -33,8 +33,8 @@ const WOOD: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
         "color": "#ff0000", "height": 0.05 } },
     "wood": { "kind": "output/material", "params": { "materials": "wood" }, "inputs": { "material": "layer" } } } }"##;
 
-/// Writes the model and bakes a graph on it: the report, the sheet's layout, and for each pixel that anything gives its
-/// value the material of that.
+/// Writes the model and bakes a graph on it. Returns the report, the sheet's layout, and for each pixel with a value the
+/// material from which it comes.
 fn baked(folder: &Path, graph: &str) -> (Json, SetLayout, Vec<Option<u32>>) {
     fs::write(folder.join("cube.obj"), CUBE).expect("a model");
     fs::write(folder.join("cube.mtl"), LIBRARY).expect("a library");

@@ -1,4 +1,4 @@
-//! Lengths that are shares of each piece: what a node does on a piece is what it does with that piece's own length.
+//! Lengths that are shares of each piece: on each piece, a node gives the same result as with that piece's own length.
 
 use sabi_tests::{OnMesh, project};
 use serde_json::{Value, json};
@@ -30,8 +30,8 @@ fn pieces(on_mesh: &OnMesh) -> (Vec<f64>, Vec<usize>, Vec<(usize, usize)>) {
     (sizes, counts, of_texel)
 }
 
-/// Mean and largest difference, as shares of the range of a result, between a length that is a share of each piece and the
-/// same length by itself, on a small, a middle and the largest piece.
+/// Returns the mean and the largest difference, as shares of the range of a result, between a length that is a share of
+/// each piece and the same absolute length, on a small, a middle and the largest piece.
 fn differences(kind: &str, name: &str, share: f64, port: &str) -> [(f64, f64, f64); 3] {
     let bench = project("assets/meshes/bench.glb");
     let mut by_piece = OnMesh::new(&graph("piece", kind, &json!({ name: share })), &bench, SIZE);

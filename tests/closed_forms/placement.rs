@@ -5,7 +5,7 @@ use sabi_tests::shapes::{Cut, cube};
 use sabi_tests::{MeshFile, OnMesh, Quad};
 use serde_json::{Value, json};
 
-/// Results that depend on the surface alone: rays, and filters of a mask that is made of normals.
+/// Results that depend only on the surface: rays, and filters of a mask that is computed from normals.
 const RESULTS: [&str; 6] = ["occlusion", "curvature", "thickness", "edges", "blur", "distance"];
 
 const GRAPH: &str = r#"{ "format": "sabi", "version": 1, "nodes": {

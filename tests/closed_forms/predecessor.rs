@@ -30,7 +30,7 @@ fn along_the_ramp(on_mesh: &mut OnMesh, target: &str, component: &str) -> Vec<(f
     pairs
 }
 
-/// One effect over a gray base of roughness 0.5, where the ramp says so.
+/// Returns one effect over a gray base of roughness 0.5, masked by the ramp.
 fn layer(params: Json) -> Json {
     json!({
         "base": { "kind": "source/material", "params": { "color": "#808080", "roughness": 0.5, "metallic": 0.5 } },
@@ -48,7 +48,7 @@ fn white_over_gray_with_a_soft_mask_is_never_darker_than_gray() {
     for (mask, value) in along_the_ramp(&mut on_mesh, "node", "base_color.g") {
         assert!(value >= last, "{value} behind {last} at a mask of {mask}");
         last = value;
-        // Neither squared nor five times as strong: the mask is the share.
+        // The mask is exactly the share: neither squared nor multiplied by five.
         let expected = GRAY + (1.0 - GRAY) * mask;
         assert!(
             (value - expected).abs() <= HALF,
@@ -99,7 +99,7 @@ fn no_mode_jumps_at_the_border_of_a_mask() {
         for component in ["base_color.b", "roughness", "metallic"] {
             let pairs = along_the_ramp(&mut on_mesh, "node", component);
             let steps = pairs.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs());
-            // Nothing is steeper than the blend from 0.5 to what divides by 0.2, spread over all texels.
+            // Nothing is steeper than the blend from 0.5 to the result of a division by 0.2, spread over all texels.
             let allowed = 2.5 / SIZE as f32 + 2.0 * HALF;
             assert!(steps.fold(0.0, f32::max) <= allowed, "{mode}: {component} jumps");
             let before = if component.starts_with("base") { GRAY } else { 0.5 };

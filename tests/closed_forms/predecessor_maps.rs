@@ -1,4 +1,4 @@
-//! Defects of the thesis' tool that cannot occur here: what becomes of values on their way into files.
+//! Defects of the thesis' tool that cannot occur here: changes of values on their way into files.
 
 use sabi_image::{Picture, decode};
 use sabi_tests::Baked;
@@ -90,7 +90,7 @@ fn a_value_of_0_is_no_hole_to_be_filled() {
             let expected = if across < 0.5 { left } else { right };
             assert_eq!(value, expected, "{name} at {across}");
         }
-        // Padding takes its values from the nearest pixels, the zeros too.
+        // Padding has the values of the nearest pixels, including zeros.
         for (pixel, [value, ..]) in map.rgba.iter().enumerate() {
             let is_left = pixel as u32 % size < size / 2;
             assert_eq!(*value, if is_left { left } else { right }, "{name}, pixel {pixel}");

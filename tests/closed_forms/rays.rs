@@ -1,4 +1,4 @@
-//! Nodes that shoot rays against closed forms, each with its own rays at each texel, averaged over texels that are alike.
+//! Nodes that cast rays, compared with closed forms. Each texel casts its own rays, and results are averaged over equivalent texels.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ pub(crate) fn graph(kind: &str, params: &str) -> String {
     )
 }
 
-/// Faces without thickness, each alone on its part of the sheet, seen from the side that counts.
+/// Returns faces without thickness, each alone on its part of the sheet, seen from the side that counts.
 pub(crate) fn faces(corners: &[[[f32; 3]; 4]]) -> OnMesh {
     let side = 1.0 / corners.len() as f32;
     let quads = corners.iter().enumerate().map(|(at, corners)| {
@@ -29,7 +29,7 @@ pub(crate) fn faces(corners: &[[[f32; 3]; 4]]) -> OnMesh {
 const FLOOR: [[f32; 3]; 4] = [[0.0, 0.0, 3.0], [2.0, 0.0, 3.0], [2.0, 0.0, -3.0], [0.0, 0.0, -3.0]];
 const WALL: [[f32; 3]; 4] = [[0.0, 0.0, 3.0], [0.0, 0.0, -3.0], [0.0, 3.0, -3.0], [0.0, 3.0, 3.0]];
 
-/// Mean of a result over the owned texels that lie where `is_meant` says, and how many there are.
+/// Returns the mean of a result over the owned texels selected by `is_meant`, and their number.
 fn mean(on_mesh: &mut OnMesh, result: &str, component: &str, is_meant: impl Fn(DVec3) -> bool) -> (f64, usize) {
     let values = on_mesh.evaluate(result).component(component);
     let meant = on_mesh

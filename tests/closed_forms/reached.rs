@@ -1,4 +1,4 @@
-//! What balls, sunlight and other pieces reach, against closed forms.
+//! Places that balls, sunlight and other pieces reach, compared with closed forms.
 
 use glam::DVec3;
 use sabi_tests::OnMesh;
@@ -116,7 +116,7 @@ fn a_plate_close_by_is_in_contact_by_its_distance() {
         ];
         for (params, port, expected) in cases {
             let values = values(&mut on_mesh, "contact", &format!(r#""distance": 0.05, {params}"#), port);
-            // A mask is clamped at each place, so what chance adds beyond 1 is lost.
+            // A mask is clamped at each place, so random excess above 1 is lost.
             let expected = expected.min(1.0);
             let held = Held::new(&on_mesh, &values, RAYS, |at| is_lower(at).then_some(expected), |_| 0.3);
             held.assert(0.01, &format!("{port} of {params} at {gap}"));

@@ -112,7 +112,7 @@ fn assert_comes_back(mesh: &MadeMesh) {
     }
 }
 
-/// Placement of a texture on the model, and the pixel of it that lies under a pixel of the unit square.
+/// Placement of a texture on the model, and the function from a pixel of the unit square to the pixel of the texture there.
 struct Placing {
     name: &'static str,
     transform: Value,

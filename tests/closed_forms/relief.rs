@@ -1,4 +1,4 @@
-//! Normals from height: physical slopes, whatever the texels.
+//! Normals from height: physical slopes, independent of the texels.
 
 use glam::DVec3;
 use sabi_tests::OnMesh;

@@ -8,7 +8,7 @@ use crate::waves::{Chart, Waves, decoded_slopes};
 
 const SIZE: u32 = 256;
 
-/// Two halves of a plane of one by one, on charts that agree in nothing.
+/// Returns two halves of a plane of one by one, on charts that differ in every way.
 fn halves(right: Chart) -> MadeMesh {
     let left = Chart {
         center: [0.26, 0.7],
@@ -37,7 +37,7 @@ fn errors(waves: Waves, mut on_mesh: OnMesh) -> [f64; 2] {
     let slopes = decoded_slopes(&mut on_mesh, "waves");
     let mut sums = [[0.0; 2]; 2];
     for (index, position, slope) in &slopes {
-        // Ghosts of the outer border lead nowhere: there the model ends.
+        // Ghosts at the outer border have no link, since the model ends there.
         if position.y.abs() > 0.45 || position.x.abs() > 0.45 {
             continue;
         }
@@ -50,7 +50,7 @@ fn errors(waves: Waves, mut on_mesh: OnMesh) -> [f64; 2] {
     sums.map(|[squares, count]| f64::sqrt(squares / count) / waves.steepest())
 }
 
-/// Asks, for charts that agree in nothing and waves in several directions, for the error at the seam and that inside.
+/// Measures the error at the seam and inside, for charts that differ in every way and waves in several directions.
 fn hold(name: &str, on: impl Fn(Waves, &MadeMesh) -> (Waves, OnMesh)) {
     let center = [0.73, 0.3];
     let charts = [(30.0, false, 0.4), (-20.0, true, 0.5), (90.0, false, 0.5)];

@@ -1,4 +1,4 @@
-//! Whole bakes: what a renderer reads on both sides of the seams of a map, with and without their erasure.
+//! Whole bakes: the values that a renderer reads on both sides of the seams of a map, with and without seam erasure.
 
 use glam::{DVec2, DVec3};
 use sabi_engine::Seams;
@@ -56,7 +56,7 @@ impl Map {
     }
 }
 
-/// Root mean square of what a comparison of both sides of the seams gives, in a map without and in one with erasure.
+/// Returns the root mean square of a comparison of both sides of the seams, in a map without erasure and in one with erasure.
 fn compared(mesh: &str, name: &str, difference: impl Fn(&OnMesh, &Map, &Seam, f64) -> f64) -> [f64; 2] {
     let path = project(&format!("assets/meshes/{mesh}.glb"));
     let on_mesh = OnMesh::new(RELIEF, &path, SIZE);
@@ -88,7 +88,7 @@ fn height_step(on_mesh: &OnMesh, map: &Map, seam: &Seam, along: f64) -> f64 {
     one - other
 }
 
-/// The angle between the normals that both sides stand for, radians.
+/// Returns the angle between the normals of both sides in radians.
 fn turn(on_mesh: &OnMesh, map: &Map, seam: &Seam, along: f64) -> f64 {
     let [one, other] = [0, 1].map(|side| {
         let (triangle, weights) = (seam.triangles[side], seam.weights(side, along));

@@ -1,4 +1,4 @@
-//! Layers that cover a surface and what breaks off it: a coat at a straight border, what settles, breaks at one edge.
+//! Layers on a surface and parts that break off: a coat at a straight border, settled layers, and breaks at one edge.
 
 use glam::DVec3;
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};

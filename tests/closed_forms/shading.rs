@@ -1,4 +1,4 @@
-//! Edges as shading shows them: round columns of few sides, and hard edges that are to look bevelled.
+//! Edges as shading shows them: round columns of few sides, and hard edges that should look bevelled.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Every texture comes through its own texture coordinates, whatever layout the maps are made in.
+//! Every texture is read with its own texture coordinates, whatever layout the maps have.
 
 use sabi_engine::{Kinds, ModelOptions, Overlap};
 use sabi_image::{PngData, PngOptions, encode_png, srgb8_from_linear};
@@ -46,7 +46,7 @@ fn on(mesh: &MadeMesh, overlap: Overlap) -> OnMesh {
     OnMesh::on_model(GRAPH, Kinds::builtin(), options, |_| {})
 }
 
-/// Holds colors and slopes against what the picture says at the texel's place in space.
+/// Compares colors and slopes with those of the picture at the texel's position in space.
 fn assert_textured(on_mesh: &mut OnMesh, case: &str) {
     let evaluated = on_mesh.evaluate("out");
     let color = ["base_color.r", "base_color.g", "base_color.b"].map(|name| evaluated.component(name));

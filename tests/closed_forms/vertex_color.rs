@@ -1,4 +1,4 @@
-//! Vertex colors are mixed between the corners of each triangle, over seams too.
+//! Vertex colors are interpolated between the corners of each triangle, also across seams.
 
 use sabi_tests::{MeshFile, OnMesh, Quad};
 

@@ -1,5 +1,5 @@
-//! `noise/wood` and the pieces it is cut for: rings of the width asked for, boards that take their wood along when they
-//! turn, and no two boards of one wood.
+//! `noise/wood` and the pieces cut from it: rings have the requested width, boards keep their wood when they are rotated,
+//! and no two boards have the same wood.
 
 use glam::{Mat3, Vec3};
 use sabi_tests::{MadeMesh, MeshFile, NodeFolder, OnMesh, Quad};

@@ -1,4 +1,4 @@
-//! Models that are no clean solids: rays and filters end on them, give numbers, and say what they cannot rely on.
+//! Models that are not valid solids. Rays and filters on them end, give numbers, and warn of the properties on which they cannot rely.
 
 use glam::DVec3;
 use sabi_nodes::Library;
@@ -57,7 +57,7 @@ fn eight() -> Vec<Quad> {
     patch(at, on_sheet(0, 1), Cut::even(10))
 }
 
-/// Models by name, with what is said of them.
+/// Returns models by name, with the expected warnings.
 fn models() -> Vec<(&'static str, Vec<Quad>, &'static [&'static str])> {
     let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
     let corner = -0.5 * (x + y);
@@ -90,7 +90,7 @@ fn models() -> Vec<(&'static str, Vec<Quad>, &'static [&'static str])> {
     ]
 }
 
-/// The graph with all lengths of its node at the far end of their range.
+/// Returns the graph with all lengths of its node at the upper end of their range.
 fn with_far_lengths(graph: &str, kind: &Kind) -> String {
     let mut graph: Value = serde_json::from_str(graph).expect("a graph");
     for param in kind.params.iter().filter(|param| param.ty.role == Role::Length) {
@@ -114,7 +114,7 @@ fn rays_and_filters_give_numbers_on_every_model_and_say_what_is_wrong_with_it() 
                 continue;
             }
             let far = with_far_lengths(&specimen.connected, kind);
-            // What reaches further than the model sees all of it, whichever it is: the worst of them are enough.
+            // A length beyond the model's size reaches the whole model, so the worst models are enough.
             let is_worst = expected.contains(&UNCLEAR);
             for graph in [specimen.connected.clone()].into_iter().chain(is_worst.then_some(far)) {
                 on_mesh.set_graph(&graph);

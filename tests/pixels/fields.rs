@@ -1,4 +1,4 @@
-//! Field nodes: what they read over seams is what lies there.
+//! Field nodes: reading across a seam gives the values on the other side.
 
 use sabi_tests::{Evaluated, MadeMesh, MeshFile, OnMesh, Quad, extent, project};
 

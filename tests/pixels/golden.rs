@@ -13,12 +13,12 @@ use sabi_tests::{Evaluated, OnMesh, project};
 
 use crate::specimens::{Specimen, for_each, on_own_mesh, specimens};
 
-/// Largest difference of a statistic from the stored value, as a share of the larger of 1 and its size: half floats
-/// differ between processors that multiply and add in a single step and those that take two.
+/// Maximum difference of a statistic from the stored value, as a share of the larger of 1 and its size. Half floats differ
+/// between processors that multiply and add in one step and those that need two.
 const STATISTICS_TOLERANCE: f64 = 1.0 / 1024.0;
 /// Largest difference of an 8-bit sample from the stored sample.
 const CODE_TOLERANCE: u8 = 1;
-/// Share of samples that may be further away: places where rounding decides between two cells.
+/// Maximum share of samples with a larger difference: places where rounding decides between two cells.
 const OUTLIERS: f64 = 0.002;
 
 /// Side of a mask's picture.
@@ -63,7 +63,7 @@ impl Sheet {
     }
 }
 
-/// A result in the model's own layout; 0 where no chart lies.
+/// Returns a result in the model's own layout; 0 where there is no chart.
 fn in_layout(on_mesh: &OnMesh, values: &[f32]) -> Vec<f32> {
     let layout = SetLayout::new(on_mesh.atlas(), set_keys(on_mesh.atlas())[0]);
     let pixels = layout.source.iter().zip(&layout.cover);
@@ -182,7 +182,7 @@ fn hold_statistics(expected: &str, got: &[(String, [f64; 4])]) -> Result<(), Str
     Ok(())
 }
 
-/// Compares samples; where they differ, writes expected, got and difference side by side below the folder of pictures.
+/// Compares samples. If they differ, writes expected, actual and difference side by side below the folder of pictures.
 fn hold_picture(name: &str, expected: &[u8], got: &Sheet) -> Result<(), String> {
     let picture = decode("golden.png", expected).map_err(|error| error.to_string())?;
     let sabi_image::Pixels::U8(was) = picture.pixels else {
@@ -233,7 +233,7 @@ fn paths(specimen: &Specimen) -> [PathBuf; 2] {
     ["png", "txt"].map(|ending| project(&format!("tests/golden/{}.{ending}", specimen.name())))
 }
 
-/// The kinds that are to be written and not held.
+/// Returns true for kinds whose goldens are written instead of compared.
 fn is_blessed(specimen: &Specimen) -> bool {
     env::var("SABI_BLESS").is_ok_and(|kind| kind == "all" || kind == specimen.kind)
 }

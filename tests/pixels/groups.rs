@@ -1,4 +1,4 @@
-//! Groups are inlined: nesting costs nothing and changes nothing.
+//! Groups are inlined, so nesting costs no time and does not change results.
 
 use sabi_plan::Mode;
 use sabi_tests::{Asked, OnMesh, project};
@@ -19,7 +19,7 @@ fn effect(base: &str, mask: &str, color: &str) -> String {
 const MASK: &str = r#""mask": { "kind": "noise/simplex", "params": { "size": 0.5, "octaves": 3, "seed": 5 } },
     "base": { "kind": "source/material", "params": { "color": "\#808080" } }"#;
 
-/// One mask through six groups in each other into each of three effects, which lie on top of each other.
+/// Returns a graph in which one mask is passed through six nested groups to each of three effects, which are layered.
 fn nested() -> String {
     let mut groups = Vec::new();
     for level in 1..=DEPTH {

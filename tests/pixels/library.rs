@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 /// Models that shares are measured on.
 const MODELS: [&str; 6] = ["crate", "bench", "figure", "column", "chain", "barrel"];
 
-/// Groups whose mask is no share of the surface that Amount tells, each with its reason.
+/// Groups for which Amount is not the share of the surface that the mask covers, each with its reason.
 const OTHER_AMOUNTS: [(&str, &str); 5] = [
     (
         "dents",
@@ -76,7 +76,7 @@ fn evaluate(on_mesh: &mut OnMesh, node: &str) -> Evaluated {
     on_mesh.evaluate_as(node, asked)
 }
 
-/// Settings of a group that are looked at: its own values and each variant.
+/// Returns the settings of a group that are tested: its own values and each variant.
 fn looks(document: &Value) -> Vec<Value> {
     let variants = document["variants"].as_object().into_iter().flatten();
     let variants = variants.map(|(name, _)| json!({ "variant": name }));
@@ -139,7 +139,7 @@ fn amount_is_the_share_of_the_surface_that_a_group_covers_on_any_model() {
             on_mesh.set_graph(&graph);
             let mut share = share_of(&mut on_mesh);
             if (share - 0.3).abs() > 0.02 {
-                // Borders of a few texels are too wide or too narrow on a small map.
+                // Borders of a few texels are too wide or too narrow on a small map, so a larger one is used.
                 share = share_of(&mut OnMesh::new(&graph, &mesh, 256));
             }
             if (share - 0.3).abs() > 0.02 {
@@ -177,8 +177,8 @@ fn unsafe_shares(on_mesh: &OnMesh, material: &Evaluated) -> [f64; 2] {
 
 /// Radii that separate fine, middle and broad differences, as shares of the model.
 const SCALES: [f32; 3] = [0.008, 0.04, 0.2];
-/// Least standard deviation of the roughness of a base material at each of the three scales, fine to broad. Most of what is fine
-/// is finer than the texels here.
+/// Minimum standard deviation of the roughness of a base material at each of the three scales, fine to broad. Most of the
+/// fine differences are finer than the texels here.
 const LEAST_SPREADS: [f64; 3] = [0.002, 0.004, 0.004];
 
 #[test]
@@ -226,7 +226,7 @@ fn base_materials_vary_in_roughness_at_three_sizes() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Base materials that are laid in rows, which repeat as they should.
+/// Base materials that are laid in rows, which are intended to repeat.
 const REGULAR: [&str; 4] = ["masonry", "cloth_and_leather", "concrete", "wood"];
 
 #[test]

@@ -1,5 +1,5 @@
-//! Pixels: what kernels make of every node, seen on the software adapter. Kinds are found by enumeration: a new node
-//! file is held to everything here without being named.
+//! Pixels: results of the kernels of every node on the software adapter. Kinds are found by enumeration, so a new node file
+//! is tested without being named here.
 
 mod broken_models;
 mod fields;

@@ -1,4 +1,4 @@
-//! Wide filters on a body of a hundred charts: the same as on another unwrap of it, and as heat flows over its triangles.
+//! Wide filters on a body of a hundred charts, compared with another unwrap of it and with heat flow over its triangles.
 
 use std::collections::BTreeMap;
 

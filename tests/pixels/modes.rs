@@ -1,4 +1,4 @@
-//! Fused, unfused and interactive: three ways to run a graph, one result; and a cache that runs nothing twice.
+//! Three ways to run a graph (fused, unfused and interactive) give one result, and with a cache nothing runs twice.
 
 use sabi_gpu::ResultCache;
 use sabi_plan::Mode;

@@ -1,4 +1,4 @@
-//! Adding a node takes one file and nothing else, at run time too.
+//! Adding a node takes only one file, also at run time.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -94,7 +94,7 @@ impl WatchedNodes<'_> {
         WatchedNodes { folder, watcher, woken }
     }
 
-    /// Waits for a change that is on its way and reads it; how long that takes is the system's business.
+    /// Waits for an expected change and reads it. The time limit is generous, since the system determines the delay.
     fn refresh(&self, kinds: &mut Kinds) {
         self.woken.recv_timeout(Duration::from_secs(60)).expect("a change");
         assert!(self.watcher.changes().nodes, "nothing else is watched");

@@ -1,4 +1,4 @@
-//! Strokes that go on: only the tiles that they change are computed again, and the results are those of a fresh evaluation.
+//! Strokes that are continued: only the tiles that they change are computed again, and results are those of a fresh evaluation.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -97,7 +97,7 @@ fn slots(result: &PlannedResult) -> MaterialSlots {
     }
 }
 
-/// Every seventh covered texel shows the mean of itself and of one far away, as where charts overlap.
+/// Makes every seventh covered texel show the mean of itself and of a distant one, as where charts overlap.
 fn shares(on_mesh: &OnMesh) -> Shares {
     let covered: Vec<u32> = on_mesh.covered().map(|index| index as u32).collect();
     let (some, others) = covered.split_at(covered.len() / 2);

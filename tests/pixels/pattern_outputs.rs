@@ -1,4 +1,4 @@
-//! Outputs of patterns beside their masks: what every pattern gives, distances to joints, and places around a tube.
+//! Outputs of patterns in addition to their masks: common outputs, distances to joints, and positions around a tube.
 
 use std::collections::BTreeSet;
 

@@ -83,7 +83,7 @@ fn the_same_graph_gives_the_same_bytes() {
     });
 }
 
-/// Lowest and highest that a component may be while everything is at its default.
+/// Returns the lowest and the highest allowed value of a component while all parameters have their defaults.
 fn bounds(name: &str) -> [f32; 2] {
     match name {
         // Of a material, or a map for one.

@@ -1,4 +1,4 @@
-//! A small map is a large one seen from afar.
+//! A small map shows the same as a large map that is seen from far away.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use sabi_tests::{OnMesh, extent, range};
 
 use crate::specimens::{for_each, on_own_mesh};
 
-/// Results of which only the mean is held, each with its reason.
+/// Results of which only the mean is compared, each with its reason.
 const EXEMPT: [(&str, &str); 30] = [
     ("adjust/coverage", "its border is narrower than a texel"),
     ("adjust/threshold", "its border is narrower than a texel"),

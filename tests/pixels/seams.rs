@@ -1,5 +1,5 @@
-//! No node knows about seams, and none shows one: read from both sides, a result agrees along every seam as well as
-//! texels inside a chart do.
+//! No node depends on seams, and no seam is visible: read from both sides, a result agrees along every seam as well as
+//! neighboring texels inside a chart.
 
 use sabi_engine::Kinds;
 use sabi_surface::atlas::Ghost;
@@ -7,7 +7,7 @@ use sabi_tests::{OnMesh, extent, range};
 
 use crate::specimens::{for_each, on_own_mesh, own_mesh, specimens};
 
-/// Kinds whose result itself jumps at the edges of the cube, each with its reason. The ball holds them.
+/// Kinds whose result itself jumps at the edges of the cube, each with its reason. They are tested on the ball.
 const JUMPS_ON_THE_CUBE: [(&str, &str); 10] = [
     (
         "noise/anisotropic",
@@ -33,13 +33,14 @@ const JUMPS_ON_THE_CUBE: [(&str, &str); 10] = [
     ),
 ];
 
-/// Kinds whose result itself breaks at the poles of the ball, where its seams end, each with its reason. The cube holds them.
+/// Kinds whose result itself is discontinuous at the poles of the ball, where its seams end, each with its reason. They are
+/// tested on the cube.
 const BREAKS_ON_THE_BALL: [(&str, &str); 1] = [(
     "noise/ripples",
     "its stripes run along a direction, which stands upright at the poles",
 )];
 
-/// Places looked at on each seam.
+/// Number of places that are compared on each seam.
 const SAMPLES: u32 = 16;
 
 /// Largest and root mean square difference.
@@ -53,7 +54,7 @@ fn spread(differences: impl Iterator<Item = f64>) -> [f64; 2] {
     [largest, (sum / f64::from(count.max(1))).sqrt()]
 }
 
-/// Holds one component: along seams, and between neighbors inside of charts.
+/// Tests one component: along seams, and between neighbors inside of charts.
 fn hold(on_mesh: &OnMesh, name: &str, values: &[f32]) -> Result<(), String> {
     let inside = spread(
         on_mesh
@@ -88,7 +89,7 @@ fn hold_all(on_mesh: &mut OnMesh, target: &str) -> Result<(), String> {
     let components = on_mesh.evaluate(target).components();
     components
         .iter()
-        // A tangent-space normal is told in the frame of its own chart.
+        // A tangent-space normal is in the frame of its own chart, so both sides may differ.
         .filter(|(name, _)| !name.starts_with("normal"))
         .try_for_each(|(name, values)| hold(on_mesh, name, values))
 }
@@ -114,7 +115,7 @@ fn no_node_shows_the_seams_of_a_ball() {
     });
 }
 
-/// The cube with links that lead to the wrong places: each ghost has that of another one.
+/// Returns the cube with wrong links: each ghost has the link of another one.
 fn torn(graph: &str) -> OnMesh {
     OnMesh::on(graph, Kinds::builtin(), &own_mesh("cube"), 64, |linked| {
         let ghosts = &mut linked.atlas.ghosts;

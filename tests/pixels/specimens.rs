@@ -1,4 +1,4 @@
-//! Every built-in kind in a graph of its own, each result of it by itself.
+//! Every built-in kind in its own graph, with each result separately.
 
 use sabi_graph::PortType;
 use sabi_nodes::Library;
@@ -16,9 +16,9 @@ pub(crate) struct Specimen {
     pub(crate) ty: PortType,
     /// True if it is the kind's first result.
     pub(crate) is_first: bool,
-    /// A graph with everything connected that can be; the node is called `node`.
+    /// A graph with everything connected that can be. The node is called `node`.
     pub(crate) connected: String,
-    /// A graph in which only what must be connected is.
+    /// A graph with only the required inputs connected.
     pub(crate) alone: String,
     /// As `connected`, with a kind's lengths so large that the coarsest maps here carry them.
     pub(crate) coarse: String,
@@ -80,7 +80,7 @@ pub(crate) fn on_own_mesh(graph: &str, mesh: &str, size: u32) -> OnMesh {
     OnMesh::new(graph, &own_mesh(mesh), size)
 }
 
-/// Calls `check` for every specimen; all complaints together fail the test.
+/// Calls `check` for every specimen. The test fails with all complaints together.
 pub(crate) fn for_each(mut check: impl FnMut(&Specimen) -> Result<(), String>) {
     let complaints: Vec<String> = specimens()
         .iter()

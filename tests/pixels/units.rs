@@ -1,4 +1,4 @@
-//! A length is a length, whatever unit a graph is written in.
+//! A length has the same meaning in every unit in which a graph is written.
 
 use sabi_engine::Kinds;
 use sabi_graph::Fit;

@@ -1,4 +1,4 @@
-//! A result belongs to the surface, not to its unwrap: two unwraps of one cube give the same at the same points.
+//! A result depends on the surface and not on its unwrap: two unwraps of one cube give the same values at the same points.
 
 use sabi_tests::shapes::turned_in;
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad, extent, range};
@@ -124,8 +124,8 @@ const EXEMPT: [(&str, &str); 32] = [
 /// Marks whose borders are about a texel wide, as thin lines and crisp disks have to be: between its texels, each grid
 /// reads another way across a border. The seams' own tests hold them as strictly as any other result.
 const MARKS: [&str; 2] = ["noise/dots", "noise/scratches"];
-/// Results that move places by slopes, ask how slopes change, rise steeply with a mean over a few rays, or choose one of several
-/// texels: a part of a texel makes much of a difference.
+/// Results that move positions by slopes, depend on changes of slopes, rise steeply with a mean over few rays, or select
+/// one of several texels. For these a fraction of a texel makes a large difference.
 const CHOOSY: [&str; 7] = [
     "filter/median",
     "filter/sharpen",
@@ -212,7 +212,7 @@ fn two_unwraps_give_the_same_at_the_same_points() {
         let [mut one, mut other] = meshes.each_ref().map(|mesh| OnMesh::new(&graph, mesh.path(), SIZE));
         let [first, second] = [&mut one, &mut other].map(|on_mesh| on_mesh.evaluate(&specimen.target()).components());
         for ((name, first), (_, second)) in first.iter().zip(&second) {
-            // A tangent-space normal is told in the frame of its own chart.
+            // A tangent-space normal is in the frame of its own chart, so unwraps may differ.
             if name.starts_with("normal") {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! Nodes of one's own that compute nonsense: they end, and what comes after them goes on.
+//! Nodes of users that compute nonsense: they end, and later nodes are still evaluated.
 
 use sabi_engine::CasterChoice;
 use sabi_tests::{NodeFolder, OnMesh, project};

@@ -1,4 +1,4 @@
-//! Whole bakes, as the command line asks for them.
+//! Whole bakes, requested as by the command line.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -80,7 +80,7 @@ impl Baked {
         }
     }
 
-    /// The bytes of a map, by its channel and ending: `roughness.png`.
+    /// Returns the bytes of a map, given its channel and extension: `roughness.png`.
     ///
     /// # Panics
     /// If it was not written.
@@ -95,7 +95,7 @@ impl Baked {
     }
 }
 
-/// The report of a bake as a reader of its file sees it.
+/// Returns the report of a bake as it is in its file.
 ///
 /// # Panics
 /// If it cannot be written as JSON.

@@ -7,8 +7,8 @@ use std::thread::available_parallelism;
 
 use sabi_engine::{AdapterChoice, Gpu};
 
-/// Adapter of all tests: the software one, which goldens are made on and every machine can have, or the one that
-/// `SABI_ADAPTER` names, as `cargo xtask gpu` does for each.
+/// Returns the adapter of all tests: the software adapter, on which goldens are made and which every machine can have, or
+/// the one that `SABI_ADAPTER` names, as `cargo xtask gpu` does for each.
 pub fn adapter() -> AdapterChoice {
     match env::var("SABI_ADAPTER") {
         Ok(name) => AdapterChoice::Named(name),

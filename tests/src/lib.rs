@@ -1,4 +1,4 @@
-//! Shared parts of the test binaries: one device, graphs on models, and results with their places on the surface.
+//! Shared parts of the test binaries: one device, graphs on models, and results with their positions on the surface.
 
 mod baked;
 mod device;
@@ -22,7 +22,7 @@ pub use pictured::{Pictured, even_light};
 pub use places::OnPage;
 pub use seams::Seam;
 
-/// A path from the project's root: from `SABI_PROJECT` where tests run on another machine than the one that built them.
+/// Returns a path from the project's root. If tests run on another machine than the one that built them, `SABI_PROJECT` names the root.
 pub fn project(path: &str) -> PathBuf {
     let built_from = || Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     env::var_os("SABI_PROJECT")
@@ -39,7 +39,7 @@ pub fn extent(values: impl IntoIterator<Item = f32>) -> [f32; 2] {
         })
 }
 
-/// The length of a range, 1 where it has none: what tolerances are a share of.
+/// Returns the length of a range, or 1 if it is zero. Tolerances are shares of it.
 pub fn range(values: impl IntoIterator<Item = f32>) -> f64 {
     let [low, high] = extent(values);
     let range = f64::from(high) - f64::from(low);

@@ -24,11 +24,11 @@ pub struct MeshFile {
     pub base_color: Option<Vec<u8>>,
     /// An encoded normal map.
     pub normal: Option<Vec<u8>>,
-    /// Shading normals of all corners, four a face; those of the faces themselves if none.
+    /// Shading normals of all corners, four for each face; `None` for those of the faces themselves.
     pub normals: Option<Vec<[f32; 3]>>,
     /// A second set of texture coordinates, four a face, that the pictures are laid out by.
     pub picture_uvs: Option<Vec<[[f32; 2]; 4]>>,
-    /// More encoded pictures, each where the material's JSON has it: `/pbrMetallicRoughness/baseColorTexture`.
+    /// Further encoded pictures, each with its position in the material's JSON: `/pbrMetallicRoughness/baseColorTexture`.
     pub textures: Vec<MadeTexture>,
     /// Further members of the material's JSON, such as factors.
     pub factors: Value,
@@ -127,7 +127,7 @@ impl Chunks {
     }
 }
 
-/// Puts what `from` says over what is there.
+/// Merges `from` into `into`. Values in `from` have priority.
 fn merge(into: &mut Value, from: &Value) {
     match from {
         Value::Object(members) => {

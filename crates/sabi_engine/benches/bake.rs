@@ -72,7 +72,7 @@ fn chain() -> String {
     nodes + r#", "out": { "kind": "output/mask", "inputs": { "source": "n99" } }"#
 }
 
-/// A hundred nodes in which every mask is read by two: material layers over a net of blends.
+/// Returns a hundred nodes in which every mask is read by two nodes: material layers over a net of blends.
 fn branches() -> String {
     let mut nodes =
         r#""m00": { "kind": "noise/simplex" }, "m01": { "kind": "noise/cells" }, "l00": { "kind": "source/material" }"#
@@ -114,7 +114,7 @@ fn bench_run(folder: &Path, model: &Path) {
     row("the same without fusion, as a multiple", run(false) / fused, "×", "");
 }
 
-/// Each noise of many points alone: the best of nine runs, on which other work shows least.
+/// Measures each noise alone over many points: the best of nine runs, which other work affects least.
 fn bench_noises(folder: &Path, model: &Path) {
     for (kind, aim) in [
         ("simplex", "≤ 60 ms"),
@@ -194,7 +194,7 @@ fn bench_memory(folder: &Path, model: &Path) {
     }
 }
 
-/// Four thousand masks, each read by two: planning must grow with their number, not with its square.
+/// Measures planning of four thousand masks, each read by two nodes: the time must grow with their number, not with its square.
 fn bench_planning(folder: &Path) {
     let mut nodes = r#""m0": { "kind": "noise/simplex" }, "m1": { "kind": "noise/cells" }"#.to_owned();
     for node in 2..4000 {
@@ -214,7 +214,7 @@ fn bench_planning(folder: &Path) {
     row("reading, checking and planning 4 000 nodes", seconds(check), "s", "");
 }
 
-/// Whole bakes at 1024² of models with a million triangles, nothing cached; each only where its file is there.
+/// Measures whole bakes at 1024² of models with a million triangles, with nothing cached. Models whose file is missing are skipped.
 fn bench_millions(folder: &Path) {
     let peer = graph(folder, "peer.sabi", PEER_NODES);
     let spheres = "../shared/data/meshes/khr-MetalRoughSpheresNoTextures/glTF/MetalRoughSpheresNoTextures.gltf";
@@ -245,7 +245,7 @@ fn bench_millions(folder: &Path) {
 fn main() {
     let folder = tempfile::tempdir().unwrap();
     let model = peer_model();
-    // `cargo bench --bench bake -- rays filters` runs these alone.
+    // `cargo bench --bench bake -- rays filters` runs only these.
     let named: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with('-')).collect();
     let is_wanted = |name: &str| named.is_empty() || named.iter().any(|wanted| wanted == name);
     println!("| what | measured | aim |\n|---|---|---|");

@@ -47,7 +47,7 @@ fn rays(linked: &LinkedModel, reach: f32) -> Vec<Ray> {
         let up = along(3).normalize_or(Vec3::Y);
         let origin = along(0) + up * (1e-5 * linked.largest_side as f32);
         let ray = move |ray: u32| {
-            // A sphere on the tip of the normal gives cosine-weighted directions.
+            // Points of a sphere that touches the surface give cosine-weighted directions.
             let turn = (index as u32 * 64 + ray).wrapping_mul(2_654_435_769) as f32 / 4_294_967_296.0;
             let height = (ray as f32 + turn) / RAYS as f32 * 2.0 - 1.0;
             let round = (1.0 - height * height).max(0.0).sqrt();

@@ -61,7 +61,7 @@ struct Stage {
     renderer: Renderer,
 }
 
-/// Does something and says how long it took.
+/// Runs `work` and prints how long it took.
 fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
     let started = Instant::now();
     let done = work();
@@ -90,7 +90,7 @@ impl Stage {
         }
     }
 
-    /// Milliseconds of a frame as `change` wants it.
+    /// Returns the milliseconds of a frame after `change`.
     fn frame(&self, size: [u32; 2], lights: &[Light], change: impl FnOnce(&mut Shot)) -> f64 {
         let gpu = self.evaluator.gpu();
         let scene = Scene {

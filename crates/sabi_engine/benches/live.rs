@@ -23,11 +23,11 @@ use setup::{adapter, peer_model};
 const MOVES: usize = 15;
 /// Texels across the sheet of a finished material.
 const FINE: u32 = 2048;
-/// Of a window of 900 × 700 while something moves.
+/// Viewport of a window of 900 × 700 while something moves.
 const VIEWPORT: [u32; 2] = [450, 350];
 const THUMBNAIL: [u32; 2] = [128, 128];
 
-/// Five point nodes in a row, the first of which has the slider, and what they come out of.
+/// Returns a graph of five point nodes in a row, of which the first has the slider.
 fn graph(folder: &Path, at: f32) -> OpenGraph {
     let text = format!(
         r##"{{ "format": "sabi", "version": 1, "name": "bench", "nodes": {{
@@ -62,7 +62,7 @@ fn row(what: &str, ms: f64, aim: &str) {
 /// Looks that were drawn, with their model.
 type Pictured = (Arc<LiveModel>, Arc<ModelLooks>);
 
-/// A window that draws what it is shown.
+/// Stand-in for a window that draws the results it receives.
 struct Window {
     gpu: Arc<Gpu>,
     live: Live,
@@ -72,7 +72,7 @@ struct Window {
     target: Target,
 }
 
-/// Milliseconds of one move, from the wish: coarse and full as they were told, and as they were drawn.
+/// Milliseconds of one move from the request on: until coarse and full results were reported, and until they were drawn.
 #[derive(Default)]
 struct Move {
     told: [f64; 2],
@@ -86,7 +86,7 @@ impl Window {
         let (wake, woken) = channel();
         Window {
             live: Live::start(gpu.clone(), options.clone(), move || {
-                // Nobody listens once the window is closed.
+                // Sending fails once the window is closed, which does not matter.
                 let _ = wake.send(());
             }),
             woken,
@@ -113,7 +113,7 @@ impl Window {
         self.gpu.wait().unwrap();
     }
 
-    /// Wishes and draws what comes, until all has come.
+    /// Sends a request and draws the results until all have come.
     fn answer(&mut self, request: LiveRequest) -> Move {
         let asked = Instant::now();
         let mut made = Move::default();
@@ -147,7 +147,7 @@ impl Window {
     }
 }
 
-/// A thumbnail of a look drawn on its own, and as one of many of a pose: milliseconds.
+/// Measures a thumbnail of a look drawn on its own, and as one of many of a pose, in milliseconds.
 fn pictures(window: &Window, pictured: &Pictured) -> [f64; 2] {
     let (model, shown) = pictured;
     let (gpu, renderer, environment) = (&window.gpu, &window.renderer, &window.environment);
@@ -186,7 +186,7 @@ fn pictures(window: &Window, pictured: &Pictured) -> [f64; 2] {
     [alone, median((0..MOVES).map(posed).collect())]
 }
 
-/// Wishes with the slider at one place after the other.
+/// Sends requests with the slider at one position after another.
 struct Slider {
     folder: tempfile::TempDir,
     kinds: Arc<Kinds>,
@@ -237,7 +237,7 @@ impl Slider {
     }
 }
 
-/// Moves of the slider on a fine sheet, with the window's own choice to show it coarse first.
+/// Measures moves of the slider on a fine sheet, where the window itself decides to show a coarse result first.
 fn bench_fine(gpu: &Arc<Gpu>) {
     let slider = Slider::on(FINE);
     let mut window = Window::new(

@@ -58,11 +58,11 @@ fn rays(count: usize) -> String {
     )
 }
 
-/// Seconds of a bake, and the most memory that it took, MiB; unknown where the system does not say so in a file.
+/// Returns the seconds of a bake, and its peak memory in MiB; `None` for the memory if the system has no file that reports it.
 fn measured(folder: &Path, model: &Path, size: u32, nodes: &str) -> [f64; 2] {
     let graph = graph(folder, "scale.sabi", nodes);
     let request = request(folder, graph, ModelOptions::new(model, size), adapter());
-    // 5 sets the peak back to what is held now.
+    // Writing 5 resets the peak to the memory in use now.
     let is_reset = fs::write("/proc/self/clear_refs", "5").is_ok();
     let started = Instant::now();
     bake(&request, &NoProgress).unwrap();

@@ -1,4 +1,4 @@
-//! Batches: a matrix of models, graphs and settings becomes a plan of bakes, one item each, which workers run in whatever order.
+//! Batches: a matrix of models, graphs and settings becomes a plan of bakes. Each bake is an item, and workers run the items in any order.
 
 mod expansion;
 mod inputs;

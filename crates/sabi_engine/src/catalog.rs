@@ -1,4 +1,4 @@
-//! Catalog of the node kinds as artists see them: names, ports and knobs, regardless of how a kind is implemented.
+//! Catalog of the node kinds as artists see them: names, ports and knobs, independent of the implementation of a kind.
 
 pub(crate) mod check;
 pub(crate) mod description;
@@ -44,14 +44,14 @@ pub struct Entry {
     pub aliases: Vec<String>,
     /// Inputs in order.
     pub inputs: Vec<Port>,
-    /// Inputs for masks that multiply parameters at each place, by the order of the parameters. Only those that a wire or an input of
-    /// the group leads to are among the inputs of a node.
+    /// Inputs for masks that multiply parameters at each place, in the order of the parameters. An input of a node includes
+    /// one of them only if a wire or an input of the group leads to it.
     pub param_masks: Vec<Port>,
-    /// Outputs in order; the first one is meant where a wire names none.
+    /// Outputs in order. A wire that names no output reads the first one.
     pub outputs: Vec<Port>,
-    /// Knobs in order; those of inputs that are not connected come last.
+    /// Knobs in order. Those of inputs that are not connected come last.
     pub knobs: Vec<Knob>,
-    /// Access pattern to its inputs, for a kind that is a WGSL file.
+    /// Access pattern to its inputs, for a kind in a WGSL file.
     pub shape: Option<Shape>,
     /// Text of its WGSL file; `None` for other kinds.
     pub source: Option<Arc<str>>,
@@ -66,18 +66,18 @@ pub struct Port {
     pub label: String,
     /// Description of its purpose, for artists.
     pub doc: String,
-    /// Type of its wires; `None` where any type fits, as in a reroute that nothing is connected to.
+    /// Type of its wires; `None` if any type fits, for example in a reroute to which nothing is connected.
     pub ty: Option<PortType>,
-    /// True if the node gives no result while nothing is connected.
+    /// True if the node has no result unless this is connected.
     pub is_required: bool,
-    /// Value of an input's knob, or words for what stands in otherwise, while nothing is connected.
+    /// Value of an input's knob, or a description of the default, while nothing is connected.
     pub unconnected: Option<Value>,
-    /// Parameter of an input, with the value that it gets once a wire is connected by hand, unless it has one.
+    /// Parameter of an input, with the value that it receives when a wire is connected by hand, unless it already has a value.
     pub starts: Option<(String, Value)>,
 }
 
 impl Port {
-    /// Returns whether a wire of type `from` may end at this port; `None` is an unknown type, which fits any port.
+    /// Returns true if a wire of type `from` may end at this port. `None` is an unknown type, which fits any port.
     pub fn accepts(&self, from: Option<PortType>) -> bool {
         match (self.ty, from) {
             (Some(ty), Some(from)) => ty.accepts(from),
@@ -94,7 +94,7 @@ impl Entry {
             .map_or(self.id.as_str(), |(category, _)| category)
     }
 
-    /// Returns the input with a name, which may be that of a parameter that a mask can multiply.
+    /// Returns the input with a name, including inputs for masks that multiply parameters.
     pub fn input(&self, name: &str) -> Option<&Port> {
         self.inputs
             .iter()
@@ -102,7 +102,7 @@ impl Entry {
             .find(|port| port.name == name)
     }
 
-    /// Returns the input for the mask that multiplies a parameter, if it takes one.
+    /// Returns the input for the mask that multiplies a parameter, if the parameter accepts one.
     pub fn param_mask(&self, name: &str) -> Option<&Port> {
         self.param_masks.iter().find(|port| port.name == name)
     }
@@ -125,13 +125,13 @@ impl Entry {
         self.knobs.iter().find(|knob| knob.name == name)
     }
 
-    /// Returns the first plain input that accepts a wire of a type, an exact match before a conversion.
+    /// Returns the first plain input that accepts a wire of a type. An exact match is preferred to a conversion.
     pub fn input_for(&self, carries: Option<PortType>) -> Option<&Port> {
         let exact = self.plain_inputs().find(|port| port.ty == carries);
         exact.or_else(|| self.plain_inputs().find(|port| port.accepts(carries)))
     }
 
-    /// Returns the first output that an input accepts, an exact match before a conversion.
+    /// Returns the first output that an input accepts. An exact match is preferred to a conversion.
     pub fn output_for(&self, input: &Port) -> Option<&Port> {
         let exact = self.outputs.iter().find(|port| port.ty == input.ty);
         exact.or_else(|| self.outputs.iter().find(|port| input.accepts(port.ty)))
@@ -217,7 +217,7 @@ fn unconnected(input: &Input) -> Option<Value> {
     }
 }
 
-/// Input for a mask that multiplies a parameter.
+/// Returns the input for a mask that multiplies a parameter.
 fn param_mask(param: &Param) -> Port {
     Port {
         name: param.name.clone(),

@@ -1,4 +1,4 @@
-//! The effect library: groups as graph files, included in release builds and read from the project in debug builds.
+//! The effect library: groups in graph files. Release builds contain the files, and debug builds read them from the project.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use crate::write_whole;
 include!(concat!(env!("OUT_DIR"), "/library.rs"));
 include!(concat!(env!("OUT_DIR"), "/group_pictures.rs"));
 
-/// Most files that one file leads to.
+/// Maximum number of group files that one file uses, directly or indirectly.
 const FILE_LIMIT: usize = 1000;
 
 /// Returns the folder of the effect library: written below `folder` in release builds, unless it is there already.
@@ -85,7 +85,7 @@ pub fn group_digest(open: &OpenGraph) -> Result<String, EngineError> {
     Ok(hash.finalize().to_hex().to_string())
 }
 
-/// Group files that a document names, in the order of its nodes.
+/// Returns the group files that a document names, in the order of its nodes.
 fn files_named_in(document: &Document) -> impl Iterator<Item = &str> {
     let groups = document.groups.values().map(|group| &group.graph);
     let graphs = std::iter::once(&document.graph).chain(groups);

@@ -1,4 +1,4 @@
-//! Errors by who can act on them, each with its cause and its remedies as values.
+//! Errors, divided by who can correct them, each with its cause and its remedies as values.
 
 use std::error::Error;
 use std::fmt;
@@ -16,18 +16,18 @@ use sabi_view::ViewError;
 
 use crate::remedy::{Remedy, advised};
 
-/// Kind of failure; the command line gives each its exit code.
+/// Kind of failure. The command line has an exit code for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
-    /// The request makes no sense: a wrong name, type or range.
+    /// The request is not valid: a wrong name, type or range.
     Usage,
     /// No adapter can be used.
     NoAdapter,
-    /// A file is damaged, or is not what it should be.
+    /// A file is damaged, or is not of the expected kind.
     BadInput,
     /// A file is missing or cannot be read.
     MissingInput,
-    /// Textures do not fit into memory, or into the budget for them; smaller ones would.
+    /// Textures do not fit into memory, or into their budget. Smaller ones would fit.
     OutOfMemory,
     /// Results cannot be written.
     CannotWrite,
@@ -53,12 +53,12 @@ impl ErrorKind {
 
 /// Most sentences of an error.
 const MOST_SENTENCES: usize = 200;
-/// Longest sentence, bytes: a path and a few names fit.
+/// Maximum length of a sentence in bytes. A path and a few names fit.
 const LONGEST_SENTENCE: usize = 8192;
-/// Bytes that are left of a longer sentence at its beginning and at its end, where it says what was asked and what to do.
+/// Number of bytes that are kept at the beginning and at the end of a longer sentence, which contain the request and the remedy.
 const LEFT_OF_SENTENCE: [usize; 2] = [2048, 1024];
 
-/// Leaves out the middle of a sentence that nobody would read to its end.
+/// Removes the middle of a sentence that is too long to be read.
 pub(crate) fn shorten(sentence: &mut String) {
     if sentence.len() <= LONGEST_SENTENCE {
         return;
@@ -85,7 +85,7 @@ pub struct EngineError {
     cause: Option<Arc<dyn Error + Send + Sync>>,
 }
 
-/// Most parts of a model that a sentence names.
+/// Maximum number of parts of a model that a sentence names.
 const MOST_PARTS_NAMED: usize = 8;
 
 impl EngineError {
@@ -94,7 +94,7 @@ impl EngineError {
         EngineError::several(kind, vec![message.to_string()])
     }
 
-    /// An error of several sentences. A file may cause any number of them, of any length, but nobody reads a thousand.
+    /// Creates an error with several sentences. A file may cause any number of long sentences, so both are limited.
     pub fn several(kind: ErrorKind, mut messages: Vec<String>) -> EngineError {
         let left_out = messages.len().saturating_sub(MOST_SENTENCES);
         if left_out > 0 {
@@ -112,12 +112,12 @@ impl EngineError {
         }
     }
 
-    /// An error with the text of its cause.
+    /// Creates an error with the text of its cause.
     pub fn of(kind: ErrorKind, cause: impl Error + Send + Sync + 'static) -> EngineError {
         EngineError::new(kind, &cause).caused_by(cause)
     }
 
-    /// Adds the error that it comes from.
+    /// Adds the error that is its cause.
     #[must_use]
     pub fn caused_by(mut self, cause: impl Error + Send + Sync + 'static) -> EngineError {
         self.cause = Some(Arc::new(cause));
@@ -131,13 +131,13 @@ impl EngineError {
         self
     }
 
-    /// An error about a file that may not be opened.
+    /// Creates an error about a file that may not be opened.
     pub(crate) fn refused(refusal: &Refusal) -> EngineError {
         let remedy = refusal.folder().map(|_| Remedy::TrustFile);
         EngineError::of(ErrorKind::MissingInput, refusal.clone()).with_remedies(remedy)
     }
 
-    /// Refusal of a file that could not be opened therefore, if that is the cause.
+    /// Returns the refusal to open a file, if that is the cause.
     pub fn refusal(&self) -> Option<&Refusal> {
         let cause = self.source()?;
         match cause.downcast_ref::<LoadError>().map(|error| &error.fault) {
@@ -146,7 +146,7 @@ impl EngineError {
         }
     }
 
-    /// An error about names that no part of a model has, a sentence for each.
+    /// Creates an error about names that no part of a model has, with a sentence for each.
     fn no_such_parts(model: &str, unknown: &[String], there: &[String]) -> EngineError {
         let sentence = |name: &String| {
             let names = || there.iter().map(String::as_str);
@@ -237,7 +237,7 @@ impl From<ImageError> for EngineError {
     }
 }
 
-/// Kind of an error of reading or writing a picture.
+/// Returns the kind of an error of reading or writing a picture.
 fn kind_of_picture(error: &ImageError) -> ErrorKind {
     match error {
         ImageError::Empty { .. }
@@ -345,7 +345,7 @@ mod tests {
     use crate::remedy::Remedy;
 
     #[test]
-    fn what_a_smaller_bake_would_mend_is_not_the_adapters_fault() {
+    fn a_problem_that_a_smaller_bake_solves_is_not_the_adapters_fault() {
         let of = |error: GpuError| EngineError::from(error).kind;
         let (needed_mib, budget_mib) = (9, 4);
         let over = GpuError::OverBudget { needed_mib, budget_mib };
@@ -358,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_says_what_its_cause_says_and_what_helps() {
+    fn an_error_has_the_text_of_its_cause_and_its_remedies() {
         let (needed_mib, budget_mib) = (9, 4);
         let error = EngineError::from(GpuError::OverBudget { needed_mib, budget_mib });
         assert_eq!(
@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_is_no_longer_than_anyone_reads() {
+    fn the_length_of_an_error_is_limited() {
         let long = format!("unknown kind '{}'; choose another one", "ä".repeat(1 << 20));
         let error = EngineError::several(ErrorKind::BadInput, vec![long; 5000]);
         assert_eq!(error.messages.len(), 201);
@@ -416,7 +416,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_full_disk_is_helped_by_free_space() {
+    fn only_for_a_full_disk_is_free_space_a_remedy() {
         let remedies = |kind: io::ErrorKind| {
             let (path, source) = ("out/a.png".into(), kind.into());
             EngineError::from(ExportError::Write { path, source }).remedies

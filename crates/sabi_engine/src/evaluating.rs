@@ -1,4 +1,4 @@
-//! Evaluation of a graph on a model: plans, runs, and looks, previews and thumbnails of their results.
+//! Evaluation of a graph on a model: plans and runs, and looks, previews and thumbnails of results.
 
 pub(crate) mod evaluated_graph;
 pub(crate) mod evaluated_surface;

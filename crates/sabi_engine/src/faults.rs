@@ -1,13 +1,13 @@
-//! Faults that are found together and told together.
+//! Faults that are found together and reported together.
 
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::interrupted;
 use crate::remedy::Remedy;
 
-/// Most sentences that are kept, each of which is compared with all others: more than an error has.
+/// Maximum number of sentences that are kept, since each is compared with all others. It is more than an error shows.
 const MOST_KEPT: usize = 1000;
 
-/// Sentences about several faults, each once.
+/// Sentences about several faults, without repeats.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
     messages: Vec<String>,
@@ -32,7 +32,7 @@ impl Faults {
         self.messages.is_empty()
     }
 
-    /// One error with all sentences, of the kind of the first fault.
+    /// Returns one error with all sentences, of the kind of the first fault.
     pub(crate) fn into_result_of_first(self) -> Result<(), EngineError> {
         let remedy = self.is_refusal.then_some(Remedy::TrustFile);
         match self.kinds.first() {
@@ -41,8 +41,8 @@ impl Faults {
         }
     }
 
-    /// One error with all sentences: about missing files if all are, else about bad input, since what the command line could
-    /// have wrong stands in a file here.
+    /// Returns one error with all sentences. Its kind is missing input if all faults are about missing files, otherwise bad
+    /// input, since the mistakes are in a file here.
     pub(crate) fn into_result(self) -> Result<(), EngineError> {
         if self.kinds.contains(&ErrorKind::Interrupted) {
             return Err(interrupted());

@@ -1,4 +1,4 @@
-//! A graph in words: what it lets be set, its outputs, and the files that it takes.
+//! Description of a graph: its knobs, its outputs, and the files that it uses.
 
 pub(crate) mod graph_description;
 pub(crate) mod graph_files;

@@ -63,28 +63,28 @@ impl Live {
         }
     }
 
-    /// Replaces the previous request, whose update of the graph still counts. Work that it makes obsolete ends at its next step.
+    /// Replaces the previous request, whose update of the graph is still applied. Work that becomes obsolete ends at its next step.
     pub fn submit(&self, request: LiveRequest) {
         self.queue.submit(request);
     }
 
-    /// Marks pictures as dropped by the window, so that they are sent again when they are requested again. Pictures are
-    /// otherwise sent only when they change.
+    /// Records that the window has dropped pictures, so that they are sent again when they are requested again. Otherwise
+    /// pictures are sent only when they change.
     pub fn mark_dropped(&self, subjects: Vec<ViewSubject>, thumbnails: Vec<NodeRef>) {
         self.queue.mark_dropped(Dropped { subjects, thumbnails });
     }
 
-    /// Takes the events since the last call, oldest first.
+    /// Returns and removes the events since the last call, oldest first.
     pub fn take_events(&self) -> Vec<LiveEvent> {
         self.queue.take_events()
     }
 
-    /// Activity of the worker; `None` while it has none.
+    /// Returns the activity of the worker; `None` while it has none.
     pub fn activity(&self) -> Option<Activity> {
         self.queue.activity.get()
     }
 
-    /// Returns true while the shade of the model is being found, after its pictures.
+    /// Returns true while the shade of the model is being computed, which happens after its pictures.
     pub fn is_finding_shade(&self) -> bool {
         self.queue.shade_searches.load(Ordering::Relaxed) > 0
     }

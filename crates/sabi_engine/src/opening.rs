@@ -1,4 +1,4 @@
-//! Opening: a graph, its node kinds, a model and environments are loaded.
+//! Opening: loading of a graph, its node kinds, a model and environments.
 
 pub(crate) mod cache_dir;
 mod coverage;

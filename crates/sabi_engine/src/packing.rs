@@ -1,4 +1,4 @@
-//! Packing: a graph and all that it takes to bake it elsewhere, in one archive, and back.
+//! Packing of a graph and everything needed to bake it elsewhere into one archive, and unpacking.
 
 mod checked;
 mod entries;

@@ -70,11 +70,11 @@ pub trait Progress: Sync {
     fn advance(&self, phase: Phase, done: usize, of: usize);
     /// Returns true to cancel the work, which then ends with an error of kind `Interrupted`. Called between steps.
     fn is_canceled(&self) -> bool;
-    /// Tells, in a sentence, that the work waits for another program. Told once for each wait; ignored where nobody reads it.
+    /// Reports, in a sentence, that the work waits for another program. Called once for each wait. The default ignores it.
     fn waits(&self, _sentence: &str) {}
 }
 
-/// Progress that is ignored, of work that is never canceled.
+/// Progress that is ignored, and never cancels the work.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoProgress;
 
@@ -106,7 +106,7 @@ impl Activity {
     }
 }
 
-/// Latest activity of a piece of work, shared between its thread and one that shows it.
+/// Latest activity of a piece of work, shared between its thread and the thread that shows it.
 #[derive(Debug, Default)]
 pub struct SharedActivity(Mutex<Option<Activity>>);
 
@@ -122,12 +122,12 @@ impl SharedActivity {
         });
     }
 
-    /// Forgets the activity, since the work has ended.
+    /// Removes the activity, since the work has ended.
     pub fn clear(&self) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 
-    /// The activity; `None` before the work has begun and after its end.
+    /// Returns the activity; `None` before the work has begun and after its end.
     pub fn get(&self) -> Option<Activity> {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -141,20 +141,20 @@ pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineErro
     Ok(())
 }
 
-/// The error of work that was canceled.
+/// Returns the error of work that was canceled.
 pub(crate) fn interrupted() -> EngineError {
     EngineError::new(ErrorKind::Interrupted, "stopped; nothing was written")
 }
 
-/// Pause between two looks at whether work was canceled that does not look itself.
+/// Interval for checking whether work was canceled that does not check it itself.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
-/// Stack of a thread that reads files, as large as that of the first thread of a process.
+/// Stack size of a thread that reads files, the same as that of the first thread of a process.
 const STACK_BYTES: usize = 8 << 20;
 
 /// Work that was canceled, or for which there is no thread.
 pub(crate) struct Stopped {
     pub(crate) error: EngineError,
-    /// Thread that ends at the next look of the work; none where none was started.
+    /// Thread that is still running and ends at its next check; `None` if none was started.
     pub(crate) left: Option<JoinHandle<()>>,
 }
 
@@ -187,7 +187,7 @@ pub(crate) fn unless_left<T: Send + 'static>(
     let (span, listened) = (tracing::Span::current(), cancel.clone());
     let started = thread::Builder::new().stack_size(STACK_BYTES).spawn(move || {
         if let Ok(done) = cancelable(&listened, || span.in_scope(work)) {
-            // The result of work that was left is not taken.
+            // The result of abandoned work is not received.
             let _ = give.send(done);
         }
     });
@@ -245,7 +245,7 @@ pub struct PhaseTime {
 }
 
 impl PhaseTime {
-    /// Runs `work` and adds the time it took.
+    /// Runs `work` and adds its time.
     pub fn time<T>(&mut self, work: impl FnOnce() -> T) -> T {
         let started = Instant::now();
         let result = work();
@@ -263,7 +263,7 @@ impl PhaseTime {
         self.total
     }
 
-    /// Milliseconds, rounded to a tenth.
+    /// Returns milliseconds, rounded to a tenth.
     pub fn ms(&self) -> f64 {
         (self.total.as_secs_f64() * 10_000.0).round() / 10.0
     }
@@ -276,7 +276,7 @@ impl Serialize for PhaseTime {
     }
 }
 
-/// Clock of a piece of work that goes from phase to phase without a gap.
+/// Clock for work that consists of consecutive phases.
 #[derive(Debug)]
 pub(crate) struct PhaseClock {
     since: Instant,
@@ -297,7 +297,7 @@ impl PhaseClock {
     }
 }
 
-/// Time spent in each phase of a bake: `stages_ms` of the report. Together they are the time that the bake took.
+/// Time spent in each phase of a bake: `stages_ms` of the report. Their sum is the time that the bake took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PhaseTimes {
     /// Reading the graph, the model and its images, uploading the surface, and hashing and checking all inputs.
@@ -339,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn work_that_never_looks_is_left_once_it_is_canceled() {
+    fn work_without_checks_is_abandoned_when_it_is_canceled() {
         let (_never, ends) = mpsc::channel::<()>();
         let told = unless_canceled(&Third::default(), move || ends.recv()).unwrap_err();
         assert_eq!(told.kind, ErrorKind::Interrupted);
@@ -369,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn the_thread_of_canceled_work_ends_at_its_next_look() {
+    fn the_thread_of_canceled_work_ends_at_its_next_check() {
         let (begun, begins) = mpsc::channel();
         let stopped = unless_left(&Third::default(), move || looking(begun)).unwrap_err();
         assert_eq!(stopped.error.kind, ErrorKind::Interrupted);
@@ -378,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn work_within_work_is_left_with_it() {
+    fn nested_work_is_abandoned_together_with_the_outer_work() {
         let (begun, begins) = mpsc::channel();
         let inner = move || {
             let outer = thread::current().id();
@@ -392,7 +392,7 @@ mod tests {
     }
 
     #[test]
-    fn work_that_is_watched_ends_at_its_next_look_once_it_is_canceled() {
+    fn work_that_is_watched_ends_at_its_next_check() {
         let endless = || {
             loop {
                 sabi_cancel::look();
@@ -411,7 +411,7 @@ mod tests {
     }
 
     #[test]
-    fn phases_of_a_clock_leave_no_gap() {
+    fn consecutive_phases_of_a_clock_have_no_gap() {
         let started = Instant::now();
         let mut clock = PhaseClock::start();
         let mut times = PhaseTimes::default();

@@ -1,4 +1,4 @@
-//! Gradients that are picked from pictures: the colors along a line, as few stops.
+//! Gradients that are picked from pictures: the colors along a line, as a few stops.
 
 use std::path::Path;
 
@@ -10,16 +10,16 @@ use sabi_view::Pixels;
 use crate::Pictures;
 use crate::source::mip_chain::Reading;
 
-/// Places along a line at which its color is measured.
+/// Number of points along a line at which its color is measured.
 const PLACES: usize = 128;
 /// Half the width of the band around a line whose colors are averaged, as a share of the picture's longer side.
 const BAND: f64 = 0.006;
-/// Largest distance in Oklab between a gradient and the colors that it was picked from: hardly visible side by side.
+/// Maximum distance in Oklab between a gradient and the colors from which it was picked: hardly visible side by side.
 const ERROR: f32 = 0.015;
-/// Factor by which the error is raised until the stops are few enough.
+/// Factor by which the maximum error is raised until the number of stops is small enough.
 const COARSER: f32 = 1.2;
 
-/// Picture for the eyes, whose colors are picked.
+/// Picture in display colors from which gradients are picked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PickedPicture {
     /// sRGB codes.
@@ -58,8 +58,8 @@ impl PickedPicture {
         })
     }
 
-    /// Picks a gradient along a line between two places, each 0 to 1 to the right and down: the fewest stops that are close
-    /// to the colors of the picture, and no more than `most`. Where both places are the same, it has one color.
+    /// Picks a gradient along a line between two points, each 0 to 1 to the right and down. It has the fewest stops that
+    /// are close to the colors of the picture, and at most `most`. If both points are the same, it has one color.
     pub fn gradient(&self, from: [f64; 2], to: [f64; 2], most: usize) -> Vec<WrittenStop> {
         let colors: Vec<[f32; 3]> = (0..PLACES)
             .map(|at| {
@@ -102,8 +102,8 @@ impl PickedPicture {
     }
 }
 
-/// Fits a gradient to evenly spaced linear colors: the fewest stops within the error, which is raised until they are no more
-/// than `most`.
+/// Fits a gradient to evenly spaced linear colors, with the fewest stops within the maximum error. The error is raised
+/// until there are at most `most` stops.
 fn fitted(colors: &[[f32; 3]], most: usize) -> Vec<WrittenStop> {
     let seen: Vec<[f32; 3]> = colors.iter().map(|color| oklab_from_linear(*color)).collect();
     let mut error = ERROR;
@@ -134,8 +134,8 @@ fn is_even(seen: &[[f32; 3]], error: f32) -> bool {
     seen.iter().all(|color| distance(*color, middle) <= error)
 }
 
-/// Returns the places of the fewest stops with both ends among them, such that no color in between is further than `error`
-/// from the straight mix in linear light of the stops around it: the shortest way from the first to the last place.
+/// Returns the positions of the fewest stops, including both ends, such that no color in between differs by more than `error` from the
+/// linear interpolation of the adjacent stops. This is the shortest path from the first to the last position.
 fn fewest(colors: &[[f32; 3]], seen: &[[f32; 3]], error: f32) -> Vec<usize> {
     let fits = |from: usize, to: usize| {
         (from + 1..to).all(|at| {
@@ -145,7 +145,7 @@ fn fewest(colors: &[[f32; 3]], seen: &[[f32; 3]], error: f32) -> Vec<usize> {
             distance(oklab_from_linear(mixed), seen[at]) <= error
         })
     };
-    // For each place the number of stops up to it, and the stop before.
+    // For each position: the number of stops up to it, and the previous stop.
     let mut ways: Vec<(usize, usize)> = vec![(0, 0)];
     for to in 1..colors.len() {
         let from = (0..to).filter(|from| fits(*from, to)).min_by_key(|from| ways[*from].0);
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_to_the_left_gives_the_gradient_turned_around() {
+    fn a_line_in_the_other_direction_gives_the_reversed_gradient() {
         let there = ramp(&RUST).gradient([0.1, 0.5], [0.9, 0.5], 16);
         let back = ramp(&RUST).gradient([0.9, 0.5], [0.1, 0.5], 16);
         let ends = |stops: &[WrittenStop]| [stops[0].color, stops[stops.len() - 1].color];
@@ -226,11 +226,11 @@ mod tests {
     }
 
     #[test]
-    fn an_even_picture_gives_one_stop() {
+    fn a_uniform_picture_gives_one_stop() {
         let even = ramp(&[(0.0, [90, 80, 70]), (1.0, [90, 80, 70])]);
         let picked = even.gradient([0.0, 0.0], [1.0, 1.0], 16);
         assert_eq!((picked.len(), picked[0].color), (1, [90, 80, 70]));
-        // Both ends at one place are one color anywhere.
+        // A line of length zero has one color.
         assert_eq!(ramp(&RUST).gradient([0.5, 0.5], [0.5, 0.5], 16).len(), 1);
     }
 

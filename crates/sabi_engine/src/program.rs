@@ -1,4 +1,4 @@
-//! The program that makes maps, and hashes of files by which it is known.
+//! The program that makes maps, and the hashes of files that identify it.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -17,7 +17,7 @@ pub struct Build {
     pub version: String,
     /// Operating system and processor, `linux-x86_64`.
     pub system: String,
-    /// BLAKE3 of the program's file, hexadecimal; `None` where the system does not let it be read.
+    /// BLAKE3 of the program's file, hexadecimal; `None` if the system does not allow reading it.
     pub blake3: Option<String>,
 }
 
@@ -36,7 +36,7 @@ impl Build {
     }
 }
 
-/// Length and BLAKE3 of a file's bytes; `None` where there is no plain file that can be read.
+/// Returns length and BLAKE3 of a file's bytes; `None` if it is not a plain file that can be read.
 pub(crate) fn digest(path: &Path) -> Option<(u64, String)> {
     let read = |mut file: File| -> io::Result<(u64, String)> {
         let mut hasher = blake3::Hasher::new();
@@ -48,7 +48,7 @@ pub(crate) fn digest(path: &Path) -> Option<(u64, String)> {
             };
         }
     };
-    // Opening a pipe or a device could wait for ever.
+    // Opening a pipe or a device could wait forever.
     let is_plain = path.metadata().is_ok_and(|found| found.is_file());
     is_plain.then(|| File::open(path).and_then(read).ok()).flatten()
 }

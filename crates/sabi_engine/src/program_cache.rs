@@ -1,4 +1,4 @@
-//! Results on disk that only the program which made them takes: another one may make them otherwise.
+//! Cache on disk that only the program which made the results reads, since another program may make them differently.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::program::Build;
 /// Version of the stored bytes.
 const VERSION: u32 = 1;
 
-/// Results of this program on disk. One that cannot be kept is made again the next time.
+/// Results of this program on disk. A result that cannot be stored is made again the next time.
 #[derive(Debug)]
 pub(crate) struct ProgramCache {
     cache: Cache,
@@ -17,8 +17,7 @@ pub(crate) struct ProgramCache {
 }
 
 impl ProgramCache {
-    /// Opens the results of a kind in a folder of the cache folder, with a limit of their size; `None` where the program is not
-    /// known.
+    /// Opens the results of a kind in a folder of the cache folder, with a size limit; `None` if the program cannot be identified.
     pub(crate) fn open(cache_dir: &Path, folder: &str, prefix: &'static str, limit_bytes: u64) -> Option<ProgramCache> {
         let kind = CacheKind {
             prefix,
@@ -31,7 +30,7 @@ impl ProgramCache {
         })
     }
 
-    /// Writes results to this disk from now on.
+    /// Makes it write to this disk from now on.
     pub(crate) fn on_disk(self, disk: &Disk) -> ProgramCache {
         ProgramCache {
             cache: self.cache.on_disk(disk),

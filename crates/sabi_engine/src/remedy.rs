@@ -1,4 +1,4 @@
-//! Remedies: changes to a request, as values that a front end says with its flag or offers as a button.
+//! Remedies: changes to a request, as values that a front end describes with its flag or offers as a button.
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ pub enum Remedy {
     SmallerSize,
     /// More texels along a side of the maps.
     LargerSize,
-    /// A kernel for each node, so that one that does not compile takes no others with it.
+    /// A separate kernel for each node, so that one that does not compile affects no other node.
     WithoutFusion,
     /// Rays cast by the processor.
     ProcessorRays,
@@ -47,7 +47,7 @@ pub enum Remedy {
     UnwrapModel,
     /// The model with its own UVs, although they repeat.
     KeepOwnUvs,
-    /// Maps of its own for each UV tile.
+    /// Separate maps for each UV tile.
     TilesAsUdim,
     /// One set of maps for all UV tiles.
     TilesRepeat,
@@ -55,7 +55,7 @@ pub enum Remedy {
     AllParts,
     /// The faces of the model that are inside out turned around.
     TurnFaces,
-    /// A folder in which the missing pictures of the model are.
+    /// A folder that contains the missing pictures of the model.
     TextureFolder,
     /// The mean of all charts that share a place on the maps.
     MergeOverlaps,
@@ -63,7 +63,7 @@ pub enum Remedy {
     EditUvs,
     /// Maps without a copy of the model.
     WithoutModelCopy,
-    /// The model saved as `.gltf`, whose copy refers to its maps as files of their own.
+    /// The model saved as `.gltf`, whose copy refers to its maps as separate files.
     SaveModelAsGltf,
     /// Another material of the model.
     OtherMaterial,
@@ -71,9 +71,9 @@ pub enum Remedy {
     NameModel,
     /// The strokes in place of those that are on the model already.
     ReplaceStrokes,
-    /// The new file in place of the one that is there.
+    /// The new file in place of the existing one.
     ReplaceFile,
-    /// An archive without the files that are missing.
+    /// An archive without the missing files.
     WithoutMissingFiles,
     /// An archive without a model.
     WithoutModel,

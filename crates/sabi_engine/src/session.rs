@@ -1,5 +1,4 @@
-//! Session of an open graph: its edits and their history, its file, and its recovery file for the case that the program ends
-//! abnormally.
+//! Session of an open graph: its edits and their history, its file, and its recovery file in case the program ends abnormally.
 
 mod file_lock;
 mod free_file;
@@ -34,7 +33,7 @@ use crate::opening::document::{OpenGraph, SIZE_LIMIT_BYTES};
 /// File name of a graph that has no file yet.
 const UNTITLED: &str = "untitled.sabi";
 
-/// Number of backups of a graph file that are kept, unless a session is told another one.
+/// Number of backups of a graph file that are kept, unless a session sets another number.
 pub const BACKUPS: usize = 3;
 
 /// State of a session's file, compared with the text that the session last read from it or wrote to it.
@@ -42,17 +41,17 @@ pub const BACKUPS: usize = 3;
 pub enum FileState {
     /// The same, or the session has no file.
     Same,
-    /// A different text, which another program wrote.
+    /// A different text, written by another program.
     Another,
-    /// The file does not exist any more, or cannot be read.
+    /// The file no longer exists, or cannot be read.
     Gone,
 }
 
 /// First revision of the next session of this process, so that no two sessions ever have the same revision.
 static FIRST_REVISION: AtomicU64 = AtomicU64::new(0);
-/// Number of revisions reserved for each session; no session has as many.
+/// Number of revisions reserved for each session, which is never reached.
 const REVISIONS: u64 = 1 << 32;
-/// Largest number of edits that are kept for those who follow the document.
+/// Maximum number of edits that are kept for readers that follow the document.
 const RECENT_EDITS: usize = 256;
 
 /// An open graph that is edited.
@@ -62,26 +61,26 @@ pub struct Session {
     history: History,
     /// File of the graph; `None` before the first save.
     file: Option<PathBuf>,
-    /// Text of the file; for a graph without a file, that of an empty graph.
+    /// Text of the file. For a graph without a file, the text of an empty graph.
     saved: String,
-    /// True if the file is gone, or holds another text that the next save replaces: then everything is unsaved.
+    /// True if the file no longer exists, or has another text that the next save replaces. In these cases everything is unsaved.
     is_apart: bool,
-    /// Canonical text of the document, with the revision that it was made from.
+    /// Canonical text of the document, with the revision to which it belongs.
     text: (u64, String),
-    /// Revision of the document; rises with every change.
+    /// Revision of the document. It rises with every change.
     revision: u64,
     /// The last edits, each of which raised the revision by one.
     recent: Vec<Edit>,
     recovery: Option<Recovery>,
     disk: Disk,
-    /// Contents of the file that a save may replace without a question.
+    /// Contents of the file that a save may replace without asking.
     known: KnownContents,
     /// Number of backups of the file that are kept.
     backups: usize,
     /// Mark of the file as open here.
     mark: FileMark,
     is_read_only: bool,
-    /// True if strokes could not be stored beside the file: the recovery copy has them.
+    /// True if strokes could not be stored beside the file, so that only the recovery copy has them.
     has_unsaved_strokes: bool,
 }
 
@@ -91,7 +90,7 @@ impl Session {
         Session::of(OpenGraph::empty(UNTITLED), None, recovery_folder)
     }
 
-    /// Creates a session of a graph without a file that begins with this document, which does not count as unsaved.
+    /// Creates a session of a graph without a file that begins with this document. The document does not count as unsaved.
     pub fn beginning_with(document: Document, recovery_folder: Option<&Path>) -> Session {
         let session = Session::of(OpenGraph::of_document(UNTITLED, document), None, recovery_folder);
         Session {
@@ -106,8 +105,8 @@ impl Session {
         Ok(Session::of(open, Some(path.to_owned()), recovery_folder))
     }
 
-    /// Restores a graph from a recovery file; all of it counts as unsaved. If only node files were stored, the graph is read
-    /// from its own file.
+    /// Restores a graph from a recovery file; all of its content counts as unsaved. If only node files were stored, the
+    /// graph is read from its own file.
     ///
     /// # Errors
     /// The recovery file cannot be read, or is in use by another window.
@@ -118,7 +117,7 @@ impl Session {
         }
         let (UnsavedWork { graph, .. }, file) = recovery.read()?;
         let Some(text) = graph else {
-            // No edit of the graph was unsaved, so its file has its current content.
+            // Only node files were unsaved, so the graph has the present content of its file.
             let session = match &file {
                 Some(file) => Session::open(file, None)?,
                 None => Session::new(None),
@@ -133,7 +132,7 @@ impl Session {
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
         let file_bytes = file.as_ref().and_then(|file| read_plain(file, SIZE_LIMIT_BYTES).ok());
         let saved = match &file {
-            // A missing or damaged file leaves everything unsaved.
+            // If the file is missing or damaged, everything is unsaved.
             Some(_) => String::from_utf8(file_bytes.clone().unwrap_or_default()).unwrap_or_default(),
             None => Document::new("").to_json(),
         };
@@ -177,7 +176,7 @@ impl Session {
             history: History::new(),
             recovery: recovery_folder.map(|folder| Recovery::new(folder, file.as_deref())),
             saved: match &file {
-                // Opening a file that is not canonical leaves no unsaved changes.
+                // Opening a file that is not canonical causes no unsaved changes.
                 Some(_) => text.clone(),
                 None => Document::new("").to_json(),
             },
@@ -190,7 +189,7 @@ impl Session {
         }
     }
 
-    /// Writes to this disk from now on, and no more to the real one.
+    /// Makes the session write to this disk instead of the real one.
     pub fn on_disk(mut self, disk: &Disk) -> Session {
         self.disk = disk.clone();
         self.open.strokes.turn_to_disk(disk);
@@ -205,7 +204,7 @@ impl Session {
         &self.disk
     }
 
-    /// Current graph, with access to its files.
+    /// Returns the current graph, with access to its files.
     pub fn graph(&self) -> &OpenGraph {
         &self.open
     }
@@ -215,27 +214,27 @@ impl Session {
         &self.open.document
     }
 
-    /// File of the graph; none before the first save.
+    /// Returns the file of the graph; `None` before the first save.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
     }
 
-    /// Revision of the document, which rises with every change; no two sessions of a process share one.
+    /// Returns the revision of the document, which rises with every change. Two sessions of a process never have the same revision.
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// Names of the steps that can be undone, the next one last.
+    /// Returns the names of the steps that can be undone, the next one last.
     pub fn undo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
         self.history.undo_names()
     }
 
-    /// Names of the steps that can be redone, the next one last.
+    /// Returns the names of the steps that can be redone, the next one last.
     pub fn redo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
         self.history.redo_names()
     }
 
-    /// Applies an edit, as a step with a name or as a part of the step that was begun. An edit without effect adds no step.
+    /// Applies an edit, as a step with a name or as a part of the open step. An edit without effect adds no step.
     pub fn edit(&mut self, name: &str, edit: Edit) -> Result<(), EditError> {
         if self.open.document.is_unchanged_by(&edit) {
             return Ok(());
@@ -253,7 +252,7 @@ impl Session {
         Ok(())
     }
 
-    /// Applies an edit that is no step: it is not undone, and steps that can be redone stay.
+    /// Applies an edit that is not a step: it cannot be undone, and steps that can be redone are kept.
     ///
     /// # Errors
     /// The edit is refused; nothing changes.
@@ -266,7 +265,7 @@ impl Session {
         Ok(())
     }
 
-    /// Edits since a revision, oldest first; none where the document has changed otherwise, or long ago.
+    /// Returns the edits since a revision, oldest first; `None` if the document has changed in other ways, or if the revision is too old.
     pub fn edits_since(&self, revision: u64) -> Option<&[Edit]> {
         let count = usize::try_from(self.revision.checked_sub(revision)?).ok()?;
         self.recent.get(self.recent.len().checked_sub(count)?..)
@@ -278,7 +277,7 @@ impl Session {
         self.recent.clear();
     }
 
-    /// Begins a step of several edits, such as a drag. An empty name is replaced by that of the first edit.
+    /// Begins a step of several edits, for example a drag. If the name is empty, the name of the first edit is used.
     pub fn begin(&mut self, name: &str) {
         self.history.begin(name);
     }
@@ -297,7 +296,7 @@ impl Session {
         self.history.cancel(&mut self.open.document)
     }
 
-    /// Undoes the last step and returns its name; none where there is nothing to undo.
+    /// Undoes the last step and returns its name; `None` if there is nothing to undo.
     pub fn undo(&mut self) -> Result<Option<String>, EditError> {
         let undone = self.history.undo(&mut self.open.document)?;
         if undone.is_some() {
@@ -306,7 +305,7 @@ impl Session {
         Ok(undone)
     }
 
-    /// Redoes the step that was undone last and returns its name; none where there is nothing to redo.
+    /// Redoes the last undone step and returns its name; `None` if there is nothing to redo.
     pub fn redo(&mut self) -> Result<Option<String>, EditError> {
         let redone = self.history.redo(&mut self.open.document)?;
         if redone.is_some() {
@@ -323,8 +322,8 @@ impl Session {
         &self.text.1
     }
 
-    /// Returns true if there are changes that its file does not hold. While a step is open, any change of it counts: the text is
-    /// compared once it ends, and not for every move of a slider.
+    /// Returns true if there are changes that are not in its file. While a step is open, any change of it counts. The texts
+    /// are compared only when the step ends, not for every move of a slider.
     pub fn is_dirty(&mut self) -> bool {
         if self.history.is_open() && self.text.0 != self.revision {
             return true;

@@ -1,4 +1,4 @@
-//! Chores on the strokes beside a graph: `sabi paint flatten` and `sabi paint reproject`.
+//! Maintenance of the strokes beside a graph: `sabi paint flatten` and `sabi paint reproject`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,10 +23,10 @@ pub struct FlattenReport {
     pub files: Vec<FlattenedFile>,
 }
 
-/// Strokes that were laid on another model.
+/// Strokes that were moved to another model.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ReprojectReport {
-    /// Model that they were painted on.
+    /// Model on which they were painted.
     pub from: String,
     /// Model that they were laid on.
     pub to: String,
@@ -85,7 +85,8 @@ pub fn flatten_strokes(graph: &Path, is_trial: bool) -> Result<FlattenReport, En
     if is_trial {
         return Ok(report);
     }
-    // The graph finds its strokes at each moment: the files are copied, the new ones are added, then named, and then the old ones are dropped.
+    // The graph finds its strokes at every moment: the files are copied, new versions are added and then named, and then
+    // the old ones are removed.
     let cannot = |why: String| EngineError::new(ErrorKind::CannotWrite, why);
     strokes.copy_files(graph, &flattened).map_err(cannot)?;
     let named: Vec<String> = flattened.values().map(Flattened::versions).collect();
@@ -151,7 +152,7 @@ pub fn reproject_strokes(
     Ok(report)
 }
 
-/// Steps that lay the strokes of a node on another surface; adds those that lose places.
+/// Returns steps that move the strokes of a node to another surface. Adds the strokes that lose points.
 fn laid_again(
     surface: &PaintSurface<'_>,
     list: &StrokeList,
@@ -176,7 +177,7 @@ fn laid_again(
     laid
 }
 
-/// Reason for which the strokes of a node are not laid on a model; none where nothing speaks against it.
+/// Returns the reason why the strokes of a node are not moved to a model; `None` if they can be moved.
 fn refusal(laid: &[Step], list: &StrokeList, model: &str, would_drop: bool) -> Option<EngineError> {
     let refused = |why: String| EngineError::new(ErrorKind::BadInput, why);
     if laid.is_empty() && !list.strokes.is_empty() {
@@ -192,7 +193,7 @@ fn refusal(laid: &[Step], list: &StrokeList, model: &str, would_drop: bool) -> O
     })
 }
 
-/// A session of a graph file with all strokes beside it.
+/// Opens a session of a graph file with all strokes beside it.
 fn opened(graph: &Path) -> Result<Session, EngineError> {
     let session = Session::open(graph, None)?;
     let strokes = &session.graph().strokes;
@@ -245,7 +246,7 @@ fn apply(session: &mut Session, name: &str, edits: Vec<Edit>) -> Result<(), Engi
     Ok(())
 }
 
-/// The model whose strokes are laid on another one.
+/// Returns the model whose strokes are moved to another one.
 fn source_model(painted: &[String], target: &str, named: Option<&str>) -> Result<String, String> {
     let list = painted.join(", ");
     match (named, painted) {
@@ -260,7 +261,7 @@ fn source_model(painted: &[String], target: &str, named: Option<&str>) -> Result
     }
 }
 
-/// The stroke with the triangles of this surface beside its places.
+/// Returns the stroke with the triangle keys of this surface.
 fn keyed(surface: &PaintSurface<'_>, stroke: Stroke) -> Stroke {
     let points = stroke.points.iter();
     let keyed = points.filter_map(|point| surface.point(point.site, point.touch(), point.starts));

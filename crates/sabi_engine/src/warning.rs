@@ -1,4 +1,4 @@
-//! Warnings: what is probably not intended, with what helps.
+//! Warnings: probable mistakes, with remedies.
 
 use std::fmt;
 

@@ -9,10 +9,10 @@ use sabi_nodes::kind::Channel;
 use crate::bindings::surface_texture_count;
 use crate::error::GpuError;
 
-/// Adapter to run on; of several that match, the first that can run Sabi.
+/// Adapter to run on. If several match, the first one that can run Sabi is used.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum AdapterChoice {
-    /// A discrete card before an integrated one before a software driver.
+    /// Prefers a discrete card to an integrated one, and that to a software driver.
     #[default]
     Auto,
     /// A software driver.
@@ -120,12 +120,12 @@ pub fn adapters() -> Vec<AdapterSummary> {
 
 /// All adapters in the order of the system.
 pub(crate) fn enumerate_adapters() -> Vec<wgpu::Adapter> {
-    // Once for all devices: a driver that is loaded and unloaded dozens of times is no longer found (NVIDIA's, 580).
+    // One instance is shared by all devices: a driver that is loaded and unloaded dozens of times is no longer found (NVIDIA 580).
     static INSTANCE: OnceLock<wgpu::Instance> = OnceLock::new();
     let instance = INSTANCE.get_or_init(|| {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = wgpu::Backends::PRIMARY;
-        // Debug builds would put line numbers into every kernel, for which the text is searched again and again.
+        // In debug builds this flag adds line numbers to every kernel, which means searching its text again and again.
         descriptor.flags.remove(wgpu::InstanceFlags::DEBUG);
         wgpu::Instance::new(descriptor)
     });
@@ -139,8 +139,8 @@ fn sorted_by_kind(adapters: &[wgpu::Adapter]) -> Vec<(AdapterSummary, &wgpu::Ada
     found
 }
 
-/// Chooses among adapters that a caller enumerated, such as a window's. Adapters that cannot run Sabi are skipped, and with a
-/// surface those that cannot draw on it.
+/// Chooses among adapters that the caller enumerated, for example those of a window. Skips adapters that cannot run Sabi
+/// and, if a surface is given, those that cannot draw on it.
 pub fn choose_adapter(
     choice: &AdapterChoice,
     adapters: &[wgpu::Adapter],
@@ -153,7 +153,7 @@ pub fn choose_adapter(
     })
 }
 
-/// First adapter that matches a choice and opens; otherwise the error of the last one tried.
+/// Returns the first adapter that matches the choice and can be opened, or the error of the last one tried.
 pub(crate) fn first_of_choice<T>(
     choice: &AdapterChoice,
     adapters: &[wgpu::Adapter],
@@ -174,10 +174,10 @@ pub(crate) fn first_of_choice<T>(
     })
 }
 
-/// Bytes of a block of memory that small textures and buffers share.
+/// Size of a memory block that small textures and buffers share, in bytes.
 const BLOCK_BYTES: u64 = 8 << 20;
 
-/// Descriptor of a device that [`crate::Gpu::adopt_device`] accepts; an error where the adapter cannot run Sabi.
+/// Returns the descriptor of a device that [`crate::Gpu::adopt_device`] accepts, or an error if the adapter cannot run Sabi.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescriptor<'static>, GpuError> {
     let available = adapter.limits();
     match missing_limit(&available) {
@@ -185,9 +185,9 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescript
         None => Ok(wgpu::DeviceDescriptor {
             label: Some("sabi"),
             required_limits: available,
-            // What is larger than a block has memory of its own, which is given back as soon as it is freed. In the blocks of up to
-            // 256 MB that are taken otherwise, what is free between two textures is lost, and a software driver takes it from the
-            // memory of the machine.
+            // A resource that is larger than a block has memory of its own, which is released as soon as the resource is
+            // freed. By default, blocks have up to 256 MB, and gaps between textures in them are lost. A software driver
+            // takes this memory from the main memory of the machine.
             memory_hints: wgpu::MemoryHints::Manual {
                 suballocated_device_memory_block_size: BLOCK_BYTES..BLOCK_BYTES,
             },
@@ -204,7 +204,7 @@ pub(crate) fn unsuitable(adapter: &wgpu::Adapter, reason: String) -> GpuError {
     }
 }
 
-/// First candidate that opens, otherwise the error of the last one; none without candidates.
+/// Returns the first candidate that can be opened, or the error of the last one; `None` without candidates.
 fn first_opened<C, T>(
     candidates: impl Iterator<Item = C>,
     open: impl Fn(C) -> Result<T, GpuError>,
@@ -219,10 +219,10 @@ fn first_opened<C, T>(
     last
 }
 
-/// Limit of an adapter that is too low for Sabi, as a clause; none where all suffice.
+/// Returns the limit of an adapter that is too low for Sabi, as a clause; `None` if all are high enough.
 pub(crate) fn missing_limit(limits: &wgpu::Limits) -> Option<String> {
     let needs = [
-        // A page of the atlas has up to 8192 texels a side.
+        // A page of the atlas has up to 8192 × 8192 texels.
         (limits.max_texture_dimension_2d, 8192, "texels along a texture's side"),
         (
             limits.max_storage_buffers_per_shader_stage,

@@ -29,7 +29,7 @@ fn surface_entries() -> [wgpu::BindGroupLayoutEntry; 8] {
         read_entry(6),
         owners_entry(7),
     ];
-    // The viewport's fragment shaders follow relief over seams with the same tables.
+    // The viewport's fragment shaders use the same tables to follow relief across seams.
     entries.map(|entry| wgpu::BindGroupLayoutEntry {
         visibility: wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::FRAGMENT,
         ..entry
@@ -62,13 +62,13 @@ pub(crate) fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     sampled_entry(binding, sample_type, wgpu::TextureViewDimension::D2Array)
 }
 
-/// Whole numbers for all texels of the atlas.
+/// Returns an entry for whole numbers, one for each texel of the atlas.
 pub(crate) fn owners_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     let sample_type = wgpu::TextureSampleType::Uint;
     sampled_entry(binding, sample_type, wgpu::TextureViewDimension::D2Array)
 }
 
-/// A table of bit patterns.
+/// Returns an entry for a table of bit patterns.
 pub(crate) fn table_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     sampled_entry(binding, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2)
 }
@@ -93,7 +93,7 @@ pub(crate) fn storage_entry(binding: u32, format: Format) -> wgpu::BindGroupLayo
     storage_texture_entry(binding, format, wgpu::StorageTextureAccess::WriteOnly)
 }
 
-/// A texture that is read and written, of a format with which every adapter allows that.
+/// Returns an entry for a texture that is read and written. Every adapter allows that for its format.
 pub(crate) fn update_entry(binding: u32, format: Format) -> wgpu::BindGroupLayoutEntry {
     storage_texture_entry(binding, format, wgpu::StorageTextureAccess::ReadWrite)
 }

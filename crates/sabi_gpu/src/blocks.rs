@@ -5,7 +5,7 @@ use sabi_plan::{KernelStep, Reach};
 use crate::device::Gpu;
 use crate::pipeline_cache::CompiledKernel;
 
-/// Parameter block of a step in the layout of its kernel. With a reach, the parameter at its offset holds the longest reach.
+/// Returns the parameter block of a step in the layout of its kernel. If `reach` is given, its parameter is set to the longest reach.
 pub(crate) fn block_buffer(
     gpu: &Gpu,
     compiled: &CompiledKernel,

@@ -1,4 +1,4 @@
-//! Borders of charts on shown maps: ghosts beyond a jump of the data, which repeat their own chart as those of exported maps do.
+//! Borders of charts on shown maps: where values jump at a border, ghosts repeat their own chart, as they do on exported maps.
 
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
@@ -17,7 +17,7 @@ use crate::uploads::storage_buffer;
 pub(crate) const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 const ROW: u32 = 32_768;
-/// First bit of the step from an anchor to its ghost, above the texels around the anchor.
+/// First bit of the step from an anchor to its ghost. The lower bits hold the texels around the anchor.
 pub(crate) const STEP_BIT: u32 = 25;
 
 /// Ghost whose own chart has a texel near it.
@@ -25,13 +25,13 @@ pub(crate) const STEP_BIT: u32 = 25;
 pub struct BorderGhost {
     /// Its index among the ghosts of the atlas.
     pub index: u32,
-    /// Texels from the nearest texel of its chart, its anchor, across and down; at most two.
+    /// Step from the ghost's anchor, which is the nearest texel of its chart, to the ghost, in texels across and down; at most two each.
     pub step: [i8; 2],
-    /// The 5 × 5 texels around the anchor, a bit each, row by row: set where the chart owns the texel.
+    /// The 5 × 5 texels around the anchor, one bit for each, row by row: set if the chart owns the texel.
     pub own: u32,
 }
 
-/// Ghosts of an atlas on the device that repeat their chart where they lie beyond a jump.
+/// Ghosts of an atlas, on the device. Where values jump, they repeat their chart.
 pub struct Borders {
     steeper: f32,
     /// A word for each ghost of the atlas, as `borders.wgsl` reads them.
@@ -41,14 +41,14 @@ pub struct Borders {
 /// Treatment of the ghosts of a map beyond a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BorderKind {
-    /// Numbers of a texel that are changed together, counted from the first one; a fourth one stands alone.
+    /// Number of components of a texel, counted from the first, that are changed together. A fourth component is changed on its own.
     pub together: usize,
     /// True if ghosts directly beside their chart stay as they are, since both sides of a seam have to meet.
     pub keeps_first_ring: bool,
 }
 
 impl BorderKind {
-    /// The treatment of a plane. Values that are written to one map belong together.
+    /// Returns the treatment of a plane. Values that are written to the same map are changed together.
     pub fn of(plane: Plane) -> BorderKind {
         let together = match plane {
             Plane::Mask | Plane::Material(Channel::Surface | Channel::Height | Channel::Coat) => 1,
@@ -65,7 +65,7 @@ impl BorderKind {
         };
         BorderKind {
             together,
-            // Two sides that differ in height would be a crack.
+            // Different heights on the two sides of a seam would show as a crack.
             keeps_first_ring: plane == Plane::Material(Channel::Height),
         }
     }
@@ -86,8 +86,8 @@ wgsl_struct! {
 }
 
 impl Borders {
-    /// Uploads the ghosts of the atlas of a surface. One lies beyond a jump if it differs from its anchor by more than `steeper` times the
-    /// largest step between neighboring texels of the chart around there, for each texel of its distance.
+    /// Uploads the ghosts of the atlas of a surface. A ghost is beyond a jump if, for each texel of its distance from its anchor, its
+    /// value differs from the anchor's by more than `steeper` times the largest step between neighboring texels of the chart around there.
     pub fn upload(
         gpu: &Gpu,
         surface: &GpuSurface,
@@ -128,7 +128,7 @@ impl Borders {
 }
 
 impl Gpu {
-    /// Finds which textures on the atlas have ghosts beyond a jump.
+    /// Returns for each texture on the atlas whether it has ghosts beyond a jump.
     pub(crate) fn find_jumps(
         &self,
         surface: &GpuSurface,
@@ -167,7 +167,7 @@ impl Gpu {
         })
     }
 
-    /// Writes the ghosts of a texture on the atlas into a copy of it, or into itself; those beyond a jump repeat their chart.
+    /// Writes the ghosts of a texture on the atlas into a copy of it, or into the texture itself. Ghosts beyond a jump repeat their chart.
     pub(crate) fn repeat_charts(
         &self,
         surface: &GpuSurface,
@@ -187,7 +187,7 @@ impl Gpu {
             output: links.values.as_entire_binding(),
         };
         let format = format_of(texture)?;
-        // One submission, since all textures share the buffer of values.
+        // All textures share the buffer of values, so the work is one submission.
         self.submit_compute_pass(|pass| {
             self.encode_borders(pass, surface, borders, texture, dispatch)?;
             self.encode_scattered_ghosts(pass, surface, shown, format)

@@ -8,18 +8,18 @@ use crate::plan_likeness::is_alike;
 use crate::rays::HitCache;
 use crate::result_key::ResultKey;
 
-/// Plans that are remembered: those of all views of a window and of some pictures of nodes.
+/// Number of plans that are remembered: enough for all views of a window and some pictures of nodes.
 const PLANS: usize = 12;
-/// Results whose extents are remembered.
+/// Number of results whose extents are remembered.
 const EXTENTS: usize = 16;
 
-/// Maps of which it is remembered whether they have ghosts beyond a jump.
+/// Number of maps for which is remembered whether they have ghosts beyond a jump.
 const JUMPS: usize = 64;
 
-/// Result, and the component that is asked for.
+/// Key of a result, and number of its component.
 pub(crate) type ExtentKey = (ResultKey, u32);
 
-/// Extent of a tile: lowest key, highest key, texels that are not a number.
+/// Extent of a tile: lowest key, highest key, and number of texels that are not a number.
 pub(crate) type TileExtent = [u32; 3];
 
 struct CachedTexture {
@@ -34,13 +34,13 @@ pub struct ResultCache {
     bytes: u64,
     runs: u64,
     textures: BTreeMap<ResultKey, CachedTexture>,
-    /// Plans that were run last, the latest first.
+    /// Plans of the last runs, the latest first.
     plans: VecDeque<Plan>,
-    /// Extents of the tiles of results that were asked for last, the latest at the end.
+    /// Extents of tiles that were requested last, the latest at the end.
     extents: VecDeque<(ExtentKey, Vec<TileExtent>)>,
-    /// Maps that were asked whether they have ghosts beyond a jump, with the answers, the latest at the end.
+    /// For the maps that were examined last, the latest at the end: whether they have ghosts beyond a jump.
     jumps: VecDeque<(ResultKey, bool)>,
-    /// Cached ray hits, within a quarter of the budget.
+    /// Cached ray hits. They use at most a quarter of the budget.
     pub(crate) hits: HitCache,
 }
 
@@ -59,12 +59,12 @@ impl ResultCache {
         }
     }
 
-    /// Bytes held, and the budget.
+    /// Returns the number of bytes held, and the budget.
     pub fn bytes(&self) -> (u64, u64) {
         (self.bytes + self.hits.bytes(), self.budget_bytes)
     }
 
-    /// Returns true if any plane of a result is cached; `content` is a key of the plan.
+    /// Returns true if any plane of a result is cached. `content` is a content key of the plan.
     pub fn contains(&self, content: &[u8; 32]) -> bool {
         self.textures.keys().any(|key| key.content == *content)
     }
@@ -74,7 +74,7 @@ impl ResultCache {
         *self = ResultCache::new(self.budget_bytes);
     }
 
-    /// The latest of the plans that were run that has the same steps as another one.
+    /// Returns the latest remembered plan that has the same steps as `plan`.
     pub(crate) fn latest_like(&self, plan: &Plan) -> Option<&Plan> {
         self.plans.iter().find(|known| is_alike(known, plan))
     }
@@ -108,7 +108,7 @@ impl ResultCache {
         }
     }
 
-    /// Whether a map has ghosts beyond a jump; none where it is not known.
+    /// Returns whether a map has ghosts beyond a jump; `None` if that is not known.
     pub(crate) fn jumps(&self, key: &ResultKey) -> Option<bool> {
         let known = self.jumps.iter().find(|(known, _)| known == key);
         known.map(|(_, jumps)| *jumps)
@@ -123,14 +123,14 @@ impl ResultCache {
         }
     }
 
-    /// Takes a texture out, to be changed.
+    /// Removes a texture from the cache, so that it may be changed.
     pub(crate) fn take(&mut self, key: &ResultKey) -> Option<wgpu::Texture> {
         let taken = self.textures.remove(key)?;
         self.bytes -= taken.bytes;
         Some(taken.texture)
     }
 
-    /// Forgets the plans that were run, since the surface or a node is another one.
+    /// Forgets all remembered plans. Called when the surface or a node has been replaced.
     pub fn forget_plans(&mut self) {
         self.plans.clear();
     }
@@ -163,7 +163,8 @@ impl ResultCache {
             .collect()
     }
 
-    /// Stores the results of a run, marks those that it used, and drops the least recently used ones over the budget.
+    /// Stores the results of a run, marks the results that it used as recently used, and drops the least recently used ones
+    /// while the cache is over its budget.
     pub(crate) fn insert(
         &mut self,
         keys: &BTreeMap<SlotRef, ResultKey>,

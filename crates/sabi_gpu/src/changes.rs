@@ -1,5 +1,5 @@
-//! Changes of a plan to the results of a plan that was run before: where only some tiles differ, only these are computed again, in the
-//! textures of before.
+//! Differences between the results of a plan and those of an earlier plan. If results differ only in some tiles, only these
+//! tiles are computed again, in the textures of the earlier results.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,38 +13,38 @@ use crate::shown_tiles::ShownTiles;
 use crate::source_fill::SourceFill;
 use crate::tile_set::TileSet;
 
-/// Difference of a result from that of the same step before.
+/// Difference between the result of a step and the earlier result of the same step.
 #[derive(Clone, Debug, PartialEq)]
 enum Change {
-    /// Nothing but these tiles.
+    /// Only these tiles differ.
     Tiles(TileSet),
-    /// Unknown, or everything.
+    /// Everything differs, or the difference is unknown.
     All,
 }
 
-/// Most tiles that are computed by themselves: more are quicker to upload together with all others.
+/// Maximum number of tiles that are computed separately. If there are more, uploading all tiles is quicker.
 const MOST_TILES: u32 = 4096;
 
-/// Step that computes only some tiles again.
+/// Step of which only some tiles are computed again.
 pub(crate) struct Part {
     /// The tiles.
     pub(crate) tiles: TileSet,
-    /// Textures of the results of before, by slot.
+    /// Textures of the earlier results, by slot.
     pub(crate) textures: Vec<(SlotRef, wgpu::Texture)>,
 }
 
-/// Changes of a plan to the results of an earlier one.
+/// Differences between the results of a plan and those of an earlier plan.
 #[derive(Default)]
 pub(crate) struct Changes {
-    /// Steps that compute some tiles alone, by their index.
+    /// Steps of which only some tiles are computed, by their index.
     pub(crate) parts: BTreeMap<usize, Part>,
-    /// Results whose differences from results of before are known.
+    /// Results whose differences from earlier results are known.
     pub(crate) results: ChangedResults,
 }
 
 impl Changes {
-    /// Holds a plan, of which these steps have to run, against the latest plan of the same steps, and takes the textures that are
-    /// changed in place from the cache.
+    /// Compares a plan, of which `steps` have to run, with the latest plan of the same steps, and takes the textures that
+    /// will be changed in place from the cache.
     pub(crate) fn find(
         plan: &Plan,
         coverages: &Coverages<'_>,
@@ -64,7 +64,7 @@ impl Changes {
         let changes = changes([plan, before], [keys, &old_keys], &mut |old, step| {
             sources.changed_tiles(old, step)
         });
-        // A texture whose result is asked for as well stays as it is.
+        // A texture whose earlier result is also requested must not be changed.
         let asked: BTreeSet<&ResultKey> = keys.values().collect();
         let mut found = Changes::default();
         for (slot, change) in &changes {
@@ -93,8 +93,8 @@ impl Changes {
 }
 
 impl ResultCache {
-    /// Returns true if a plan would compute only some tiles of its results again, where its sources differ from those of a plan before in
-    /// some tiles, as the function says of a step before and now.
+    /// Returns true if the plan would compute only some tiles of its results again, given that its sources differ from those of an earlier
+    /// plan only in some tiles. The function returns whether that is true for a source step, before and now.
     pub fn would_run_in_part(
         &self,
         plan: &Plan,
@@ -110,7 +110,7 @@ impl ResultCache {
         }
         let (keys, old_keys) = (covered.slot_keys(plan), before_covered.slot_keys(before));
         let steps = needed_steps(plan, &self.find(&keys).into_keys().collect());
-        // Any tile stands for those that differ.
+        // The set of tiles does not matter here, so any tile is used.
         let changes = changes([plan, before], [&keys, &old_keys], &mut |old, step| {
             is_in_part(old, step).then(|| TileSet::new([[0; 3]]))
         });
@@ -121,8 +121,8 @@ impl ResultCache {
     }
 }
 
-/// Difference of each slot of a plan from the same slot of a plan of the same steps. `changed_tiles` gives the tiles in which a source
-/// differs from the one before, where that is known.
+/// Returns the difference of each slot of a plan from the same slot of an earlier plan of the same steps. `changed_tiles`
+/// returns the tiles in which a source differs from the earlier one, if they are known.
 fn changes(
     [plan, before]: [&Plan; 2],
     [keys, old_keys]: [&BTreeMap<SlotRef, ResultKey>; 2],
@@ -139,7 +139,7 @@ fn changes(
                 _ => Change::All,
             })
             .unwrap_or_else(|| Change::Tiles(TileSet::default()));
-        // Another key of the result, while no input has another one, says that the node itself is another one.
+        // If the key of the result has changed but the key of no input has, then the node itself has changed.
         let reads_others = reads(step).iter().any(|slot| keys.get(slot) != old_keys.get(slot));
         let change = match (step, old) {
             (Step::Source(step), Step::Source(old)) => of_source(step, old, of_reads, changed_tiles),
@@ -177,7 +177,7 @@ fn of_source(
     }
 }
 
-/// Returns true if a kernel computes the same of the same inputs.
+/// Returns true if a kernel computes the same results from the same inputs.
 fn is_same(step: &KernelStep, old: &KernelStep) -> bool {
     step.blocks == old.blocks
         && step.flags == old.flags

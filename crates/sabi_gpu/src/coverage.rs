@@ -1,4 +1,4 @@
-//! Tiles in which each step of a plan is computed, where only some of the surface is shown.
+//! Tiles in which each step of a plan is computed if only part of the surface is shown.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +12,13 @@ use crate::tile_set::TileSet;
 /// Tiles in which the result of a step is needed, from few to all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Coverage {
-    /// The shown ones.
+    /// The shown tiles.
     Shown,
-    /// These, and those that their ghosts take values from.
+    /// The shown tiles, and those from which their ghosts take values.
     Linked,
-    /// The linked ones, those around them, and those that the ghosts of all these take values from.
+    /// The linked tiles, the tiles around them, and those from which the ghosts of all these take values.
     Around,
-    /// All: a filter or a survey may read any texel.
+    /// All tiles: a filter or a survey may read any texel.
     All,
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct Coverages<'a> {
 }
 
 impl<'a> Coverages<'a> {
-    /// Finds the coverage of each step of a plan whose results are shown in some tiles; all steps cover all tiles without them.
+    /// Finds the coverage of each step of a plan whose results are shown in some tiles. Without `shown`, all steps cover all tiles.
     pub(crate) fn of(plan: &Plan, shown: Option<&'a ShownTiles>) -> Coverages<'a> {
         let of_steps = match shown {
             Some(_) => coverage_of_steps(plan),
@@ -38,17 +38,17 @@ impl<'a> Coverages<'a> {
         Coverages { of_steps, shown }
     }
 
-    /// Coverage of another plan whose results are shown in the same tiles.
+    /// Returns the coverage of another plan whose results are shown in the same tiles.
     pub(crate) fn of_plan(&self, plan: &Plan) -> Coverages<'a> {
         Coverages::of(plan, self.shown)
     }
 
-    /// Tiles that a step computes; none for all.
+    /// Returns the tiles that a step computes; `None` for all.
     pub(crate) fn tiles(&self, step: usize) -> Option<&'a TileSet> {
         Some(&self.covered(step)?.tiles)
     }
 
-    /// Key of the tiles that a step computes; none for all.
+    /// Returns the key of the tiles that a step computes; `None` for all.
     pub(crate) fn key(&self, step: usize) -> Option<[u8; 32]> {
         Some(self.covered(step)?.key)
     }
@@ -63,7 +63,7 @@ impl<'a> Coverages<'a> {
         }
     }
 
-    /// Content keys of the slots of a plan as of [`slot_keys`], with the tiles that they are computed in.
+    /// Returns the keys of [`slot_keys`] for a plan, with the tiles in which the slots are computed.
     pub(crate) fn slot_keys(&self, plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
         let mut keys = slot_keys(plan);
         for (at, step) in plan.steps.iter().enumerate() {
@@ -76,15 +76,15 @@ impl<'a> Coverages<'a> {
         keys
     }
 
-    /// Returns true if the steps of two plans cover the same.
+    /// Returns true if the steps of two plans cover the same tiles.
     pub(crate) fn is_same(&self, other: &Coverages<'_>) -> bool {
         self.of_steps == other.of_steps
     }
 }
 
-/// Coverage of each step, from the last to the first: a step whose texels depend on the same texels alone is needed where its
-/// readers are; rays also where shown ghosts take values from, and around these where they are denoised; what a filter, a survey or
-/// another level reads is needed everywhere.
+/// Returns the coverage of each step, computed from the last step to the first. A step whose texels depend only on the same texels of its
+/// inputs is needed where its readers are. A step that casts rays is also needed where shown ghosts take values from, and around these if
+/// it is denoised. An input of a filter, of a survey or of another level is needed everywhere.
 fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
     let results = plan.results.iter().flat_map(|result| &result.slots);
     let mut needed: BTreeMap<SlotRef, Coverage> = results.map(|slot| (*slot, Coverage::Shown)).collect();
@@ -94,10 +94,10 @@ fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
         let needed_in = of_results.into_iter().max().unwrap_or(Coverage::All);
         let coverage = match step {
             Step::Kernel(kernel) if kernel.is_of_points() => needed_in,
-            // The ghosts of what is shown are filled from the texels that they are linked to.
+            // The ghosts of shown tiles are filled from the texels that they are linked to.
             Step::Kernel(kernel) if casts_from_texels(kernel) || denoises(kernel) => match needed_in {
                 Coverage::Shown => Coverage::Linked,
-                // Only owned texels of such a result are read, so nothing beyond is needed.
+                // Only owned texels of such a result are read, so nothing beyond them is needed.
                 Coverage::Around if !denoises(kernel) => Coverage::Around,
                 Coverage::Linked | Coverage::Around | Coverage::All => Coverage::All,
             },
@@ -105,7 +105,7 @@ fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
             Step::Kernel(_) | Step::Move(_) | Step::Survey(_) => Coverage::All,
         };
         let of_reads = match step {
-            // A source may read texels beside its own, such as those whose places a picture is read at.
+            // A source may read texels next to its own, for example the places at which a picture is read.
             Step::Source(_) => Coverage::All,
             // Texels up to two away are read.
             Step::Kernel(kernel) if denoises(kernel) && coverage == Coverage::Linked => Coverage::Around,
@@ -121,12 +121,12 @@ fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
     coverages
 }
 
-/// Returns true if each owned texel depends on means over rays of the texels up to two away, and on the same texel of the inputs.
+/// Returns true if each owned texel depends only on means over rays of the texels up to two away, and on the same texel of the inputs.
 fn denoises(step: &KernelStep) -> bool {
     step.spec.calls.iter().any(|call| call.normals.is_some()) && step.level == Level::FINEST && step.feedback.is_none()
 }
 
-/// Returns true if each owned texel depends on its own rays and the same texel of the inputs alone.
+/// Returns true if each owned texel depends only on its own rays and on the same texel of the inputs.
 fn casts_from_texels(step: &KernelStep) -> bool {
     step.rays.is_some() && step.level == Level::FINEST && step.feedback.is_none()
 }

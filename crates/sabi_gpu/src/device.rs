@@ -12,7 +12,7 @@ use crate::pace::InFlight;
 use crate::pipeline_cache::PipelineCache;
 use crate::waiting::{OF_A_SLICE, Patience, STEP};
 
-/// First error that the driver reported outside of a call, and what is to be called for a loss.
+/// First error that the driver reported outside of a call, and the function to call if the device is lost.
 #[derive(Default)]
 pub(crate) struct DriverErrors {
     first: Mutex<Option<GpuError>>,
@@ -27,7 +27,7 @@ impl DriverErrors {
             call.into_iter().for_each(|call| call());
         }
         if let Ok(mut first) = self.first.lock() {
-            // A loss is the cause of the errors that follow it.
+            // The loss of a device is the cause of the errors that follow it.
             if first.is_none() || matches!(error, GpuError::Lost(_)) {
                 *first = Some(error);
             }
@@ -55,9 +55,9 @@ pub struct Gpu {
     pub(crate) driver_errors: Arc<DriverErrors>,
     /// Kernels that were submitted without a wait.
     pub(crate) in_flight: InFlight,
-    /// True since a wait was given up, until the device is done with what it was for.
+    /// True after a wait was given up, until the device has finished the work that was waited for.
     is_overrun: AtomicBool,
-    /// Steps of a wait for a slice of a kernel.
+    /// Number of steps after which the wait for a slice of a kernel is given up.
     slice_steps: AtomicU32,
     summary: AdapterSummary,
     limits: sabi_plan::Limits,
@@ -73,8 +73,8 @@ impl Gpu {
         })
     }
 
-    /// Shares a device that was opened elsewhere, such as a window's, with [`crate::device_descriptor`]. Its callbacks for
-    /// device loss and uncaptured errors are replaced.
+    /// Takes over a device that was opened elsewhere, for example for a window, with [`crate::device_descriptor`]. Replaces
+    /// its callbacks for device loss and for uncaptured errors.
     pub fn adopt_device(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Result<Gpu, GpuError> {
         let available = device.limits();
         if let Some(reason) = missing_limit(&available) {
@@ -108,7 +108,7 @@ impl Gpu {
         })
     }
 
-    /// Error of a lost device; none while it works.
+    /// Returns an error if the device is lost, and `None` while it works.
     pub fn loss(&self) -> Option<GpuError> {
         self.loss_after(wgpu::PollType::Poll)
     }
@@ -130,8 +130,8 @@ impl Gpu {
         })
     }
 
-    /// Sets the function that is called when the device is lost, on the thread that notices it first. It replaces an earlier one, and is
-    /// not called for a loss that was noticed before.
+    /// Sets the function to call if the device is lost, in place of the one set before. It is called on the thread that
+    /// notices the loss first. It is not called for a loss that was noticed before.
     pub fn when_lost(&self, call: impl FnOnce() + Send + 'static) {
         if let Ok(mut when_lost) = self.driver_errors.when_lost.lock() {
             *when_lost = Some(Box::new(call));
@@ -163,20 +163,20 @@ impl Gpu {
         self.limits
     }
 
-    /// Gives up kernels whose slices take longer than a tenth of a second, in place of 20 seconds, to test what follows.
+    /// For tests: gives up a kernel if one of its slices takes longer than a tenth of a second, instead of 20 seconds.
     pub fn set_impatient(&self, is_impatient: bool) {
         let steps = if is_impatient { 1 } else { OF_A_SLICE };
         self.slice_steps.store(steps, Ordering::Relaxed);
     }
 
-    /// Waits until all submitted work is done; returns an error that the driver reported in the meantime.
+    /// Waits until all submitted work is done. Returns an error if the driver reported one in the meantime.
     pub fn wait(&self) -> Result<(), GpuError> {
         self.wait_with(Patience::endless())
     }
 
-    /// Waits until all submitted work is done, or patience ends; the work may then go on.
+    /// Waits until all submitted work is done, or until `patience` ends. In the second case the work may continue on the device.
     pub(crate) fn wait_with(&self, patience: Patience<'_>) -> Result<(), GpuError> {
-        // A wait for one submission says nothing about those after it.
+        // A wait for one submission would say nothing about the submissions after it.
         let patience = patience.with_steps_of_a_slice(self.slice_steps.load(Ordering::Relaxed));
         let waited = self.in_flight.settle(|| self.poll(None, patience));
         match &waited {
@@ -187,7 +187,7 @@ impl Gpu {
         waited
     }
 
-    /// Waits for what an earlier run was given up for, so that nothing of this run is blamed for it.
+    /// Waits for the work that an earlier run gave up waiting for, so that its errors are not attributed to this run.
     pub(crate) fn wait_for_overrun(&self, is_canceled: &dyn Fn() -> bool) -> Result<(), GpuError> {
         if !self.is_overrun.load(Ordering::Relaxed) {
             return Ok(());
@@ -226,7 +226,7 @@ impl Gpu {
         polled?
     }
 
-    /// Runs `make` in error scopes and turns an error of the driver into one that names `what`.
+    /// Runs `make` in error scopes, and converts an error of the driver to one that names `what`.
     pub fn guarded<T>(&self, what: &str, make: impl FnOnce(&wgpu::Device) -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -235,12 +235,12 @@ impl Gpu {
         if let Some(error) = errors.into_iter().flatten().next() {
             return Err(driver_error(error, what));
         }
-        // Calls on a lost device succeed; only the loss callback reports it.
+        // On a lost device calls succeed; only the loss callback reports the loss.
         self.driver_errors.take()?;
         Ok(made)
     }
 
-    /// Uniform buffer with these bytes.
+    /// Creates a uniform buffer with these bytes.
     pub(crate) fn uniform(&self, bytes: &[u8]) -> wgpu::Buffer {
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
@@ -252,7 +252,7 @@ impl Gpu {
         buffer
     }
 
-    /// Bind group with these resources at bindings 0, 1, 2, …
+    /// Creates a bind group with these resources at bindings 0, 1, 2, …
     pub(crate) fn bind<'r>(
         &self,
         layout: &wgpu::BindGroupLayout,
@@ -270,7 +270,7 @@ impl Gpu {
         })
     }
 
-    /// Encodes and submits one pass; passes are costly on software drivers.
+    /// Encodes and submits one pass. Passes are slow on software drivers, so callers put much work into each.
     pub(crate) fn submit_compute_pass(
         &self,
         encode: impl FnOnce(&mut wgpu::ComputePass<'_>) -> Result<(), GpuError>,
@@ -298,7 +298,7 @@ mod tests {
     use sabi_nodes::link::Format;
 
     #[test]
-    fn a_device_that_is_gone_is_an_error_and_no_panic() {
+    fn a_lost_device_is_an_error_and_no_panic() {
         let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
         let gpu = Gpu::open(&AdapterChoice::Cpu).expect(install);
         assert!(texture(&gpu, [8, 8, 1], Format::R32Float).is_ok());
@@ -322,13 +322,13 @@ mod tests {
         assert!(texture(&gpu, [8, 8, 1], Format::R32Float).is_ok());
         assert_eq!(gpu.loss(), None);
         device.destroy();
-        // The loss is told at the next wait, if not before.
+        // The loss is reported at the next wait at the latest.
         let _ = gpu.wait();
         assert!(matches!(gpu.loss(), Some(GpuError::Lost(_))));
     }
 
     #[test]
-    fn a_device_that_was_requested_with_limits_too_low_is_refused() {
+    fn a_device_with_limits_that_are_too_low_is_refused() {
         let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
         let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &enumerate_adapters(), None).expect(install);
         let opened = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));
@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn a_texture_beyond_the_adapter_is_an_error_and_no_panic() {
+    fn a_texture_larger_than_the_adapter_allows_is_an_error_and_no_panic() {
         let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
         let gpu = Gpu::open(&AdapterChoice::Cpu).expect(install);
         assert!(texture(&gpu, [1 << 20, 8, 1], Format::R32Float).is_err());

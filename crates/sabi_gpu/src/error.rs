@@ -1,7 +1,7 @@
 //! Errors of a device, its memory and what runs on it.
 
-/// Error of a device, its memory or a run on it. Its text says what is the case; what helps follows from the variant and is
-/// said by the callers, which know what can be chosen.
+/// Error of a device, its memory or a run on it. Its text describes the problem. Remedies follow from the variant and are
+/// added by the callers, which know what the user can choose.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
     /// No adapter was found.
@@ -29,7 +29,7 @@ pub enum GpuError {
     /// The device was lost, for the reason that the driver gives.
     #[error("the graphics device was lost ({0})")]
     Lost(String),
-    /// A result that was kept by an earlier run is gone or damaged; the run begins again without it.
+    /// A result that an earlier run kept is missing or damaged. The run starts again without it.
     #[error("a result that was kept by an earlier run is gone")]
     ResultGone,
     /// The textures of a run exceed the budget.
@@ -40,7 +40,7 @@ pub enum GpuError {
         /// Budget, MiB.
         budget_mib: u64,
     },
-    /// The textures of a run exceed what is left of the memory of the process, which they are in.
+    /// The textures of a run exceed the memory that is left to the process, in which the driver keeps them.
     #[error(
         "the textures need {needed_mib} MiB, which this driver takes from the memory of the process; {left_mib} MiB of it are left"
     )]
@@ -50,7 +50,7 @@ pub enum GpuError {
         /// Memory that the model leaves, MiB.
         left_mib: u64,
     },
-    /// The driver refused to allocate memory.
+    /// The driver could not allocate memory.
     #[error("the device is out of memory while making {what}")]
     OutOfMemory {
         /// Resource that was being created.
@@ -76,7 +76,7 @@ pub enum GpuError {
         /// Levels that the kernel takes.
         limit: usize,
     },
-    /// A kernel could not be compiled: a defect of a node's text, of Sabi or of the driver.
+    /// A kernel could not be compiled. The cause is a mistake in a node's code, in Sabi or in the driver.
     #[error("the kernel of {nodes} cannot be compiled: {reason}. If one of these nodes is your own, look there first")]
     Kernel {
         /// Ids of the nodes fused into it.
@@ -87,21 +87,21 @@ pub enum GpuError {
     /// Any other error that the driver reported.
     #[error("the graphics driver reported: {0}")]
     Driver(String),
-    /// A submission did not end.
+    /// The device did not finish a submission in time.
     #[error(
         "the device was busy with {} for more than {seconds} seconds, and the run was stopped",
         of(nodes)
     )]
     TooLong {
-        /// Ids of the nodes that were evaluated; none for work of Sabi's own.
+        /// Ids of the nodes that were evaluated; empty for kernels that belong to no node.
         nodes: Vec<String>,
-        /// Time after which it was given up.
+        /// Time after which the run was stopped, in seconds.
         seconds: u64,
     },
     /// The user canceled the run.
     #[error("stopped")]
     Canceled,
-    /// A source node could not give its result.
+    /// A source node could not provide its result.
     #[error("{reason}")]
     Node {
         /// Id of the node.
@@ -109,16 +109,16 @@ pub enum GpuError {
         /// Sentence that names the node.
         reason: String,
     },
-    /// The scene that rays are cast into could not be made.
+    /// The scene for rays could not be built.
     #[error("{0}")]
     Scene(String),
-    /// Something that the callers of this crate must not ask for.
+    /// The caller requested something that this crate does not allow.
     #[error("{0}; this is a defect of Sabi")]
     Defect(String),
 }
 
 impl GpuError {
-    /// This error with the nodes that were evaluated, where it is one of them and does not name them yet.
+    /// Adds the ids of the evaluated nodes to an error that has a place for them and does not name any yet.
     pub(crate) fn of_nodes(mut self, evaluated: &[String]) -> GpuError {
         if let GpuError::TooLong { nodes, .. } = &mut self
             && nodes.is_empty()

@@ -19,7 +19,7 @@ use crate::tiles::Slices;
 /// Range of one component of a result over the texels of the model, without ghosts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueExtent {
-    /// Lowest and highest number; none where no texel holds a number.
+    /// Lowest and highest number; `None` if no texel has a number.
     pub range: Option<[f32; 2]>,
     /// Number of texels that are not a number.
     pub not_numbers: u32,
@@ -38,11 +38,11 @@ wgsl_struct! {
 /// Extent of no texel.
 const NOTHING: TileExtent = [u32::MAX, 0, 0];
 
-/// A component of a texture, and the tiles that it is asked for; none for all.
+/// A component of a texture, and the tiles that are examined; `None` for all.
 type Asking<'a> = (&'a wgpu::Texture, u32, Option<&'a TileSet>);
 
 impl Gpu {
-    /// Extents of components of textures on the atlas, each given with the number of its component.
+    /// Returns the extents of components of textures on the atlas. Each texture is given with the number of its component.
     pub fn extents(
         &self,
         surface: &GpuSurface,
@@ -58,7 +58,8 @@ impl Gpu {
         Ok(found.iter().map(|tiles| extent(tiles)).collect())
     }
 
-    /// Extents of components of results of a run. With a cache, only tiles are looked at that differ from those of before.
+    /// Returns the extents of components of the results of a run. With a cache, only tiles that differ from the earlier
+    /// results are examined.
     pub fn result_extents(
         &self,
         surface: &GpuSurface,
@@ -170,7 +171,7 @@ impl Gpu {
     }
 }
 
-/// Extents of tiles from words, in parts of as many tiles.
+/// Splits words into the extents of tiles: for each count, that many tiles.
 fn parted(bytes: &[u8], counts: &[usize]) -> Vec<Vec<TileExtent>> {
     let (words, _) = bytes.as_chunks::<4>();
     let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
@@ -183,7 +184,7 @@ fn parted(bytes: &[u8], counts: &[usize]) -> Vec<Vec<TileExtent>> {
     counts.iter().map(of_count).collect()
 }
 
-/// Extents of all tiles of a component of a result as far as they are known, with the tiles that are not.
+/// Returns the extents of all tiles of a component of a result, as far as they are known, and the tiles whose extents are unknown.
 fn known_extents(
     surface: &GpuSurface,
     run: &Run,

@@ -11,7 +11,7 @@ use crate::pool::array_view;
 use crate::surface::GpuSurface;
 use kernels::FillDispatch;
 
-/// Round of filling linked texels, named by the texels that values are taken from.
+/// Round of filling linked texels, named by the texels from which values are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FillRound {
     /// The four owned texels around the point of a plain ghost.
@@ -20,17 +20,16 @@ pub(crate) enum FillRound {
     Owned,
     /// Owned texels and ghosts that an earlier round filled.
     WithGhosts,
-    /// As [`FillRound::WithGhosts`], and directly after it.
+    /// Like [`FillRound::WithGhosts`], and run directly after it.
     Settled,
-    /// As [`FillRound::WithGhosts`], with cubic instead of linear interpolation, which would flatten crests where a slope is
-    /// taken over a seam.
+    /// Like [`FillRound::WithGhosts`], with cubic instead of linear interpolation. Linear interpolation would flatten
+    /// crests where a slope is computed across a seam.
     Cubic,
 }
 
-/// All rounds that fill ghosts. The first reads owned texels only, so that no value of an earlier pass is carried on.
-/// If the texels of two charts meet halfway, a ghost lies between an owned texel and a ghost of the other chart, whose
-/// value depends on it in turn: each further round removes most of the remaining error. The cubic rounds are for
-/// results, since slopes are computed from them.
+/// All rounds that fill ghosts. The first round reads only owned texels, so that no value of an earlier pass is used. If the texels of two
+/// charts meet halfway, a ghost is between an owned texel and a ghost of the other chart, whose value depends on it in turn; each further
+/// round removes most of the remaining error. The cubic rounds are for results, since slopes are computed from them.
 const ALL_ROUNDS: [FillRound; 6] = [
     FillRound::Owned,
     FillRound::WithGhosts,
@@ -41,14 +40,14 @@ const ALL_ROUNDS: [FillRound; 6] = [
 ];
 
 impl FillRound {
-    /// Rounds that fill the ghosts of a result or of an intermediate texture.
+    /// Returns the rounds that fill the ghosts of a result or of an intermediate texture.
     pub(crate) fn sequence(is_result: bool) -> &'static [FillRound] {
         &ALL_ROUNDS[..if is_result { 6 } else { 3 }]
     }
 }
 
 impl Gpu {
-    /// Fills the ghosts of one texture: plain ones once, coupled ones round by round, then all of them in the cubic rounds.
+    /// Fills the ghosts of one texture: plain ghosts once, coupled ghosts round by round, then all ghosts in the cubic rounds.
     pub(crate) fn fill_ghosts(
         &self,
         surface: &GpuSurface,
@@ -70,7 +69,7 @@ impl Gpu {
         })
     }
 
-    /// Writes the values that were gathered for all ghosts.
+    /// Encodes the dispatch that writes the gathered values to all ghosts.
     pub(crate) fn encode_scattered_ghosts(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
@@ -85,7 +84,7 @@ impl Gpu {
         self.encode_dispatch(pass, links, &view, format, FillRound::Cubic, FillDispatch::Scatter)
     }
 
-    /// Fills the linked texels of one texture; `surface_group` binds the surface with these links.
+    /// Fills the linked texels of one texture. `surface_group` is the bind group of the surface with these links.
     pub(crate) fn fill_links(
         &self,
         links: &Links,
@@ -133,7 +132,7 @@ impl Gpu {
         let kernel = self.fill_kernel(round, dispatch, format)?;
         let constants = links.constants[with_ghosts].as_entire_binding();
         let view = wgpu::BindingResource::TextureView(view);
-        // All textures share the buffer of values: one submission gathers and scatters.
+        // All textures share the buffer of values, so gathering and scattering are one submission.
         let values = (dispatch != FillDispatch::InPlace).then(|| links.values.as_entire_binding());
         let group = self.bind(&kernel.layout, [constants, view].into_iter().chain(values));
         pass.set_pipeline(&kernel.pipeline);

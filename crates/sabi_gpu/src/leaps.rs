@@ -5,13 +5,13 @@ use sabi_surface::atlas::{Atlas, GHOST_BIT};
 
 use crate::tables::{GEOMETRY_ROWS, SurfaceTables, texel_area_vector};
 
-/// Longest leap that six bits hold.
+/// Longest leap that fits into six bits.
 const LONGEST_LEAP: u8 = (1 << LEAP_BITS) - 1;
-/// Bits of a byte that hold a leap; the two above say along which diagonals the surface around the texel is flat.
+/// Number of bits of a byte that hold a leap. The two bits above them tell along which diagonals the surface around the texel is flat.
 pub(crate) const LEAP_BITS: u32 = 6;
 /// Cosine of the angle between two triangles above which they count as one plane.
 const COPLANAR_COSINE: f32 = 0.999_999;
-/// Steps to the eight neighbors of a texel in order around it; the first one again at the end.
+/// Steps to the eight neighbors of a texel, in order around it. The first one is repeated at the end.
 const NEIGHBORS: [[i32; 2]; 9] = [
     [-1, 0],
     [-1, -1],
@@ -24,7 +24,7 @@ const NEIGHBORS: [[i32; 2]; 9] = [
     [-1, 0],
 ];
 
-/// Byte for each texel in the layout that `leaps` of `shaders/lib/atlas.wgsl` has.
+/// Returns a byte for each texel, in the layout of `leaps` in `shaders/lib/atlas.wgsl`.
 pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
     let normals: Vec<[f32; 3]> = tables
         .geometry
@@ -52,8 +52,8 @@ pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
                     || other & GHOST_BIT == 0 && dot(normals[other as usize], normals[owner as usize]) > COPLANAR_COSINE
             })
         };
-        // A quadrant is flat if its three neighbors are in the texel's plane. Points of two opposite flat quadrants have the
-        // center as their mean.
+        // A quadrant is flat if its three neighbors are in the plane of the texel. The mean of points of two opposite flat
+        // quadrants is the center.
         let coplanar = NEIGHBORS.map(is_coplanar);
         let is_flat = |first: usize| coplanar[first..first + 3].iter().all(|coplanar| *coplanar);
         leap | u8::from(is_flat(0) && is_flat(4)) << LEAP_BITS | u8::from(is_flat(2) && is_flat(6)) << (LEAP_BITS + 1)

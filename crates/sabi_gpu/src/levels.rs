@@ -25,13 +25,13 @@ use crate::uploads::texel_texture;
 /// A coarser level on the device.
 pub struct CoarseSurface {
     pub(crate) surface: GpuSurface,
-    /// Texels of the finest level along a side of one of this level.
+    /// Texels of the finest level along a side of one texel of this level.
     pub(crate) factor: u32,
     /// Chart of each texel, ghosts included.
     charts: wgpu::TextureView,
     /// Texels of this level that cover no texel of the finest.
     coarse_orphans: Links,
-    /// Texels of the finest level with no texel of this one near.
+    /// Texels of the finest level that have no texel of this level near them.
     pub(crate) fine_orphans: Links,
 }
 
@@ -166,7 +166,7 @@ impl Gpu {
         let format = step.format;
         let coarse = surfaces.coarse(from.max(to))?;
         let fine = surfaces.finest;
-        // Both kernels look up owners or charts on the level that is read, and the place of a triangle's chart.
+        // Both kernels look up owners or charts on the level that is read. They also need the chart position of each triangle.
         let (shader, target_surface, orphans, owners_or_charts, frames) = if to > from {
             let coarse_orphans = &coarse.coarse_orphans;
             (
@@ -203,7 +203,7 @@ impl Gpu {
         self.fill_moved(target_surface, Some(orphans), target, step, options)
     }
 
-    /// Fills the linked texels of a plane that was moved to texels: those without a counterpart, then ghosts.
+    /// Fills the linked texels of a plane that was moved to a level of texels: first those without a counterpart, then ghosts.
     fn fill_moved(
         &self,
         surface: &GpuSurface,

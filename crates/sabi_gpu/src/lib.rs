@@ -3,7 +3,7 @@
 //! [`Gpu::open`] opens an adapter, or [`Gpu::adopt_device`] takes a window's device; [`Gpu::run`] runs a plan on a surface.
 //!
 //! Invariants:
-//! * This crate and the viewport alone create pipelines; everything before them is plain data.
+//! * Only this crate and the viewport create pipelines; all earlier stages produce plain data.
 //! * A lost device and exhausted memory are errors, never panics.
 //! * What a run allocates stays within its budget in bytes, or the run fails and says so.
 //! * Nothing here knows the document, files or the caller.

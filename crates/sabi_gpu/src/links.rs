@@ -19,12 +19,12 @@ pub(crate) const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 pub(crate) const ROW: u32 = 32_768;
 
-/// Links of the ghosts of a surface: all of them for kernels that read links, and in two parts for filling.
+/// Links of the ghosts of a surface: all of them for kernels that read links, and divided into two parts for filling.
 pub(crate) struct GhostLinks {
     pub(crate) all: Links,
     /// Ghosts between four owned texels, which one round fills.
     pub(crate) plain: Links,
-    /// All others: they depend on ghosts, or some of the four texels are empty.
+    /// All other ghosts: they depend on ghosts, or some of their four texels are empty.
     pub(crate) coupled: Links,
 }
 
@@ -76,7 +76,7 @@ pub(crate) struct Links {
 }
 
 impl GhostLinks {
-    /// No ghosts, and a table in the place of that of all links.
+    /// Returns links of no ghosts, with `table` in place of the table of all links.
     pub(crate) fn none_beside(gpu: &Gpu, table: &[[u32; 4]]) -> Result<GhostLinks, GpuError> {
         let none = || Links::upload::<[u32; 4]>(gpu, &[], 1);
         Ok(GhostLinks {

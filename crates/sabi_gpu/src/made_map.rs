@@ -1,4 +1,4 @@
-//! Maps that are made of results of a run, as a cache knows them.
+//! Maps that are computed from results of a run, and their keys in a cache.
 
 use sabi_nodes::link::Plane;
 use sabi_plan::SlotRef;
@@ -8,16 +8,16 @@ use crate::run_result::Run;
 use crate::surface::GpuSurface;
 use crate::tile_set::TileSet;
 
-/// Map that is made of results of a run, as a cache knows it.
+/// Map that is computed from results of a run, and its key in a cache.
 pub(crate) struct MadeMap {
     /// Its key.
     pub(crate) key: ResultKey,
-    /// Key that it had before, and the tiles of its results that differ since; none where that is not known.
+    /// Its earlier key, and the tiles of its results that have changed since; `None` if that is not known.
     pub(crate) before: Option<(ResultKey, TileSet)>,
 }
 
 impl MadeMap {
-    /// The map whose texels each depend on those around as well.
+    /// Returns the map with a margin of tiles, for maps whose texels also depend on the texels around them.
     pub(crate) fn grown(self, surface: &GpuSurface) -> MadeMap {
         MadeMap {
             before: self
@@ -27,7 +27,7 @@ impl MadeMap {
         }
     }
 
-    /// A map of this name that is made of some results; none where one of them has no key.
+    /// Creates the map with this name of some results; `None` if one of them has no key.
     pub(crate) fn of(run: &Run, name: &str, slots: &[Option<SlotRef>]) -> Option<MadeMap> {
         let key_of = |keys: &[Option<ResultKey>]| {
             let mut hash = blake3::Hasher::new();
@@ -65,13 +65,12 @@ impl MadeMap {
 pub struct ResultsIdentity {
     /// Hash of their keys.
     pub key: [u8; 32],
-    /// That of the same results before, with the tiles beyond which nothing that is shown of them differs; none where that is not
-    /// known.
+    /// The same for the earlier results, with the tiles in which the shown results may differ; `None` if that is not known.
     pub before: Option<([u8; 32], TileSet)>,
 }
 
 impl Run {
-    /// Identity of some results; none where one of them has no key.
+    /// Returns the identity of some results; `None` if one of them has no key.
     pub fn identity(&self, surface: &GpuSurface, slots: &[SlotRef]) -> Option<ResultsIdentity> {
         let slots: Vec<Option<SlotRef>> = slots.iter().copied().map(Some).collect();
         // Normals depend on the heights around them.

@@ -30,11 +30,11 @@ pub struct MaterialSlots {
     pub emission: Option<SlotRef>,
     /// Share and roughness of a clear coat.
     pub coat: Option<SlotRef>,
-    /// Direction of fine scratches in model space, as long as they are strong.
+    /// Direction of fine scratches in model space. Its length is their strength.
     pub anisotropy: Option<SlotRef>,
     /// Linear color and roughness of a sheen.
     pub sheen: Option<SlotRef>,
-    /// Shares of light that spread below the surface, and transmission.
+    /// Shares of light that is scattered below the surface, and transmission.
     pub subsurface: Option<SlotRef>,
 }
 
@@ -49,20 +49,20 @@ pub struct DeviceMaps {
     pub emission: Option<wgpu::Texture>,
     /// Height, working units.
     pub height: Option<wgpu::Texture>,
-    /// Tangent-space normal, Y up, in the model's MikkTSpace frame, from which the exported map is made.
+    /// Tangent-space normal, Y up, in the model's MikkTSpace frame. The exported map is computed from it.
     pub normal: Option<wgpu::Texture>,
     /// Share and roughness of a clear coat.
     pub coat: Option<wgpu::Texture>,
-    /// Direction in the tangent frame along which highlights are drawn out, and strength, as it is exported.
+    /// Direction in the tangent frame in which highlights are stretched, and strength, as in the exported map.
     pub anisotropy: Option<wgpu::Texture>,
     /// Linear color and roughness of a sheen.
     pub sheen: Option<wgpu::Texture>,
-    /// Shares of light that spread below the surface, and transmission.
+    /// Shares of light that is scattered below the surface, and transmission.
     pub subsurface: Option<wgpu::Texture>,
 }
 
 impl MaterialSlots {
-    /// Planes that are shown as they are stored, in the order of their channels.
+    /// Returns the planes that are shown in the form in which they are stored, in the order of their channels.
     fn stored(&self) -> [(Stored, Option<SlotRef>); 7] {
         [
             (Stored::Color, self.color),
@@ -77,8 +77,8 @@ impl MaterialSlots {
 }
 
 impl Gpu {
-    /// Maps of a material of a run, with what they take over from exported maps. They outlive the run. With a cache, only what has changed
-    /// is made again.
+    /// Returns the maps of a material of a run, with the changes that exported maps have. They remain valid after the run.
+    /// With a cache, only maps that have changed are computed again.
     pub fn device_maps(
         &self,
         surface: &GpuSurface,
@@ -108,7 +108,7 @@ impl Gpu {
             });
         }
         let mut shown = self.shown_maps(surface, run, exported, maps, cache)?.into_iter();
-        // In the order above.
+        // The order is that of the fields above.
         let [color, surface, emission, height, coat, sheen, subsurface] =
             slots.stored().map(|(_, slot)| slot.and_then(|_| shown.next()));
         Ok(DeviceMaps {
@@ -124,7 +124,8 @@ impl Gpu {
         })
     }
 
-    /// Texture of a plane of a result that the plan kept, with what it takes over from exported maps; a cache keeps a copy.
+    /// Returns the texture of a plane of a result that the plan kept, with the changes that exported maps have. With a
+    /// cache, a copy is kept there.
     pub fn shown_result(
         &self,
         surface: &GpuSurface,
@@ -139,7 +140,7 @@ impl Gpu {
         shown.ok_or_else(|| GpuError::Defect("a map was not shown".into()))
     }
 
-    /// Normals of height and slope.
+    /// Computes the normals of height and slope.
     fn shown_normals(
         &self,
         surface: &GpuSurface,
@@ -154,7 +155,7 @@ impl Gpu {
             Some(cache) => self.kept_normals(surface, run, slots, options, cache)?,
             None => self.normal_texture(surface, run, height, slope, options)?,
         };
-        // They depend on heights that lie around them, and their ghosts on the texels around those.
+        // Normals depend on the heights around them, and their ghosts on the texels around those.
         let made = MadeMap::of(run, "shown normals", &slots).map(|made| made.grown(surface).grown(surface));
         Ok(ShownMap {
             texture,
@@ -179,7 +180,7 @@ fn stored_map(surface: &GpuSurface, run: &Run, slot: SlotRef, plane: Plane) -> R
 }
 
 impl Run {
-    /// Texture of a result that the plan kept, an array of pages.
+    /// Returns the texture of a result that the plan kept. It is an array of pages.
     pub fn texture(&self, slot: SlotRef) -> Result<wgpu::Texture, GpuError> {
         let found = self.textures.get(slot).and_then(Option::as_ref);
         let missing = || GpuError::Defect("a result was requested that the plan did not keep".into());

@@ -1,4 +1,4 @@
-//! Everything in this crate that stands in WGSL files as well.
+//! Everything in this crate that is also declared in WGSL files.
 
 use sabi_nodes::link::{Mirror, MirrorsWgsl};
 use sabi_surface::atlas::{EMPTY, GHOST_BIT, RINGS, TILE};
@@ -23,7 +23,7 @@ use crate::tables::{FRAME_ROWS, GEOMETRY_ROWS, PIECE_ROWS};
 use crate::tiles::PassConstants;
 use crate::uploads::TABLE_BITS;
 
-/// Structs, constants and workgroup sizes that stand here and in WGSL. A test compares them with all linked modules.
+/// Returns the structs, constants and workgroup sizes that are declared here and in WGSL. A test compares them with all linked modules.
 pub fn mirrors() -> Vec<Mirror> {
     let mut mirrors = vec![
         BorderConstants::mirror(),

@@ -1,4 +1,4 @@
-//! Steps of a plan that have to run, and how long their results are needed.
+//! Steps of a plan that have to run, and the steps for which their results are needed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use sabi_surface::atlas::TILE;
 
 use crate::result_key::ResultKey;
 
-/// Content key of every slot of a plan in which no slot is reused, as of [`Plan::with_own_slots`].
+/// Returns the content key of each slot of a plan in which no slot is reused (see [`Plan::with_own_slots`]).
 pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
     let mut keys = BTreeMap::new();
     for step in &plan.steps {
@@ -23,7 +23,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
                 let result = step.result.map(|(content, plane)| ResultKey::whole(content, plane));
                 keys.extend(result.map(|key| (step.to, key)));
             }
-            // Only results have keys, and a survey is none.
+            // Only results have keys, and a survey is not a result.
             Step::Survey(_) => {}
             // Values of a coarser level are moved to the finest one before they are a result.
             Step::Kernel(kernel) if kernel.level != Level::FINEST => {}
@@ -73,7 +73,7 @@ pub(crate) fn writes(step: &Step) -> Vec<SlotRef> {
     }
 }
 
-/// Steps that lead to a result that is not known.
+/// Returns the steps on which results depend that are not known.
 pub(crate) fn needed_steps(plan: &Plan, known: &BTreeSet<SlotRef>) -> Vec<usize> {
     let mut wanted: BTreeSet<SlotRef> = plan.results.iter().flat_map(|result| &result.slots).copied().collect();
     let mut steps = Vec::new();
@@ -93,8 +93,8 @@ pub(crate) fn written_by(plan: &Plan, steps: &[usize]) -> BTreeSet<SlotRef> {
     steps.iter().flat_map(|at| writes(&plan.steps[*at])).collect()
 }
 
-/// Slots whose values no later one of these steps reads, by the step after which that is so. A slot that holds several values one
-/// after the other is in the list of each. Results of the plan are in none.
+/// Returns the slots whose values no later step of these reads, by the step after which that is true. A slot that holds
+/// several values in turn is in the list of each. Results of the plan are in no list.
 pub(crate) fn dead_after(plan: &Plan, steps: &[usize]) -> BTreeMap<usize, BTreeSet<SlotRef>> {
     let mut needed: BTreeSet<SlotRef> = plan.results.iter().flat_map(|result| &result.slots).copied().collect();
     let mut dead = BTreeMap::new();
@@ -111,7 +111,7 @@ pub(crate) fn dead_after(plan: &Plan, steps: &[usize]) -> BTreeMap<usize, BTreeS
     dead
 }
 
-/// The slot that the first run of a repeated kernel reads and no other one does, if nothing reads it afterwards: its texture is free
+/// Returns the slot that only the first run of a repeated kernel reads, if nothing reads it afterwards: its texture is free
 /// for the second run.
 pub(crate) fn free_after_first_run(kernel: &KernelStep, dead: &BTreeSet<SlotRef>) -> Option<SlotRef> {
     let feedback = kernel.feedback.as_ref().filter(|feedback| feedback.run_count > 1)?;
@@ -120,8 +120,8 @@ pub(crate) fn free_after_first_run(kernel: &KernelStep, dead: &BTreeSet<SlotRef>
     (is_read_once && dead.contains(&start)).then_some(start)
 }
 
-/// Slots that a kernel of points reads and that are `dead` after it, by the written slots that can take their textures: those of the
-/// same format, each once.
+/// Returns the slots that a kernel of points reads and that are `dead` after it, by the written slots that can take over
+/// their textures. Both slots have the same format, and each occurs once.
 pub(crate) fn written_over(plan: &Plan, kernel: &KernelStep, dead: &BTreeSet<SlotRef>) -> BTreeMap<SlotRef, SlotRef> {
     let all_bound = kernel.reads.iter().chain(&kernel.writes).all(Option::is_some);
     if !kernel.is_of_points() || !all_bound {
@@ -138,19 +138,20 @@ pub(crate) fn written_over(plan: &Plan, kernel: &KernelStep, dead: &BTreeSet<Slo
     over
 }
 
-/// Most bytes of the bands that a kernel writes before they are copied over what it reads, about.
+/// Approximate limit of the bytes of the bands that a kernel writes before they are copied over the textures that it reads.
 const BAND_BYTES: u64 = 32 << 20;
-/// Fewest bands of a page.
+/// Minimum number of bands of a page.
 const FEWEST_BANDS: u32 = 8;
 
-/// Rows of a band of which each row has so many bytes: whole tiles.
+/// Returns the number of rows of a band whose rows have `row_bytes` bytes: a multiple of the tile size.
 pub(crate) fn band_rows([_, height, _]: [u32; 3], row_bytes: u64) -> u32 {
     let within = BAND_BYTES / row_bytes.max(1);
     let rows = within.min(u64::from(height.div_ceil(FEWEST_BANDS))) as u32;
     (rows.max(1).next_multiple_of(TILE)).min(height)
 }
 
-/// Bytes that a kernel spares by writing its results over what it reads last, from a limit on.
+/// Returns the number of bytes that a kernel saves by writing its results over textures that it is the last to read. It
+/// does so only from a limit on.
 fn spared(
     plan: &Plan,
     kernel: &KernelStep,
@@ -166,8 +167,8 @@ fn spared(
     }
 }
 
-/// Most bytes of slots whose values are alive at once in a run of these steps, by the bytes of each slot. Kernels write over what
-/// they read last from some bytes on.
+/// Returns the largest number of bytes of the slots that hold a needed value at the same time in a run of these steps,
+/// given the bytes of each slot. From a limit on, kernels write over the textures that they are the last to read.
 pub(crate) fn most_alive(
     plan: &Plan,
     steps: &[usize],
@@ -196,7 +197,7 @@ pub(crate) fn most_alive(
     most
 }
 
-/// Those of these steps whose kernels no later one has.
+/// Returns the steps among these that are the last to use their kernel.
 pub(crate) fn last_of_kernels(plan: &Plan, steps: &[usize]) -> BTreeSet<usize> {
     let mut seen: Vec<&KernelSpec> = Vec::new();
     let mut last = BTreeSet::new();
@@ -211,7 +212,7 @@ pub(crate) fn last_of_kernels(plan: &Plan, steps: &[usize]) -> BTreeSet<usize> {
     last
 }
 
-/// The slot that a repeated kernel writes in its second run; the last run writes that of the result.
+/// Returns the slot that a repeated kernel writes in its second run. The last run writes the slot of the result.
 fn second_written(kernel: &KernelStep) -> Option<SlotRef> {
     let feedback = kernel.feedback.as_ref()?;
     match feedback.run_count.is_multiple_of(2) {

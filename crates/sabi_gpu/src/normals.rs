@@ -28,20 +28,20 @@ wgsl_struct! {
     pub(crate) struct NormalConstants {
         has_height: u32,
         has_slope: u32,
-        /// Page and first row of the map that is written, where that is a band of the atlas.
+        /// Page and first row of the written map, if it is a band of the atlas.
         first_page: u32,
         first_row: u32,
     }
 }
 
-/// Normals of a run as a map; each depends on the heights around it.
+/// Returns the map of the normals of a run. Each normal depends on the heights around it.
 pub(crate) fn normals_of(run: &Run, slots: [Option<SlotRef>; 2], surface: &GpuSurface) -> Option<MadeMap> {
     MadeMap::of(run, "normals", &slots).map(|made| made.grown(surface))
 }
 
 impl Gpu {
-    /// Tangent-space normals of a run's height and slope, read back: unit vectors, Y up, in the model's MikkTSpace frame. Those
-    /// of ghosts are in the frame of their own chart.
+    /// Computes the tangent-space normals of a run's height and slope and reads them back: unit vectors, Y up, in the
+    /// model's MikkTSpace frame. Those of ghosts are in the frame of their own chart.
     pub fn normals(
         &self,
         surface: &GpuSurface,
@@ -57,8 +57,8 @@ impl Gpu {
         Ok(data)
     }
 
-    /// Computes and reads back the normals of a run, as [`Gpu::normals`] gives them, in bands of whole rows: those with texels of a
-    /// range alone. `visit` gets the texels of each band, counted page by page and row by row, and their normals.
+    /// Computes and reads back the normals of a run, like [`Gpu::normals`], in bands of whole rows. Bands without texels of `range` are
+    /// left out. `visit` receives the texels of each band, counted page by page and row by row, and their normals.
     pub fn normals_in_bands(
         &self,
         surface: &GpuSurface,
@@ -78,7 +78,7 @@ impl Gpu {
             if band_texels.start >= texels.end || band_texels.end <= texels.start {
                 continue;
             }
-            // Made for each band, so that texels without a normal are the same in each.
+            // A new texture for each band makes texels without a normal the same in all bands.
             let normals = texture(self, [width, band.rows.len() as u32, 1], format)?;
             let tiles = surface.tiles_of_rows(&band, options.shown);
             let slices = Slices::over(self, surface, &tiles, options.submission)?;
@@ -93,7 +93,7 @@ impl Gpu {
         Ok(())
     }
 
-    /// Tangent-space normals of a run as a texture, see [`Gpu::normals`].
+    /// Returns the tangent-space normals of a run as a texture; see [`Gpu::normals`].
     pub(crate) fn normal_texture(
         &self,
         surface: &GpuSurface,
@@ -108,7 +108,7 @@ impl Gpu {
         Ok(normals)
     }
 
-    /// Tangent-space normals of a run as a texture that a cache keeps: only those around what has changed are computed again.
+    /// Returns the tangent-space normals of a run as a texture that a cache keeps. Only normals near changed texels are computed again.
     pub(crate) fn kept_normals(
         &self,
         surface: &GpuSurface,
@@ -189,8 +189,8 @@ impl Gpu {
         Ok(())
     }
 
-    /// Anisotropy of a run in the model's tangent frame, read back: the unit direction along which highlights are drawn out,
-    /// two components in −1..1, and the strength.
+    /// Computes the anisotropy of a run in the model's tangent frame and reads it back: the unit direction in which
+    /// highlights are stretched, as two components in −1..1, and the strength.
     pub fn anisotropy(
         &self,
         surface: &GpuSurface,

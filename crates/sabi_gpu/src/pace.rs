@@ -1,31 +1,31 @@
-//! How long kernels take, so that quick ones are submitted one after the other without a wait for each: where a window shares
-//! the queue, every wait may last as long as one of its frames.
+//! Times that kernels take. Kernels that are known to be quick are submitted without waiting for each of them: if a window
+//! shares the queue, every wait may last as long as one of its frames.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A kernel is expected to be done in this part of the target time before it is submitted without a wait: other values of its
-/// parameters may make its loops longer than they were when it was measured.
+/// A kernel is submitted without a wait only if its expected time is at most the target time divided by this number: other
+/// parameter values may make its loops longer than they were when it was measured.
 pub(crate) const MARGIN: f64 = 8.0;
 
-/// Most tiles of the first slice of a kernel.
+/// Maximum number of tiles of the first slice of a kernel.
 const MOST_FIRST_TILES: u32 = 512;
-/// Operations that a slow device does in a few milliseconds.
+/// Number of operations that a slow device performs in a few milliseconds.
 const FIRST_WORK: u64 = 1 << 24;
 /// Texels of a tile.
 const TILE_TEXELS: u64 = 64;
 
-/// Time that a kernel takes for one tile, as it was measured last.
+/// Time that a kernel takes for one tile, as measured last.
 #[derive(Debug)]
 pub(crate) struct Pace {
-    /// Bits of the seconds; 0 while they are unknown.
+    /// Bits of the time in seconds; 0 while it is unknown.
     seconds: AtomicU64,
     /// Tiles of its first slice.
     first_tiles: u32,
 }
 
-/// A kernel of Sabi's own, which is quick.
+/// The default is for Sabi's own kernels, which are quick.
 impl Default for Pace {
     fn default() -> Pace {
         Pace {
@@ -36,7 +36,7 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// A kernel that takes up to this many operations for a texel, and was not measured yet.
+    /// Returns the pace of a kernel that takes up to `work` operations for a texel and has not been measured yet.
     pub(crate) fn of_work(work: u64) -> Pace {
         let of_tile = work.saturating_mul(TILE_TEXELS).max(1);
         let tiles = (FIRST_WORK / of_tile).clamp(1, u64::from(MOST_FIRST_TILES));
@@ -46,12 +46,12 @@ impl Pace {
         }
     }
 
-    /// Tiles of the first slice: one while nothing is known of a kernel but that it may take long.
+    /// Returns the number of tiles of the first slice: one for an unmeasured kernel that may take long.
     pub(crate) fn first_tiles(&self) -> u32 {
         self.first_tiles
     }
 
-    /// Seconds that a number of tiles take; none for a kernel that was not measured yet.
+    /// Returns the seconds that a number of tiles take; `None` if the kernel has not been measured yet.
     pub(crate) fn seconds(&self, tiles: u32) -> Option<f64> {
         let seconds = f64::from_bits(self.seconds.load(Ordering::Relaxed));
         (seconds > 0.0).then_some(seconds * f64::from(tiles))
@@ -70,7 +70,7 @@ impl Pace {
     }
 
     fn set(&self, seconds: f64) {
-        // The smallest positive number is a known time, too.
+        // A time of zero is stored as the smallest positive number, since 0 means unknown.
         self.seconds
             .store(seconds.max(f64::MIN_POSITIVE).to_bits(), Ordering::Relaxed);
     }
@@ -86,14 +86,14 @@ pub(crate) struct InFlight {
 struct State {
     /// Time of the first submission since the last wait.
     since: Option<Instant>,
-    /// Seconds that all of them are expected to take.
+    /// Expected time of all these kernels, in seconds.
     seconds: f64,
     kernels: Vec<Arc<Pace>>,
 }
 
 impl InFlight {
-    /// Adds a kernel if its time is known, and the device is expected to be done with all of them within `target`. Returns the
-    /// time that it is expected to take.
+    /// Adds a kernel if its time is known and the device is expected to finish all submitted kernels within `target`.
+    /// Returns the expected time of the kernel.
     pub(crate) fn add(&self, pace: &Arc<Pace>, tiles: u32, target: Duration) -> Option<Duration> {
         let seconds = pace.seconds(tiles)?;
         let most = target.as_secs_f64();
@@ -107,13 +107,13 @@ impl InFlight {
         Some(Duration::from_secs_f64(seconds))
     }
 
-    /// Returns true where everything that was submitted was waited for.
+    /// Returns true if all submitted kernels have been waited for.
     pub(crate) fn is_empty(&self) -> bool {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.kernels.is_empty()
     }
 
-    /// Runs a wait for the device, and corrects the times of the kernels where they took less or more time than expected.
+    /// Calls `wait`, which waits for the device, and corrects the times of the kernels if they took less or more time than expected.
     pub(crate) fn settle<T>(&self, wait: impl FnOnce() -> T) -> T {
         let State {
             since,
@@ -132,11 +132,11 @@ impl InFlight {
     }
 }
 
-/// Factor for times that were expected to be `seconds` in sum, where the device was done `elapsed` after the submission at the
-/// latest, and at the earliest after the `waited` part of it that was spent waiting.
+/// Returns the factor by which to correct times whose expected sum was `seconds`. The device took at most `elapsed`, the
+/// time since the first submission, and at least `waited`, the part of it that was spent waiting.
 fn correction(seconds: f64, elapsed: Duration, waited: Duration) -> f64 {
     let (most, least) = (elapsed.as_secs_f64(), waited.as_secs_f64());
-    // A single odd time, such as that of a wait for a window's frame, does not change much.
+    // Limits the effect of one unusual time, for example of a wait for a frame of the window.
     (seconds.clamp(least.min(most), most) / seconds.max(f64::MIN_POSITIVE)).clamp(0.5, 8.0)
 }
 
@@ -147,7 +147,7 @@ mod tests {
     const MILLISECOND: Duration = Duration::from_millis(1);
 
     #[test]
-    fn the_first_slice_is_one_tile_where_a_texel_may_take_long() {
+    fn the_first_slice_is_one_tile_if_a_texel_may_take_long() {
         for (work, tiles) in [
             (0, 512),
             (500, 512),
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn kernels_of_known_time_are_submitted_until_the_device_has_enough_to_do() {
+    fn kernels_of_known_time_are_submitted_until_the_device_has_enough_work() {
         let (flight, pace) = (InFlight::default(), Arc::new(Pace::default()));
         assert_eq!(flight.add(&pace, 3, 25 * MILLISECOND), None, "its time is unknown");
         pace.measured(100, 100 * MILLISECOND);
@@ -194,13 +194,13 @@ mod tests {
     }
 
     #[test]
-    fn times_are_corrected_between_what_was_waited_and_what_has_passed() {
+    fn expected_times_are_corrected_to_between_the_waited_and_the_elapsed_time() {
         for (seconds, elapsed, waited, factor) in [
-            // In between, nothing is known to be wrong.
+            // The expected time is possible, so it is not corrected.
             (0.010, 20, 5, 1.0),
             (0.010, 8, 5, 0.8),
             (0.010, 60, 40, 4.0),
-            // One time does not change much.
+            // One unusual time has a limited effect.
             (0.010, 1, 0, 0.5),
             (0.001, 900, 900, 8.0),
         ] {

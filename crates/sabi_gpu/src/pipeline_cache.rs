@@ -13,13 +13,13 @@ use crate::shaders::FixedShader;
 /// A compiled kernel of nodes.
 pub(crate) struct CompiledKernel {
     pub(crate) kernel: Kernel,
-    /// Nodes of its first use, for logs.
+    /// Nodes for which it was used first, for logs.
     pub(crate) nodes: String,
     pub(crate) pipeline: wgpu::ComputePipeline,
     /// Pipeline that writes the rays whose hits `pipeline` reads; none for kernels without rays.
     pub(crate) ray_generation: Option<wgpu::ComputePipeline>,
     pub(crate) layout: wgpu::BindGroupLayout,
-    /// Set after its first dispatch, which is when software drivers compile it.
+    /// True after its first dispatch, when software drivers have compiled it.
     pub(crate) is_warm: AtomicBool,
     pub(crate) pace: Arc<Pace>,
 }

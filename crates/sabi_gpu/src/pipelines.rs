@@ -1,4 +1,4 @@
-//! Pipelines: a kernel is linked at every use, and compiled once for each text that results.
+//! Pipelines. A kernel is linked at every use, and compiled once for each resulting text.
 
 use std::sync::Arc;
 
@@ -138,7 +138,7 @@ impl Gpu {
         Ok(kernel)
     }
 
-    /// Links and compiles a module. The error names file and line where the text is at fault.
+    /// Links and compiles a module. If the mistake is in a source file, the error names file and line.
     pub fn shader_module(&self, spec: &ModuleSpec) -> Result<wgpu::ShaderModule, GpuError> {
         let linked = linked(spec)?;
         let made = self.guarded(spec.label, |device| {

@@ -2,7 +2,7 @@
 
 use sabi_plan::{Plan, Step};
 
-/// Returns true if two plans have the same steps between the same slots, whatever values these have.
+/// Returns true if two plans have the same steps between the same slots. The values of parameters may differ.
 pub(crate) fn is_alike(plan: &Plan, other: &Plan) -> bool {
     let is_alike = |(step, other): (&Step, &Step)| match (step, other) {
         (Step::Source(step), Step::Source(other)) => {

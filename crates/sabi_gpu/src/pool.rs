@@ -29,14 +29,14 @@ pub struct PoolReport {
 #[derive(Debug)]
 pub(crate) struct TexturePool {
     budget: TextureBudget,
-    /// Bytes beyond which free textures are dropped before another one is made.
+    /// Number of bytes above which free textures are dropped before another one is created.
     aim_bytes: u64,
     free: BTreeMap<(Format, Extent), Vec<wgpu::Texture>>,
     report: PoolReport,
 }
 
 impl TexturePool {
-    /// An empty pool with a budget, some bytes of which are in use already.
+    /// Creates an empty pool with a budget, of which `used_bytes` are in use already.
     pub(crate) fn new(budget: TextureBudget, used_bytes: u64) -> TexturePool {
         TexturePool {
             budget,
@@ -53,13 +53,14 @@ impl TexturePool {
         self.report
     }
 
-    /// Sets the bytes of textures that are needed at once: free ones are kept as long as there are no more in all.
+    /// Sets the number of bytes that will be needed at the same time, in addition to those held now. Free textures are kept
+    /// up to this total.
     pub(crate) fn aim_at(&mut self, needed_bytes: u64) {
         self.aim_bytes = (self.report.bytes + needed_bytes).min(self.budget.bytes());
     }
 
-    /// Drops free textures, the largest first, as far as another one that has to be made would not fit otherwise. Returns true if
-    /// any was dropped.
+    /// Drops free textures, the largest first, until a new texture would fit. Drops none if a free texture can be used.
+    /// Returns true if any was dropped.
     pub(crate) fn make_room(&mut self, format: Format, extent: Extent) -> bool {
         if self.free.get(&(format, extent)).is_some_and(|free| !free.is_empty()) {
             return false;
@@ -103,7 +104,7 @@ impl TexturePool {
         Ok(())
     }
 
-    /// Bytes held after `bytes` more; an error over the budget.
+    /// Returns the number of bytes held after adding `bytes`, or an error if that is over the budget.
     fn within_budget(&self, bytes: u64) -> Result<u64, GpuError> {
         let needed = self.report.bytes + bytes;
         if needed <= self.budget.bytes() {
@@ -128,7 +129,7 @@ impl TexturePool {
         self.free.entry((format, extent)).or_default().push(texture);
     }
 
-    /// Drops a texture that was taken, and is used no more.
+    /// Drops a texture that was taken and is no longer used.
     pub(crate) fn discard(&mut self, format: Format, texture: &wgpu::Texture) {
         let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
         self.report.bytes -= bytes_of(format, extent);
@@ -172,7 +173,7 @@ pub(crate) fn texture(gpu: &Gpu, [width, height, pages]: Extent, format: Format)
     })
 }
 
-/// The whole texture as an array of pages.
+/// Returns a view of the whole texture as an array of pages.
 pub(crate) fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2Array),

@@ -17,7 +17,7 @@ use crate::pool::Extent;
 use crate::run_result::Run;
 use crate::surface::GpuSurface;
 
-/// Time that a mapping callback may take after the device is done.
+/// Maximum time between the end of the device's work and the call of a mapping callback.
 const ANSWER_LIMIT: Duration = Duration::from_secs(30);
 
 /// Texels of one plane in their storage format, page by page and row by row.
@@ -43,12 +43,12 @@ impl PlaneData {
         &self.bytes
     }
 
-    /// Components of a texel; those that the format does not have are 0.
+    /// Returns the components of a texel. Components that the format does not have are 0.
     #[inline]
     pub fn texel(&self, index: usize) -> [f32; 4] {
         let size = self.format.texel_bytes() as usize;
         let bytes = &self.bytes[index * size..][..size];
-        // The constant version does not detect processor features at each call.
+        // The `const` conversion does not detect features of the processor at each call.
         let half = |at: usize| f16::from_le_bytes([bytes[2 * at], bytes[2 * at + 1]]).to_f32_const();
         let full =
             |at: usize| f32::from_le_bytes([bytes[4 * at], bytes[4 * at + 1], bytes[4 * at + 2], bytes[4 * at + 3]]);
@@ -60,7 +60,7 @@ impl PlaneData {
     }
 }
 
-/// Bytes of the rows that are read back at once, unless a single one has more.
+/// Number of bytes that are read back at once, unless a single row has more.
 pub(crate) const BAND_BYTES: u64 = 16 << 20;
 
 /// Pending mapping of a buffer.
@@ -73,7 +73,7 @@ pub(crate) struct Mapping {
 /// Requests the mapping of the first bytes of a buffer after a submission.
 fn mapping_of(submitted: wgpu::SubmissionIndex, buffer: &wgpu::Buffer, bytes: u64) -> Mapping {
     let (sender, answer) = channel();
-    // The receiver is dropped only if waiting failed before.
+    // The receiver has been dropped only if waiting failed before.
     buffer.map_async(wgpu::MapMode::Read, ..bytes, move |mapped| drop(sender.send(mapped)));
     Mapping {
         submitted,
@@ -82,7 +82,7 @@ fn mapping_of(submitted: wgpu::SubmissionIndex, buffer: &wgpu::Buffer, bytes: u6
     }
 }
 
-/// Outcome of a mapping once the device is done.
+/// Converts the answer to a mapping request once the device is done.
 fn mapped(answer: Result<Result<(), wgpu::BufferAsyncError>, RecvTimeoutError>) -> Result<(), GpuError> {
     match answer {
         Ok(Ok(())) => Ok(()),
@@ -116,7 +116,7 @@ impl Gpu {
         look: impl FnOnce(&[u8]) -> T,
     ) -> Result<T, GpuError> {
         self.wait_for(mapping.submitted)?;
-        // Where several threads wait for one device, another one may be running the callback now.
+        // If several threads wait for one device, another thread may be running the callback now.
         mapped(mapping.answer.recv_timeout(ANSWER_LIMIT))?;
         let view = staging.get_mapped_range(..mapping.bytes);
         let seen = look(&view);
@@ -197,7 +197,7 @@ impl Gpu {
                 bytes.extend_from_slice(&line[..row.used as usize]);
             }
         })?;
-        // The next one may come before the device would free it.
+        // Frees the memory now, since the next buffer may be created before the device would free this one.
         buffer.destroy();
         Ok(())
     }
@@ -242,16 +242,16 @@ impl Gpu {
     }
 }
 
-/// Bytes of a row of texels.
+/// Sizes of a row of texels in bytes.
 #[derive(Clone, Copy, Debug)]
 struct RowBytes {
     used: u64,
-    /// With what a copy into a buffer puts behind them.
+    /// Size with the padding that a copy to a buffer adds.
     padded: u64,
 }
 
 impl RowBytes {
-    /// Those of a level of a texture of uncompressed pixels.
+    /// Returns the sizes for a level of a texture of uncompressed pixels.
     fn of(texture: &wgpu::Texture, level: u32) -> Result<RowBytes, GpuError> {
         let width = (texture.width() >> level).max(1);
         let used = u64::from(width * texel_bytes_of(texture)?);

@@ -14,12 +14,12 @@ pub struct ResultKey {
     pub content: [u8; 32],
     /// Plane of the result.
     pub plane: Plane,
-    /// Hash of the tiles that it was computed in; none for all.
+    /// Hash of the tiles in which it was computed; `None` for all.
     pub tiles: Option<[u8; 32]>,
 }
 
 impl ResultKey {
-    /// Key of a result that was computed in all tiles.
+    /// Returns the key of a result that was computed in all tiles.
     pub(crate) fn whole(content: [u8; 32], plane: Plane) -> ResultKey {
         ResultKey {
             content,
@@ -29,5 +29,5 @@ impl ResultKey {
     }
 }
 
-/// Differences of results, by the keys that they had before.
+/// Differences of results from earlier results, with the keys of the earlier ones.
 pub(crate) type ChangedResults = BTreeMap<SlotRef, (ResultKey, TileSet)>;

@@ -44,10 +44,10 @@ struct Repetition {
 }
 
 impl Repetition {
-    /// Rounds that fill ghosts. Those of the repetition before the last are in the texture, but values may turn from one to the
-    /// next, as the polynomials of a blur do, so they are no estimate to begin with.
+    /// Returns the rounds that fill ghosts. The ghosts of the repetition before the last are still in the texture, but they are not used
+    /// as a first estimate: values may change their sign from one repetition to the next, like the polynomials of a blur.
     ///
-    /// Only results are interpolated cubically: textures between the passes of a filter may hold distances, which must not
+    /// Only results are interpolated cubically. Textures between the passes of a filter may hold distances, which must not
     /// become shorter than a path on the surface.
     fn fill_rounds(self, is_result: bool) -> &'static [FillRound] {
         FillRound::sequence(is_result && self.index + 1 == self.count)
@@ -55,8 +55,8 @@ impl Repetition {
 }
 
 impl Gpu {
-    /// Runs a plan. With a cache, steps whose results are cached are skipped and new results are cached. Without one, results
-    /// that `sources` keeps are not computed; each slot of the plan then stands for one result.
+    /// Runs a plan. With a cache, steps whose results are cached are skipped and new results are cached. Without one,
+    /// results that `sources` keeps are not computed; in that case no slot of the plan may be reused for a second result.
     pub fn run(
         &self,
         surfaces: Surfaces<'_>,
@@ -72,7 +72,7 @@ impl Gpu {
         };
         if !kept.is_empty() {
             match self.run_with(surfaces, library, plan, options, sources, None, kept) {
-                // It was removed or is damaged: all is computed.
+                // The kept result was removed or is damaged, so everything is computed.
                 Err(GpuError::ResultGone) => {}
                 run => return run,
             }
@@ -80,7 +80,7 @@ impl Gpu {
         self.run_with(surfaces, library, plan, options, sources, cache, BTreeSet::new())
     }
 
-    /// Runs a plan with results that are known: in a cache, or in slots that are kept elsewhere.
+    /// Runs a plan, given known results: in a cache, or in slots whose results are kept elsewhere.
     fn run_with(
         &self,
         surfaces: Surfaces<'_>,
@@ -122,7 +122,7 @@ impl Gpu {
             && !report.has_cached_hits
             && !matches!(ended, Err(GpuError::Lost(_)))
         {
-            // Results of finished steps are cached even where a later step failed or was canceled.
+            // Results of finished steps are cached even if a later step failed or was canceled.
             let unfinished = written_by(plan, &steps[done..]);
             let finished = keys
                 .iter()
@@ -153,32 +153,32 @@ struct Runner<'a> {
     textures: Vec<Option<wgpu::Texture>>,
     pool: TexturePool,
     report: RunReport,
-    /// One-texel textures for unused planes of interactive kernels, by format and whether they are written: a texture must
-    /// not be read and written in one dispatch.
+    /// One-texel textures for unused planes of interactive kernels, by format and by whether they are written: a texture
+    /// must not be read and written in the same dispatch.
     unused_planes: BTreeMap<(Format, bool), wgpu::Texture>,
-    /// Cached ray hits, where they may be used.
+    /// Cached ray hits, if they may be used.
     hit_cache: Option<&'a mut HitCache>,
     /// Nodes whose results were read from disk.
     found_on_disk: Vec<String>,
-    /// Results that are kept elsewhere, where any are.
+    /// Results that are kept elsewhere, if there are any.
     kept: Option<KeptResults>,
-    /// Steps that the device is known to be done with, without an error.
+    /// Number of steps that the device has finished without an error, as far as known.
     done: usize,
-    /// Tiles that steps compute alone, by their index; other steps compute all.
+    /// Tiles of the steps that compute only some tiles, by step index. Other steps compute all tiles.
     parts: BTreeMap<usize, TileSet>,
-    /// Tiles that the present step computes alone.
+    /// Tiles of the present step if it computes only some.
     part: Option<TileSet>,
-    /// Tiles that steps compute at most.
+    /// Tiles to which each step is limited.
     coverages: Coverages<'a>,
     /// Index of the present step.
     at: usize,
-    /// Slots whose textures are free again after each step; none where all results are cached.
+    /// Slots whose textures are free after each step; empty if all results are cached.
     dead_after: BTreeMap<usize, BTreeSet<SlotRef>>,
     /// Steps after which their kernels are forgotten.
     last_of_kernels: BTreeSet<usize>,
 }
 
-/// Returns whether a step is a kernel over tiles, of which quick ones are not waited for.
+/// Returns true if a step is a kernel over tiles. The run does not wait for such kernels if they are quick.
 fn is_of_tiles(step: &Step) -> bool {
     matches!(step, Step::Kernel(kernel) if kernel.rays.is_none() && !matches!(kernel.spec.domain, Domain::Once | Domain::Groups))
 }
@@ -216,20 +216,20 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Takes apart what is left of a run: the number of finished steps, the textures of slots, free ones, and the report.
+    /// Returns the parts that remain of a run: the number of finished steps, the textures of slots, the pool, and the report.
     fn into_results(self) -> (usize, Vec<Option<wgpu::Texture>>, TexturePool, RunReport) {
         let report = RunReport {
             found_on_disk: self.found_on_disk,
-            kept_results: self.kept.map(KeptResults::into_nodes).unwrap_or_default(), // None are kept.
+            kept_results: self.kept.map(KeptResults::into_nodes).unwrap_or_default(), // Empty if no results are kept elsewhere.
             pool: self.pool.report(),
             ..self.report
         };
         (self.done, self.textures, self.pool, report)
     }
 
-    /// Takes cached results, and those that steps change in part.
+    /// Takes over cached results, and the textures that steps change in part.
     fn take_known(&mut self, steps: &[usize], cached: BTreeMap<SlotRef, wgpu::Texture>, parts: BTreeMap<usize, Part>) {
-        // A cached texture may be on screen, so a step that runs again writes to another one.
+        // A cached texture may be on screen, so a step that runs again writes to another texture.
         let rewritten = written_by(self.plan, steps);
         for (slot, texture) in cached {
             self.textures[slot] = (!rewritten.contains(&slot)).then_some(texture);
@@ -244,7 +244,7 @@ impl<'a> Runner<'a> {
 }
 
 impl Runner<'_> {
-    /// Runs steps in order; with `releases`, textures return to the pool after their last use.
+    /// Runs steps in order. With `releases`, textures return to the pool after their last use.
     fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
         if releases {
             self.dead_after = dead_after(self.plan, steps);
@@ -293,7 +293,7 @@ impl Runner<'_> {
         let compile_before = self.report.compile;
         let mut taken = None;
         if !is_of_tiles(step) {
-            // Earlier submissions do not belong to the time of this step.
+            // Work that was submitted earlier must not count in the time of this step.
             self.wait()?;
         }
         let nodes = match step {
@@ -341,7 +341,7 @@ impl Runner<'_> {
         let format = self.plan.slots[slot].format;
         let extent = self.extent(slot)?;
         if self.pool.make_room(format, extent) {
-            // The memory of what was dropped is given back once the device is done with it.
+            // The memory of dropped textures becomes free only when the device no longer uses them.
             self.wait()?;
         }
         let texture = self.pool.take(self.gpu, format, extent)?;
@@ -349,7 +349,7 @@ impl Runner<'_> {
         Ok(texture)
     }
 
-    /// Texels of a slot.
+    /// Returns the size of a slot in texels.
     fn extent(&self, slot: SlotRef) -> Result<[u32; 3], GpuError> {
         Ok(match self.plan.slots[slot].extent {
             SlotExtent::Level(level) => self.surfaces.at(level)?.extent,
@@ -360,17 +360,17 @@ impl Runner<'_> {
         })
     }
 
-    /// Most bytes of textures that these steps need at once.
+    /// Returns the largest number of bytes of textures that these steps need at the same time.
     fn most_alive_bytes(&self, steps: &[usize]) -> u64 {
         let bytes = |slot: SlotRef| {
             let extent = self.extent(slot);
-            // A level that is missing is reported by the step that runs on it.
+            // The step that runs on a missing level reports it.
             extent.map_or(0, |extent| bytes_of(self.plan.slots[slot].format, extent))
         };
         most_alive(self.plan, steps, &self.dead_after, self.options.writes_over_from, bytes)
     }
 
-    /// Returns textures to the pool that no step after this one reads.
+    /// Returns textures to the pool if no later step reads them.
     fn release_after(&mut self, at: usize) {
         for slot in self.dead_after.remove(&at).into_iter().flatten() {
             self.release(slot);
@@ -393,7 +393,7 @@ impl Runner<'_> {
         Ok(made)
     }
 
-    /// Runs a kernel as often as it is repeated. Returns the time that it takes, where it is known.
+    /// Runs a kernel as often as it is repeated. Returns the time that it takes, if it is known.
     fn kernel(&mut self, step: &KernelStep, sources: &mut dyn SourceFill) -> Result<Option<Duration>, GpuError> {
         let compiling = Instant::now();
         let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
@@ -438,7 +438,7 @@ impl Runner<'_> {
         Ok(sum)
     }
 
-    /// Forgets the kernel of the present step, if no later one has it.
+    /// Forgets the kernel of the present step if no later step uses it.
     fn forget_kernel(&self, compiled: &Arc<CompiledKernel>) {
         if self.last_of_kernels.contains(&self.at) {
             self.gpu.pipelines.forget_kernel(compiled);

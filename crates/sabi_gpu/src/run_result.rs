@@ -16,7 +16,7 @@ pub struct Run {
     pub(crate) pool: TexturePool,
     /// Keys of results.
     pub(crate) keys: BTreeMap<SlotRef, ResultKey>,
-    /// Results whose differences from results of before are known.
+    /// Results whose differences from earlier results are known.
     pub(crate) changed: ChangedResults,
 }
 
@@ -31,7 +31,7 @@ impl Run {
         self.pool.drop_free();
     }
 
-    /// Frees the texture of a result that was read for the last time. The results of a run with a cache belong to that.
+    /// Frees the texture of a result that is not read again. A cache keeps its own reference to the texture.
     pub fn free(&mut self, plan: &Plan, slot: SlotRef) {
         let texture = self.textures.get_mut(slot).and_then(Option::take);
         if let Some((texture, slot)) = texture.zip(plan.slots.get(slot)) {
@@ -43,20 +43,20 @@ impl Run {
 /// Report of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunReport {
-    /// Time for linking the kernels of nodes, making their pipelines and their first dispatch, when software drivers
-    /// compile. The fixed kernels of this crate are not counted.
+    /// Time for linking the kernels of nodes, creating their pipelines, and their first dispatch, in which software drivers
+    /// compile them. The fixed kernels of this crate are not included.
     pub compile: Duration,
     /// Time of everything else.
     pub run: Duration,
-    /// Steps that ran, without those whose results were cached.
+    /// Steps that ran. Steps with cached results are not included.
     pub steps: Vec<StepTime>,
-    /// Number of them in which only tiles were computed that differ from results of before.
+    /// Number of these steps that computed only the tiles that differ from earlier results.
     pub steps_in_part: usize,
-    /// Texels of the tiles that kernels ran over, added up over all of them and their repetitions.
+    /// Number of texels of the tiles over which kernels ran, summed over all kernels and repetitions.
     pub texels: u64,
-    /// Part of `run` in which ghosts were filled, if that was measured.
+    /// Part of `run` spent on filling ghosts, if that was measured.
     pub ghosts: Duration,
-    /// True if some results follow from cached hits of longer rays, and so may differ by rounding.
+    /// True if some results were derived from cached hits of longer rays, so that they may differ by rounding.
     pub has_cached_hits: bool,
     /// Nodes whose rays were not cast, since their results were on disk.
     pub found_on_disk: Vec<String>,
@@ -71,6 +71,6 @@ pub struct RunReport {
 pub struct StepTime {
     /// Nodes in it, each with its share of the estimated cost.
     pub nodes: Vec<(String, f32)>,
-    /// Time from its start until the device is done with it, without compiling.
+    /// Time from its start until the device has finished it, without compiling.
     pub run: Duration,
 }

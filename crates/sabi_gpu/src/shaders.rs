@@ -1,4 +1,4 @@
-//! Kernels of Sabi's own: the files that each is linked from, and what they are given.
+//! Sabi's own kernels: the files from which each is linked, and the values that it receives.
 
 use sabi_nodes::link::{Access, Format, Given, LinkedModule, ModuleSpec};
 
@@ -11,7 +11,7 @@ const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
 /// Formats of the planes of the atlas.
 const FORMATS: [Format; 3] = [Format::R32Float, Format::Rgba16Float, Format::Rgba32Float];
 
-/// A kernel that is not made of nodes, with the format of the texture that it writes where that varies.
+/// Kernel that does not consist of nodes, with the format of the texture that it writes if there are several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FixedShader {
     Anisotropy,
@@ -107,7 +107,7 @@ impl FixedShader {
         }
     }
 
-    /// Files to link, and what they are given.
+    /// Returns the files to link, and the values that they receive.
     pub(crate) fn spec(self) -> ModuleSpec {
         let writes = |format| Some(Given::storage("StoredField", format, Access::Write));
         let updates = Some(Given::storage("StoredField", Format::R32Float, Access::ReadWrite));
@@ -164,7 +164,7 @@ pub(crate) fn linked(spec: &ModuleSpec) -> Result<LinkedModule, GpuError> {
         .map_err(|fault| GpuError::Defect(format!("a shader cannot be linked: {fault}")))
 }
 
-/// The error of a module that was refused, with file and line where the text itself is at fault.
+/// Returns the error of a module that was refused. If the mistake is in a source file, it names file and line.
 pub(crate) fn in_source(error: GpuError, linked: &LinkedModule) -> GpuError {
     match error {
         GpuError::Driver(reason) => GpuError::Driver(match linked.check() {
@@ -175,7 +175,7 @@ pub(crate) fn in_source(error: GpuError, linked: &LinkedModule) -> GpuError {
     }
 }
 
-/// Everything that kernels of Sabi's own are linked from, for tests.
+/// Returns everything from which Sabi's own kernels are linked, for tests.
 pub fn fixed_modules() -> Vec<ModuleSpec> {
     FixedShader::all().into_iter().map(FixedShader::spec).collect()
 }

@@ -1,4 +1,4 @@
-//! Charts that share a place on the maps: texels that are set to the value that the maps have there.
+//! Charts that share a place on the maps: their texels are set to the value that the maps have there.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +19,8 @@ use crate::uploads::storage_buffer;
 pub(crate) const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 const ROW: u32 = 32_768;
-/// Most numbers of a part's texels, unless a single group has more: 16 MiB, a fraction of a second on software drivers.
+/// Maximum number of 32-bit words for the texels of a part, unless a single group has more: 16 MiB, which takes a fraction
+/// of a second on software drivers.
 const MAX_PART_WORDS: usize = 4 << 20;
 
 /// Kind of values whose mean is taken.
@@ -31,10 +32,10 @@ pub enum Mean {
     Unit,
 }
 
-/// Groups of texels of an atlas on the device; in each the targets are set to the mean of the sources.
+/// Groups of texels of an atlas, on the device. In each group, the targets are set to the mean of the sources.
 pub struct Shares {
     parts: Vec<Part>,
-    /// Tiles of sources, each with a tile of their targets.
+    /// Tiles of sources, each paired with a tile of their targets.
     tiles: BTreeSet<[[u32; 3]; 2]>,
 }
 
@@ -90,7 +91,7 @@ impl Shares {
         Ok(Shares { parts, tiles })
     }
 
-    /// Some tiles, and those whose texels show values of them.
+    /// Returns the tiles, and those whose texels are set from values in them.
     pub fn spread(&self, tiles: &TileSet) -> TileSet {
         let places: BTreeSet<[u32; 3]> = tiles.places().collect();
         let shown = self.tiles.iter().filter(|[source, _]| places.contains(source));
@@ -116,7 +117,7 @@ impl Part {
 }
 
 impl Gpu {
-    /// Sets all targets in a copy of a texture on the atlas. The texture itself may be cached and is not changed.
+    /// Sets all targets in a copy of a texture on the atlas. The texture itself is not changed, since it may be cached.
     pub(crate) fn share(
         &self,
         surface: &GpuSurface,

@@ -1,5 +1,5 @@
-//! Maps that are shown: results, or copies of them with the values that exported maps have where charts share a place and where data
-//! jumps at the border of a chart.
+//! Maps that are shown: results, or copies of them that are changed like exported maps, where charts share a place and
+//! where values jump at the border of a chart.
 
 use sabi_nodes::link::Format;
 
@@ -14,33 +14,32 @@ use crate::shares::{Mean, Shares};
 use crate::surface::GpuSurface;
 use crate::tile_set::{TILE_EXTENT, TileSet, copied_tile};
 
-/// What shown maps take over from exported ones; nothing for the results of each chart alone.
+/// Changes that exported maps have and that shown maps take over; none to show the results as they are in each chart.
 #[derive(Clone, Copy, Default)]
 pub struct Exported<'a> {
     /// Texels that share a place on the maps.
     pub shares: Option<&'a Shares>,
     /// Ghosts that repeat their chart beyond a jump.
     pub borders: Option<&'a Borders>,
-    /// True if ghosts are changed in the results themselves, since nothing but what is shown reads these results any more: no map has a
-    /// copy for its borders then.
+    /// True if ghosts are changed in the results themselves, which saves a copy. For results that nothing else reads.
     pub changes_results: bool,
 }
 
 /// Map of a run that is to be shown.
 pub(crate) struct ShownMap {
-    /// Its texels; others may read them, so they are not changed.
+    /// Its texture. It must not be changed, since others may read it.
     pub(crate) texture: wgpu::Texture,
-    /// The copy that a cache keeps; none where it has no key.
+    /// Key for the copy that a cache keeps; `None` if there is none.
     pub(crate) made: Option<MadeMap>,
     pub(crate) kind: BorderKind,
     pub(crate) mean: Mean,
-    /// True if nothing else needs the texture, so that it returns to the pool once there is a copy.
+    /// True if nothing else needs the texture, so that it returns to the pool once it has been copied.
     pub(crate) is_spare: bool,
 }
 
 impl Gpu {
-    /// Textures of maps as they are shown. One that differs nowhere from an exported map is shown itself; of others there are copies,
-    /// which a cache keeps and of which only what has changed is copied again.
+    /// Returns the textures of maps as they are shown. A map that equals its exported map is shown without a copy. Copies
+    /// of other maps are kept in a cache, and only changed tiles are copied again.
     pub(crate) fn shown_maps(
         &self,
         surface: &GpuSurface,
@@ -89,7 +88,7 @@ impl Gpu {
         Ok(shown)
     }
 
-    /// Texture of a map as it is shown; with borders where it has ghosts beyond a jump.
+    /// Returns the texture of a map as it is shown. If it has ghosts beyond a jump, they repeat their chart.
     fn shown_map(
         &self,
         surface: &GpuSurface,
@@ -115,7 +114,7 @@ impl Gpu {
             _ => None,
         };
         let format = format_of(&map.texture)?;
-        // Shared texels show ghosts as well, so those are settled first.
+        // Ghosts are set first, since shared texels also show ghosts.
         let bordered = match (exported.shares, exported.borders) {
             (Some(_), Some(borders)) => {
                 let bordered = self.copy(surface, run, &map.texture)?;
@@ -124,7 +123,7 @@ impl Gpu {
             }
             _ => None,
         };
-        let source = bordered.as_ref().unwrap_or(&map.texture); // Without a copy it is the map itself.
+        let source = bordered.as_ref().unwrap_or(&map.texture); // Without a copy, the map itself is the source.
         let shown = match before {
             Some((shown, tiles)) => {
                 self.copy_tiles(source, &shown, tiles);
@@ -171,7 +170,7 @@ impl Gpu {
     }
 }
 
-/// Texture of a map that a cache has, or that is known to differ nowhere from an exported map.
+/// Returns the texture of a map if it is in a cache, or if the map is known to equal its exported map.
 fn known_map(map: &ShownMap, exported: Exported<'_>, cache: &mut ResultCache) -> Option<wgpu::Texture> {
     let key = map.made.as_ref()?.key;
     let is_plain = exported.shares.is_none() && (exported.borders.is_none() || cache.jumps(&key) == Some(false));

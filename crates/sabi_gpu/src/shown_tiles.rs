@@ -6,14 +6,14 @@ use sabi_surface::atlas::{Atlas, Ghost, Owner, TILE};
 
 use crate::tile_set::{TileSet, tile_number};
 
-/// Tiles of the finest level whose results are shown. All others belong to charts that lie under other charts on the maps.
+/// Tiles of the finest level whose results are shown. All other tiles belong to charts that are covered by other charts on the maps.
 #[derive(Clone, Debug)]
 pub struct ShownTiles {
     /// The shown tiles, and those around them.
     pub(crate) shown: CoveredTiles,
-    /// The shown ones, and those that their ghosts take values from.
+    /// The shown tiles, and those from which their ghosts take values.
     pub(crate) linked: CoveredTiles,
-    /// The linked ones, those around them, and those that the ghosts of all these take values from.
+    /// The linked tiles, the tiles around them, and those from which the ghosts of all these take values.
     pub(crate) around: CoveredTiles,
 }
 
@@ -37,8 +37,8 @@ impl CoveredTiles {
 }
 
 impl ShownTiles {
-    /// Shown tiles of an atlas, by column, row and page. Those around them are added: normals and the viewport read a few texels
-    /// beyond a shown one.
+    /// Creates the shown tiles of an atlas from columns, rows and pages. The tiles around them are added, since normals and
+    /// the viewport read a few texels beyond a shown tile.
     pub fn new(atlas: &Atlas, shown: impl IntoIterator<Item = [u32; 3]>) -> ShownTiles {
         let all = atlas.tiles.iter().map(|tile| [tile.column, tile.row, tile.page]);
         let all: Vec<u32> = all.map(tile_number).collect();
@@ -58,13 +58,13 @@ impl ShownTiles {
         &self.shown.tiles
     }
 
-    /// Number of the shown tiles, with those around them.
+    /// Returns the number of shown tiles, including those around them.
     pub fn count(&self) -> u32 {
         self.tiles().count()
     }
 }
 
-/// Tiles of all texels that the ghosts in some tiles take their values from, over other ghosts as well.
+/// Returns the tiles of all texels from which the ghosts in some tiles take values, also by way of other ghosts.
 fn tiles_behind_ghosts(atlas: &Atlas, tiles: &TileSet) -> BTreeSet<[u32; 3]> {
     let tile_of = |[x, y, page]: [u32; 3]| [x / TILE, y / TILE, page];
     let mut is_known: Vec<bool> = atlas
@@ -95,7 +95,8 @@ fn tiles_behind_ghosts(atlas: &Atlas, tiles: &TileSet) -> BTreeSet<[u32; 3]> {
     found
 }
 
-/// Texels that a ghost may take its value from: four by four around its point over the seam, and its own chart beside it.
+/// Returns the texels from which a ghost may take its value: four by four around its point beyond the seam, and those of
+/// its own chart next to it.
 fn texels_behind(atlas: &Atlas, ghost: &Ghost) -> impl Iterator<Item = [u32; 3]> {
     let chart = atlas.triangle_chart.get(ghost.read_triangle as usize);
     let page = chart
@@ -108,7 +109,7 @@ fn texels_behind(atlas: &Atlas, ghost: &Ghost) -> impl Iterator<Item = [u32; 3]>
     over_seam.into_iter().flatten().chain(beside)
 }
 
-/// Texels of a square, as far as their coordinates are not negative.
+/// Returns the texels of a square. Texels with negative coordinates are left out.
 fn square([left, top]: [i64; 2], side: i64, page: u32) -> impl Iterator<Item = [u32; 3]> {
     let texels = (0..side * side).map(move |at| [left + at % side, top + at / side]);
     texels.filter_map(move |[x, y]| Some([u32::try_from(x).ok()?, u32::try_from(y).ok()?, page]))
@@ -123,7 +124,7 @@ mod tests {
 
     use super::*;
 
-    /// Two squares side by side in space, whose charts lie apart; both have the same place on the maps if they are `stacked`.
+    /// Returns two squares that are adjacent in space and have separate charts. If `stacked`, both have the same place on the maps.
     fn two_squares(stacked: bool) -> Atlas {
         let mut mesh = Mesh::default();
         for square in 0..2_u16 {
@@ -143,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn tiles_behind_ghosts_are_covered_and_each_set_of_tiles_has_a_key_of_its_own() {
+    fn tiles_behind_ghosts_are_covered_and_each_set_of_tiles_has_its_own_key() {
         for stacked in [false, true] {
             let atlas = two_squares(stacked);
             let [left, top, right, bottom] = atlas.charts[0].bounds.map(|at| at / TILE);
@@ -151,7 +152,7 @@ mod tests {
             let own = (left..=right).flat_map(|column| (top..=bottom).map(move |row| [column, row, page]));
             let shown = ShownTiles::new(&atlas, own);
             let counts = [&shown.shown, &shown.linked, &shown.around].map(|covered| covered.tiles.count());
-            // A column of the other chart's tiles along the seam, and one more on both sides of it.
+            // The ghosts add a column of the other chart's tiles along the seam, and the tiles around them one more on both sides.
             assert!(counts[0] < counts[1] && counts[1] < counts[2], "{counts:?}");
             assert!(
                 counts[2] < atlas.tiles.len() as u32,

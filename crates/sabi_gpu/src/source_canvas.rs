@@ -1,4 +1,4 @@
-//! A plane of a source's result that the device draws.
+//! Plane of a source's result that the device draws.
 
 use sabi_nodes::link::Format;
 
@@ -19,7 +19,7 @@ pub struct DeviceTable {
     view: wgpu::TextureView,
 }
 
-/// Kernel with what it is given, and the tiles that it fills.
+/// Kernel with its constants and tables, and the tiles that it fills.
 pub struct SourceDraw<'a, C> {
     /// The kernel.
     pub shader: SourceShader,
@@ -27,21 +27,21 @@ pub struct SourceDraw<'a, C> {
     pub constants: C,
     /// Its tables.
     pub tables: &'a [&'a DeviceTable],
-    /// Tiles that it fills at most; none for all.
+    /// Tiles to which it is limited; `None` for all.
     pub tiles: Option<&'a TileSet>,
 }
 
-/// A plane of a source's result on the device, to be drawn.
+/// Plane of a source's result, to be drawn on the device.
 pub struct SourceCanvas<'a> {
     pub(crate) gpu: &'a Gpu,
     pub(crate) surface: &'a GpuSurface,
     pub(crate) field: &'a wgpu::Texture,
     pub(crate) format: Format,
-    /// Connected inputs, in the order of the kind.
+    /// Connected inputs, in the order in which the kind declares its inputs.
     pub(crate) inputs: &'a [Option<wgpu::Texture>],
-    /// Bound where an input is not connected.
+    /// Texture that is bound for inputs that are not connected.
     pub(crate) unused: &'a wgpu::Texture,
-    /// Tiles that are needed; none for all.
+    /// Tiles that are needed; `None` for all.
     pub(crate) covered: Option<&'a TileSet>,
     pub(crate) options: &'a RunOptions<'a>,
 }
@@ -52,23 +52,23 @@ impl SourceCanvas<'_> {
         self.inputs.get(index).is_some_and(Option::is_some)
     }
 
-    /// Most rows of a table.
+    /// Returns the maximum number of rows of a table.
     pub fn most_rows(&self) -> usize {
         most_table_rows(self.gpu)
     }
 
-    /// Uploads a table, given by its rows of bit patterns.
+    /// Uploads a table of rows of bit patterns.
     ///
     /// # Errors
     /// It has more rows than [`SourceCanvas::most_rows`], or the device refuses.
     pub fn table(&self, what: &'static str, rows: &[[u32; 4]]) -> Result<DeviceTable, GpuError> {
         let view = table_texture(self.gpu, what, bytemuck::cast_slice(rows))?;
-        // The driver holds a copy until the upload is done, which must end before the next one is made.
+        // The driver holds a copy until the upload is done, so the upload has to end before the next table is built.
         self.gpu.queue.submit([]);
         Ok(DeviceTable { view })
     }
 
-    /// Fills texels of the plane, ghosts among them; those of other tiles stay as they are.
+    /// Fills texels of the plane, including ghosts. Texels of other tiles are not changed.
     ///
     /// # Errors
     /// The run is canceled, or the device refuses.

@@ -4,15 +4,15 @@ use sabi_nodes::wgsl_struct;
 
 use crate::source_shader::TEXTURES;
 
-/// Rows of a table of a picture before those of its pixels.
+/// Number of rows of a table of a picture that precede its pixels.
 pub const COPY_ROWS: u32 = 32;
 /// Rows of a triangle in a table of coordinates.
 pub const COORDINATE_ROWS: u32 = 2;
-/// The same in a table with tangents.
+/// Rows of a triangle in a table of coordinates that includes tangents.
 pub const COORDINATE_ROWS_WITH_TANGENTS: u32 = 5;
 /// Rows of a triangle in a table of corners.
 pub const CORNER_ROWS: u32 = 2;
-/// Channel of no texture.
+/// Number that means that a component reads no channel of a texture.
 pub const NO_CHANNEL: u32 = 16;
 
 wgsl_struct! {
@@ -22,9 +22,9 @@ wgsl_struct! {
     pub struct PictureConstants {
         /// Number of the smallest copy.
         pub last: u32,
-        /// 1 where a color counts in averages as much as it is opaque.
+        /// 1 if the weight of a color in averages is its alpha.
         pub by_alpha: u32,
-        /// Pixels beyond the borders along u and v: repeats, the border itself, or mirrored repeats.
+        /// Pixels beyond the borders along u and v: repeated, the pixel at the border, or mirrored and repeated.
         pub wrap: [u32; 2],
     }
 }
@@ -40,7 +40,7 @@ wgsl_struct! {
         pub aspect: f32,
         /// Cosine and sine of the rotation, counter-clockwise as seen.
         pub turn: [f32; 2],
-        /// To the right and up, in tiles.
+        /// Offset to the right and upward, in tiles.
         pub offset: [f32; 2],
         /// Repeats of the texture coordinates.
         pub tiles: [f32; 2],
@@ -58,7 +58,7 @@ wgsl_struct! {
         pub sharpness: f32,
         /// Direction to the top of a decal.
         pub up: [f32; 3],
-        /// Reach of a decal in front of its middle and behind it.
+        /// Distance to which a decal reaches in front of its middle and behind it.
         pub depth: f32,
         /// Direction that a decal faces.
         pub toward: [f32; 3],
@@ -77,9 +77,9 @@ wgsl_struct! {
         pub mean: [f32; 4],
         /// Constants for reading it.
         pub picture: PictureConstants,
-        /// Its color, luminance, alpha, red, green or blue.
+        /// Displayed value: color, luminance, alpha, red, green or blue.
         pub shown: u32,
-        /// 1 for values that lie between 0 and 1.
+        /// 1 if values are limited to the range from 0 to 1.
         pub is_limited: u32,
         /// Number of the arrangement of random patches.
         pub seed: u32,
@@ -87,7 +87,7 @@ wgsl_struct! {
         pub most_turned: f32,
         /// Sign of green in a normal map; 0 where the picture is gray.
         pub green: f32,
-        /// 1 if the choice of one of several pictures is connected.
+        /// 1 if the input that selects one of several pictures is connected.
         pub has_cell: u32,
         /// Unused.
         pub pad: [u32; 2],
@@ -101,7 +101,7 @@ wgsl_struct! {
     pub struct TextureConstants {
         /// First row of the transform of texture coordinates.
         pub u: [f32; 3],
-        /// Rows of a triangle in the table of its own coordinates; 0 where it has those of the atlas.
+        /// Rows of a triangle in the table of the texture's own coordinates; 0 if it uses those of the atlas.
         pub coordinate_rows: u32,
         /// Second row of the transform.
         pub v: [f32; 3],
@@ -120,9 +120,9 @@ wgsl_struct! {
         pub material: u32,
         /// Unused.
         pub pad: [u32; 3],
-        /// Channels of the textures, four for each in turn, that each component is a product of.
+        /// Channels that are multiplied to get each component: four channels for each texture in turn.
         pub first: [u32; 4],
-        /// The other channels of the products.
+        /// Second channel of each product.
         pub second: [u32; 4],
         /// Factors of the products.
         pub factor: [f32; 4],

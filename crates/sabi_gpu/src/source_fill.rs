@@ -11,8 +11,8 @@ use crate::tile_set::TileSet;
 
 /// Provider of the results of source nodes, and of the scene for rays.
 pub trait SourceFill {
-    /// Draws one plane of the result `output` of a step on the device. Returns false where the provider fills it on the processor, see
-    /// [`SourceFill::plane`].
+    /// Draws one plane of the result `output` of a step on the device. Returns false if the provider computes it on the
+    /// processor instead; see [`SourceFill::plane`].
     ///
     /// # Errors
     /// The provider cannot give the result ([`GpuError::Node`]), the run is canceled, or the device refuses.
@@ -26,10 +26,10 @@ pub trait SourceFill {
         Ok(false)
     }
 
-    /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
-    /// row by row without padding. Planes are requested one after the other, each dropped before the next. `inputs` holds the
-    /// texels of the step's connected inputs, in the order of its kind. Where tiles are given, those outside of them may hold
-    /// anything.
+    /// Returns the texels of one plane of the result `output` of a step, including ghosts, in the plane's storage format,
+    /// page by page and row by row without padding. Planes are requested one after the other, and each is dropped before
+    /// the next. `inputs` holds the texels of the step's connected inputs, in the order in which the kind declares them. If
+    /// tiles are given, texels outside of them may have any value.
     fn plane(
         &mut self,
         step: &SourceStep,
@@ -39,14 +39,14 @@ pub trait SourceFill {
         tiles: Option<&TileSet>,
     ) -> Result<Vec<u8>, String>;
 
-    /// Tiles in which the results of a step differ from those of the same step of an earlier plan, as far as that follows from
-    /// their parameters; none where it is not known.
+    /// Returns the tiles in which the results of a step differ from those of the same step of an earlier plan, as far as
+    /// that follows from their parameters; `None` if it is not known.
     fn changed_tiles(&mut self, _before: &SourceStep, _now: &SourceStep) -> Option<TileSet> {
         None
     }
 
-    /// Texels of some tiles of a plane, as [`SourceFill::plane`] gives them, tile by tile. Asked for only where
-    /// [`SourceFill::changed_tiles`] gave tiles for the step.
+    /// Returns the texels of some tiles of a plane, in the format of [`SourceFill::plane`], tile by tile. Called only if
+    /// [`SourceFill::changed_tiles`] returned tiles for the step.
     fn plane_tiles(
         &mut self,
         step: &SourceStep,
@@ -61,7 +61,7 @@ pub trait SourceFill {
         ))
     }
 
-    /// Scene that rays are cast into.
+    /// Returns the scene into which rays are cast.
     fn scene(&mut self) -> Result<RayScene<'_>, String>;
 
     /// Returns true if results of ray steps are cached on disk.
@@ -77,17 +77,17 @@ pub trait SourceFill {
     /// Caches results under a key.
     fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
 
-    /// Returns true if results that take long are kept for later runs.
+    /// Returns true if results that take long to compute are kept for later runs.
     fn keeps_results(&self) -> bool {
         false
     }
 
-    /// Returns true if there is a result of a key. It may turn out to be damaged.
+    /// Returns true if there is a kept result with this key. It may be damaged.
     fn has_result(&self, _key: &[u8; 32]) -> bool {
         false
     }
 
-    /// The result of a key.
+    /// Returns the kept result with this key.
     fn kept_result(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
         None
     }

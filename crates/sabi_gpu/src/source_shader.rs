@@ -40,7 +40,7 @@ impl PictureStorage {
     }
 }
 
-/// Owners of the rows of a table of parts.
+/// Kinds of things that have a row in a table of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PartRows {
     /// Parts.
@@ -55,7 +55,7 @@ pub enum PartRows {
     Whole,
 }
 
-/// Way to project a picture.
+/// Projection of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ProjectionWay {
     /// By texture coordinates.
@@ -75,45 +75,45 @@ pub struct ImageShader {
     pub shows_slope: bool,
     /// Its projection.
     pub way: ProjectionWay,
-    /// True if it is read at places that are connected, not at those of the surface.
+    /// True if the picture is read at places from an input instead of those of the surface.
     pub reads_place: bool,
-    /// True for a file with several pictures, of which one is seen.
+    /// True for a file with several pictures, of which one is used.
     pub has_cells: bool,
     /// True if random patches of it are tiled.
     pub is_random: bool,
 }
 
-/// Kernel of a source. What is the same for all texels and decides what they read is a part of the kernel, since software adapters
-/// run both sides of a branch.
+/// Kernel of a source. Properties that are the same for all texels and decide which data is read are part of the kernel,
+/// since software adapters run both sides of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SourceShader {
-    /// Values of parts, or places in their boxes: one table.
+    /// Values of parts, or positions in their boxes. Has one table.
     Parts {
-        /// Owners of its rows.
+        /// Kind of things that have a row in it.
         of: PartRows,
         /// True if each has three rows: the sides of its box, with the middle of the box in the fourth column.
         has_boxes: bool,
     },
-    /// Colors of vertices, or their fourth component alone: tables of the corners of triangles and of the colors.
+    /// Colors of vertices, or only their fourth component. Tables: the corners of triangles, and the colors.
     VertexColor {
-        /// True for the fourth component.
+        /// True for only the fourth component.
         is_alpha: bool,
     },
-    /// A picture: its table; two inputs, the place to read at and the choice of one picture.
+    /// A picture. One table: its pixels. Two inputs: the place to read at, and the selection of one of several pictures.
     Image(ImageShader),
-    /// Channels of textures of a material: the table of each texture, then that of its coordinates.
+    /// Channels of textures of a material. For each texture two tables: its pixels, and its coordinates.
     Textures([PictureStorage; TEXTURES]),
-    /// Directions that a texture of a material gives: its table, and that of its coordinates.
+    /// Directions from a texture of a material. Two tables: its pixels, and its coordinates.
     Directions {
         /// Storage of the texture.
         storage: PictureStorage,
-        /// True for a normal map whose slope is shown; else it has the direction of fine scratches.
+        /// True for the slope of a normal map, false for the direction of fine scratches.
         shows_slope: bool,
     },
 }
 
 impl SourceShader {
-    /// Kernels of which each part of each file is in one at least.
+    /// Returns a set of kernels that uses each part of each file at least once.
     pub(crate) fn kinds() -> Vec<SourceShader> {
         let rows = [
             PartRows::Part,
@@ -167,7 +167,7 @@ impl SourceShader {
         }
     }
 
-    /// Constants that the file is given.
+    /// Returns the constants that the file receives.
     pub(crate) fn given(self, format: Format) -> Vec<Given> {
         let mut given = vec![Given::flag("IS_HALF", format == Format::Rgba16Float)];
         given.extend(match self {
@@ -214,7 +214,7 @@ impl SourceShader {
         }
     }
 
-    /// Bind group: constants, where there are any; tables, inputs, and the field that is written.
+    /// Returns the layout of the bind group: constants if there are any, tables, inputs, and the field that is written.
     pub(crate) fn entries(self, format: Format) -> Vec<wgpu::BindGroupLayoutEntry> {
         let has_constants = !matches!(self, SourceShader::Parts { .. } | SourceShader::VertexColor { .. });
         let first = u32::from(has_constants);

@@ -1,4 +1,4 @@
-//! Map of the texels that slopes are taken from: `stencil.wgsl` finds them, `stencil_marks.wgsl` says how they are stored.
+//! Map of the texels from which slopes are computed. `stencil.wgsl` finds them, and `stencil_marks.wgsl` defines how they are stored.
 
 use crate::bindings::marks_entry;
 use crate::device::Gpu;
@@ -11,7 +11,7 @@ use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
 impl Gpu {
-    /// Map of the texels that slopes are taken from on a surface; made at its first use.
+    /// Returns the map of the texels from which slopes are computed on a surface. It is created at its first use.
     pub(crate) fn stencils(
         &self,
         surface: &GpuSurface,

@@ -24,12 +24,12 @@ pub struct Measures {
     pub texel: f64,
     /// Width of a texel of the finest level.
     pub finest: f64,
-    /// Largest coordinate of the model, which bounds the rounding of positions.
+    /// Largest coordinate of the model. The rounding of positions depends on it.
     pub farthest: f64,
 }
 
 impl Measures {
-    /// Measures of a surface with a single level and coordinates up to 1.
+    /// Returns the measures of a surface with a single level and coordinates up to 1.
     pub fn single_level(texel: f64) -> Measures {
         Measures {
             texel,
@@ -44,9 +44,9 @@ pub struct GpuSurface {
     pub(crate) extent: Extent,
     pub(crate) tiles: wgpu::Buffer,
     pub(crate) tile_count: u32,
-    /// The tiles as `tiles` has them.
+    /// The numbers in `tiles`, in the same order.
     pub(crate) tile_numbers: Vec<u32>,
-    /// Those with a ghost among their texels or beside them.
+    /// Tiles with a ghost among their texels or next to them.
     pub(crate) ghost_tiles: TileSet,
     pub(crate) owners: wgpu::TextureView,
     pub(crate) leaps: wgpu::TextureView,
@@ -55,7 +55,7 @@ pub struct GpuSurface {
     pub(crate) pieces: wgpu::Buffer,
     /// Links of the ghosts.
     pub(crate) ghosts: GhostLinks,
-    /// Map of the texels that slopes are taken from; made at its first use.
+    /// Map of the texels from which slopes are computed. It is created at its first use.
     pub(crate) stencils: OnceLock<wgpu::TextureView>,
     /// Texels for one unit of UV.
     pub(crate) size: u32,
@@ -111,13 +111,13 @@ impl GpuSurface {
             area: covered_area(atlas, tables),
             bytes: atlas.owners.len() as u64 * 5,
         };
-        // What was written waits for the next submission otherwise, in memory of its own.
+        // Without this, written data waits for the next submission, in memory of its own.
         gpu.queue.submit([]);
         gpu.wait()?;
         Ok(surface)
     }
 
-    /// Bytes of the textures of the surface; every run counts them in its budget and its peak.
+    /// Returns the number of bytes of the textures of the surface. Every run includes them in its budget and its peak.
     pub fn texture_bytes(&self) -> u64 {
         self.bytes + self.stencils.get().map_or(0, |_| self.stencil_bytes())
     }
@@ -127,12 +127,12 @@ impl GpuSurface {
         4 * self.texels()
     }
 
-    /// Texels of all pages.
+    /// Returns the number of texels of all pages.
     pub fn texels(&self) -> u64 {
         self.extent.iter().map(|side| u64::from(*side)).product()
     }
 
-    /// Rows of all pages, so many at a time.
+    /// Returns all pages as bands of this many rows.
     pub(crate) fn bands(&self, rows: u32) -> impl Iterator<Item = LayerRows> {
         let [_, height, pages] = self.extent;
         let of_page = move |layer: u32| {
@@ -146,7 +146,7 @@ impl GpuSurface {
         (0..pages).flat_map(of_page)
     }
 
-    /// Texels of some rows, counted page by page and row by row.
+    /// Returns the range of the texels of some rows, counted page by page and row by row.
     pub(crate) fn texels_of_rows(&self, band: &LayerRows) -> Range<usize> {
         let [width, height, _] = self.extent.map(|side| side as usize);
         let first_row = band.layer as usize * height;
@@ -154,7 +154,7 @@ impl GpuSurface {
         texel(band.rows.start)..texel(band.rows.end)
     }
 
-    /// Shown tiles of some rows, which are whole tiles.
+    /// Returns the shown tiles in some rows, which must begin and end at tiles.
     pub(crate) fn tiles_of_rows(&self, band: &LayerRows, shown: Option<&ShownTiles>) -> TileSet {
         let rows = band.rows.start / TILE..band.rows.end.div_ceil(TILE);
         let is_here = |[_, row, page]: &[u32; 3]| *page == band.layer && rows.contains(row);
@@ -170,7 +170,7 @@ impl GpuSurface {
     }
 }
 
-/// Area of all owned texels, square working units, summed in an order that does not depend on threads.
+/// Returns the area of all owned texels in square working units, summed in an order that does not depend on threads.
 fn covered_area(atlas: &Atlas, tables: &SurfaceTables) -> f64 {
     let texel_area = |rows: &[[f32; 4]; 6]| {
         texel_area_vector(rows)

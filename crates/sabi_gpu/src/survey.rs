@@ -15,7 +15,7 @@ use crate::tiles::Slices;
 
 /// Bins between the lowest and the highest value, as in `lib/survey.wgsl`.
 pub(crate) const BINS: u32 = 1024;
-/// Count of the whole surface: half of the highest count, since the count of each texel is rounded.
+/// Total count of the whole surface. It is half of the largest possible count, since the count of each texel is rounded.
 const SURFACE_COUNT: f64 = (1_u32 << 31) as f64;
 
 wgsl_struct! {
@@ -30,7 +30,7 @@ wgsl_struct! {
 }
 
 impl Gpu {
-    /// Writes the survey of a mask to a table, or those of its groups to the rows of a table.
+    /// Writes the survey of a mask to a table; with groups, writes the survey of each group to a row of a table.
     pub(crate) fn survey(
         &self,
         surface: &GpuSurface,

@@ -15,15 +15,15 @@ pub(crate) const PIECE_ROWS: usize = 3;
 /// Rows of four floats for each triangle; see `shaders/surface/place.wgsl`, which reads them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceTables {
-    /// Six rows per triangle: origin, its change per texel along u and v, and the same of the normal. The fourth column holds the
-    /// reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, the piece's seed, and the
-    /// material's number; numbers and seed are bit patterns.
+    /// Six rows per triangle: origin, change of the origin per texel along u and v, and the same for the normal. The fourth
+    /// column holds the reference texel (x, y), the texel's width (negative on mirrored charts), the part's number, the
+    /// piece's seed, and the material's number; numbers and seed are bit patterns.
     pub geometry: Vec<[f32; 4]>,
-    /// Four rows per triangle: tangent, its change per texel along u and v, then the chart's place and its number in the atlas.
-    /// The fourth column holds the number of the chart in UV, the chart's page with the sign of the bitangent
-    /// (`page_and_sign`), the size of the piece, and the piece's number; numbers are bit patterns.
+    /// Four rows per triangle: tangent, its change per texel along u and v, then the chart's place and its number in the
+    /// atlas. The fourth column holds the number of the chart in UV, the chart's page combined with the sign of the
+    /// bitangent (`page_and_sign`), the size of the piece, and the piece's number; numbers are bit patterns.
     pub frames: Vec<[f32; 4]>,
-    /// Three rows per piece: the axes of its box, longest side first, and in the fourth column the center of the box.
+    /// Three rows per piece: the axes of its box, longest side first. The fourth column holds the center of the box.
     pub pieces: Vec<[f32; 4]>,
 }
 
@@ -66,12 +66,12 @@ impl SurfaceTables {
     }
 }
 
-/// The page of a chart, doubled, and 1 more where the bitangent is reversed.
+/// Returns twice the page of a chart, plus 1 if the bitangent is reversed.
 pub(crate) fn page_and_sign(page: u32, bitangent_sign: f32) -> f32 {
     f32::from_bits(2 * page + u32::from(bitangent_sign < 0.0))
 }
 
-/// Area vector of a texel of a triangle, along its normal; reversed on mirrored charts.
+/// Returns the area vector of a texel of a triangle, which points along the triangle's normal; reversed on mirrored charts.
 pub(crate) fn texel_area_vector(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f64; 3] {
     let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]].map(|row| row.map(f64::from));
     [b * f - c * e, c * d - a * f, a * e - b * d]
@@ -80,7 +80,7 @@ pub(crate) fn texel_area_vector(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f64; 3] {
 /// Rows of one triangle: geometry and frames.
 type TriangleRows = ([[f32; 4]; GEOMETRY_ROWS], [[f32; 4]; FRAME_ROWS]);
 
-/// Quantity that is linear over a triangle: its value at the first corner and its change per texel along u and v.
+/// Returns a quantity that is linear over a triangle: its value at the first corner and its change per texel along u and v.
 fn affine(corners: [[f64; 3]; 3], inverse: [[f64; 2]; 2]) -> [[f64; 3]; 3] {
     let mut rows = [corners[0], [0.0; 3], [0.0; 3]];
     for axis in 0..3 {
@@ -92,7 +92,7 @@ fn affine(corners: [[f64; 3]; 3], inverse: [[f64; 2]; 2]) -> [[f64; 3]; 3] {
     rows
 }
 
-/// Inverse of the matrix whose rows are the texel vectors of the two edges at the first corner; zero without area.
+/// Returns the inverse of the matrix whose rows are the two edges at the first corner, in texels; zero if the triangle has no area.
 fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
     let edge = |to: usize, axis: usize| f64::from(texels[to][axis]) - f64::from(texels[0][axis]);
     let (a, b, c, d) = (edge(1, 0), edge(1, 1), edge(2, 0), edge(2, 1));
@@ -100,7 +100,7 @@ fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
     if determinant.abs() < 1e-12 {
         return [[0.0; 2]; 2];
     }
-    // Columns: weights of the first and the second edge for a step along u and along v.
+    // The columns are the weights of the first and the second edge for a step along u and along v.
     [[d / determinant, -c / determinant], [-b / determinant, a / determinant]]
 }
 

@@ -1,11 +1,11 @@
-//! Limit of the textures of a run, and what sets it.
+//! Limit of the textures of a run, and its cause.
 
-/// Most bytes of the textures of a run, those of the surface included.
+/// Maximum number of bytes of the textures of a run, including those of the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureBudget {
-    /// A budget of their own.
+    /// A budget for textures alone.
     Textures(u64),
-    /// What a model leaves of the memory of the process, where the driver keeps textures in it.
+    /// Memory of the process that the model leaves, for drivers that keep textures in it.
     Process(u64),
 }
 

@@ -1,4 +1,4 @@
-//! Some tiles of a surface: those in which results differ from results of before.
+//! Sets of tiles of a surface, for example of those in which results differ from earlier results.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::uploads::storage_buffer;
 
-/// Bits of the column and of the row of a tile; its page has the rest, as `texel_of` unpacks them.
+/// Number of bits for the column and for the row of a tile. The page uses the remaining bits, as `texel_of` unpacks them.
 const PLACE_BITS: u32 = 11;
 
-/// Tiles of 8 × 8 texels of the finest level, each once, in the order of their pages, rows and columns.
+/// Set of tiles of 8 × 8 texels of the finest level, sorted by page, row and column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TileSet {
     tiles: Arc<Vec<u32>>,
@@ -23,7 +23,7 @@ pub(crate) fn tile_number([column, row, page]: [u32; 3]) -> u32 {
     column | (row << PLACE_BITS) | (page << (2 * PLACE_BITS))
 }
 
-/// Column, row and page of the tile of a texel, which is given by its index page by page and row by row.
+/// Returns column, row and page of the tile of a texel. The texel is given by its index, counted page by page and row by row.
 pub fn tile_of(texel: u32, [width, height]: [u32; 2]) -> [u32; 3] {
     let (column, row) = (texel % width, texel / width);
     [column / TILE, row % height / TILE, row / height]
@@ -36,7 +36,7 @@ pub(crate) const TILE_EXTENT: wgpu::Extent3d = wgpu::Extent3d {
     depth_or_array_layers: 1,
 };
 
-/// A tile of a texture, for copies.
+/// Returns a tile of a texture as the source or target of a copy.
 pub(crate) fn copied_tile(texture: &wgpu::Texture, [column, row, page]: [u32; 3]) -> wgpu::TexelCopyTextureInfo<'_> {
     wgpu::TexelCopyTextureInfo {
         origin: wgpu::Origin3d {
@@ -49,7 +49,7 @@ pub(crate) fn copied_tile(texture: &wgpu::Texture, [column, row, page]: [u32; 3]
 }
 
 impl TileSet {
-    /// A set of tiles, given by column, row and page in any order.
+    /// Creates a set of tiles, given by column, row and page in any order.
     pub fn new(tiles: impl IntoIterator<Item = [u32; 3]>) -> TileSet {
         TileSet::of_numbers(tiles.into_iter().map(tile_number).collect())
     }
@@ -65,7 +65,7 @@ impl TileSet {
         TileSet { tiles: Arc::new(tiles) }
     }
 
-    /// Tiles with a ghost among their texels or beside them, of pages of a size with such owners of their texels.
+    /// Returns the tiles that have a ghost among their texels or next to them.
     pub(crate) fn with_ghosts(tiles: &[TileRef], owners: &[u32], page_size: [u32; 2]) -> TileSet {
         let [width, height] = page_size.map(|side| side as usize);
         let tile = TILE as usize;
@@ -85,7 +85,7 @@ impl TileSet {
         TileSet::new(found.into_iter().map(|tile| [tile.column, tile.row, tile.page]))
     }
 
-    /// Column, row and page of each tile.
+    /// Returns column, row and page of each tile.
     pub fn places(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
         let low = (1 << PLACE_BITS) - 1;
         let place = move |tile: &u32| [tile & low, (tile >> PLACE_BITS) & low, tile >> (2 * PLACE_BITS)];
@@ -102,7 +102,7 @@ impl TileSet {
         self.tiles.binary_search(&tile_number(tile)).is_ok()
     }
 
-    /// Tiles of both sets.
+    /// Returns the tiles that are in at least one of the two sets.
     pub(crate) fn and(&self, other: &TileSet) -> TileSet {
         match (self.tiles.is_empty(), other.tiles.is_empty()) {
             (true, _) => other.clone(),
@@ -111,7 +111,7 @@ impl TileSet {
         }
     }
 
-    /// Tiles that are in the other set as well.
+    /// Returns the tiles that are in both sets.
     pub(crate) fn within(&self, other: &TileSet) -> TileSet {
         let is_there = |tile: &&u32| other.tiles.binary_search(tile).is_ok();
         TileSet {
@@ -119,7 +119,7 @@ impl TileSet {
         }
     }
 
-    /// The tiles and those around them, as far as they are among all tiles of a surface, whose numbers rise.
+    /// Returns the tiles and those around them that exist on the surface. `all` has the numbers of all tiles of the surface, ascending.
     pub(crate) fn grown(&self, all: &[u32]) -> TileSet {
         let around = self.places().flat_map(|[column, row, page]| {
             let near = |at: u32| at.saturating_sub(1)..=at + 1;
@@ -130,13 +130,13 @@ impl TileSet {
         TileSet::of_numbers(grown.tiles.iter().filter(own).copied().collect())
     }
 
-    /// Indices of the tiles among all tiles of a surface, whose numbers rise.
+    /// Returns the indices of the tiles in `all`, the ascending numbers of all tiles of a surface.
     pub(crate) fn indices(&self, all: &[u32]) -> Vec<usize> {
         let index = |tile: &u32| all.binary_search(tile).ok();
         self.tiles.iter().filter_map(index).collect()
     }
 
-    /// The tiles on the device.
+    /// Uploads the tiles to the device.
     pub(crate) fn upload(&self, gpu: &Gpu) -> Result<wgpu::Buffer, GpuError> {
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let bytes: &[u8] = bytemuck::cast_slice(&self.tiles);
@@ -168,13 +168,13 @@ mod tests {
     }
 
     #[test]
-    fn a_tile_counts_for_ghosts_in_it_and_one_texel_around() {
+    fn a_tile_has_a_ghost_if_one_is_in_it_or_one_texel_around() {
         let tile = |column, row| TileRef { column, row, page: 0 };
         let tiles = [tile(0, 0), tile(1, 0), tile(2, 0), tile(0, 1), tile(1, 1), tile(2, 1)];
         let mut owners = vec![0; 24 * 16];
         let found = |owners: &[u32]| TileSet::with_ghosts(&tiles, owners, [24, 16]);
         assert_eq!(found(&owners).count(), 0);
-        // In the last column of the first tile, in the row above the lower ones.
+        // A texel in the last column of the first tile, in the row above the lower tiles.
         owners[7 * 24 + 7] = GHOST_BIT | 3;
         let places: Vec<[u32; 3]> = found(&owners).places().collect();
         assert_eq!(places, [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]);

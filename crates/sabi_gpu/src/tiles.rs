@@ -1,4 +1,4 @@
-//! Kernels over the covered tiles only, in slices of about a given time.
+//! Kernels over only the covered tiles, in slices of about a given time.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -47,7 +47,7 @@ pub(crate) struct Slices<'a> {
     group: wgpu::BindGroup,
     /// Index of this repetition and number of repetitions.
     repetition: [u32; 2],
-    /// Page and first row of what is written.
+    /// Page and first row of the texture that is written.
     origin: [u32; 2],
 }
 
@@ -56,12 +56,12 @@ impl<'a> Slices<'a> {
         Slices::with_links(gpu, surface, &surface.ghosts.all, target)
     }
 
-    /// Slices with other links in place of those of the ghosts.
+    /// Creates slices with `links` in place of the links of the ghosts.
     pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
         Slices::of(gpu, surface, &surface.tiles, surface.tile_count, links, target)
     }
 
-    /// Slices of the shown tiles of a surface; of all where any texel may be read.
+    /// Creates slices of the shown tiles of a surface, or of all tiles if any texel may be read.
     pub(crate) fn shown(
         gpu: &'a Gpu,
         surface: &'a GpuSurface,
@@ -74,7 +74,7 @@ impl<'a> Slices<'a> {
         }
     }
 
-    /// Slices of some tiles of a surface alone.
+    /// Creates slices of only these tiles of a surface.
     pub(crate) fn over(
         gpu: &'a Gpu,
         surface: &'a GpuSurface,
@@ -114,19 +114,19 @@ impl<'a> Slices<'a> {
         }
     }
 
-    /// Slices of which kernels of points write a band of the atlas that begins at this row.
+    /// Returns the slices for kernels of points that write a band of the atlas beginning at this row.
     pub(crate) fn into_band(mut self, band: &LayerRows) -> Slices<'a> {
         self.origin = [band.layer, band.rows.start];
         self
     }
 
-    /// Slices for one of several repetitions.
+    /// Returns the slices for one of several repetitions.
     pub(crate) fn in_repetition(mut self, index: u32, count: u32) -> Slices<'a> {
         self.repetition = [index, count];
         self
     }
 
-    /// Slices over the groups of a survey in place of tiles; a workgroup takes 64 groups.
+    /// Returns slices over the groups of a survey instead of tiles. A workgroup takes 64 groups.
     pub(crate) fn of_groups(mut self, groups: u32) -> Slices<'a> {
         self.tile_count = groups.div_ceil(64);
         self
@@ -152,7 +152,7 @@ impl<'a> Slices<'a> {
         &self.group
     }
 
-    /// Runs one workgroup over no tile, for drivers that compile a kernel at its first use.
+    /// Runs one workgroup over no tiles, since some drivers compile a kernel at its first use.
     pub(crate) fn warm(
         &self,
         pipeline: &wgpu::ComputePipeline,
@@ -163,8 +163,8 @@ impl<'a> Slices<'a> {
         self.gpu.wait_with(Patience::for_compiling(is_canceled))
     }
 
-    /// Runs a kernel over its tiles, in slices that are waited for and measured. A kernel that is known to be quick is submitted
-    /// without a wait. Returns the time that it took, or is expected to take.
+    /// Runs a kernel over its tiles in slices, waits for each and measures it. A kernel that is known to be quick is
+    /// submitted without a wait. Returns the measured or expected time.
     pub(crate) fn run(
         &self,
         pipeline: &wgpu::ComputePipeline,
@@ -184,7 +184,7 @@ impl<'a> Slices<'a> {
             return Ok(expected);
         }
         let patience = Patience::for_slice(is_canceled);
-        // Earlier submissions are not measured with it.
+        // Work that was submitted earlier must not be included in the measurement.
         self.gpu.wait_with(patience)?;
         let (mut first, mut length, mut sum) = (0, self.first_slice(pace), Duration::ZERO);
         while first < tiles {
@@ -196,7 +196,7 @@ impl<'a> Slices<'a> {
             self.submit(pipeline, group, first, end);
             self.gpu.wait_with(patience)?;
             let taken = started.elapsed().max(Duration::from_micros(10));
-            // At most eight times the last slice, so that one quick slice does not lead to a very long one.
+            // Limits the growth to eight times the last slice, so that one quick slice does not lead to a very long one.
             let scale = (self.target.as_secs_f64() / taken.as_secs_f64()).clamp(0.125, 8.0);
             length = ((f64::from(end - first) * scale) as u32).max(1);
             first = end;
@@ -206,7 +206,7 @@ impl<'a> Slices<'a> {
         Ok(sum)
     }
 
-    /// Tiles of the first slice: what the kernel is known to do in a part of the target time.
+    /// Returns the number of tiles of the first slice: as many as the kernel is known to process in a fraction of the target time.
     fn first_slice(&self, pace: &Pace) -> u32 {
         let most = self.target.as_secs_f64() / MARGIN;
         let known = pace.seconds(1);
@@ -261,17 +261,17 @@ impl<'a> Slices<'a> {
 }
 
 impl Gpu {
-    /// Bind group layout of a surface, the same in every kernel; see `shaders/lib/atlas.wgsl`.
+    /// Returns the bind group layout of a surface, which is the same in every kernel; see `shaders/lib/atlas.wgsl`.
     pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
         &self.pipelines.surface_layout
     }
 
-    /// Bind group of a surface with the links of all its ghosts.
+    /// Returns the bind group of a surface with the links of all its ghosts.
     pub fn surface_bindings(&self, surface: &GpuSurface) -> wgpu::BindGroup {
         self.surface_group(surface, &surface.ghosts.all)
     }
 
-    /// Bind group of a surface with some links in place of those of all ghosts, for kernels over links.
+    /// Returns the bind group of a surface with `links` in place of the links of all ghosts, for kernels over links.
     pub(crate) fn surface_group(&self, surface: &GpuSurface, links: &Links) -> wgpu::BindGroup {
         let constants = self.uniform(&[0; size_of::<PassConstants>()]);
         self.surface_group_with(surface, &surface.tiles, links, &constants)

@@ -4,7 +4,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pool::{Extent, array_view};
 
-/// Rows of a table along one line of its texture; every adapter allows as many.
+/// Number of table rows in one row of its texture. Every adapter allows textures that are this wide.
 const TABLE_WIDTH: usize = 1 << TABLE_BITS;
 /// Exponent of [`TABLE_WIDTH`].
 pub(crate) const TABLE_BITS: u32 = 13;
@@ -29,12 +29,12 @@ pub(crate) fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u
     })
 }
 
-/// Most rows of a table.
+/// Returns the maximum number of rows of a table.
 pub(crate) fn most_table_rows(gpu: &Gpu) -> usize {
     TABLE_WIDTH * gpu.device.limits().max_texture_dimension_2d as usize
 }
 
-/// Extent of the texture of a table; an error where it needs more than `highest` lines.
+/// Returns the size of the texture of a table, or an error if it needs more than `highest` rows.
 fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::Extent3d, GpuError> {
     let lines = rows.div_ceil(TABLE_WIDTH).max(1);
     if lines > highest as usize {
@@ -91,7 +91,7 @@ pub(crate) fn table_texture(gpu: &Gpu, what: &'static str, bytes: &[u8]) -> Resu
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
-/// Uploads an integer for each texel of the atlas, page by page and row by row, in as many bytes as the format has.
+/// Uploads an integer for each texel of the atlas, page by page and row by row, with as many bytes as the format has.
 pub(crate) fn texel_texture(
     gpu: &Gpu,
     what: &'static str,
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_table_takes_as_many_lines_as_it_needs_and_no_more_than_the_adapter_has() {
+    fn a_table_has_as_many_texture_rows_as_needed_up_to_the_adapters_limit() {
         let extent = |rows| table_extent("the triangles", rows, 8192).map(|size| [size.width, size.height]);
         assert_eq!(extent(0), Ok([1, 1]));
         assert_eq!(extent(8192), Ok([8192, 1]));

@@ -1,5 +1,5 @@
-//! Waits for the device in steps: a cancel is heard between them, the locks of the device are free for other threads, and
-//! work that does not end is given up.
+//! Waits for the device in steps. Between steps, a cancel is noticed and the locks of the device are free for other
+//! threads. Work that does not end is given up.
 
 use std::time::Duration;
 
@@ -7,22 +7,22 @@ use crate::error::GpuError;
 
 /// Time of a step.
 pub(crate) const STEP: Duration = Duration::from_millis(100);
-/// Steps for a slice of a kernel, which should take a fourth of a step where a window shares the device: 20 seconds.
+/// Number of steps for a slice of a kernel: 20 seconds. If a window shares the device, a slice should take a fourth of a step.
 pub(crate) const OF_A_SLICE: u32 = 200;
-/// Steps for the first use of a kernel, which software drivers compile then: three minutes.
+/// Number of steps for the first use of a kernel, in which software drivers compile it: three minutes.
 const OF_COMPILING: u32 = 1800;
 
-/// Condition for going on with a wait.
+/// Conditions under which a wait continues.
 #[derive(Clone, Copy)]
 pub(crate) struct Patience<'a> {
     is_canceled: &'a dyn Fn() -> bool,
     steps: u32,
-    /// True for a wait for a slice, of which a device may be told to be less patient.
+    /// True for a wait for a slice. The number of steps for these can be reduced for a device.
     is_for_slice: bool,
 }
 
 impl<'a> Patience<'a> {
-    /// Waits for a slice of a kernel.
+    /// Returns the patience for a slice of a kernel.
     pub(crate) fn for_slice(is_canceled: &'a dyn Fn() -> bool) -> Patience<'a> {
         Patience {
             is_canceled,
@@ -31,7 +31,7 @@ impl<'a> Patience<'a> {
         }
     }
 
-    /// Waits for a driver that compiles a kernel.
+    /// Returns the patience for a driver that compiles a kernel.
     pub(crate) fn for_compiling(is_canceled: &'a dyn Fn() -> bool) -> Patience<'a> {
         Patience {
             is_canceled,
@@ -40,7 +40,7 @@ impl<'a> Patience<'a> {
         }
     }
 
-    /// Waits for the end of what a canceled run has submitted, if that comes soon.
+    /// Returns the patience for the work of a canceled run, which is given up after a short time.
     pub(crate) fn for_a_moment() -> Patience<'a> {
         Patience {
             is_canceled: &|| false,
@@ -49,7 +49,7 @@ impl<'a> Patience<'a> {
         }
     }
 
-    /// Waits for work that cannot be canceled.
+    /// Returns the patience for work that cannot be canceled.
     pub(crate) fn endless() -> Patience<'a> {
         Patience {
             is_canceled: &|| false,
@@ -58,7 +58,7 @@ impl<'a> Patience<'a> {
         }
     }
 
-    /// The same with at most this many steps for a slice.
+    /// Returns the same patience, with at most this many steps if it is for a slice.
     pub(crate) fn with_steps_of_a_slice(self, most: u32) -> Patience<'a> {
         let steps = if self.is_for_slice {
             self.steps.min(most)
@@ -68,7 +68,7 @@ impl<'a> Patience<'a> {
         Patience { steps, ..self }
     }
 
-    /// Calls `wait` with the time of a step until it gives something, the run is canceled, or there are no steps left.
+    /// Calls `wait` with the time of a step until it returns a value, the run is canceled, or no steps are left.
     pub(crate) fn wait<T>(self, mut wait: impl FnMut(Duration) -> Option<T>) -> Result<T, GpuError> {
         for _ in 0..self.steps {
             if let Some(done) = wait(STEP) {
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cancel_is_heard_after_the_step_in_which_it_comes() {
+    fn a_cancel_is_noticed_after_the_step_in_which_it_comes() {
         let steps = Cell::new(0);
         let is_canceled = || steps.get() == 3;
         let waited: Result<(), GpuError> = Patience::for_slice(&is_canceled).wait(|_| {
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_done_in_time_is_handed_on() {
+    fn a_value_that_comes_in_time_is_returned() {
         let steps = Cell::new(0);
         let waited = Patience::for_slice(&|| false).wait(|_| {
             steps.set(steps.get() + 1);

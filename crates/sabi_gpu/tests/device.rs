@@ -51,7 +51,7 @@ fn gpu() -> Arc<Gpu> {
         .clone()
 }
 
-/// A square of side 1 in the plane z = 0, its UVs filling most of the unit square.
+/// Returns a square of side 1 in the plane z = 0 whose UVs fill most of the unit square.
 fn square() -> Mesh {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     Mesh {
@@ -132,7 +132,7 @@ impl Bench {
         plan
     }
 
-    /// The chain, and before it a source with this many masks.
+    /// Returns the plan of the chain, preceded by a source with this many masks.
     fn plan_with_source(&self, masks: usize) -> Plan {
         let mut plan = self.plan(CHAIN, FUSED);
         let slot = plan.results[0].slots[0];
@@ -200,7 +200,7 @@ const CHAIN: &str = r#"
     "last": { "kind": "adjust/invert", "inputs": { "source": "cut" } }"#;
 
 #[test]
-fn an_adapter_that_is_not_there_is_named_with_those_that_are() {
+fn an_error_for_a_missing_adapter_names_it_and_the_adapters_found() {
     let own = gpu().summary().name.clone();
     let error = Gpu::open(&AdapterChoice::Named("Voodoo 2".into()))
         .err()
@@ -214,7 +214,7 @@ fn an_adapter_that_is_not_there_is_named_with_those_that_are() {
 }
 
 #[test]
-fn the_same_plan_gives_the_same_bytes_however_it_is_cut() {
+fn the_same_plan_gives_the_same_bytes_however_it_is_divided_into_kernels() {
     let bench = Bench::new(128);
     let plan = bench.plan(CHAIN, FUSED);
     let whole = bench.run(&plan, &options(), None).unwrap();
@@ -227,7 +227,7 @@ fn the_same_plan_gives_the_same_bytes_however_it_is_cut() {
 }
 
 #[test]
-fn a_budget_that_is_too_small_is_a_sentence() {
+fn a_budget_that_is_too_small_is_an_error() {
     let bench = Bench::new(128);
     let plan = bench.plan(CHAIN, Mode::Bake { fuse: false });
     let small = RunOptions {
@@ -252,7 +252,7 @@ fn a_budget_that_is_too_small_is_a_sentence() {
 }
 
 #[test]
-fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
+fn maps_of_owners_and_leaps_are_included_in_the_budget_and_in_the_peak() {
     let bench = Bench::new(128);
     let plan = bench.plan(CHAIN, FUSED);
     let all = bench.run(&plan, &options(), None).unwrap().report.pool.peak_bytes;
@@ -270,7 +270,7 @@ fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
     assert!(matches!(limited(all - 1), Some(GpuError::OverBudget { .. })));
 }
 
-/// Masks of one number and a filter of vectors, which is repeated.
+/// Masks of one component, and a repeated filter of vectors.
 const MIXED: &str = r#"
     "clouds": { "kind": "noise/simplex" },
     "soft": { "kind": "filter/blur", "inputs": { "source": "clouds" }, "params": { "radius": 0.03 } },
@@ -286,7 +286,7 @@ fn a_run_holds_no_more_textures_than_are_needed_at_once() {
         bench.plan(MIXED, Mode::Bake { fuse: false }).with_own_slots(),
     ] {
         let run = bench.run(&plan, &options(), None).unwrap();
-        // During a blur: clouds and what is blurred, the flow along u and v, and two states of the heat, whose start is one of them.
+        // During a blur: clouds and the blurred vectors, the flow along u and v, and two states of the heat, one of which is the start.
         let texel_bytes = 4 + 4 + 4 * 16;
         let expected = bench.surface.texture_bytes() + texel_bytes * bench.surface.texels();
         assert_eq!(run.report.pool.peak_bytes, expected, "{plan}");
@@ -320,7 +320,7 @@ fn kernels_of_points_write_over_what_they_read_last_and_give_the_same() {
         let covered = (0..atlas.owners.len()).filter(|texel| atlas.owners[*texel] != sabi_surface::atlas::EMPTY);
         let differing = covered.filter(|texel| beside.1.texel(*texel) != over.1.texel(*texel));
         assert_eq!(differing.count(), 0);
-        // A second mask, and a band of one instead.
+        // A second mask is replaced by a band.
         assert!(
             over.0 + 3 * bench.surface.texels() < beside.0,
             "{} {}",
@@ -344,7 +344,7 @@ fn kernels_that_are_forgotten_change_no_result_and_are_compiled_again() {
 }
 
 #[test]
-fn a_kernel_that_cannot_be_compiled_blames_no_one_alone() {
+fn an_error_of_a_kernel_that_cannot_be_compiled_names_all_its_nodes() {
     let error = GpuError::Kernel {
         nodes: "rust, own".into(),
         reason: "expected ';'".into(),
@@ -356,7 +356,7 @@ fn a_kernel_that_cannot_be_compiled_blames_no_one_alone() {
 }
 
 #[test]
-fn a_run_stops_when_it_is_told_to() {
+fn a_run_stops_when_it_is_canceled() {
     let bench = Bench::new(64);
     let plan = bench.plan(CHAIN, FUSED);
     let canceled = RunOptions {
@@ -384,14 +384,14 @@ fn interactive_and_fused_results_agree() {
 }
 
 #[test]
-fn a_source_that_fails_is_an_error_with_its_own_words() {
+fn the_error_of_a_source_that_fails_has_the_sources_own_text() {
     let bench = Bench::new(64);
     let plan = bench.plan_with_source(1);
     let error = bench.run(&plan, &options(), None).err().unwrap();
     assert_eq!(error.to_string(), "nobody fills 'lost'");
 }
 
-/// Source that gives this many bytes for every plane, and counts the planes.
+/// Source that returns this many bytes for every plane, and counts the planes.
 struct Counted {
     bytes: usize,
     asked: Rc<Cell<usize>>,
@@ -416,7 +416,7 @@ impl SourceFill for Counted {
 }
 
 #[test]
-fn a_source_of_many_planes_stops_between_two_of_them() {
+fn a_source_of_many_planes_can_be_canceled_between_planes() {
     let bench = Bench::new(64);
     let plan = bench.plan_with_source(5);
     let asked = Rc::new(Cell::new(0));
@@ -447,7 +447,7 @@ fn a_source_of_many_planes_stops_between_two_of_them() {
 }
 
 #[test]
-fn a_source_that_gives_too_little_is_an_error_and_no_panic() {
+fn a_source_that_returns_too_few_bytes_is_an_error_and_no_panic() {
     let bench = Bench::new(64);
     let plan = bench.plan_with_source(1);
     let mut source = Counted {

@@ -1,9 +1,9 @@
-//! Draws strokes on a model from a description, as a hand would draw them on a picture of it, into a stroke file:
-//! `cargo run -p sabi_paint --example draw MODEL DESCRIPTION FILE`. Prints the version that a graph has to name.
+//! Draws strokes on a model according to a description, and writes them to a stroke file: `cargo run -p sabi_paint
+//! --example draw MODEL DESCRIPTION FILE`. Prints the version for a graph to name.
 //!
-//! The description is a list of strokes in JSON. Each has a `brush` (see [`sabi_paint::Brush`]; lengths are shares of the model's
-//! largest side here), `erase`, the direction `seen_from`, and a `way` of points between 0 and 1 along the sides of the model's
-//! box. The points are joined by straight lines, and the model is looked at along them.
+//! The description is a list of strokes in JSON. Each stroke has a `brush` (see [`sabi_paint::Brush`]; lengths are shares of the model's
+//! largest side here), `erase`, the direction `seen_from`, and a `way` of points between 0 and 1 along the sides of the model's box. The
+//! points are connected by straight lines, which are projected onto the model along the viewing direction.
 
 #![allow(clippy::print_stdout, reason = "a program of its own")]
 
@@ -21,7 +21,7 @@ use sabi_surface::load::{LoadOptions, load};
 use sabi_surface::model::Mesh;
 use serde::Deserialize;
 
-/// Points of a way for one side of the model's box.
+/// Number of points of a way along one side of the model's box.
 const POINTS_A_SIDE: f64 = 160.0;
 
 #[derive(Deserialize)]
@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let stroke = drawn(&surface, &bvh, &loaded.mesh, described);
         version = book.push(version, &Step::Add(Arc::new(stroke)));
     }
-    // A file that is there is replaced, not added to.
+    // An existing file is replaced. Storing would append to it.
     if target.exists() {
         std::fs::remove_file(target)?;
     }

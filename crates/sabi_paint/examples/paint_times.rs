@@ -1,11 +1,12 @@
-//! Times of painting: `cargo run --release -p sabi_paint --example paint_times -- [MODEL] [SIZE] [STROKES]`.
+//! Measures times of painting: `cargo run --release -p sabi_paint --example paint_times -- [MODEL] [SIZE] [STROKES]`.
 //!
-//! Draws strokes over the front of the model, each as long as a fifth of it, with a round brush of 5 % of its size, and says how
-//! long a stroke takes on a canvas that is there, what a new canvas of all strokes takes, and a step back; and what a place more at the end
-//! of a long stroke takes.
+//! Draws strokes over the front of the model, each with a length of a fifth of the model, with a round brush of 5 % of its
+//! size. Prints the time of a stroke on an existing canvas, of a new canvas with all strokes, of a step back, and of one
+//! more point at the end of a long stroke.
 //!
-//! With a number of strokes, they are like an artist's instead: most with a brush of 1 % of the model, round or with a tip, some of
-//! them erasing, and a few larger. It says what storing, reading and painting them takes, and the memory of kept canvases.
+//! If a number of strokes is given, the strokes are like those of an artist instead: most of them with a brush of 1 % of
+//! the model, round or with a tip, some of them erasing, and a few larger. Prints the times for storing, reading and
+//! painting them, and the memory of the kept canvases.
 
 #![allow(clippy::print_stdout, reason = "a program of its own")]
 
@@ -24,21 +25,21 @@ use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::load::{LoadOptions, load};
 
-/// Strokes that are drawn.
+/// Number of strokes that are drawn.
 const STROKES: usize = 256;
-/// Points of a stroke.
+/// Number of points of a stroke.
 const POINTS: usize = 40;
-/// Bytes of canvases that are kept.
+/// Memory limit of kept canvases in bytes.
 const BUDGET: usize = 512 << 20;
-/// Strokes that are joined to a long one.
+/// Number of strokes that are joined to a long one.
 const LONG: usize = 12;
-/// Points of a stroke of an artist.
+/// Number of points of a stroke of an artist.
 const ARTIST_POINTS: usize = 200;
-/// Bytes of canvases that are kept of an artist's strokes.
+/// Memory limit of kept canvases for an artist's strokes, in bytes.
 const ARTIST_BUDGET: usize = 256 << 20;
-/// Strokes of an artist after which the memory is counted.
+/// Number of an artist's strokes after which the memory is measured.
 const COUNTED: usize = 500;
-/// Layers that are painted: those of a mask.
+/// Layers that are painted: only those of a mask.
 const LAYERS: Layers = Layers {
     value: true,
     color: false,
@@ -61,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .next()
         .map_or_else(|| PathBuf::from("assets/meshes/figure.glb"), PathBuf::from);
     let mut number = || arguments.next()?.to_str()?.parse::<u32>().ok();
-    let size = number().unwrap_or(1024); // As in the editor.
+    let size = number().unwrap_or(1024); // The size that the editor uses.
     let strokes = number();
     let mesh = load(&model, &LoadOptions::default())?.mesh;
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(size))?;
@@ -84,7 +85,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Says what a stroke, a step back and all strokes take.
+/// Prints the times of a stroke, of a step back, and of all strokes.
 fn time_strokes(scene: &Scene<'_>) {
     println!("{STROKES} strokes");
     let mut book = StrokeBook::default();
@@ -122,7 +123,7 @@ fn time_strokes(scene: &Scene<'_>) {
     }
 }
 
-/// Says what a place more takes at the end of a long stroke, and the whole stroke.
+/// Prints the time for one more point at the end of a long stroke, and for the whole stroke.
 fn time_long_stroke(scene: &Scene<'_>, tip: Tip) {
     let brush = Brush {
         radius: (0.05 * scene.side()) as f32,
@@ -147,7 +148,7 @@ fn time_long_stroke(scene: &Scene<'_>, tip: Tip) {
     );
 }
 
-/// Says what the strokes of an artist take, on disk and on a canvas.
+/// Prints times and sizes for the strokes of an artist, on disk and on a canvas.
 fn time_artist(scene: &Scene<'_>, count: usize) -> Result<(), Box<dyn Error>> {
     println!("{count} strokes of an artist");
     let strokes: Vec<Step> = (0..count)
@@ -229,7 +230,7 @@ impl Scene<'_> {
         started.elapsed()
     }
 
-    /// A stroke like an artist's; the same for the same number.
+    /// Returns a stroke like an artist's, always the same for the same number.
     fn artist_stroke(&self, number: usize) -> Stroke {
         let radius = if number.is_multiple_of(40) { 0.05 } else { 0.01 };
         let tip = match number % 8 {
@@ -248,10 +249,10 @@ impl Scene<'_> {
         }
     }
 
-    /// Points from somewhere on the front of the model, in some direction; the same for the same number.
+    /// Returns points that start somewhere on the front of the model and lead in some direction, always the same for the same number.
     fn way(&self, number: usize, points: usize) -> Vec<StrokePoint> {
         let (low, high, side) = (self.low, self.high, self.side());
-        // Evenly spread numbers (Weyl's sequence of the plastic number).
+        // Evenly distributed numbers (Weyl's sequence of the plastic number).
         let spread = |step: f64| (number as f64 * step).fract();
         let start = low + (high - low) * DVec3::new(spread(0.754_877_666), spread(0.569_840_291), 0.0);
         let angle = std::f64::consts::TAU * spread(0.618_033_988);

@@ -1,6 +1,6 @@
-//! Contact sheet of all tips, white on dark, in the order of [`Tip::ALL`]:
-//! `cargo run --release -p sabi_paint --example tips -- FILE.png [TIP]`. Shows a large stamp, a stroke, and both as small as in a
-//! panel; of a single tip, given by its number from 0 on, everything three times as large. Prints the time of a texel of each.
+//! Draws a contact sheet of all tips, white on dark, in the order of [`Tip::ALL`]: `cargo run --release -p sabi_paint
+//! --example tips -- FILE.png [TIP]`. Shows a large stamp, a stroke, and both in the small size of a panel. For a single
+//! tip, given by its number from 0 on, everything is three times as large. Prints the time for a texel of each tip.
 
 #![allow(clippy::print_stdout, reason = "a program of its own")]
 
@@ -14,7 +14,7 @@ use sabi_paint::{Brush, StampPictures, SwatchPixel, Tip, stamp_swatch, swatch};
 const COLUMNS: usize = 4;
 /// Size of a cell of the sheet.
 const CELL: [usize; 2] = [470, 200];
-/// Side of the stamp by which times are taken.
+/// Side in texels of the stamp whose time is measured.
 const TIMED: usize = 512;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Nanoseconds for a texel of a large stamp, and milliseconds for a swatch of 128 x 40.
+/// Returns nanoseconds for a texel of a large stamp, and milliseconds for a swatch of 128 x 40.
 fn times(brush: &Brush) -> (f64, f64) {
     let seconds = |work: &dyn Fn()| {
         let taken = (0..3).map(|_| {
@@ -68,7 +68,7 @@ fn times(brush: &Brush) -> (f64, f64) {
             stamp_swatch(brush, &StampPictures::new(), TIMED);
         })
     };
-    // A soft disk takes all the time but that of the tip.
+    // The time of a soft disk is subtracted, so that only the time of the tip itself remains.
     let plain = Brush::default().with_tip(Tip::Soft);
     let texels = std::f64::consts::FRAC_PI_4 * (TIMED * TIMED) as f64;
     let stroke = seconds(&|| {
@@ -102,7 +102,7 @@ impl Sheet {
         }
     }
 
-    /// The picture as a PNG file without compression, which needs no encoder.
+    /// Returns the picture as a PNG file without compression, which needs no encoder.
     fn png(&self) -> Vec<u8> {
         let mut rows = Vec::new();
         for row in self.pixels.chunks(self.size[0]) {

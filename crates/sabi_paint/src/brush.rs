@@ -1,4 +1,4 @@
-//! A brush: what a stroke leaves where it passes.
+//! Brushes: the paint that a stroke leaves.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use crate::pen::{PenEffects, Pose};
 use crate::picture::PictureTip;
 use crate::tips::Tip;
 
-/// Usual angle at which a side ends, degrees.
+/// Usual angle at which a side ends, in degrees.
 const SIDE_DEGREES: f32 = 30.0;
 /// Usual difference of cover at which a similar area ends.
 const TOLERANCE: f32 = 0.25;
@@ -22,57 +22,57 @@ fn is_usual_tolerance(tolerance: &f32) -> bool {
     *tolerance == TOLERANCE
 }
 
-/// What a stroke leaves where it passes. Values that a file lacks are those of [`Brush::default`].
+/// Properties of the paint that a stroke leaves. Values that are missing in a file are those of [`Brush::default`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Brush {
     /// Shape of a stamp.
     pub tip: Tip,
-    /// Picture that is stamped instead of the tip; the radius is half of its longer side, and the hardness does not count.
+    /// Picture that is stamped instead of the tip. The radius is half of its longer side, and the hardness is ignored.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub picture: Option<PictureTip>,
-    /// Radius at full pressure, model units.
+    /// Radius at full pressure in model units.
     pub radius: f32,
-    /// Share of the radius within which the brush has its full strength; it fades from there to the border.
+    /// Share of the radius within which the brush has its full strength. From there it fades to the border.
     pub hardness: f32,
-    /// Way in which it fades. Left out of files where it is the usual one, as for [`Brush::turn`].
+    /// Way in which it fades. The usual one is not written to files, for the reason given at [`Brush::turn`].
     #[serde(skip_serializing_if = "Fade::is_usual")]
     pub fade: Fade,
-    /// Strength of a single stamp, 0 to 1: below 1 a stroke builds up where it passes slowly or again.
+    /// Strength of a single stamp, 0 to 1. Below 1, a stroke builds up where it passes slowly or repeatedly.
     pub flow: f32,
-    /// Limit of a whole stroke, 0 to 1.
+    /// Maximum strength of a whole stroke, 0 to 1.
     pub opacity: f32,
-    /// Way between two stamps, as a share of the radius.
+    /// Distance between two stamps, as a share of the radius.
     pub spacing: f32,
-    /// Direction that the tip follows. Left out of files where it is the stroke's, so that strokes from before there was a choice
-    /// keep their bytes, and with these the names of their versions.
+    /// Direction that the tip follows. The direction of the stroke is not written to files, so that strokes from before
+    /// this choice existed keep their bytes and thus the names of their versions.
     #[serde(skip_serializing_if = "Turn::is_along_stroke")]
     pub turn: Turn,
-    /// Turn of the tip away from that direction, degrees counter-clockwise as seen from outside.
+    /// Rotation of the tip from that direction, in degrees counter-clockwise as seen from outside.
     pub angle_degrees: f32,
     /// Random differences between stamps.
     pub jitter: Jitter,
-    /// Value that the mask gets, 0 to 1.
+    /// Value that the mask receives, 0 to 1.
     pub value: f32,
     /// Color, linear.
     pub color: [f32; 3],
-    /// Height that is added, model units; below 0 it carves.
+    /// Height that is added, in model units. A negative height carves.
     pub height: f32,
-    /// Places that are left alone.
+    /// Places that the brush does not change.
     pub limits: Limits,
-    /// Angle between triangles at which the side that a fill covers ends, degrees. Left out of files where it is 30.
+    /// Angle between triangles at which the side that a fill covers ends, in degrees. 30 is not written to files.
     #[serde(skip_serializing_if = "is_usual_side")]
     pub side_degrees: f32,
-    /// Difference of cover at which a fill of a similar area ends, 0 to 1. Left out of files where it is a quarter.
+    /// Difference of cover at which a fill of a similar area ends, 0 to 1. A quarter is not written to files.
     #[serde(skip_serializing_if = "is_usual_tolerance")]
     pub tolerance: f32,
     /// Copies of the stroke on the other sides of the model.
     pub symmetry: Symmetry,
-    /// True if a stroke reaches other pieces of the model that lie near and face the same way, such as the next board.
+    /// True if a stroke also paints other pieces of the model that are near and face the same way, for example the next board.
     pub reaches_pieces: bool,
-    /// What the pressure of a pen changes.
+    /// Effects of the pressure of a pen.
     pub pressure: PenEffects,
-    /// Effects of the tilt of a pen, from upright on the surface to flat on it. Left out of files where there are none.
+    /// Effects of the tilt of a pen, from upright on the surface to flat on it. Not written to files if there are none.
     #[serde(skip_serializing_if = "PenEffects::are_none")]
     pub tilt: PenEffects,
 }
@@ -84,9 +84,9 @@ pub enum Turn {
     /// Along the stroke.
     #[default]
     Stroke,
-    /// Down the surface, for tips that hang; along the stroke where the surface is level.
+    /// Down the surface, for tips that hang; along the stroke on a level surface.
     Down,
-    /// With the pen: where it leans; along the stroke where it stands upright, or where nothing is known of it.
+    /// In the direction in which the pen leans; along the stroke if the pen is upright or its direction is unknown.
     Pen,
 }
 
@@ -99,18 +99,18 @@ impl Turn {
     }
 }
 
-/// Copies of a stroke on the other sides of the model. Planes and the axis, which is upright, go through the middle of its box.
+/// Copies of a stroke on the other sides of the model. The planes and the vertical axis go through the middle of the model's box.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Symmetry {
-    /// Mirrors across the planes at right angles to x, y and z.
+    /// For x, y and z: whether the stroke is mirrored across the plane perpendicular to that axis.
     pub mirrors: [bool; 3],
-    /// Number of copies around the upright axis, the stroke itself among them; 0 and 1 are none.
+    /// Number of copies around the vertical axis, including the stroke itself; 0 and 1 mean no copies.
     pub turns: u32,
 }
 
 impl Symmetry {
-    /// Most copies around the axis.
+    /// Maximum number of copies around the axis.
     pub const TURNS_LIMIT: u32 = 64;
 }
 
@@ -143,7 +143,7 @@ impl Default for Brush {
 }
 
 impl Brush {
-    /// The brush with every number in its range; numbers that are none become those of the default brush.
+    /// Returns the brush with every number in its range. NaN is replaced by the number of the default brush.
     pub fn bounded(&self) -> Brush {
         let usual = Brush::default();
         let within = |value: f32, usual: f32, low: f32, high: f32| {
@@ -185,47 +185,47 @@ impl Brush {
         }
     }
 
-    /// Share that is left of a property of the brush under a pen, of which both effects change an amount.
+    /// Returns the factor for a property of the brush that both effects of the pen change, each by its amount.
     fn share_at(&self, pose: &Pose, amount: impl Fn(&PenEffects) -> f32) -> f64 {
         let by_pressure = self.pressure.share(amount(&self.pressure), pose.pressure);
         let by_tilt = |tilt: f32| self.tilt.share(amount(&self.tilt), tilt);
-        // A mouse does not lean.
+        // A mouse has no tilt.
         by_pressure * pose.lean.map_or(1.0, |lean| by_tilt(lean.tilt))
     }
 
-    /// Radius under a pen, model units; never below a fiftieth of the full one.
+    /// Returns the radius for a pose of the pen in model units; at least a fiftieth of the full radius.
     pub(crate) fn radius_at(&self, pose: &Pose) -> f64 {
         f64::from(self.radius) * self.share_at(pose, |effects| effects.radius).max(0.02)
     }
 
-    /// Strength of a stamp under a pen, 0 to 1.
+    /// Returns the strength of a stamp for a pose of the pen, 0 to 1.
     pub(crate) fn strength_at(&self, pose: &Pose) -> f64 {
         self.share_at(pose, |effects| effects.flow)
     }
 
-    /// Distance of stamps from the way under a pen, as a share of the radius.
+    /// Returns the distance of stamps from the way for a pose of the pen, as a share of the radius.
     pub(crate) fn scatter_at(&self, pose: &Pose) -> f64 {
         f64::from(self.jitter.place) * self.share_at(pose, |effects| effects.scatter)
     }
 
-    /// Share of the radius that has the full strength under a pen.
+    /// Returns the share of the radius that has the full strength, for a pose of the pen.
     pub(crate) fn hardness_at(&self, pose: &Pose) -> f64 {
         f64::from(self.hardness) * self.share_at(pose, |effects| effects.hardness)
     }
 
-    /// Turn of the tip under a pen, degrees counter-clockwise.
+    /// Returns the rotation of the tip for a pose of the pen, in degrees counter-clockwise.
     pub(crate) fn turn_at(&self, pose: &Pose) -> f64 {
         let by_tilt = pose.lean.map_or(0.0, |lean| self.tilt.turn(lean.tilt));
         f64::from(self.angle_degrees) + self.pressure.turn(pose.pressure) + by_tilt
     }
 
-    /// Share of the full strength at a distance from the middle, given in radii: that of the hard part inside of the hardness, which is 1
-    /// but for curves, 0 from 1 on, and faded in between.
+    /// Returns the share of the full strength at a distance from the middle, given in radii. Inside of the hardness it is
+    /// that of the hard part (1 except for curves), from 1 on it is 0, and in between it fades.
     pub fn falloff(&self, distance: f64) -> f64 {
         self.falloff_of(distance, f64::from(self.hardness))
     }
 
-    /// As [`Brush::falloff`], with another hardness.
+    /// Returns the share of [`Brush::falloff`] with another hardness.
     pub(crate) fn falloff_of(&self, distance: f64, hard: f64) -> f64 {
         if distance <= hard {
             return self.fade.at(1.0);

@@ -1,4 +1,4 @@
-//! What strokes leave on an atlas.
+//! Canvases: the paint that strokes leave on an atlas.
 
 mod adjust;
 mod fills;
@@ -30,7 +30,7 @@ use sabi_color::luminance;
 
 use crate::supplies::bounded;
 
-/// What a canvas keeps for each texel besides how much of it is painted.
+/// Layers that a canvas stores for each texel in addition to the cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layers {
     /// The value of a mask.
@@ -44,7 +44,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// All layers of both.
+    /// Returns the layers that are in at least one of the two.
     pub fn and(self, other: Layers) -> Layers {
         Layers {
             value: self.value || other.value,
@@ -54,7 +54,7 @@ impl Layers {
         }
     }
 
-    /// Returns true if all layers of another canvas are among these.
+    /// Returns true if all layers of `other` are among these.
     pub fn contain(self, other: Layers) -> bool {
         (self.value || !other.value)
             && (self.color || !other.color)
@@ -63,15 +63,15 @@ impl Layers {
     }
 }
 
-/// Texels of a tile: as many of a page's row as a stroke that is there changes most likely.
+/// Texels of a tile: about as many as a stroke changes in a row of a page.
 const TILE: usize = 512;
-/// Texels that are held together against others.
+/// Number of texels that are compared at once.
 const EIGHT: usize = 8;
 
-/// Paint that strokes left on a texel; 0 for layers that are not kept.
+/// Paint on a texel; 0 for layers that are not stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CanvasTexel {
-    /// Painted share of it, 0 to 1.
+    /// Painted share of the texel, 0 to 1.
     pub cover: f32,
     /// Value times cover.
     pub value: f32,
@@ -79,11 +79,11 @@ pub struct CanvasTexel {
     pub color: [f32; 3],
     /// Height, model units.
     pub height: f32,
-    /// Direction of the strokes in model space times cover.
+    /// Direction of the strokes in model space, times cover.
     pub direction: [f32; 3],
 }
 
-/// Paint that a stroke lays on a texel.
+/// Paint that a stroke puts on a texel.
 struct Laid {
     /// Share of the texel, 0 to 1.
     strength: f32,
@@ -93,11 +93,11 @@ struct Laid {
     height: f32,
     /// Linear color.
     color: [f32; 3],
-    /// Direction of the stroke in model space; none where that below stays.
+    /// Direction of the stroke in model space; `None` if the existing direction is kept.
     direction: Option<[f32; 3]>,
 }
 
-/// Place of each layer among the numbers of a texel, behind its cover.
+/// Index of each layer among the numbers of a texel, which start with the cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Channels {
     value: Option<usize>,
@@ -108,14 +108,14 @@ struct Channels {
     count: usize,
 }
 
-/// Paint of strokes on an atlas: for each texel, ghosts included. A copy shares the tiles with its original until one of them is
-/// painted on, so that a stroke costs what it touches.
+/// Paint of strokes on an atlas, for each texel including ghosts. A copy shares its tiles with the original until they are
+/// painted on, so that a stroke costs only the tiles that it touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canvas {
     layers: Layers,
     channels: Channels,
     texels: usize,
-    /// Numbers of the texels of each tile, texel by texel; none where nothing is painted.
+    /// Numbers of the texels of each tile, texel by texel; `None` for tiles without paint.
     tiles: Vec<Option<Arc<Vec<f32>>>>,
 }
 
@@ -140,7 +140,7 @@ impl Channels {
     }
 }
 
-/// Returns true if two canvases share a tile, or nothing is painted there on either.
+/// Returns true if two canvases share a tile, or if both have no paint there.
 fn is_same(one: &Option<Arc<Vec<f32>>>, other: &Option<Arc<Vec<f32>>>) -> bool {
     match (one, other) {
         (Some(one), Some(other)) => Arc::ptr_eq(one, other),
@@ -164,12 +164,12 @@ impl Canvas {
         Canvas::empty(self.texels, self.layers)
     }
 
-    /// The layers that it keeps.
+    /// Returns the layers that the canvas stores.
     pub fn layers(&self) -> Layers {
         self.layers
     }
 
-    /// Bytes of memory that canvases of one atlas take alone: without the tiles that others share with them.
+    /// Returns the bytes of memory that only these canvases of one atlas use, without tiles that they share with others.
     pub(crate) fn own_bytes(canvases: &[&Canvas]) -> usize {
         let count = canvases.first().map_or(0, |canvas| canvas.tiles.len());
         let tables: usize = canvases.iter().map(|canvas| size_of_val(canvas.tiles.as_slice())).sum();
@@ -184,8 +184,8 @@ impl Canvas {
         (0..count).map(bytes_at).sum::<usize>() + tables
     }
 
-    /// The canvas with only a share, 0 to 1, of what it changes on a canvas below it. `known` are three canvases of which the last is what
-    /// that gave for the first, below, and the second: tiles that are the same in both are taken from it.
+    /// Returns a canvas with only a share, 0 to 1, of the changes from `below` to this canvas. `known` holds three canvases: an earlier
+    /// `below`, an earlier full canvas, and the result for these two. Tiles for which both inputs are the same are taken from that result.
     pub(crate) fn faded(&self, below: &Canvas, share: f32, known: Option<[&Canvas; 3]>) -> Canvas {
         let empty = vec![0.0; TILE * self.channels.count];
         let tiles = self
@@ -204,7 +204,7 @@ impl Canvas {
                 {
                     return faded.clone();
                 }
-                let [full, under] = [full, under].map(|tile| tile.as_deref().unwrap_or(&empty)); // Nothing is painted there.
+                let [full, under] = [full, under].map(|tile| tile.as_deref().unwrap_or(&empty)); // An empty tile has no paint.
                 let mixed = full
                     .iter()
                     .zip(under)
@@ -245,14 +245,14 @@ impl Canvas {
         (0..self.texels).map(|texel| self.texel(texel))
     }
 
-    /// Numbers of a texel; none where nothing is painted around it, or for a texel that the atlas does not have.
+    /// Returns the numbers of a texel; `None` if its tile has no paint, or if the atlas has no such texel.
     fn numbers(&self, texel: usize) -> Option<&[f32]> {
         let tile = self.tiles.get(texel / TILE)?.as_ref()?;
         let at = texel % TILE * self.channels.count;
         tile.get(at..at + self.channels.count)
     }
 
-    /// Numbers of a texel that are to be changed.
+    /// Returns the numbers of a texel for changing them.
     fn numbers_mut(&mut self, texel: usize) -> &mut [f32] {
         let count = self.channels.count;
         let empty = || Arc::new(vec![0.0; TILE * count]);
@@ -261,8 +261,8 @@ impl Canvas {
         &mut tile[at..at + count]
     }
 
-    /// The first texel of each eight in a row that differ from those of an earlier canvas of the same atlas, in order; none where the
-    /// other one has other layers.
+    /// Returns the first texel of each group of eight that differs from an earlier canvas of the same atlas, in ascending
+    /// order; `None` if the other canvas has other layers.
     pub fn changed_since(&self, before: &Canvas) -> Option<Vec<u32>> {
         if (self.layers, self.texels) != (before.layers, before.texels) {
             return None;
@@ -274,7 +274,7 @@ impl Canvas {
             if is_same(tiles.0, tiles.1) {
                 continue;
             }
-            let [own, old] = [tiles.0, tiles.1].map(|tile| tile.as_deref().unwrap_or(&empty)); // Nothing is painted there.
+            let [own, old] = [tiles.0, tiles.1].map(|tile| tile.as_deref().unwrap_or(&empty)); // An empty tile has no paint.
             let eights = own.chunks_exact(count).zip(old.chunks_exact(count)).enumerate();
             let differs = eights.filter(|(_, (own, old))| own != old);
             changed.extend(differs.map(|(index, _)| (at * TILE + index * EIGHT) as u32));
@@ -288,7 +288,7 @@ impl Canvas {
         self.channels.count
     }
 
-    /// The values of a texel that [`Canvas::write`] takes.
+    /// Reads the values of a texel, as [`Canvas::write`] takes them.
     fn read(&self, texel: usize, values: &mut [f32]) {
         match self.numbers(texel) {
             Some(numbers) => values.copy_from_slice(numbers),
@@ -296,7 +296,7 @@ impl Canvas {
         }
     }
 
-    /// The values of a texel that is fully painted in a linear color: its luminance is the value of the mask.
+    /// Writes to `values` those of a texel that is fully painted in a linear color. The value of the mask is the luminance of the color.
     fn values_of_color(&self, color: [f32; 3], values: &mut [f32]) {
         let color = bounded(color);
         values.fill(0.0);
@@ -309,7 +309,7 @@ impl Canvas {
         }
     }
 
-    /// Replaces the height and the direction among some values of a texel by those of others.
+    /// Replaces the height and the direction in `values` by those in `from`.
     fn keep_relief(&self, from: &[f32], values: &mut [f32]) {
         let height = self.channels.height.map(|at| at..at + 1);
         let direction = self.channels.direction.map(|at| at..at + 3);
@@ -318,7 +318,7 @@ impl Canvas {
         }
     }
 
-    /// Replaces the values of a texel; what a mask and a color cannot be is brought into their ranges.
+    /// Replaces the values of a texel. Values that are out of range for a mask or a color are clamped.
     fn write(&mut self, texel: usize, values: &[f32]) {
         let channels = self.channels;
         let numbers = self.numbers_mut(texel);
@@ -334,7 +334,7 @@ impl Canvas {
         }
     }
 
-    /// Lays paint on a texel, or takes paint away from it.
+    /// Puts paint on a texel, or removes paint from it.
     fn lay(&mut self, texel: usize, erases: bool, paint: &Laid) {
         let left = 1.0 - paint.strength;
         let laid = if erases { 0.0 } else { paint.strength };
@@ -355,7 +355,7 @@ impl Canvas {
             }
         }
         if let Some(at) = channels.height {
-            // Strokes that carve or raise add up; others leave the height alone.
+            // Heights of strokes that carve or raise add up. Other strokes keep the height.
             numbers[at] = if erases {
                 numbers[at] * left
             } else {

@@ -1,4 +1,4 @@
-//! Canvases that were painted, so that a further stroke, or a step back, paints little again.
+//! Kept canvases, with which a further stroke or a step back repaints little.
 
 mod layered;
 
@@ -16,22 +16,22 @@ use crate::supplies::Supplies;
 use crate::surface::PaintSurface;
 use crate::version::Version;
 
-/// Strokes after which a canvas is kept for steps back.
+/// Number of strokes after which a canvas is kept for steps back.
 const KEYFRAME: usize = 64;
-/// Strokes that may go on: one in two sizes, and those of another node.
+/// Maximum number of strokes that can be continued: one in two sizes, and those of another node.
 const MOST_GROWING: usize = 4;
-/// Most memory for what is kept of a stroke that goes on.
+/// Maximum memory for the state of a stroke that can be continued.
 const MOST_GROWING_BYTES: usize = 256 << 20;
-/// Strokes that each painter lays before all of them are put onto the canvas.
+/// Number of strokes that each painter paints before all of them are put on the canvas.
 const STROKES_A_PAINTER: usize = 4;
 
-/// Canvases of several lists of strokes and atlases, the one used last at the end.
+/// Canvases of several stroke lists and atlases. The one used last is at the end.
 #[derive(Default)]
 pub struct Canvases {
     kept: Vec<KeptCanvas>,
-    /// Bytes of all of them; tiles that several share count once.
+    /// Total number of bytes. Tiles that several canvases share count once.
     bytes: usize,
-    /// Strokes that may go on, each with its atlas, the one drawn last at the end.
+    /// Strokes that can be continued, each with its atlas. The one drawn last is at the end.
     growing: Vec<([u8; 32], Growth)>,
 }
 
@@ -39,14 +39,14 @@ struct KeptCanvas {
     /// Atlas of the surface.
     atlas: [u8; 32],
     strokes: Vec<Arc<Stroke>>,
-    /// The canvas to go on with.
+    /// The canvas to which further strokes are added.
     layered: Layered,
-    /// The canvas as it is seen.
+    /// The canvas as it is shown.
     shown: Arc<Canvas>,
     lost: LostPlaces,
 }
 
-/// Number of places that the model does not have any more, by the strokes that have such.
+/// Number of points that the model no longer has, for each stroke with such points.
 type LostPlaces = BTreeMap<Version, usize>;
 
 /// Result of painting a list of strokes.
@@ -54,14 +54,14 @@ type LostPlaces = BTreeMap<Version, usize>;
 pub struct Painted {
     /// The canvas.
     pub canvas: Arc<Canvas>,
-    /// Number of places that the model does not have any more, by the strokes that have such.
+    /// Number of points that the model no longer has, for each stroke with such points.
     pub lost: BTreeMap<Version, usize>,
 }
 
 impl Canvases {
-    /// The canvas of a list of strokes with at least these layers; `key` tells atlases and supplies apart. Strokes that a kept canvas has
-    /// already are not painted again. At most `budget` bytes are kept, or a single canvas; nothing is of work that was stopped, which gives an
-    /// unfinished canvas.
+    /// Returns the canvas of a list of strokes with at least these layers. `key` identifies atlas and supplies. Strokes
+    /// that are already on a kept canvas are not painted again. At most `budget` bytes are kept, but always one canvas. If
+    /// the work is stopped, the canvas is unfinished and nothing is kept.
     pub fn painted(
         &mut self,
         surface: &PaintSurface<'_>,
@@ -72,7 +72,7 @@ impl Canvases {
         layers: Layers,
         budget: usize,
     ) -> Painted {
-        // With the layers that the strokes before had, since the outputs of a node are asked for one after another.
+        // Includes the layers of the earlier canvas of these strokes, since the outputs of a node are requested one after another.
         let before = self
             .kept
             .iter()
@@ -93,12 +93,12 @@ impl Canvases {
         };
         let mut painters = Painters::new(surface, atlas, supplies, list.strokes.len() - known);
         let mut count = known;
-        // The topmost stroke may be one that is drawn, so what lies below it is kept as well.
+        // The topmost stroke may still be drawn, so the canvas below it is kept as well.
         let below = known.max(list.strokes.len().saturating_sub(1));
         let (lower, top) = list.strokes[known..].split_at(below - known);
         for strokes in batches(lower, painters.batch()).chain(batches(top, 1)) {
             canvas.go_on_with(&strokes[0]);
-            // Only the topmost stroke may be one that is drawn and goes on.
+            // Only the topmost stroke may still be drawn and continued.
             match strokes {
                 [top] if count + 1 == list.strokes.len() && can_grow(top) => {
                     self.paint_growing(&mut painters, &mut canvas.full, top, key, &mut lost);
@@ -111,7 +111,7 @@ impl Canvases {
             let before = count;
             count += strokes.len();
             if (before / KEYFRAME < count / KEYFRAME || count == below) && count < list.strokes.len() {
-                // Moved in and copied from there, so that its tiles are counted as its own.
+                // The canvas is moved and then copied, so that its tiles count as its own.
                 canvas = self
                     .keep(key, &list.strokes[..count], canvas, &lost, budget)
                     .layered
@@ -128,8 +128,8 @@ impl Canvases {
         self.keep(key, &list.strokes, canvas, &lost, budget).painted()
     }
 
-    /// The kept canvas with these layers and the most strokes of a list. It is used last from now on, so that it stays while a stroke on top
-    /// of it is drawn.
+    /// Returns the kept canvas with these layers and the most strokes of a list. It is marked as used last, so that it is
+    /// kept while a stroke on top of it is drawn.
     fn best(&mut self, atlas: [u8; 32], list: &StrokeList, layers: Layers) -> Option<&KeptCanvas> {
         let fits =
             |kept: &KeptCanvas| kept.atlas == atlas && kept.shown.layers().contain(layers) && starts_with(list, kept);
@@ -140,7 +140,7 @@ impl Canvases {
         self.kept.last()
     }
 
-    /// Paints the topmost stroke, which may be drawn and go on.
+    /// Paints the topmost stroke, which may still be drawn and continued.
     fn paint_growing(
         &mut self,
         painters: &mut Painters<'_>,
@@ -159,7 +159,7 @@ impl Canvases {
         if laid.lost > 0 {
             lost.insert(stroke.id, laid.lost);
         }
-        // One that takes much memory is laid as a whole each time instead.
+        // A stroke whose state takes much memory is painted as a whole each time.
         let growth = growth.filter(|growth| growth.bytes() <= MOST_GROWING_BYTES);
         self.growing.extend(growth.map(|growth| (atlas, growth)));
         if self.growing.len() > MOST_GROWING {
@@ -167,17 +167,17 @@ impl Canvases {
         }
     }
 
-    /// Forgets what is kept of strokes that go on, since the brush was lifted.
+    /// Forgets the states of strokes that could be continued, since the brush was lifted.
     pub fn end_strokes(&mut self) {
         self.growing.clear();
     }
 
-    /// Bytes of the kept canvases; tiles that several share count once.
+    /// Returns the bytes of the kept canvases. Tiles that several canvases share count once.
     pub fn bytes(&self) -> usize {
         self.bytes
     }
 
-    /// Keeps a canvas, and gives it back.
+    /// Keeps a canvas, and returns it.
     fn keep(
         &mut self,
         atlas: [u8; 32],
@@ -195,7 +195,7 @@ impl Canvases {
             shown: Arc::new(shown),
             lost: lost.clone(),
         };
-        // A stroke that is drawn replaces what was there of it before.
+        // A stroke that is being drawn replaces its earlier version.
         for index in (0..self.kept.len()).rev() {
             if is_earlier_part(&self.kept[index], &kept) {
                 self.forget(index);
@@ -209,7 +209,7 @@ impl Canvases {
         &self.kept[self.kept.len() - 1]
     }
 
-    /// Removes a canvas; the tiles that it shares with others stay.
+    /// Removes a canvas. Tiles that it shares with others remain.
     fn forget(&mut self, index: usize) {
         let forgotten = self.kept.remove(index);
         self.bytes = self.bytes.saturating_sub(forgotten.own_bytes());
@@ -224,20 +224,20 @@ impl KeptCanvas {
         }
     }
 
-    /// Bytes of memory that it takes alone.
+    /// Returns the bytes of memory that only this canvas uses.
     fn own_bytes(&self) -> usize {
         let canvases = self.layered.canvases().chain([&*self.shown]);
         Canvas::own_bytes(&canvases.collect::<Vec<_>>())
     }
 }
 
-/// Painters that lay several strokes at a time, on all processors.
+/// Painters that paint several strokes at a time on all processors.
 struct Painters<'a> {
     all: Vec<Painter<'a>>,
 }
 
 impl<'a> Painters<'a> {
-    /// As many as processors, or strokes if these are fewer.
+    /// Creates as many painters as there are processors, or strokes if there are fewer.
     fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas, supplies: Supplies<'a>, strokes: usize) -> Painters<'a> {
         let count = rayon::current_num_threads().min(strokes);
         Painters {
@@ -245,12 +245,12 @@ impl<'a> Painters<'a> {
         }
     }
 
-    /// Strokes that are laid before they are put onto the canvas: few, since a fill touches all texels.
+    /// Returns the number of strokes that are painted before they are put on the canvas. It is small, since a fill touches all texels.
     fn batch(&self) -> usize {
         (STROKES_A_PAINTER * self.all.len()).max(1)
     }
 
-    /// Paints a batch of strokes; adds those that have lost places.
+    /// Paints a batch of strokes. Adds those with lost points to `lost`.
     fn paint(&mut self, canvas: &mut Canvas, strokes: &[Arc<Stroke>], lost: &mut LostPlaces) {
         let mut add = |stroke: &Stroke, count: usize| {
             if count > 0 {
@@ -267,7 +267,7 @@ impl<'a> Painters<'a> {
         }
     }
 
-    /// What strokes leave, each by itself, in the order of the strokes.
+    /// Returns the paint of each stroke separately, in the order of the strokes.
     fn lay(&mut self, strokes: &[Arc<Stroke>], keeps_direction: bool) -> Vec<LaidStroke> {
         let part = strokes.len().div_ceil(self.all.len().max(1)).max(1);
         let parts = self.all.par_iter_mut().zip(strokes.par_chunks(part));
@@ -279,8 +279,8 @@ impl<'a> Painters<'a> {
     }
 }
 
-/// Strokes in order, in parts of at most `most` of one layer that do not depend on one another; one that depends on the paint below is a
-/// part of its own.
+/// Divides strokes into batches of at most `most` strokes of one layer that do not depend on one another. A stroke that
+/// depends on existing paint is a batch of its own.
 fn batches(strokes: &[Arc<Stroke>], most: usize) -> impl Iterator<Item = &[Arc<Stroke>]> {
     let are_apart = |stroke: &Arc<Stroke>, next: &Arc<Stroke>| {
         !stroke.depends_on_paint() && !next.depends_on_paint() && share_layer(stroke, next)
@@ -288,7 +288,7 @@ fn batches(strokes: &[Arc<Stroke>], most: usize) -> impl Iterator<Item = &[Arc<S
     strokes.chunk_by(are_apart).flat_map(move |part| part.chunks(most))
 }
 
-/// Returns true if two canvases differ in their topmost stroke alone.
+/// Returns true if two canvases differ only in their topmost stroke.
 fn is_earlier_part(other: &KeptCanvas, kept: &KeptCanvas) -> bool {
     let (Some((_, below)), Some((_, own))) = (other.strokes.split_last(), kept.strokes.split_last()) else {
         return false;
@@ -299,7 +299,7 @@ fn is_earlier_part(other: &KeptCanvas, kept: &KeptCanvas) -> bool {
         && below.iter().zip(own).all(|(below, own)| Arc::ptr_eq(below, own))
 }
 
-/// Returns true if a list begins with the strokes of a canvas. A stroke that did not change is the same in memory.
+/// Returns true if a list begins with the strokes of a canvas. An unchanged stroke is the same object in memory.
 fn starts_with(list: &StrokeList, kept: &KeptCanvas) -> bool {
     kept.strokes.len() <= list.strokes.len()
         && kept

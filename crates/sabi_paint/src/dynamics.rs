@@ -2,26 +2,26 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Random differences between the stamps of a stroke, the same each time it is drawn. Those of the color are left out of files where
-/// they are 0, so that strokes from before they were there keep the names of their versions.
+/// Random differences between the stamps of a stroke, the same each time it is painted. Differences of the color are not
+/// written to files if they are 0, so that strokes from before they existed keep the names of their versions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Jitter {
     /// Distance from the way, as a share of the radius.
     pub place: f32,
-    /// Share of the radius that a stamp may be smaller.
+    /// Largest reduction of a stamp's size, as a share of the radius.
     pub size: f32,
-    /// Largest turn to either side, degrees.
+    /// Largest rotation to either side in degrees.
     pub angle_degrees: f32,
-    /// Share of the strength that a stamp may be fainter.
+    /// Largest reduction of a stamp's strength, as a share of the strength.
     pub flow: f32,
     /// Largest change of the hue to either side, as a share of the whole circle.
     #[serde(skip_serializing_if = "is_none")]
     pub hue: f32,
-    /// Largest change of the saturation and of the value to either side, as a share of all of it.
+    /// Largest change of the saturation to either side, as a share of its range.
     #[serde(skip_serializing_if = "is_none")]
     pub saturation: f32,
-    /// As for the saturation.
+    /// Largest change of the value to either side, as a share of its range.
     #[serde(skip_serializing_if = "is_none")]
     pub value: f32,
 }
@@ -31,7 +31,7 @@ fn is_none(share: &f32) -> bool {
 }
 
 impl Jitter {
-    /// The differences with every number in its range; those that are none become 0.
+    /// Returns the differences with every number in its range. NaN becomes 0.
     pub(crate) fn bounded(&self) -> Jitter {
         let within = |value: f32, most: f32| if value.is_finite() { value.clamp(0.0, most) } else { 0.0 };
         Jitter {
@@ -45,12 +45,12 @@ impl Jitter {
         }
     }
 
-    /// True if stamps differ in color.
+    /// Returns true if stamps differ in color.
     pub(crate) fn changes_color(&self) -> bool {
         self.hue > 0.0 || self.saturation > 0.0 || self.value > 0.0
     }
 
-    /// A linear color, changed by three random numbers from −1 to 1.
+    /// Returns a linear color, changed by three random numbers from −1 to 1.
     pub(crate) fn color(&self, color: [f32; 3], [hue, saturation, value]: [f64; 3]) -> [f32; 3] {
         let [own_hue, own_saturation, own_value] = hsv(color.map(f64::from));
         let changed = |own: f64, most: f32, number: f64| (own + f64::from(most) * number * own).clamp(0.0, 1.0);
@@ -61,7 +61,7 @@ impl Jitter {
     }
 }
 
-/// Hue as a share of the circle, saturation and value of a color (Smith, "Color gamut transform pairs", 1978).
+/// Returns hue as a share of the circle, saturation and value of a color (Smith, "Color gamut transform pairs", 1978).
 fn hsv([red, green, blue]: [f64; 3]) -> [f64; 3] {
     let (most, least) = (red.max(green).max(blue), red.min(green).min(blue));
     let range = most - least;
@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_color_comes_back_from_hue_saturation_and_value() {
+    fn a_color_converted_to_hue_saturation_and_value_and_back_is_the_same() {
         for color in [
             [0.2, 0.5, 0.9],
             [0.9, 0.1, 0.1],
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn differences_that_are_none_are_left_out_of_files() {
+    fn differences_of_zero_are_not_written_to_files() {
         let text = serde_json::to_string(&Jitter::default()).unwrap();
         assert_eq!(text, r#"{"place":0.0,"size":0.0,"angle_degrees":0.0,"flow":0.0}"#);
     }

@@ -1,9 +1,9 @@
-//! Ways in which a brush fades to its border.
+//! Ways in which a brush fades toward its border.
 
 use sabi_curve::{value_at, with_slopes};
 use serde::{Deserialize, Serialize};
 
-/// Steps of a number of a curve from 0 to 1.
+/// Resolution of the numbers of a curve: steps from 0 to 1.
 const STEPS: f64 = 1000.0;
 
 /// Way in which a brush fades from its hard part to its border.
@@ -13,18 +13,18 @@ pub enum Fade {
     /// Softly at both ends.
     #[default]
     Smooth,
-    /// Evenly, as a cone.
+    /// Linearly, as a cone.
     Linear,
-    /// Slowly first, as a dome.
+    /// Slowly at first, as a dome.
     Round,
-    /// At once, as a spike.
+    /// Quickly at first, as a spike.
     Sharp,
     /// As the artist has drawn it.
     Curve(FadeCurve),
 }
 
 impl Fade {
-    /// All of them with their titles, but for curves.
+    /// All ways except curves, with their titles.
     pub const ALL: [(Fade, &'static str); 4] = [
         (Fade::Smooth, "Smooth"),
         (Fade::Linear, "Cone"),
@@ -36,7 +36,7 @@ impl Fade {
         *self == Fade::Smooth
     }
 
-    /// The fade as a curve, close to it if it is none.
+    /// Returns the fade as a curve. For the other ways, the curve is an approximation.
     pub fn curve(&self) -> FadeCurve {
         match self {
             Fade::Curve(curve) => *curve,
@@ -44,7 +44,7 @@ impl Fade {
         }
     }
 
-    /// Strength at a share of the way from the border, 0, to the hard part, 1.
+    /// Returns the strength at a share of the way from the border (0) to the hard part (1).
     pub(crate) fn at(&self, share: f64) -> f64 {
         match self {
             Fade::Smooth => share * share * (3.0 - 2.0 * share),
@@ -55,27 +55,27 @@ impl Fade {
         }
     }
 
-    /// True if something is left at the border, which ends there at once.
+    /// Returns true if the strength at the border is above 0, so that the brush ends abruptly.
     pub(crate) fn is_cut(&self) -> bool {
         matches!(self, Fade::Curve(curve) if curve.at(1.0) > 0.0)
     }
 }
 
-/// Curve of the strength over the way from the hard part of a brush, 0, to its border, 1. It never overshoots its points.
+/// Curve of the strength over the way from the hard part of a brush (0) to its border (1). It never overshoots its points.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Vec<[f64; 2]>", into = "Vec<[f64; 2]>")]
 pub struct FadeCurve {
     count: usize,
-    /// Way, strength and slope.
+    /// Position, strength and slope of each point.
     points: [[f64; 3]; FadeCurve::ROOM],
 }
 
 impl FadeCurve {
-    /// Most points of a curve.
+    /// Maximum number of points of a curve.
     pub const ROOM: usize = 8;
 
-    /// The curve through points of way and strength in any order: numbers from 0 to 1 in thousandths, without points that have others
-    /// than numbers, and without more than there is room for. A line where there are none.
+    /// Creates the curve through points of position and strength, in any order. Numbers are rounded to thousandths from 0
+    /// to 1. Points with NaN, and points beyond the maximum number, are left out. Without points, the curve is a line.
     pub fn new(points: impl IntoIterator<Item = [f64; 2]>) -> FadeCurve {
         let numbers = points
             .into_iter()
@@ -94,7 +94,7 @@ impl FadeCurve {
         FadeCurve { count, points }
     }
 
-    /// Its points by their way, each with its strength.
+    /// Returns its points, each with its strength, sorted by position.
     pub fn points(&self) -> Vec<[f64; 2]> {
         self.used().iter().map(|[way, strength, _]| [*way, *strength]).collect()
     }
@@ -103,7 +103,7 @@ impl FadeCurve {
         &self.points[..self.count]
     }
 
-    /// Strength at a share of the way to the border.
+    /// Returns the strength at a share of the way to the border.
     fn at(&self, way: f64) -> f64 {
         value_at(self.used(), way).clamp(0.0, 1.0)
     }
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fades_lead_from_nothing_to_all_and_differ_in_between() {
+    fn fades_lead_from_zero_to_one_and_differ_in_between() {
         for (fade, name) in Fade::ALL {
             assert_eq!([fade.at(0.0), fade.at(1.0)], [0.0, 1.0], "{name}");
             assert!(!fade.is_cut(), "{name}");
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drawn_curve_begins_as_the_fade_before_it() {
+    fn a_drawn_curve_starts_as_the_fade_that_it_replaces() {
         for (fade, name) in Fade::ALL {
             let drawn = Fade::Curve(fade.curve());
             assert_eq!([drawn.at(0.0), drawn.at(1.0)], [0.0, 1.0], "{name}");
@@ -152,14 +152,14 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_goes_from_the_hard_part_to_the_border_and_may_end_there_at_once() {
+    fn a_curve_leads_from_the_hard_part_to_the_border_and_may_end_abruptly() {
         let fade = Fade::Curve(FadeCurve::new([[0.0, 0.2], [0.5, 1.0], [1.0, 0.4]]));
         assert_eq!([fade.at(1.0), fade.at(0.5), fade.at(0.0)], [0.2, 1.0, 0.4]);
         assert!(fade.is_cut());
     }
 
     #[test]
-    fn fades_are_written_as_before_and_a_curve_as_its_points() {
+    fn earlier_fades_are_written_as_before_and_a_curve_as_its_points() {
         for (fade, text) in [
             (Fade::Linear, r#""linear""#),
             (

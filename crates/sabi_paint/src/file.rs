@@ -6,13 +6,13 @@
 //!
 //! ```
 //!
-//! After the empty line follow records: the marker `SPR1`, the length of the step in bytes (u32), the version before (8 bytes),
-//! the step, and the version that it leads to (8 bytes), which is a hash of both and so tells whether the record is whole. A step
-//! is the length of its description (u32), the description as JSON, and the points of a stroke, after the one that it copies from where
-//! the description says `source`: number of the triangle (u32), its
-//! key (u32), position (3 × f32), normal (2 × i16, octahedral), and pressure in 15 bits with the flag of a new start above
-//! them (u16). Where the description says `shafts`, those of the pen follow for all of these points (2 × i16, octahedral; −32768 twice for
-//! none), and a byte 0. All numbers are little-endian.
+//! The empty line is followed by records: the marker `SPR1`, the length of the step in bytes (u32), the version before the step (8 bytes),
+//! the step, and the version after the step (8 bytes). The latter is a hash of the step and the version before, so it shows whether the
+//! record is complete. A step is the length of its description (u32), the description as JSON, and the points of a stroke. If the
+//! description has `source`, the first point is the one from which the stroke copies. A point is the number of the triangle (u32), its key
+//! (u32), position (3 × f32), normal (2 × i16, octahedral), and pressure in 15 bits with the flag of a new start above them (u16). If the
+//! description has `shafts`, the shafts of the pen follow for all these points (2 × i16, octahedral; −32768 twice for an unknown shaft),
+//! and a byte 0. All numbers are little-endian.
 
 mod read;
 #[cfg(test)]
@@ -30,31 +30,31 @@ pub use read::{ReadStrokes, read};
 
 /// First line of a stroke file.
 const TITLE: &str = "sabi paint 1";
-/// Start of a record, by which the next whole one is found behind a damaged one.
+/// Start of a record, by which the next complete record after a damaged one is found.
 const MARKER: &[u8; 4] = b"SPR1";
 /// Bytes of a record besides its step.
 const FRAME_BYTES: usize = 4 + 4 + 8 + 8;
-/// Largest file that is read.
+/// Maximum size of a file that is read.
 pub const FILE_LIMIT_BYTES: u64 = 1 << 30;
 
-/// A stroke file that cannot be used at all.
+/// Error of a stroke file that cannot be used at all.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum StrokeFileError {
-    /// Not a stroke file.
+    /// The file is not a stroke file.
     #[error("it is not a file of strokes")]
     NoStrokes,
-    /// From a later version of the program.
+    /// The file is from a later version of the program.
     #[error("it was written by a newer version of Sabi")]
     Newer,
 }
 
-/// Strokes cannot be stored.
+/// Error of strokes that cannot be stored.
 #[derive(Debug, Error)]
 pub enum StoreError {
     /// The version is not known, so nothing was written.
     #[error("the strokes of version {0} are not known")]
     Unknown(Version),
-    /// The disk.
+    /// Error of the disk.
     #[error(transparent)]
     Disk(#[from] FileError),
 }
@@ -74,7 +74,7 @@ fn push_record(bytes: &mut Vec<u8>, before: Version, step: &[u8]) {
     bytes.extend_from_slice(&before.after(step).0);
 }
 
-/// A whole file with all known steps to some versions, each step once.
+/// Returns a whole file with all known steps to some versions, without repeats.
 pub fn whole(model: &str, book: &StrokeBook, versions: &[Version]) -> Vec<u8> {
     let mut bytes = header(model).into_bytes();
     let mut written = std::collections::BTreeSet::new();
@@ -88,8 +88,8 @@ pub fn whole(model: &str, book: &StrokeBook, versions: &[Version]) -> Vec<u8> {
     bytes
 }
 
-/// Stores all known steps to a version that a file does not have yet: `stored` are the versions that it has. They are appended and
-/// synced; a new file is written whole.
+/// Stores all known steps to a version that a file does not have yet. `stored` are the versions that it has. The steps are
+/// appended and synced; a new file is written as a whole.
 ///
 /// # Errors
 /// The version is not known, or the disk refuses; the file then holds what it held.

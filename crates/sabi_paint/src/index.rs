@@ -1,4 +1,4 @@
-//! What a brush has to know of a mesh: connections, pieces, and which triangles are near a place.
+//! Data about a mesh that a brush needs: connections, pieces, and the triangles near a place.
 
 use std::sync::OnceLock;
 
@@ -7,10 +7,10 @@ use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
 use sabi_surface::{Groups, NO_TWIN, Topology};
 
-/// Most cells along a side of the grid.
+/// Maximum number of cells along a side of the grid.
 const SIDE_LIMIT: usize = 96;
 
-/// Connections, pieces and a grid over the triangles of a mesh; made once for a model.
+/// Connections, pieces and a grid over the triangles of a mesh. Created once for a model.
 pub struct SurfaceIndex {
     pub(crate) topology: Topology,
     /// Connected piece of each triangle.
@@ -23,7 +23,7 @@ pub struct SurfaceIndex {
     counts: [usize; 3],
     /// Triangles whose boxes touch each cell.
     triangles: Groups,
-    /// Rays, made for the first stroke that needs them.
+    /// Hierarchy for rays, created for the first stroke that needs it.
     pub(crate) bvh: OnceLock<Bvh>,
 }
 
@@ -40,7 +40,7 @@ impl SurfaceIndex {
         let high = finite().map(|[_, high]| *high).fold(DVec3::NEG_INFINITY, DVec3::max);
         let extent = high - low;
         let side = extent.max_element();
-        // About two cells for each triangle of a model that fills its box.
+        // This gives about two cells for each triangle if the model fills its box.
         let along = (mesh.triangles.len() as f64).sqrt().clamp(1.0, SIDE_LIMIT as f64);
         let cell = if side.is_finite() && side > 0.0 {
             side / along
@@ -74,7 +74,7 @@ impl SurfaceIndex {
         index
     }
 
-    /// Calls `visit` for the cells that a box touches; none where it is not finite.
+    /// Calls `visit` for the cells that a box touches. Calls it for no cell if the box is not finite.
     fn cells(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(usize)) {
         if !(low.is_finite() && high.is_finite()) {
             return;
@@ -99,7 +99,7 @@ impl SurfaceIndex {
         0.5 * (self.low + self.high)
     }
 
-    /// Triangles whose boxes may touch a box, in rising order without repeats.
+    /// Finds the triangles whose boxes may touch a box, in ascending order without repeats.
     pub(crate) fn near(&self, low: DVec3, high: DVec3, found: &mut Vec<u32>) {
         found.clear();
         self.cells(low, high, |cell| found.extend_from_slice(self.triangles.members(cell)));
@@ -113,8 +113,8 @@ fn box_of(mesh: &Mesh, triangle: u32) -> [DVec3; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Connected piece of each triangle, numbered in the order of their first triangles, and the number of pieces. Unlike
-/// [`sabi_surface::pieces::Pieces`], a piece goes on over welded parts, as strokes do.
+/// Returns the connected piece of each triangle, numbered in the order of their first triangles, and the number of pieces.
+/// Unlike in [`sabi_surface::pieces::Pieces`], a piece continues across welded parts, as strokes do.
 fn pieces_of(mesh: &Mesh, topology: &Topology) -> (Vec<u32>, u32) {
     const UNKNOWN: u32 = u32::MAX;
     let mut pieces = vec![UNKNOWN; mesh.triangles.len()];

@@ -7,18 +7,18 @@ use crate::step_bytes::{decode_step, encode_step};
 use crate::stroke::{Step, Stroke};
 use crate::version::Version;
 
-/// Lists that are kept ready; others are made from their steps again.
+/// Number of lists that are kept in memory; others are computed from their steps again.
 const READY_LISTS: usize = 32;
 
 /// The strokes of a version, from the lowest to the topmost.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StrokeList {
-    /// The strokes. One that did not change from one version to the next is the same in memory.
+    /// The strokes. A stroke that did not change from one version to the next is the same object in memory.
     pub strokes: Vec<Arc<Stroke>>,
 }
 
 impl StrokeList {
-    /// A number that none of its groups has.
+    /// Returns a number that none of its groups has.
     pub fn free_group_number(&self) -> u32 {
         let numbers = self
             .strokes
@@ -28,13 +28,13 @@ impl StrokeList {
     }
 }
 
-/// A step to a version.
+/// A step that leads to a version.
 #[derive(Clone, Debug)]
 struct KnownStep {
     before: Version,
     step: Step,
-    /// The step as a file holds it. It is stored elsewhere as it was read, whatever brushes have learned since: the name of the
-    /// version is a hash of these bytes.
+    /// The step in the form in which a file stores it. It is stored again exactly as it was read, even if brushes have new
+    /// values since then, because the name of the version is a hash of these bytes.
     bytes: Arc<[u8]>,
 }
 
@@ -43,7 +43,7 @@ struct KnownStep {
 pub struct StrokeBook {
     steps: BTreeMap<Version, KnownStep>,
     ready: BTreeMap<Version, Arc<StrokeList>>,
-    /// Versions of `ready`, the one used last at the end.
+    /// Versions in `ready`. The one used last is at the end.
     used: Vec<Version>,
 }
 
@@ -52,13 +52,13 @@ impl StrokeBook {
     pub fn push(&mut self, before: Version, step: &Step) -> Version {
         let bytes = encode_step(step);
         let version = before.after(&bytes);
-        // What a file would give back, so that a stroke is the same before and after it was stored.
+        // The step is decoded from its bytes, so that a stroke is the same before and after it is stored.
         match decode_step(&bytes, version) {
             Some(step) => {
                 self.insert(version, before, step, bytes.into());
                 version
             }
-            // A step that no file could hold changes nothing.
+            // A step that no file could store changes nothing.
             None => before,
         }
     }
@@ -68,31 +68,31 @@ impl StrokeBook {
         self.steps.entry(version).or_insert(KnownStep { before, step, bytes });
     }
 
-    /// Versions that no known step leads on from, in the order of their names.
+    /// Returns the versions from which no known step leads on, sorted by name.
     pub fn ends(&self) -> Vec<Version> {
         let left: BTreeSet<Version> = self.steps.values().map(|known| known.before).collect();
         let all = self.steps.keys().copied();
         all.filter(|version| !left.contains(version)).collect()
     }
 
-    /// Returns true if the step that leads to a version is known; earlier ones may be lost.
+    /// Returns true if the step that leads to a version is known. Earlier steps may be lost.
     pub fn knows(&self, version: Version) -> bool {
         self.steps.contains_key(&version)
     }
 
-    /// Forgets a version that nothing names and that is the last of its steps, such as the part of a stroke that is drawn.
+    /// Forgets a version that nothing refers to and from which no step leads on, for example an unfinished stroke.
     pub fn forget(&mut self, version: Version) {
         self.steps.remove(&version);
         self.ready.remove(&version);
         self.used.retain(|used| *used != version);
     }
 
-    /// Bytes of the known steps to a version, the first one first, each with the version that it leads to and the one before: from the empty
-    /// list, or from where steps are lost. Empty for a version that is not known.
+    /// Returns the bytes of the known steps to a version, in order, each with the version that it leads to and the version
+    /// before. They begin at the empty list, or after lost steps. Empty for an unknown version.
     pub(crate) fn way_to(&self, version: Version) -> Vec<(Version, Version, &[u8])> {
         let mut way = Vec::new();
         let mut at = version;
-        // A hash cannot lead back to itself, a forged file could.
+        // The number of rounds is limited, since a forged file could contain a circle.
         while let Some(known) = self.steps.get(&at).filter(|_| way.len() < self.steps.len()) {
             way.push((at, known.before, &*known.bytes));
             at = known.before;
@@ -101,7 +101,7 @@ impl StrokeBook {
         way
     }
 
-    /// The strokes of a version, without those whose steps are lost; none if the version itself is not known.
+    /// Returns the strokes of a version, without those whose steps are lost; `None` if the version itself is unknown.
     pub fn list(&mut self, version: Version) -> Option<Arc<StrokeList>> {
         if let Some(list) = self.ready.get(&version).cloned() {
             self.used.retain(|used| *used != version);

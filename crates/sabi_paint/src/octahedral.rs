@@ -1,6 +1,7 @@
 //! Unit vectors in four bytes.
 
-/// A unit vector on an octahedron unfolded to a square (Meyer and others, "On floating-point normal vectors", 2010).
+/// Encodes a unit vector as a point on an octahedron that is unfolded to a square (Meyer and others, "On floating-point
+/// normal vectors", 2010).
 pub(crate) fn octahedral([x, y, z]: [f32; 3]) -> [i16; 2] {
     let sum = x.abs() + y.abs() + z.abs();
     if sum.is_nan() || sum <= 0.0 {
@@ -16,7 +17,7 @@ pub(crate) fn octahedral([x, y, z]: [f32; 3]) -> [i16; 2] {
     [u, v].map(|value| (value * f32::from(i16::MAX)).round() as i16)
 }
 
-/// The unit vector of [`octahedral`].
+/// Returns the unit vector that [`octahedral`] encoded.
 pub(crate) fn from_octahedral(packed: [i16; 2]) -> [f32; 3] {
     let [u, v] = packed.map(|value| f32::from(value) / f32::from(i16::MAX));
     let z = 1.0 - u.abs() - v.abs();

@@ -1,7 +1,7 @@
 //! Paths: strokes whose way goes through a few knots and can be bent later.
 //!
-//! The knots and their handles are places on the surface, so that they stay on it and are found again on a changed model like all
-//! places of a stroke. Between two knots the way is a cubic Bézier curve in space, laid on the surface part by part.
+//! The knots and their handles are points on the surface, so that they are found again on a changed model like all points
+//! of a stroke. Between two knots the way is a cubic Bézier curve in space, projected onto the surface part by part.
 
 mod edges;
 mod fit;
@@ -19,20 +19,20 @@ use sabi_surface::patch::Site;
 pub use edges::EdgeKind;
 use line::line_between;
 
-/// Most places of the whole way, nearly.
+/// Approximate maximum number of points of the whole way.
 const PLACES_LIMIT: f64 = 200_000.0;
-/// Most parts of the way between two knots.
+/// Maximum number of parts of the way between two knots.
 const PARTS_LIMIT: usize = 4096;
-/// Distance between two places from which on the straight line over the surface is looked for, and from which on there is a gap
-/// if there is none: multiples of the wanted step.
+/// Distance between two points, in multiples of the wanted step, from which on a straight line over the surface is
+/// searched. If there is none, the way has a gap.
 const JUMP: f64 = 1.5;
 const GAP: f64 = 4.0;
-/// Distance around a knot within which the surface counts for its normal, as a share of the way to the next: a bevel does not count
-/// more than the board that it belongs to.
+/// Radius around a knot in which the normal of the surface is averaged, as a share of the distance to the next knot. With
+/// this radius, a bevel does not count more than the board that it belongs to.
 const AROUND: f64 = 0.25;
-/// Room above and below the straight line between two knots for what lies on the surface, as a share of its length.
+/// Height above and below the straight line between two knots in which the surface is searched, as a share of its length.
 const ROOM: f64 = 0.15;
-/// Share of the way to the next knot at which a handle lies that is not given.
+/// Distance of an automatic handle from its knot, as a share of the distance to the next knot.
 const HANDLE: f64 = 1.0 / 3.0;
 
 /// A path.
@@ -40,35 +40,35 @@ const HANDLE: f64 = 1.0 / 3.0;
 pub struct Path {
     /// Its knots in order.
     pub knots: Vec<Knot>,
-    /// True if it leads from the last knot back to the first.
+    /// True if the path returns from the last knot to the first.
     pub is_closed: bool,
 }
 
-/// A place that a path passes.
+/// A point through which a path passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knot {
     /// The place.
     pub place: StrokePoint,
-    /// Bend of the path there.
+    /// Bend of the path at this knot.
     pub bend: Bend,
 }
 
 /// Bend of a path at a knot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bend {
-    /// As smooth as the knots beside it allow.
+    /// As smooth as the adjacent knots allow.
     Smooth,
     /// A corner.
     Corner,
-    /// Toward handles before and behind the knot.
+    /// Toward handles before and after the knot.
     Handles([StrokePoint; 2]),
 }
 
-/// Most knots of a path: nobody sets as many by hand.
+/// Maximum number of knots of a path. Nobody sets so many by hand.
 const KNOTS_LIMIT: usize = 4096;
 
 impl Stroke {
-    /// The path of the stroke; none where its way was drawn by hand, and for one of more than 4096 knots.
+    /// Returns the path of the stroke; `None` if it was drawn by hand or has more than 4096 knots.
     pub fn as_path(&self) -> Option<Path> {
         let form = self.path.as_ref().filter(|form| form.knots.len() <= KNOTS_LIMIT)?;
         let mut places = self.points.iter().copied();
@@ -89,7 +89,7 @@ impl Stroke {
 }
 
 impl Path {
-    /// Places of the path as a stroke keeps them, and its form.
+    /// Returns the points of the path as a stroke stores them, and its form.
     pub fn places(&self) -> (Vec<StrokePoint>, PathForm) {
         let mut points = Vec::new();
         let mut knots = String::new();
@@ -111,8 +111,8 @@ impl Path {
         (points, PathForm { knots, closed })
     }
 
-    /// The path with each place moved by a function; knots that find none are left out and counted, handles that find none give way
-    /// to a smooth bend.
+    /// Returns the path with each point moved by a function. Knots for which it returns `None` are left out and counted. If
+    /// it returns `None` for a handle, the bend becomes smooth.
     pub(crate) fn moved(&self, mut find: impl FnMut(&StrokePoint) -> Option<StrokePoint>) -> (Path, usize) {
         let knots: Vec<Knot> = self
             .knots
@@ -134,7 +134,7 @@ impl Path {
         (Path { knots, is_closed }, lost)
     }
 
-    /// Number of ways from one knot to the next.
+    /// Returns the number of ways from one knot to the next.
     pub fn span_count(&self) -> usize {
         match self.knots.len() {
             0 | 1 => 0,
@@ -143,7 +143,7 @@ impl Path {
         }
     }
 
-    /// Places of the way from a knot to the next, both included, no farther than `step` from each other, model units.
+    /// Returns the points of the way from a knot to the next, including both. Their distances are at most `step`, in model units.
     pub fn span(&self, surface: &PaintSurface<'_>, index: usize, step: f64) -> Vec<StrokePoint> {
         let count = self.knots.len();
         let (Some(from), Some(to)) = (self.knots.get(index), self.knots.get((index + 1) % count.max(1))) else {
@@ -174,20 +174,20 @@ impl Path {
         points
     }
 
-    /// Control points of the curve from a knot to the next.
+    /// Returns the control points of the curve from a knot to the next.
     fn controls(&self, index: usize) -> [DVec3; 4] {
         let next = (index + 1) % self.knots.len();
         let [a, b] = [index, next].map(|knot| self.knots[knot].place.site.position);
         [a, self.handles(index)[1], self.handles(next)[0], b]
     }
 
-    /// Places of the whole way, no farther than `step` from each other, model units.
+    /// Returns the points of the whole way. Their distances are at most `step`, in model units.
     pub fn way(&self, surface: &PaintSurface<'_>, step: f64) -> Vec<StrokePoint> {
         let first = self.knots.first().map(|knot| StrokePoint {
             starts: true,
             ..knot.place
         });
-        // However small a forged brush is.
+        // Limits the number of points even for a very small step of a forged brush.
         let lengths = (0..self.span_count()).map(|index| self.controls(index).windows(2).map(length_of).sum::<f64>());
         let step = step.max(lengths.sum::<f64>() / PLACES_LIMIT);
         let mut way: Vec<StrokePoint> = first.into_iter().collect();
@@ -197,7 +197,7 @@ impl Path {
         way
     }
 
-    /// Places of the handles before and behind a knot, in space: those that are given, or those that make its bend.
+    /// Returns the positions of the handles before and after a knot in space: those that are given, or those that make its bend.
     pub fn handles(&self, index: usize) -> [DVec3; 2] {
         let at = |index: usize| self.knots[index].place.site.position;
         let (own, count) = (at(index), self.knots.len());
@@ -217,8 +217,8 @@ impl Path {
     }
 }
 
-/// Unit normals at both ends of a way by which the surface between them is looked at: at right angles to the way, as far as there are
-/// any.
+/// Returns unit normals for both ends of a way along which the surface between them is searched: perpendicular to the way
+/// as far as possible.
 fn across(chord: DVec3, around: [DVec3; 2]) -> [DVec3; 2] {
     let along = chord.normalize_or_zero();
     let across = around.map(|normal| (normal - normal.dot(along) * along).normalize_or_zero());
@@ -230,15 +230,15 @@ fn across(chord: DVec3, around: [DVec3; 2]) -> [DVec3; 2] {
     }
 }
 
-/// Distance from the straight line between two places within which the surface between them is looked for: that of a round surface
-/// with these normals there, and room for what lies on it.
+/// Returns the distance from the straight line between two points within which the surface between them is searched: that
+/// of a round surface with these normals, and a margin.
 fn depth_of(chord: f64, [from, to]: [DVec3; 2]) -> f64 {
     let angle = from.dot(to).clamp(-1.0, 1.0).acos();
     chord * ((0.25 * angle).tan() + ROOM)
 }
 
-/// The outermost place of the surface near a place in space, seen along a normal: none where nothing that faces that way is within
-/// `depth`, model units.
+/// Returns the outermost place of the surface near a position in space, as seen along a normal; `None` if no surface that
+/// faces the normal is within `depth`, in model units.
 fn below(surface: &PaintSurface<'_>, place: DVec3, normal: DVec3, depth: f64) -> Option<Site> {
     let origin = place + depth * normal;
     let ray = [origin, -normal].map(|vector| vector.as_vec3().to_array());
@@ -251,7 +251,8 @@ fn below(surface: &PaintSurface<'_>, place: DVec3, normal: DVec3, depth: f64) ->
     site.filter(faces).or_else(|| surface.nearest(place, normal, depth))
 }
 
-/// Adds a place of a path. Where the way before it is long, as over a corner, the straight line over the surface is taken there.
+/// Adds a point of a path. If the way to it is long, for example around a corner, points of the straight line over the
+/// surface are added as well.
 fn add_part(surface: &PaintSurface<'_>, to: StrokePoint, step: f64, points: &mut Vec<StrokePoint>) {
     let before = points[points.len() - 1];
     let jump = before.site.position.distance(to.site.position);
@@ -272,13 +273,13 @@ fn length_of(pair: &[DVec3]) -> f64 {
         .sum()
 }
 
-/// A place on a cubic Bézier curve.
+/// Returns a point of a cubic Bézier curve.
 fn bezier([a, b, c, d]: [DVec3; 4], share: f64) -> DVec3 {
     let left = 1.0 - share;
     left * left * left * a + 3.0 * left * left * share * b + 3.0 * left * share * share * c + share * share * share * d
 }
 
-/// Point of a path at a site.
+/// Returns the knot of a path at a site.
 fn knot_at(surface: &PaintSurface<'_>, site: Site, bend: Bend) -> Option<Knot> {
     let place = surface.point(site, 1.0, false)?;
     Some(Knot { place, bend })

@@ -1,37 +1,37 @@
-//! The pen: how it is held at a place of a stroke, and what that changes.
+//! The pen: its pose at a point of a stroke, and the effects of the pose.
 
 use glam::{DMat3, DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::octahedral::{from_octahedral, octahedral};
 
-/// Usual bend of the curve between pressure or tilt and its effect: none.
+/// Bend value of a straight curve between pressure or tilt and its effect.
 const STRAIGHT: f32 = 0.5;
-/// Largest turn of the tip, degrees.
+/// Largest rotation of the tip in degrees.
 const MOST_TURNED: f32 = 180.0;
 
-/// Direction of the shaft of a pen in model space, from its tip to its other end, in four bytes.
+/// Direction of the shaft of a pen in model space, from its tip to its other end, stored in four bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shaft([i16; 2]);
 
 impl Shaft {
-    /// Bytes of a shaft in files; no direction has those of none.
+    /// Bytes in files for an unknown shaft. No direction is encoded as these bytes.
     pub(crate) const BYTES: usize = 4;
     const NONE: [i16; 2] = [i16::MIN; 2];
 
-    /// The shaft along a direction of any length; none where that is no direction.
+    /// Returns the shaft along a direction of any length; `None` if the direction is zero or not finite.
     pub fn along(direction: DVec3) -> Option<Shaft> {
         let unit = direction.try_normalize()?.as_vec3();
         Some(Shaft(octahedral(unit.to_array())))
     }
 
-    /// The shaft of a pen that leans by an angle from a unit normal toward a unit direction at right angles to it.
+    /// Returns the shaft of a pen that leans by an angle from a unit normal toward a unit direction perpendicular to it.
     pub fn leaning(normal: DVec3, toward: DVec3, angle_degrees: f32) -> Option<Shaft> {
         let (sine, cosine) = f64::from(angle_degrees).clamp(0.0, 90.0).to_radians().sin_cos();
         Shaft::along(cosine * normal + sine * toward)
     }
 
-    /// Unit direction.
+    /// Returns the unit direction.
     pub fn direction(self) -> DVec3 {
         Vec3::from(from_octahedral(self.0)).as_dvec3()
     }
@@ -51,12 +51,12 @@ impl Shaft {
     }
 }
 
-/// Way in which a pen touches a place.
+/// Way in which a pen touches a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Pressure, 0 to 1.
     pub pressure: f32,
-    /// Direction of the shaft; none where it is not known, as for a mouse.
+    /// Direction of the shaft; `None` if it is unknown, for example for a mouse.
     pub shaft: Option<Shaft>,
 }
 
@@ -68,7 +68,7 @@ impl From<f32> for Touch {
 }
 
 impl Touch {
-    /// The touch with a pressure from 0 to 1, in full where that is no number.
+    /// Returns the touch with a pressure from 0 to 1. NaN becomes 1.
     pub(crate) fn bounded(self) -> Touch {
         let pressure = if self.pressure.is_finite() {
             self.pressure.clamp(0.0, 1.0)
@@ -78,12 +78,12 @@ impl Touch {
         Touch { pressure, ..self }
     }
 
-    /// The touch at a share of the way from one to another.
+    /// Returns the touch at a share of the way from one touch to another.
     pub(crate) fn between([from, to]: [Touch; 2], share: f32) -> Touch {
         let shaft = match (from.shaft, to.shaft) {
             (Some(one), Some(other)) if one != other => {
                 let between = one.direction().lerp(other.direction(), f64::from(share));
-                // Opposite ones have none between them.
+                // Between opposite directions there is no direction, so the first is used.
                 Shaft::along(between).or(Some(one))
             }
             (one, other) => one.or(other),
@@ -94,7 +94,7 @@ impl Touch {
         }
     }
 
-    /// The pen over a surface; `normal` gives its unit normal.
+    /// Returns the pose of the pen over a surface. `normal` returns the unit normal of the surface.
     pub(crate) fn over(self, normal: impl FnOnce() -> DVec3) -> Pose {
         Pose {
             pressure: self.pressure,
@@ -103,7 +103,7 @@ impl Touch {
     }
 }
 
-/// A pen over the surface.
+/// Pose of a pen relative to the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {
     /// Pressure, 0 to 1.
@@ -111,18 +111,18 @@ pub(crate) struct Pose {
     pub(crate) lean: Option<Lean>,
 }
 
-/// Lean of a pen over the surface.
+/// Lean of a pen relative to the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lean {
-    /// 0 upright on the surface, 1 flat on it.
+    /// Tilt: 0 upright on the surface, 1 flat on it.
     pub(crate) tilt: f32,
-    /// Direction along the surface, as long as the sine of the angle; zero for an upright pen.
+    /// Direction of the lean along the surface. Its length is the sine of the angle, zero for an upright pen.
     pub(crate) toward: Vec3,
 }
 
 impl Lean {
     fn of(shaft: DVec3, normal: DVec3) -> Lean {
-        // A pen that points into a bent surface lies flat on it.
+        // A pen that points into a curved surface counts as flat on it.
         let up = shaft.dot(normal).clamp(0.0, 1.0);
         Lean {
             tilt: (up.acos() / std::f64::consts::FRAC_PI_2) as f32,
@@ -132,7 +132,7 @@ impl Lean {
 }
 
 impl Pose {
-    /// The pose at a share of the way from one to another.
+    /// Returns the pose at a share of the way from one pose to another.
     pub(crate) fn between([from, to]: [Pose; 2], share: f32) -> Pose {
         let lean = match (from.lean, to.lean) {
             (Some(one), Some(other)) => Some(Lean {
@@ -147,7 +147,7 @@ impl Pose {
         }
     }
 
-    /// True if the pose differs from another one by less than `least`.
+    /// Returns true if the pose differs from another pose by less than `least`.
     pub(crate) fn is_near(&self, other: &Pose, least: f32) -> bool {
         let leans = match (self.lean, other.lean) {
             (Some(one), Some(other)) => {
@@ -159,26 +159,26 @@ impl Pose {
     }
 }
 
-/// Effects of the pressure or the tilt of a pen. Amounts are 0 for nothing and 1 where a value grows in proportion, up to that of the
-/// brush; below 0 it shrinks instead.
+/// Effects of the pressure or the tilt of a pen. An amount of 0 means no effect. With 1, a value grows in proportion, up to
+/// that of the brush. With a negative amount, it shrinks instead.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PenEffects {
-    /// The radius.
+    /// Effect on the radius.
     pub radius: f32,
-    /// The strength.
+    /// Effect on the strength.
     pub flow: f32,
-    /// The distance of stamps from the way. Left out of files where it is 0.
+    /// Effect on the distance of stamps from the way. 0 is not written to files.
     #[serde(skip_serializing_if = "is_none")]
     pub scatter: f32,
-    /// The hardness. Left out of files where it is 0.
+    /// Effect on the hardness. 0 is not written to files.
     #[serde(skip_serializing_if = "is_none")]
     pub hardness: f32,
-    /// Turn of the tip at full pressure or tilt, degrees counter-clockwise. Left out of files where it is 0.
+    /// Rotation of the tip at full pressure or tilt, in degrees counter-clockwise. 0 is not written to files.
     #[serde(skip_serializing_if = "is_none")]
     pub angle_degrees: f32,
-    /// Bend of the curve to the effect: 0.5 is straight, more has a little count more, less has it count less. Left out of
-    /// files where it is straight.
+    /// Bend of the curve between the value and its effect: 0.5 is straight. With a higher bend, low values have more
+    /// effect; with a lower bend, less. The straight curve is not written to files.
     #[serde(skip_serializing_if = "is_straight")]
     pub bend: f32,
 }
@@ -192,7 +192,7 @@ fn is_straight(bend: &f32) -> bool {
 }
 
 impl Default for PenEffects {
-    /// Those of the pressure on the usual brush: the strength.
+    /// Returns the effects of the pressure on the usual brush: only on the strength.
     fn default() -> PenEffects {
         PenEffects {
             flow: 1.0,
@@ -202,7 +202,7 @@ impl Default for PenEffects {
 }
 
 impl PenEffects {
-    /// Nothing is changed.
+    /// No effects.
     pub const NONE: PenEffects = PenEffects {
         radius: 0.0,
         flow: 0.0,
@@ -216,14 +216,14 @@ impl PenEffects {
         *self == PenEffects::NONE
     }
 
-    /// True if a line without single stamps is not the same for all pressures or tilts.
+    /// Returns true if the effects change a line without separate stamps.
     pub(crate) fn change_lines(&self) -> bool {
         [self.radius, self.flow, self.hardness]
             .iter()
             .any(|amount| *amount != 0.0)
     }
 
-    /// Every number in its range; those that are none become those of `usual`.
+    /// Returns the effects with every number in its range. NaN is replaced by the number in `usual`.
     pub(crate) fn bounded(&self, usual: &PenEffects) -> PenEffects {
         let within = |value: f32, usual: f32, [low, high]: [f32; 2]| match value.is_finite() {
             true => value.clamp(low, high),
@@ -240,20 +240,21 @@ impl PenEffects {
         }
     }
 
-    /// Effect of a pressure or tilt, both 0 to 1 (the bias of Schlick, "Fast alternatives to Perlin's bias and gain functions", 1994).
+    /// Returns the effect of a pressure or tilt, both 0 to 1 (the bias of Schlick, "Fast alternatives to Perlin's bias and
+    /// gain functions", 1994).
     pub fn effect(&self, value: f32) -> f64 {
         let (value, bend) = (f64::from(value.clamp(0.0, 1.0)), f64::from(self.bend));
         value / ((1.0 / bend - 2.0) * (1.0 - value) + 1.0)
     }
 
-    /// Share that is left of a property of the brush which a pressure or tilt changes by an amount.
+    /// Returns the factor for a property of the brush that a pressure or tilt changes by an amount.
     pub(crate) fn share(&self, amount: f32, value: f32) -> f64 {
         let effect = self.effect(value);
         let lacking = if amount >= 0.0 { 1.0 - effect } else { effect };
         (1.0 - f64::from(amount.abs()) * lacking).clamp(0.0, 1.0)
     }
 
-    /// Turn of the tip at a pressure or tilt, degrees counter-clockwise.
+    /// Returns the rotation of the tip at a pressure or tilt, in degrees counter-clockwise.
     pub(crate) fn turn(&self, value: f32) -> f64 {
         f64::from(self.angle_degrees) * self.effect(value)
     }
@@ -273,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_grows_with_an_amount_above_0_and_shrinks_with_one_below() {
+    fn a_value_grows_with_a_positive_amount_and_shrinks_with_a_negative_one() {
         let effects = PenEffects {
             angle_degrees: 90.0,
             ..PenEffects::NONE
@@ -294,13 +295,13 @@ mod tests {
     }
 
     #[test]
-    fn effects_that_are_none_are_left_out_of_files() {
+    fn effects_of_zero_are_not_written_to_files() {
         let text = serde_json::to_string(&PenEffects::default()).unwrap();
         assert_eq!(text, r#"{"radius":0.0,"flow":1.0}"#);
     }
 
     #[test]
-    fn numbers_that_are_none_become_usual_ones_and_others_keep_in_range() {
+    fn nan_is_replaced_and_other_numbers_are_kept_in_range() {
         let odd = PenEffects {
             radius: f32::NAN,
             flow: f32::INFINITY,
@@ -324,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shaft_keeps_its_direction_in_four_bytes_and_none_is_none() {
+    fn a_shaft_keeps_its_direction_in_four_bytes_and_an_unknown_one_stays_unknown() {
         for direction in [DVec3::X, -DVec3::Z, DVec3::new(0.3, -0.5, -0.8), DVec3::ONE] {
             let shaft = Shaft::along(direction).unwrap();
             assert!(shaft.direction().distance(direction.normalize()) < 1e-4, "{direction}");
@@ -347,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn between_two_touches_lie_their_mean_and_the_shaft_that_one_of_them_lacks() {
+    fn between_two_touches_values_are_interpolated_and_a_missing_shaft_is_replaced() {
         let leaning = |degrees| Touch {
             pressure: degrees / 90.0,
             shaft: Shaft::leaning(DVec3::Y, DVec3::X, degrees),

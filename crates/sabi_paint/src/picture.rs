@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 use level::Level;
 pub use name::{NoPictureName, PictureName};
 
-/// Largest side of a picture that is kept, pixels; larger ones are halved until they fit.
+/// Largest side of a picture in pixels. Larger pictures are halved until they fit.
 const SIDE_LIMIT: u32 = 4096;
-/// Most pixels of a picture that is read.
+/// Maximum number of pixels of a picture that is read.
 const PIXEL_LIMIT: u64 = 1 << 26;
 
 /// Pictures by their names.
@@ -34,14 +34,14 @@ pub struct PictureTip {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PicturePart {
-    /// Its own colors, as strong as it is opaque.
+    /// Its own colors, with its alpha as the strength.
     #[default]
     Colors,
-    /// The brush's color, as strong as the picture is opaque.
+    /// The brush's color, with the picture's alpha as the strength.
     Alpha,
-    /// The brush's color, as strong as the picture is light.
+    /// The brush's color, strong where the picture is light.
     Light,
-    /// The brush's color, as strong as the picture is dark.
+    /// The brush's color, strong where the picture is dark.
     Dark,
 }
 
@@ -55,32 +55,32 @@ impl PicturePart {
     ];
 }
 
-/// A picture that no brush can stamp.
+/// Error of a picture that cannot be stamped.
 #[derive(Debug, thiserror::Error)]
 pub enum StampPictureError {
-    /// No picture that is read.
+    /// The file is not a picture that can be read.
     #[error(transparent)]
     Image(#[from] ImageError),
-    /// Too many pixels.
+    /// The picture has too many pixels.
     #[error("a picture of {0} × {1} pixels is too large for a brush, which takes up to 8192 × 8192")]
     TooLarge(u32, u32),
 }
 
-/// A picture that is ready to be stamped, with smaller copies for far away.
+/// A picture that is ready to be stamped, with reduced copies for large texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StampPicture {
-    /// From the full size to a single pixel, each half as large as the one before.
+    /// Copies from the full size to a single pixel, each half as large as the one before.
     levels: Vec<Level>,
-    /// The part of it that an artist means most likely.
+    /// The part that the artist most likely wants to stamp.
     likely: PicturePart,
 }
 
 /// Left and right ends of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ends {
-    /// Nothing is stamped beyond them.
+    /// Nothing is stamped beyond the ends.
     Cut,
-    /// The picture begins again there.
+    /// The picture is repeated beyond the ends.
     Joined,
 }
 
@@ -89,21 +89,21 @@ pub(crate) enum Ends {
 pub struct SwatchPixel {
     /// 0 to 1.
     pub strength: f32,
-    /// Linear color that a picture brings; none where it is the brush's.
+    /// Linear color from the picture; `None` if the brush's color is used.
     pub color: Option<[f32; 3]>,
 }
 
-/// A place of a picture.
+/// Strength and color of a stamp at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stamped {
     /// 0 to 1.
     pub(crate) strength: f64,
-    /// Linear color; none where the brush's own is stamped.
+    /// Linear color; `None` if the brush's color is stamped.
     pub(crate) color: Option<[f32; 3]>,
 }
 
 impl StampPicture {
-    /// Reads a picture. `name` is that of its file, for the kind of file.
+    /// Reads a picture. `name` is the name of its file, from which the format is determined.
     ///
     /// # Errors
     /// The bytes are no picture, or it is too large.
@@ -135,18 +135,18 @@ impl StampPicture {
         StampPicture { levels, likely }
     }
 
-    /// Pixels across and down, as far as they are kept.
+    /// Returns width and height in pixels after the reduction.
     pub fn size(&self) -> [usize; 2] {
         self.levels.first().map_or([1, 1], |level| level.size)
     }
 
-    /// The part that an artist means most likely: the colors of a picture that has any, the alpha of one that has holes, the dark
-    /// parts of a drawing on white, and the light parts of others.
+    /// Returns the part that the artist most likely wants: the colors of a picture that has colors, the alpha of one with
+    /// transparent parts, the dark parts of a drawing on white, and the light parts of others.
     pub fn likely_part(&self) -> PicturePart {
         self.likely
     }
 
-    /// A picture of shapes: how opaque each pixel is, row by row from the top.
+    /// Creates a picture of shapes from the alpha of each pixel, row by row from the top.
     pub fn of_alpha([width, height]: [usize; 2], alpha: &[u8]) -> StampPicture {
         StampPicture::new(&Picture {
             width: width as u32,
@@ -157,8 +157,8 @@ impl StampPicture {
         })
     }
 
-    /// Stamp of a part of the picture, pixel by pixel from the upper left one, at the largest size of its copies whose sides are no
-    /// longer than a number of pixels; with its width and height.
+    /// Returns the stamp of a part of the picture with its width and height, pixel by pixel from the upper left one. The
+    /// largest copy whose sides have at most `side` pixels is used.
     pub fn shown(&self, part: PicturePart, side: usize) -> ([usize; 2], Vec<SwatchPixel>) {
         let fits = |level: &&Level| level.size.iter().all(|own| *own <= side.max(1));
         let Some(level) = self.levels.iter().find(fits) else {
@@ -174,16 +174,16 @@ impl StampPicture {
         (level.size, pixels.collect())
     }
 
-    /// Half of the width and of the height, where the longer side is 2.
+    /// Returns half of the width and of the height, where the longer side is 2.
     pub fn half_sides(&self) -> DVec2 {
         let [width, height] = self.size().map(|side| side as f64);
         DVec2::new(width, height) / width.max(height)
     }
 
-    /// The picture at a place: x from −1 at its left to 1 at its right, y from −1 at its foot to 1 at its top. `width` is that of
-    /// a texel in the same measure along the longer side. Nothing is stamped outside, but for ends that are joined.
+    /// Returns the picture at a position: x from −1 (left) to 1 (right), y from −1 (bottom) to 1 (top). `width` is that of
+    /// a texel, in the same units along the longer side. Nothing is stamped outside, except if the ends are joined.
     pub(crate) fn at(&self, place: DVec2, width: f64, part: PicturePart, ends: Ends) -> Stamped {
-        // The border is one texel wide, however few pixels the picture has.
+        // The border is one texel wide, independent of the number of pixels of the picture.
         let inside = (1.0 - place.abs()) * self.half_sides() / width + 0.5;
         let inside = inside.clamp(DVec2::ZERO, DVec2::ONE);
         let inside = match ends {
@@ -194,9 +194,9 @@ impl StampPicture {
         part_of(pixels.map(|channel| channel * inside), part)
     }
 
-    /// The channels at a place, between the two copies whose pixels are nearest to a texel in width.
+    /// Returns the channels at a position, interpolated between the two copies whose pixel widths are nearest to that of a texel.
     fn filtered(&self, place: DVec2, width: f64, ends: Ends) -> [f64; 5] {
-        let longer = self.size().into_iter().max().unwrap_or(1) as f64; // Two sides.
+        let longer = self.size().into_iter().max().unwrap_or(1) as f64; // A size always has two sides.
         let fine = (0.5 * width * longer).max(1.0).log2();
         let last = self.levels.len() - 1;
         let lower = (fine.floor() as usize).min(last);
@@ -210,7 +210,7 @@ impl StampPicture {
     }
 }
 
-/// Stamp of a part of a picture, from the channels of a pixel.
+/// Returns the stamp of a part of a picture from the channels of a pixel.
 fn part_of([red, green, blue, alpha, light]: [f64; 5], part: PicturePart) -> Stamped {
     let of_light = |light: f64| Stamped {
         strength: light.clamp(0.0, 1.0),
@@ -246,7 +246,7 @@ mod tests {
     const CLEAR: [u8; 4] = [255, 255, 255, 0];
 
     #[test]
-    fn a_picture_is_stamped_upright_and_empty_outside() {
+    fn a_picture_is_stamped_upright_and_nothing_is_stamped_outside() {
         let halves = picture(2, &[RED, CLEAR, [0, 0, 255, 255], [0, 255, 0, 255]]);
         let at = |x: f64, y: f64| halves.at(DVec2::new(x, y), 0.01, PicturePart::Colors, Ends::Cut);
         assert_eq!(
@@ -262,14 +262,14 @@ mod tests {
     }
 
     #[test]
-    fn clear_pixels_lend_no_color_to_their_neighbors() {
+    fn transparent_pixels_do_not_color_their_neighbors() {
         let edge = picture(2, &[RED, CLEAR]).at(DVec2::ZERO, 0.01, PicturePart::Colors, Ends::Cut);
         assert!((edge.strength - 0.5).abs() < 1e-4);
         assert_eq!(edge.color, Some([1.0, 0.0, 0.0]));
     }
 
     #[test]
-    fn wide_texels_see_the_mean_of_what_they_cover() {
+    fn wide_texels_have_the_mean_of_the_pixels_that_they_cover() {
         let board: Vec<[u8; 4]> = (0..64)
             .map(|at| if (at / 8 + at) % 2 == 0 { RED } else { CLEAR })
             .collect();
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn the_likely_part_is_that_of_labels_stencils_drawings_and_scans() {
+    fn the_likely_part_of_labels_stencils_drawings_and_scans_is_found() {
         let (white, black) = ([255; 4], [0, 0, 0, 255]);
         assert_eq!(picture(2, &[RED, white]).likely_part(), PicturePart::Colors);
         assert_eq!(picture(2, &[black, CLEAR]).likely_part(), PicturePart::Alpha);
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_picture_keeps_its_sides() {
+    fn a_long_picture_keeps_its_aspect_ratio() {
         assert_eq!(picture(4, &[RED; 8]).half_sides(), DVec2::new(1.0, 0.5));
     }
 }

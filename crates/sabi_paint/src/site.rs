@@ -1,4 +1,4 @@
-//! Finds the places of strokes again: on a changed model, and on the other side of a symmetric one.
+//! Finding the points of strokes again: on a changed model, and on the other side of a symmetric one.
 
 use std::sync::Arc;
 
@@ -12,16 +12,18 @@ use crate::pen::Touch;
 use crate::stroke::{Stroke, StrokePoint};
 use crate::surface::{PaintSurface, rightward};
 
-/// Places farther than this share of the brush's radius from the surface are lost.
+/// Distance from the surface at which a point is lost, as a share of the brush's radius.
 const TOLERANCE: f64 = 1.0;
 
-/// Distance from the surface at which a place of a stroke that is carried is lost, as a share of that from where it is held.
+/// Distance from the surface at which a point of a moved stroke is lost, as a share of its distance from the place at which
+/// the stroke is held.
 const CARRIED: f64 = 0.5;
-/// Longest way between two places of a path, as a share of the brush's radius.
+/// Maximum distance between two points of a path, as a share of the brush's radius.
 const PATH_STEP: f64 = 0.5;
 
-/// The stroke with its places on this surface: by number where the triangle is the same, by content where it has another
-/// number, and else the nearest place that faces the same way. Places that are lost are left out, and counted.
+/// Returns the stroke with its points on this surface, and the number of lost points, which are left out. A point is found
+/// by the number of its triangle if the triangle is the same, by the triangle's content if it has another number, and
+/// otherwise as the nearest place that faces the same way.
 pub fn relocate(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Stroke, usize) {
     let radius = f64::from(stroke.brush.radius);
     let Some(path) = stroke.as_path() else {
@@ -44,8 +46,8 @@ pub fn relocate(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Stroke, usize) 
     (found, lost)
 }
 
-/// The stroke carried from one place of the surface to another, where it is turned counter-clockwise as seen from outside, with each of
-/// its places on the nearest place there that faces the same way, and how many of them are lost.
+/// Moves a stroke from one place of the surface to another and turns it counter-clockwise as seen from outside. Each of its
+/// points is put on the nearest place that faces the same way. Returns the stroke and the number of lost points.
 pub fn carried(
     surface: &PaintSurface<'_>,
     stroke: &Stroke,
@@ -53,7 +55,7 @@ pub fn carried(
     turn_degrees: f64,
 ) -> (Stroke, usize) {
     let radius = f64::from(stroke.brush.bounded().radius);
-    // A stroke may be from before the model was edited.
+    // The stroke may be older than the last change of the model.
     let (stroke, lost_before) = relocate(surface, stroke);
     let [Some(from), Some(to)] = [from, to].map(|point| current(surface, point, radius)) else {
         let count = stroke.points.len() + lost_before;
@@ -70,7 +72,7 @@ pub fn carried(
             CARRIED * point.site.position.distance(from.site.position),
         );
         let (place, normal) = (mapped(point.site.position), turn * vector(point.normal));
-        // Most places lie near the surface, and looking far takes long.
+        // Most points are near the surface, and searching far away takes long.
         let found = surface.nearest(place, normal, near);
         found.or_else(|| surface.nearest(place, normal, near + far))
     };
@@ -102,13 +104,13 @@ pub fn carried(
     (carried, lost + lost_before)
 }
 
-/// A point where it lies now; none where it is lost.
+/// Returns the present position of a point; `None` if it is lost.
 fn current(surface: &PaintSurface<'_>, point: &StrokePoint, radius: f64) -> Option<StrokePoint> {
     let site = site_of(surface, point, radius)?;
     surface.point(site, point.touch(), point.starts)
 }
 
-/// Touch of the pen at a place that is turned.
+/// Returns the touch of the pen at a point that is rotated.
 fn turned(point: &StrokePoint, turn: &DMat3) -> Touch {
     Touch {
         shaft: point.shaft.and_then(|shaft| shaft.turned(turn)),
@@ -116,14 +118,14 @@ fn turned(point: &StrokePoint, turn: &DMat3) -> Touch {
     }
 }
 
-/// Turns the shafts of the pen at places that were moved.
+/// Rotates the shafts of the pen at points that were moved.
 fn turn_shafts(points: &mut [StrokePoint], turn: &DMat3) {
     for point in points {
         point.shaft = turned(point, turn).shaft;
     }
 }
 
-/// An eye that is moved together with what it looks at.
+/// Returns an eye that is moved together with the model.
 fn seen_from(eye: Eye, moved: &DAffine3) -> Eye {
     let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
     match eye {
@@ -132,7 +134,7 @@ fn seen_from(eye: Eye, moved: &DAffine3) -> Eye {
     }
 }
 
-/// The stroke without places.
+/// Returns the stroke without points.
 fn nowhere(stroke: Stroke) -> Stroke {
     Stroke {
         points: Vec::new(),
@@ -141,7 +143,7 @@ fn nowhere(stroke: Stroke) -> Stroke {
     }
 }
 
-/// Directions at a point: to the right and upward as seen from outside, and away from the surface.
+/// Returns the directions at a point: to the right and upward as seen from outside, and away from the surface.
 fn frame(surface: &PaintSurface<'_>, point: &StrokePoint) -> DMat3 {
     let normal = surface.smooth_normal_at(point.site);
     let right = rightward(normal);
@@ -152,7 +154,7 @@ fn relocate_path(surface: &PaintSurface<'_>, path: &Path, radius: f64) -> (Path,
     path.moved(|point| current(surface, point, radius))
 }
 
-/// Places that a stroke passes on this surface, and how many of those that it was drawn through are lost.
+/// Returns the points that a stroke passes on this surface, and the number of its points that are lost.
 pub(crate) fn passed(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Vec<StrokePoint>, usize) {
     let radius = f64::from(stroke.brush.bounded().radius);
     let Some(path) = stroke.as_path() else {
@@ -162,7 +164,7 @@ pub(crate) fn passed(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Vec<Stroke
     (path.way(surface, PATH_STEP * radius), lost)
 }
 
-/// Places of a stroke with this radius on this surface, as [`relocate`] finds them.
+/// Finds the points of a stroke with this radius on this surface, like [`relocate`].
 pub(crate) fn relocate_points(
     surface: &PaintSurface<'_>,
     points: &[StrokePoint],
@@ -178,14 +180,14 @@ pub(crate) struct LocatedStroke {
     pub(crate) eye: Option<Eye>,
     /// Place that it copies from, if it does.
     pub(crate) source: Option<StrokePoint>,
-    /// Way from the stroke to the copy in model space.
+    /// Transform from the stroke to the copy in model space.
     pub(crate) moved: DAffine3,
-    /// True if it turns the other way round than the stroke, as in a mirror.
+    /// True if it is mirrored, so that rotations are reversed.
     pub(crate) is_mirrored: bool,
 }
 
-/// The copies of a stroke on the other sides of the model, without the stroke itself: each place the nearest one that faces the
-/// same way, if it is nearer than the radius.
+/// Returns the copies of a stroke on the other sides of the model, without the stroke itself. Each point is put on the
+/// nearest place that faces the same way, if it is nearer than the radius.
 pub(crate) fn copies(
     surface: &PaintSurface<'_>,
     stroke: &LocatedStroke,
@@ -232,7 +234,7 @@ pub(crate) fn copies(
     copies
 }
 
-/// Places moved to other sites; the number of those that have none.
+/// Moves points to other sites. Returns them and the number of points without a site.
 fn moved(
     surface: &PaintSurface<'_>,
     points: &[StrokePoint],

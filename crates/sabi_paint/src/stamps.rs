@@ -20,9 +20,9 @@ pub struct Stamps {
 }
 
 impl Tip {
-    /// Settings that suit the tip.
+    /// Returns settings that suit the tip.
     pub fn stamps(self) -> Stamps {
-        // Spacing, flow and hardness; jitter of place, size, angle in degrees, and flow.
+        // Spacing, flow and hardness; then jitter of position, size, angle in degrees, and flow.
         let (base, jitter): ([f32; 3], [f32; 4]) = match self {
             Tip::Round => ([0.15, 1.0, 0.5], [0.0; 4]),
             Tip::Soft => ([0.1, 0.2, 0.0], [0.0; 4]),

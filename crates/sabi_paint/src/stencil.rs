@@ -1,34 +1,35 @@
-//! Stencils: pictures before the view, through which a stroke is painted.
+//! Stencils: pictures in front of the view, through which a stroke is painted.
 
 use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
 use crate::picture::PictureTip;
 
-/// Least depth, as the last row of a stencil's map gives it, of a place that lies before the eye.
+/// Minimum depth of a place in front of the eye, as computed by the last row of a stencil's matrix.
 const LEAST_DEPTH: f64 = 1e-9;
 
-/// A picture before the view, through which a stroke is painted.
+/// A picture in front of the view, through which a stroke is painted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stencil {
-    /// The picture. With its own colors, strokes get these.
+    /// The picture. If its own colors are used, strokes have these colors.
     pub picture: PictureTip,
-    /// Rows that map a place of the model, with a 1 behind it, to x, y and depth: x over depth is −1 at the picture's left and 1 at
-    /// its right, y over depth −1 at its foot and 1 at its top. Places without a depth above 0 lie behind the eye.
+    /// Rows that map a point of the model (with a fourth component of 1) to x, y and depth. x over depth is −1 at the picture's left and 1
+    /// at its right, y over depth −1 at its bottom and 1 at its top. Points whose depth is not above 0 are behind the eye.
     pub picture_from_model: [[f64; 4]; 3],
 }
 
 /// A place behind a stencil.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BehindStencil {
-    /// Place of the picture, −1 to 1 in x and y.
+    /// Position in the picture, −1 to 1 in x and y.
     pub(crate) place: DVec2,
-    /// Change of x and of y by a step in model space.
+    /// Gradients of x and of y in model space.
     gradients: [DVec3; 2],
 }
 
 impl BehindStencil {
-    /// Width of a texel on a surface with this normal, in halves of the picture's longer side. `half_sides` are those of the picture.
+    /// Returns the width of a texel on a surface with this normal, in halves of the picture's longer side. `half_sides` are
+    /// those of the picture.
     pub(crate) fn width(&self, texel: f64, normal: DVec3, half_sides: DVec2) -> f64 {
         let [x, y] = self.gradients.map(|step| (step - step.dot(normal) * normal).length());
         texel * (x * half_sides.x).max(y * half_sides.y)
@@ -36,7 +37,7 @@ impl BehindStencil {
 }
 
 impl Stencil {
-    /// True if all its numbers are finite.
+    /// Returns true if all its numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.picture_from_model
             .iter()
@@ -44,7 +45,7 @@ impl Stencil {
             .all(|number| number.is_finite())
     }
 
-    /// The stencil before a model that is moved together with it.
+    /// Returns the stencil for a model that is moved together with it.
     pub(crate) fn moved(&self, moved: &DAffine3) -> Stencil {
         let back = DMat4::from(moved.inverse()).transpose();
         let mapped = self.picture_from_model.map(|row| (back * DVec4::from(row)).to_array());
@@ -54,7 +55,7 @@ impl Stencil {
         }
     }
 
-    /// The place of the picture that covers a place of the model; none behind the eye.
+    /// Returns the position in the picture that covers a place of the model; `None` if the place is behind the eye.
     pub(crate) fn behind(&self, place: DVec3) -> Option<BehindStencil> {
         let rows = self.picture_from_model.map(DVec4::from);
         let [x, y, depth] = rows.map(|row| row.dot(place.extend(1.0)));
@@ -72,7 +73,7 @@ mod tests {
     use super::*;
     use crate::picture::{PictureName, PicturePart};
 
-    /// A stencil before an eye at z = 4 that looks along −z; at a distance of 2 it is 2 wide and 1 high.
+    /// Returns a stencil for an eye at z = 4 that looks along −z. At a distance of 2 it is 2 wide and 1 high.
     fn stencil() -> Stencil {
         Stencil {
             picture: PictureTip {
@@ -84,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stencil_covers_the_places_on_the_lines_from_the_eye_through_it() {
+    fn a_stencil_covers_the_places_on_lines_from_the_eye_through_it() {
         let at = |place: [f64; 3]| stencil().behind(DVec3::from(place)).map(|behind| behind.place);
         assert_eq!(at([1.0, 0.5, 2.0]), Some(DVec2::ONE));
         assert_eq!(at([2.0, -1.0, 0.0]), Some(DVec2::new(1.0, -1.0)));
@@ -92,11 +93,11 @@ mod tests {
     }
 
     #[test]
-    fn a_texel_behind_a_stencil_is_as_wide_as_the_eye_sees_it() {
+    fn a_texel_behind_a_stencil_has_the_width_that_the_eye_sees() {
         let behind = stencil().behind(DVec3::ZERO).unwrap();
         let half_sides = DVec2::new(1.0, 0.5);
         assert!((behind.width(0.1, DVec3::Z, half_sides) - 0.05).abs() < 1e-12);
-        // In the middle, a surface that the eye sees edge-on moves nothing across the picture in x.
+        // In the middle, a step along a surface that the eye sees edge-on does not change x in the picture.
         assert!((behind.width(0.1, DVec3::X, half_sides) - 0.05).abs() < 1e-12);
         let off = stencil().behind(DVec3::new(1.0, 0.0, 0.0)).unwrap();
         let width = off.width(1e-6, DVec3::Y, half_sides);

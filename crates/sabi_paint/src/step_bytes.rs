@@ -17,11 +17,12 @@ use crate::version::Version;
 
 /// Bytes of a point.
 const POINT_BYTES: usize = 4 + 4 + 12 + 4 + 2;
-/// Most points of a stroke: no hand draws as many.
+/// Maximum number of points of a stroke. Nobody draws so many by hand.
 pub(crate) const POINTS_LIMIT: usize = 1 << 20;
-/// Byte behind the shafts: versions that know points alone refuse such a step then, whatever its length, instead of reading it wrongly.
+/// Byte after the shafts. Older versions of the program, which know only points, refuse such a step whatever its length
+/// instead of misreading it.
 const SHAFTS_END: u8 = 0;
-/// Flag of a point where a new run starts.
+/// Flag of a point at which a new run starts.
 const START_BIT: u16 = 1 << 15;
 
 /// Description of a step.
@@ -40,7 +41,7 @@ pub(crate) enum Description {
         hidden: bool,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         eye: Option<Eye>,
-        /// True if the first point is the source and no part of the way.
+        /// True if the first point is the source of a copy and not part of the way.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         source: bool,
         #[serde(default, skip_serializing_if = "CopyOf::is_paint")]
@@ -88,14 +89,14 @@ pub(crate) enum Description {
     },
 }
 
-/// A step as bytes.
+/// Encodes a step as bytes.
 pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
     let (source, points): (Option<StrokePoint>, &[StrokePoint]) = match step {
         Step::Add(stroke) => (stroke.source, &stroke.points),
         Step::Place { points, .. } => (None, points),
         Step::Remove(_) | Step::Change { .. } | Step::Move { .. } | Step::Group { .. } => (None, &[]),
     };
-    // Numbers of a bounded brush are finite, so that the text has all of them.
+    // Numbers of a bounded brush are finite, so JSON can represent all of them.
     let text = serde_json::to_vec(&description_of(step)).unwrap_or_default();
     let mut bytes = (text.len() as u32).to_le_bytes().to_vec();
     bytes.extend_from_slice(&text);
@@ -110,7 +111,7 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
     bytes
 }
 
-/// What a step says besides its places.
+/// Returns the description of a step: everything except its points.
 pub(crate) fn description_of(step: &Step) -> Description {
     match step {
         Step::Add(stroke) => Description::Add {
@@ -165,17 +166,17 @@ pub(crate) fn description_of(step: &Step) -> Description {
     }
 }
 
-/// True if the shaft of the pen is known at one of some places.
+/// Returns true if the shaft of the pen is known at any of some points.
 fn have_shafts<'a>(points: impl IntoIterator<Item = &'a StrokePoint>) -> bool {
     points.into_iter().any(|point| point.shaft.is_some())
 }
 
-/// A stencil as a step says it.
+/// Returns a stencil in the form in which a step describes it.
 fn written(stencil: &Option<Arc<Stencil>>) -> Option<Stencil> {
     stencil.as_deref().filter(|stencil| stencil.is_finite()).cloned()
 }
 
-/// A step from bytes; `version` is the one that it leads to. None where the bytes are no step.
+/// Decodes a step. `version` is the version that it leads to. Returns `None` if the bytes are not a step.
 pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
     let (length, rest) = bytes.split_first_chunk::<4>()?;
     let length = u32::from_le_bytes(*length) as usize;
@@ -222,7 +223,7 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
     })
 }
 
-/// The stroke that a description adds; none for other descriptions. Its source is the first of the points, if it has one.
+/// Returns the stroke that a description adds; `None` for other descriptions. If the stroke has a source, it is the first of the points.
 pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: Version) -> Option<Stroke> {
     let Description::Add {
         name,
@@ -259,7 +260,7 @@ pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: 
     })
 }
 
-/// Points from bytes, with the shafts of the pen behind them if they have such.
+/// Decodes points, which are followed by the shafts of the pen if `have_shafts` is true.
 fn points_of(bytes: &[u8], have_shafts: bool) -> Option<Vec<StrokePoint>> {
     if have_shafts {
         let (end, bytes) = bytes.split_last()?;

@@ -16,68 +16,69 @@ use crate::version::Version;
 /// One stroke of a brush.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// Identity, which stays when the stroke is changed: the version in which it was made.
+    /// Identity, which does not change when the stroke is changed: the version in which the stroke was added.
     pub id: Version,
-    /// Name given by the artist; empty for none.
+    /// Name given by the artist; empty if there is none.
     pub name: String,
     /// The brush.
     pub brush: Brush,
     /// Action of the brush.
     pub action: Action,
-    /// Where it does that.
+    /// Area on which the brush acts.
     pub area: Area,
-    /// Hidden strokes leave nothing.
+    /// True if the stroke is hidden, so that it has no effect.
     pub is_hidden: bool,
-    /// Eye of the artist while it was drawn; none in the 2D view.
+    /// Eye of the artist while the stroke was drawn; `None` in the 2D view.
     pub eye: Option<Eye>,
-    /// Place from which [`Action::Clone`] copies to the first point.
+    /// Place that [`Action::Clone`] copies to the first point.
     pub source: Option<StrokePoint>,
-    /// Source of [`Action::Clone`] there.
+    /// Source of [`Action::Clone`]: the paint, or a node result.
     pub copy_of: CopyOf,
     /// The group that it belongs to.
     pub group: Option<Arc<StrokeGroup>>,
-    /// Bends of the path that it follows; none where its way was drawn by hand.
+    /// Bends of the path that it follows; `None` if it was drawn by hand.
     pub path: Option<PathForm>,
-    /// Picture before the view that it was painted through.
+    /// Picture in front of the view through which the stroke was painted.
     pub stencil: Option<Arc<Stencil>>,
-    /// Where it passes, in order; for a path its knots and handles ([`Stroke::as_path`]).
+    /// Points that it passes, in order; for a path its knots and handles ([`Stroke::as_path`]).
     pub points: Vec<StrokePoint>,
 }
 
 impl Stroke {
-    /// True if what it leaves depends on the paint below it.
+    /// Returns true if its paint depends on the paint below it.
     pub fn depends_on_paint(&self) -> bool {
         self.changes_paint() || self.area == Area::Similar
     }
 
-    /// True if it changes or copies what is on the canvas, or copies from elsewhere: what lies at each place itself is laid as a color is.
+    /// Returns true if it changes or copies existing paint, or copies from another place. A copy of a node result in place
+    /// is painted like a color.
     pub(crate) fn changes_paint(&self) -> bool {
         self.action.adjusts() && !self.copies_in_place()
     }
 
-    /// True if it copies what the result that is connected to the node has at each place itself.
+    /// Returns true if it copies the result that is connected to the node, at each place itself.
     pub(crate) fn copies_in_place(&self) -> bool {
         self.copies_input() && self.source.is_none()
     }
 
-    /// True if it copies the result that is connected to the node.
+    /// Returns true if it copies the result that is connected to the node.
     pub fn copies_input(&self) -> bool {
         self.action == Action::Clone && self.copy_of == CopyOf::Input
     }
 
-    /// True if it leaves nothing, since it or its group is hidden.
+    /// Returns true if it has no effect, since it or its group is hidden.
     pub fn leaves_nothing(&self) -> bool {
         self.is_hidden || self.group.as_ref().is_some_and(|group| group.is_hidden)
     }
 
-    /// Pictures that it needs: that of its brush, and that of its stencil.
+    /// Returns the pictures that it needs: that of its brush, and that of its stencil.
     pub fn pictures(&self) -> impl Iterator<Item = &PictureName> {
         let of_stencil = self.stencil.as_ref().map(|stencil| &stencil.picture);
         let tips = self.brush.picture.iter().chain(of_stencil);
         tips.map(|tip| &tip.picture)
     }
 
-    /// A stroke that lays paint along its way, without a name. Its id is given to it by [`Step::Add`].
+    /// Creates a stroke that paints along its way, without a name. It receives its id from [`Step::Add`].
     pub fn new(brush: Brush, points: Vec<StrokePoint>) -> Stroke {
         Stroke {
             id: Version::EMPTY,
@@ -97,22 +98,22 @@ impl Stroke {
     }
 }
 
-/// A group of strokes, which is shown and hidden and made fainter as a whole.
+/// A group of strokes, which can be shown, hidden and faded as a whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StrokeGroup {
-    /// Number by which its strokes know it, its own among the groups of a list.
+    /// Number that identifies the group within a list.
     pub number: u32,
     /// Name given by the artist.
     pub name: String,
-    /// Share, 0 to 1, of what its strokes leave together that is seen. Strokes of it that do not lie on each other in the list are layers
-    /// of their own.
+    /// Opacity of the combined effect of its strokes, 0 to 1. If other strokes of the list are between its strokes, the
+    /// parts are separate layers.
     pub opacity: f32,
     /// True if all its strokes are hidden.
     pub is_hidden: bool,
 }
 
 impl StrokeGroup {
-    /// The group with its opacity in range; 1 where it is no number.
+    /// Returns the group with its opacity in range. NaN becomes 1.
     pub(crate) fn bounded(&self) -> StrokeGroup {
         let opacity = if self.opacity.is_finite() {
             self.opacity.clamp(0.0, 1.0)
@@ -126,7 +127,7 @@ impl StrokeGroup {
     }
 }
 
-/// What a brush does.
+/// Action of a brush.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {
@@ -135,7 +136,7 @@ pub enum Action {
     Paint,
     /// Takes paint away.
     Erase,
-    /// Pulls paint along, as a finger does.
+    /// Pulls paint along, like a finger.
     Smear,
     /// Softens paint.
     Blur,
@@ -156,7 +157,7 @@ impl Action {
         (Action::Clone, "Clone"),
     ];
 
-    /// Returns true if the action changes paint that is there, so that what it leaves depends on it.
+    /// Returns true if the action changes existing paint, so that its effect depends on that paint.
     pub fn adjusts(self) -> bool {
         matches!(self, Action::Smear | Action::Blur | Action::Sharpen | Action::Clone)
     }
@@ -166,15 +167,15 @@ impl Action {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CopyOf {
-    /// The paint below it.
+    /// The paint below the stroke.
     #[default]
     Paint,
-    /// The result that is connected to the node. A stroke without a source copies what lies at each place itself.
+    /// The result that is connected to the node. A stroke without a source copies it in place.
     Input,
 }
 
 impl CopyOf {
-    /// Both with their titles.
+    /// Both sources with their titles.
     pub const ALL: [(CopyOf, &'static str); 2] = [(CopyOf::Paint, "This paint"), (CopyOf::Input, "Another node")];
 
     pub(crate) fn is_paint(&self) -> bool {
@@ -182,7 +183,7 @@ impl CopyOf {
     }
 }
 
-/// Where a stroke acts.
+/// Area on which a stroke acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Area {
@@ -199,26 +200,25 @@ pub enum Area {
     Chart,
     /// On all materials that it touches.
     Material,
-    /// Everywhere, fading evenly from the first place to the last, straight through space.
+    /// Everywhere, fading evenly from the first point to the last, along a straight line through space.
     Gradient,
-    /// On the flat or softly bent side that it touches: up to edges between triangles that differ by more than the angle of the
-    /// brush.
+    /// On the flat or gently curved side that it touches, up to edges between triangles that differ by more than the angle of the brush.
     Side,
-    /// A single stamp at its first place, in full and without random differences, thrown straight onto everything there that faces
-    /// the same way.
+    /// A single stamp at its first point, with full strength and without random differences, projected straight onto
+    /// everything there that faces the same way.
     Decal,
-    /// A single stamp as [`Area::Decal`], which follows the bends of the piece that it is on, as a label does.
+    /// A single stamp like [`Area::Decal`] that follows the bends of the piece that it is on, like a label.
     Label,
-    /// Inside of its way, as the artist saw it.
+    /// Inside of its way, as seen by the artist.
     Inside,
-    /// On the connected area around its places that is painted about as much as they are, over seams, too.
+    /// On the connected area around its points with about the same amount of paint, also across seams.
     Similar,
-    /// A band of stamps laid end to end along its way and bent with it, as wide as the brush.
+    /// A band of stamps in a row along its way, bent with it, as wide as the brush.
     Ribbon,
 }
 
 impl Area {
-    /// True for areas that are a single stamp.
+    /// Returns true for areas that are a single stamp.
     pub fn is_single(self) -> bool {
         matches!(self, Area::Decal | Area::Label)
     }
@@ -241,25 +241,25 @@ impl Area {
     ];
 }
 
-/// A place that a stroke passes.
+/// A point that a stroke passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokePoint {
     /// Place on the surface.
     pub site: Site,
-    /// Unit normal of the surface there, by which the place is found again on a changed model.
+    /// Unit normal of the surface there. It helps to find the point again on a changed model.
     pub normal: [f32; 3],
-    /// Content of the triangle ([`crate::PaintSurface::triangle_key`]), by which it is found again.
+    /// Content key of the triangle ([`crate::PaintSurface::triangle_key`]), by which the triangle is found again.
     pub triangle_key: u32,
     /// Pressure, 0 to 1.
     pub pressure: f32,
-    /// True where no way leads here from the point before: the first point, and where the brush was lifted or jumped.
+    /// True if no way leads here from the previous point: at the first point, and where the brush was lifted or jumped.
     pub starts: bool,
-    /// Direction of the shaft of the pen there; none where it is not known, as for a mouse.
+    /// Direction of the shaft of the pen there; `None` if it is unknown, for example for a mouse.
     pub shaft: Option<Shaft>,
 }
 
 impl StrokePoint {
-    /// Way in which the pen touches the place.
+    /// Returns how the pen touches the point.
     pub fn touch(&self) -> Touch {
         Touch {
             pressure: self.pressure,
@@ -271,7 +271,7 @@ impl StrokePoint {
 /// A step from one list of strokes to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// Adds a stroke on top. Its id is the version that the step leads to, whatever it says.
+    /// Adds a stroke on top. Its id becomes the version that the step leads to; the given id is ignored.
     Add(Arc<Stroke>),
     /// Removes strokes.
     Remove(Vec<Version>),
@@ -279,38 +279,38 @@ pub enum Step {
     Change {
         /// The stroke.
         stroke: Version,
-        /// Its name from now on.
+        /// Its new name.
         name: String,
-        /// Its brush from now on.
+        /// Its new brush.
         brush: Box<Brush>,
-        /// Whether it is hidden from now on.
+        /// Whether it is hidden after the step.
         is_hidden: bool,
     },
-    /// Moves a stroke to a place in the order, 0 the lowest.
+    /// Moves a stroke to an index in the order; 0 is the lowest.
     Move {
         /// The stroke.
         stroke: Version,
-        /// Its index from now on.
+        /// Its new index.
         to: usize,
     },
-    /// Puts strokes into a group, with its name, opacity and visibility from now on, or takes them out of theirs.
+    /// Puts strokes into a group with a new name, opacity and visibility, or removes them from their groups.
     Group {
         /// The strokes.
         strokes: Vec<Version>,
-        /// Their group from now on.
+        /// Their new group.
         group: Option<Arc<StrokeGroup>>,
     },
-    /// Lays a stroke to other places.
+    /// Moves a stroke to other points.
     Place {
         /// The stroke.
         stroke: Version,
-        /// Its places from now on.
+        /// Its new points.
         points: Vec<StrokePoint>,
-        /// Bends of its path from now on.
+        /// New bends of its path.
         path: Option<PathForm>,
-        /// Eye of the artist then.
+        /// Eye of the artist for the new points.
         eye: Option<Eye>,
-        /// Picture before the view that it is painted through from now on.
+        /// Picture in front of the view through which it is now painted.
         stencil: Option<Arc<Stencil>>,
     },
 }

@@ -1,8 +1,8 @@
 //! Strokes as text, for the clipboard.
 //!
-//! One JSON object: `sabi_strokes` is the version of the format, `strokes` a list of what the step that adds each of them says, with
-//! its places as numbers: triangle, key, position, normal, pressure, and 1 where a run starts. The shafts of the pen at these places are a
-//! list of their own, as in a stroke file, where there are any.
+//! The text is one JSON object: `sabi_strokes` is the version of the format, and `strokes` is a list of the descriptions of
+//! the steps that add the strokes, each with its points as numbers: triangle, key, position, normal, pressure, and 1 if a
+//! run starts there. If there are shafts of the pen at these points, they are a separate list, as in a stroke file.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -18,13 +18,13 @@ use std::sync::Arc;
 /// Version of the format.
 const FORMAT: u32 = 1;
 
-/// A text that is no strokes.
+/// Error of a text that contains no strokes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum NoStrokes {
-    /// Another text.
+    /// The text is something else.
     #[error("the clipboard holds no strokes; copy some from the list of strokes first")]
     Other,
-    /// From a later version of the program.
+    /// The text is from a later version of the program.
     #[error("the strokes in the clipboard are of a newer version of Sabi")]
     Newer,
 }
@@ -46,7 +46,7 @@ struct StrokeText {
 /// Triangle, key, position, normal, pressure, and whether a run starts.
 type PointText = (u32, u32, [f32; 3], [f32; 3], f32, u8);
 
-/// Strokes as a text, the lowest first.
+/// Returns strokes as a text, the lowest first.
 pub fn strokes_as_text(strokes: &[Arc<Stroke>]) -> String {
     let texts = strokes.iter().map(|stroke| StrokeText {
         step: description_of(&Step::Add(Arc::clone(stroke))),
@@ -57,16 +57,16 @@ pub fn strokes_as_text(strokes: &[Arc<Stroke>]) -> String {
         sabi_strokes: FORMAT,
         strokes: texts.collect(),
     };
-    // Numbers of bounded brushes and of places are finite, so that the text has all of them.
+    // Numbers of bounded brushes and of points are finite, so JSON can represent all of them.
     serde_json::to_string(&text).unwrap_or_default()
 }
 
-/// Returns true for a text that [`strokes_as_text`] gives, by its start.
+/// Returns true if a text begins like those of [`strokes_as_text`].
 pub fn is_text_of_strokes(text: &str) -> bool {
     text.starts_with("{\"sabi_strokes\"")
 }
 
-/// Strokes of a text, the lowest first.
+/// Returns the strokes of a text, the lowest first.
 ///
 /// # Errors
 /// The text is something else, or of a later version of the program.
@@ -96,7 +96,7 @@ pub fn strokes_from_text(text: &str) -> Result<Vec<Stroke>, NoStrokes> {
     strokes.collect::<Option<_>>().ok_or(NoStrokes::Other)
 }
 
-/// Shafts of the pen at the places of a stroke; empty if none is known.
+/// Returns the shafts of the pen at the points of a stroke; empty if none is known.
 fn shafts_of(stroke: &Stroke) -> Vec<Option<Shaft>> {
     let shafts: Vec<_> = stroke
         .source
@@ -170,14 +170,14 @@ mod tests {
     }
 
     #[test]
-    fn strokes_are_the_same_after_they_were_a_text() {
+    fn strokes_converted_to_text_and_back_are_the_same() {
         let text = strokes_as_text(&[Arc::new(stroke())]);
         assert!(is_text_of_strokes(&text) && !is_text_of_strokes("{}"));
         assert_eq!(strokes_from_text(&text), Ok(vec![stroke()]));
     }
 
     #[test]
-    fn other_texts_are_no_strokes_and_say_so() {
+    fn other_texts_are_refused_with_an_error() {
         assert_eq!(strokes_from_text("{}"), Err(NoStrokes::Other));
         assert_eq!(strokes_from_text("[1, 2"), Err(NoStrokes::Other));
         let newer = strokes_as_text(&[]).replace(":1", ":2");

@@ -1,11 +1,11 @@
-//! Things outside of strokes that they paint with.
+//! Data outside of strokes that painting needs.
 
 use crate::picture::StampPictures;
 
-/// Linear colors of a result of another node, by the texels of the atlas that is painted on.
+/// Linear colors of a result of another node, by texel of the atlas that is painted on.
 pub type InputColors<'a> = dyn Fn(usize) -> [f32; 3] + Sync + 'a;
 
-/// A color as a canvas can hold it: results of nodes may be brighter than white, or no numbers.
+/// Returns a color that a canvas can store. Results of nodes may be brighter than white, or NaN.
 pub(crate) fn bounded(color: [f32; 3]) -> [f32; 3] {
     color.map(|channel| {
         if channel.is_finite() {
@@ -16,17 +16,17 @@ pub(crate) fn bounded(color: [f32; 3]) -> [f32; 3] {
     })
 }
 
-/// Things that strokes need besides a surface.
+/// Data that strokes need in addition to a surface.
 #[derive(Clone, Copy)]
 pub struct Supplies<'a> {
-    /// Pictures of brushes and stencils. Strokes whose picture is not among them leave nothing.
+    /// Pictures of brushes and stencils. Strokes whose picture is missing have no effect.
     pub pictures: &'a StampPictures,
-    /// The result that strokes copy from ([`crate::CopyOf::Input`]). Without it such strokes leave nothing.
+    /// The result that strokes copy from ([`crate::CopyOf::Input`]). Without it, such strokes have no effect.
     pub input: Option<&'a InputColors<'a>>,
 }
 
 impl<'a> Supplies<'a> {
-    /// Pictures alone.
+    /// Returns supplies with only pictures.
     pub fn of_pictures(pictures: &'a StampPictures) -> Supplies<'a> {
         Supplies { pictures, input: None }
     }

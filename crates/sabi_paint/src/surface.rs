@@ -12,12 +12,12 @@ use crate::index::SurfaceIndex;
 use crate::pen::{Shaft, Touch};
 use crate::stroke::StrokePoint;
 
-/// Least part of the upward direction along the surface by which a decal stands upright; flatter places count as level.
+/// Minimum length of the upward direction along the surface with which a decal is upright; flatter places count as level.
 const LEAST_UPRIGHT: f64 = 0.05;
-/// Least cosine between the normal of a place and that of the triangle that it may move to.
+/// Minimum cosine between the normal of a point and that of the triangle to which it may move.
 const LEAST_COSINE: f64 = 0.3;
 
-/// A mesh as the brush sees it: connected, and with triangles that are known by their content.
+/// A mesh prepared for the brush: with connections, and with triangles that can be identified by their content.
 pub struct PaintSurface<'a> {
     mesh: &'a Mesh,
     index: &'a SurfaceIndex,
@@ -25,11 +25,11 @@ pub struct PaintSurface<'a> {
     stop: Option<&'a Stop<'a>>,
 }
 
-/// Asked many times while strokes are laid; true ends the work early, and what it gives then is of no use.
+/// Function that is called many times while strokes are painted. If it returns true, the work ends early, and its result must not be used.
 pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
 impl<'a> PaintSurface<'a> {
-    /// A mesh with its own index.
+    /// Creates the surface of a mesh from the mesh's index.
     pub fn new(mesh: &'a Mesh, index: &'a SurfaceIndex) -> PaintSurface<'a> {
         PaintSurface {
             mesh,
@@ -39,7 +39,7 @@ impl<'a> PaintSurface<'a> {
         }
     }
 
-    /// The surface for work that can be stopped: strokes may have millions of places.
+    /// Returns the surface for work that can be stopped, since strokes may have millions of points.
     #[must_use]
     pub fn stopped_by(self, stop: &'a Stop<'a>) -> PaintSurface<'a> {
         PaintSurface {
@@ -48,7 +48,7 @@ impl<'a> PaintSurface<'a> {
         }
     }
 
-    /// Returns true once the work is to end.
+    /// Returns true if the work should end.
     pub fn is_stopped(&self) -> bool {
         self.stop.is_some_and(|stop| stop())
     }
@@ -65,12 +65,12 @@ impl<'a> PaintSurface<'a> {
         self.index
     }
 
-    /// Rays through the mesh; made for the first stroke that needs them.
+    /// Returns the hierarchy for rays. It is created for the first stroke that needs it.
     pub(crate) fn bvh(&self) -> &'a Bvh {
         self.index.bvh.get_or_init(|| Bvh::build(self.mesh))
     }
 
-    /// Unit shading normal at a place of a triangle, given by the weights of its second and third corner.
+    /// Returns the unit shading normal at a place of a triangle, given by the weights of its second and third corner.
     pub(crate) fn smooth_normal(&self, triangle: u32, weights: DVec2) -> DVec3 {
         let shares = [1.0 - weights.x - weights.y, weights.x, weights.y];
         let corners = self.mesh.triangles[triangle as usize].into_iter().zip(shares);
@@ -81,15 +81,15 @@ impl<'a> PaintSurface<'a> {
             .normalize_or_zero()
     }
 
-    /// Weights of the second and the third corner of a site's triangle there; those of the middle for one without area.
+    /// Returns the weights of the second and the third corner of a site's triangle there; those of the middle for a triangle without area.
     pub(crate) fn weights(&self, site: Site) -> DVec2 {
         let weights = weights_at(self.connected().corners(site.triangle), site.position);
         weights
             .filter(|weights| weights.is_finite())
-            .unwrap_or(DVec2::splat(1.0 / 3.0)) // The middle.
+            .unwrap_or(DVec2::splat(1.0 / 3.0)) // The middle of the triangle.
     }
 
-    /// Unit shading normal at a site; that of the triangle where there is none.
+    /// Returns the unit shading normal at a site, or the normal of the triangle if there is no shading normal.
     pub(crate) fn smooth_normal_at(&self, site: Site) -> DVec3 {
         let normal = self.smooth_normal(site.triangle, self.weights(site));
         if normal == DVec3::ZERO {
@@ -99,8 +99,8 @@ impl<'a> PaintSurface<'a> {
         }
     }
 
-    /// Unit normal of the surface around a site: the mean by area of the triangles near it that do not face away; that of the site where
-    /// they cancel.
+    /// Returns the unit normal of the surface around a site: the mean, weighted by area, of the triangles near it that do
+    /// not face away. If they cancel out, returns the normal of the site.
     pub(crate) fn broad_normal(&self, site: Site, radius: f64) -> DVec3 {
         let own = self.smooth_normal_at(site);
         let mut near = Vec::new();
@@ -108,7 +108,7 @@ impl<'a> PaintSurface<'a> {
             .near(site.position - radius, site.position + radius, &mut near);
         let normals = near.into_iter().filter_map(|triangle| {
             let [a, b, c] = self.connected().corners(triangle);
-            // Twice the area as its length.
+            // The length of this normal is twice the area.
             let normal = (b - a).cross(c - a);
             let is_near = self
                 .connected()
@@ -117,10 +117,10 @@ impl<'a> PaintSurface<'a> {
                 <= radius;
             (is_near && normal.dot(own) > 0.0).then_some(normal)
         });
-        normals.sum::<DVec3>().try_normalize().unwrap_or(own) // They cancel.
+        normals.sum::<DVec3>().try_normalize().unwrap_or(own) // The normals cancel out.
     }
 
-    /// The nearest place within a distance that faces the same way.
+    /// Returns the nearest place within a distance that faces the same way.
     pub(crate) fn nearest(&self, from: DVec3, normal: DVec3, tolerance: f64) -> Option<Site> {
         let mut near = Vec::new();
         self.index.near(from - tolerance, from + tolerance, &mut near);
@@ -143,11 +143,11 @@ impl<'a> PaintSurface<'a> {
         self.mesh
     }
 
-    /// Hash of the corners of a triangle, by which it is known when the triangles of a model are numbered anew.
+    /// Returns a hash of the corners of a triangle, by which it is found again if the triangles of a model are renumbered.
     pub fn triangle_key(&self, triangle: u32) -> u32 {
         let mut hash = blake3::Hasher::new();
         for vertex in self.mesh.triangles[triangle as usize] {
-            // + 0.0 turns −0 into 0.
+            // Adding 0 turns −0 into 0.
             let position = self.mesh.positions[vertex as usize].map(|value| (value + 0.0).to_le_bytes());
             hash.update(position.as_flattened());
         }
@@ -155,11 +155,11 @@ impl<'a> PaintSurface<'a> {
         u32::from_le_bytes([0, 1, 2, 3].map(|index| bytes.as_bytes()[index]))
     }
 
-    /// A triangle with that content, if there is one.
+    /// Returns a triangle with that content, if there is one.
     pub(crate) fn triangle_of_key(&self, key: u32) -> Option<u32> {
         let by_key = self.by_key.get_or_init(|| {
             let triangles = 0..self.mesh.triangles.len() as u32;
-            // The first of equal ones.
+            // If several have the same content, the first is used.
             triangles
                 .rev()
                 .map(|triangle| (self.triangle_key(triangle), triangle))
@@ -173,13 +173,13 @@ impl<'a> PaintSurface<'a> {
         self.mesh.triangles.len()
     }
 
-    /// The point at which a walk from another one toward a place in space ends; with its touch.
+    /// Returns the point, with its touch, at which a walk from another point toward a position in space ends.
     pub fn led(&self, from: &StrokePoint, to: DVec3) -> Option<StrokePoint> {
         self.point(walk(self.connected(), from.site, to), from.touch(), false)
     }
 
-    /// The point of a stroke at a site, with what finds it again; none if the mesh has no such triangle or the position is no
-    /// number.
+    /// Returns the point of a stroke at a site, with the data by which it is found again; `None` if the mesh has no such
+    /// triangle or the position is not finite.
     pub fn point(&self, site: Site, touch: impl Into<Touch>, starts: bool) -> Option<StrokePoint> {
         let Touch { pressure, shaft } = touch.into().bounded();
         let is_there = (site.triangle as usize) < self.triangle_count() && site.position.is_finite();
@@ -193,7 +193,8 @@ impl<'a> PaintSurface<'a> {
         })
     }
 
-    /// Shaft of a pen at a site that leans by an angle toward a direction in space; upright on the surface where that is none along it.
+    /// Returns the shaft of a pen at a site that leans by an angle toward a direction in space; upright if that direction
+    /// has no component along the surface.
     pub fn shaft(&self, site: Site, toward: DVec3, angle_degrees: f32) -> Option<Shaft> {
         let is_there = (site.triangle as usize) < self.triangle_count() && site.position.is_finite();
         let normal = is_there.then(|| self.smooth_normal_at(site))?;
@@ -203,8 +204,8 @@ impl<'a> PaintSurface<'a> {
     }
 }
 
-/// Direction to the right of somebody who stands before a surface, by its unit normal; on a level one, of somebody before the front
-/// of the model. A decal whose brush is not turned stands upright by it.
+/// Returns the direction to the right for a person who stands in front of a surface, given by its unit normal; for a level
+/// surface, that of a person in front of the model. A decal whose brush is not rotated is upright in this sense.
 pub fn rightward(normal: DVec3) -> DVec3 {
     let upward = DVec3::Y - normal.y * normal;
     let upward = if upward.length() < LEAST_UPRIGHT {

@@ -1,4 +1,4 @@
-//! Pictures of what a brush paints.
+//! Pictures of the paint of a brush.
 
 use glam::DVec3;
 use sabi_surface::atlas::{Atlas, AtlasOptions};
@@ -19,20 +19,20 @@ use crate::surface::PaintSurface;
 const MARGIN: usize = 8;
 /// Largest side of a picture.
 const LARGEST: usize = 2048;
-/// Least spacing of a tip that is shown as separate stamps.
+/// Minimum spacing from which on a tip is shown as separate stamps.
 const SEPARATE: f32 = 1.0;
 /// Points of a stroke.
 const POINTS: usize = 64;
 
-/// A picture of a stroke of a brush on a flat wall, row by row, the upper left pixel first. The stroke is an S
-/// from left to right with its highest pressure in the middle, large enough to fill the height, whatever the radius of the brush.
-/// A brush whose stamps lie apart is shown as a few of them, and a band as a ribbon. Sides of the picture are 1 to 2048 pixels; others are cut to that.
+/// Returns a picture of a stroke of a brush on a flat wall, row by row from the upper left pixel. The stroke is an S from left to right
+/// with its highest pressure in the middle. It fills the height, whatever the radius of the brush. If the stamps of a brush are far apart,
+/// a few of them are shown; a band is shown as a ribbon. Sides of the picture are limited to 1 to 2048 pixels.
 pub fn swatch(brush: &Brush, pictures: &StampPictures, size: [usize; 2]) -> Vec<SwatchPixel> {
     let size = size.map(|side| side.clamp(1, LARGEST));
     let [width, height] = size.map(|side| side as f64);
     let is_band = brush.tip.is_band() && brush.picture.is_none();
     if brush.spacing >= SEPARATE && !is_band {
-        // Leaves room for stamps that jump aside.
+        // Leaves room for stamps that are displaced at random.
         let radius = 0.48 * height / (1.0 + f64::from(brush.bounded().jitter.place));
         let count = (width / (2.15 * radius)).floor().clamp(1.0, 64.0);
         let step = width / count;
@@ -44,7 +44,7 @@ pub fn swatch(brush: &Brush, pictures: &StampPictures, size: [usize; 2]) -> Vec<
     let places = (0..POINTS).map(|index| {
         let t = index as f64 / (POINTS - 1) as f64;
         let x = 1.1 * radius + t * (width - 2.2 * radius);
-        // A cubic with the bends of an S, which starts low.
+        // A cubic with the bends of an S, starting at the bottom.
         let bend = t * (2.0 * t - 1.0) * (1.0 - t) * 10.0;
         let pressure = 0.25 + 3.0 * t * (1.0 - t);
         ([x, 0.5 * height - 0.13 * height * bend], pressure.min(1.0))
@@ -52,7 +52,8 @@ pub fn swatch(brush: &Brush, pictures: &StampPictures, size: [usize; 2]) -> Vec<
     painted(brush, pictures, size, radius, area, places.collect(), false)
 }
 
-/// A picture of a single stamp of a brush on a flat wall, in full strength, with the same number of pixels on each side: row by row.
+/// Returns a picture of a single stamp of a brush on a flat wall at full strength, row by row, with the same number of
+/// pixels on each side.
 pub fn stamp_swatch(brush: &Brush, pictures: &StampPictures, side: usize) -> Vec<SwatchPixel> {
     let side = side.clamp(1, LARGEST);
     let middle = 0.5 * side as f64;
@@ -72,7 +73,7 @@ pub fn stamp_swatch(brush: &Brush, pictures: &StampPictures, side: usize) -> Vec
     )
 }
 
-/// Pixels of a stroke through places of a picture, given in pixels, each with a pressure.
+/// Returns the pixels of a stroke through positions of a picture, given in pixels, each with a pressure.
 fn painted(
     brush: &Brush,
     pictures: &StampPictures,
@@ -132,7 +133,7 @@ fn painted(
     rows.map(|(x, y)| pixel(texel(x, y))).collect()
 }
 
-/// An upright wall that faces +z, one model unit and one texel for each pixel, with its lower left corner in the origin.
+/// Returns an upright wall that faces +z, with one model unit and one texel for each pixel and its lower left corner at the origin.
 fn wall([width, height]: [usize; 2], side: usize) -> Mesh {
     let [w, h] = [width as f32, height as f32];
     let uv = |x: f32, y: f32| [x, y].map(|pixel| (pixel + MARGIN as f32) / side as f32);
@@ -154,7 +155,7 @@ fn wall([width, height]: [usize; 2], side: usize) -> Mesh {
 fn site_of([x, y]: [f64; 2], [width, height]: [usize; 2]) -> Site {
     let (w, h) = (width as f64, height as f64);
     let up = h - y;
-    // The diagonal from the origin parts the wall.
+    // The diagonal from the origin divides the wall into two triangles.
     Site {
         triangle: if up * w > x * h { 1 } else { 0 },
         position: DVec3::new(x, up, 0.0),

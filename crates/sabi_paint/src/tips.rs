@@ -1,7 +1,7 @@
 //! Tips: the shapes of a brush's stamps.
 //!
-//! A stamp is made once from the numbers of its stroke and its place in it, and is then asked for each texel: a pure function, so
-//! that the same stroke leaves the same bytes everywhere.
+//! A stamp is created once from the number of its stroke and its own number in the stroke, and is then evaluated for each
+//! texel. It is a pure function, so the same stroke gives the same bytes everywhere.
 
 mod bands;
 mod cracks;
@@ -33,7 +33,7 @@ pub enum Tip {
     Soft,
     /// A square.
     Square,
-    /// A disk broken up by a grain that stays where it is on the model.
+    /// A disk with a grain that keeps its place on the model.
     Chalk,
     /// Print of a sponge: walls between pores of several sizes.
     Sponge,
@@ -59,7 +59,7 @@ pub enum Tip {
     Gouge,
     /// A crack that branches.
     Cracks,
-    /// Net of cracks in dried paint that stays where it is on the model.
+    /// Net of cracks in dried paint that keeps its place on the model.
     Crackle,
     /// Chips of paint with straight, sharp edges.
     Flakes,
@@ -69,7 +69,7 @@ pub enum Tip {
     Fingerprint,
     /// Hairs, crumbs and fluff.
     Lint,
-    /// Cushions of moss that stay where they are on the model.
+    /// Cushions of moss that keep their place on the model.
     Moss,
     /// Rosettes of lichen with lobed rims.
     Lichen,
@@ -86,7 +86,7 @@ pub enum Tip {
 }
 
 impl Tip {
-    /// All tips with their titles, in the order of a list to choose from.
+    /// All tips with their titles, in the order of the list in the user interface.
     pub const ALL: [(Tip, &'static str); 28] = [
         (Tip::Round, "Round"),
         (Tip::Soft, "Soft"),
@@ -118,8 +118,8 @@ impl Tip {
         (Tip::Rivets, "Rivets"),
     ];
 
-    /// Grain of the model that the tip catches on, by a place and the width of a texel, in radii of the brush at full pressure. It is the
-    /// same for all stamps of a stroke, which look at a place many times.
+    /// Returns the function for the grain of the model on which the tip depends, by position and width of a texel, both in radii of the
+    /// brush at full pressure. The grain is the same for all stamps of a stroke, which evaluate a place many times.
     pub(crate) fn grain(self) -> Option<fn(DVec3, f64) -> f64> {
         (self == Tip::Chalk).then_some(grains::chalk_grain as fn(DVec3, f64) -> f64)
     }
@@ -129,14 +129,14 @@ impl Tip {
         matches!(self, Tip::Weld | Tip::Stitches | Tip::Rope | Tip::Rivets)
     }
 
-    /// True if stamps that lie on each other add up until they cover. Those of other tips build up to the tip's own strength at
-    /// a place and no further, so that its shades outlast many stamps.
+    /// Returns true if overlapping stamps add up until they cover fully. Stamps of other tips add up only to the tip's own
+    /// strength at a place, so that its shades are still visible after many stamps.
     pub(crate) fn builds_up(self) -> bool {
         use Tip::*;
         matches!(self, Round | Soft | Square | Chalk | Spray | Bristles | Splatter)
     }
 
-    /// The stamp of a stroke's number and its own number in the stroke.
+    /// Creates a stamp from the number of its stroke and its own number in the stroke.
     pub(crate) fn stamp(self, seeds: [u32; 2]) -> Stamp {
         Stamp(match self {
             Tip::Round | Tip::Square => Box::new(|spot| spot.fall),
@@ -174,7 +174,7 @@ impl Tip {
 pub(crate) struct Stamp(Box<dyn Fn(&Spot) -> f64>);
 
 impl Stamp {
-    /// Strength at a place, 0 to 1; 0 where the brush has faded to nothing.
+    /// Returns the strength at a place, 0 to 1; 0 where the brush has faded to zero.
     pub(crate) fn strength(&self, spot: &Spot) -> f64 {
         if spot.fall <= 0.0 {
             return 0.0;

@@ -15,7 +15,8 @@ use glam::{DMat3, DVec2, DVec3, DVec4, Vec2, Vec3};
 pub use projection::Ray;
 pub use viewpoint::{Viewpoint, ViewpointError};
 
-/// Range of distances to the target, view units: below it single precision does not suffice, above it the model is a dot.
+/// Range of distances to the target, in view units: for smaller distances single precision does not suffice, and from
+/// larger ones the model is a dot.
 const DISTANCES: [f32; 2] = [1e-3, 100.0];
 /// Largest coordinate of the target along each axis, view units: the model is near the origin.
 const FARTHEST_TARGET: f32 = 10.0;
@@ -23,9 +24,9 @@ const FARTHEST_TARGET: f32 = 10.0;
 const FOV_Y_DEGREES: [f32; 2] = [1.0, 120.0];
 /// Largest share of the longer and of the shorter side of the picture that a framed model fills.
 const FRAMED_SHARES: [f64; 2] = [0.84, 0.74];
-/// Height of the picture that focal lengths are given for.
+/// Height of the film to which focal lengths refer.
 const FILM_HEIGHT_MM: f32 = 24.0;
-/// A drag over the height of the viewport orbits by half a turn.
+/// Angle of an orbit by a drag across the height of the viewport: half a turn.
 const ORBIT_DEGREES: f32 = 180.0;
 
 /// Projection.
@@ -34,40 +35,40 @@ pub enum Lens {
     /// Perspective.
     #[default]
     Perspective,
-    /// Orthographic, at the size that the perspective has at the target.
+    /// Orthographic, with the size that the perspective lens gives at the target.
     Orthographic,
 }
 
 /// Orbit camera without roll.
 ///
-/// Its fields may hold any numbers: every method clamps them first, so that no input, finite or not, leads to NaN in a matrix
-/// or a ray. Lengths are view units. A `pointer` is a place in the
-/// viewport, 0 to 1 from its upper left corner; an `aspect` is the viewport's width for one height, see [`aspect_of`].
+/// Its fields may hold any numbers. Every method clamps them first, so that no input leads to NaN in a matrix or a ray.
+/// Lengths are view units. A `pointer` is a place in the viewport, 0 to 1 from its upper left corner; an `aspect` is the
+/// viewport's width for one height, see [`aspect_of`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Point that it looks at and orbits.
+    /// Point that the camera looks at and orbits.
     pub target: Vec3,
     /// Side of the model that faces the camera: 0 is +Z, the front in glTF (the camera looks along −Z); 90 is +X.
     pub yaw_degrees: f32,
-    /// Elevation: 90 looks straight down at the target, −90 straight up; limited to this range.
+    /// Elevation: 90 looks straight down at the target, −90 straight up. Values are limited to this range.
     pub pitch_degrees: f32,
     /// Distance from the eye to the target.
     pub distance: f32,
-    /// Vertical field of view; through an orthographic lens, the angle that the visible height spans at the target.
+    /// Vertical field of view. For an orthographic lens, the angle that the visible height spans at the target.
     pub fov_y_degrees: f32,
-    /// Perspective or orthographic; switching keeps the size at the target.
+    /// Perspective or orthographic. Switching keeps the size at the target.
     pub lens: Lens,
 }
 
 impl Default for Camera {
-    /// From the front, at a distance at which any model fits into a square picture.
+    /// Returns a camera in front, at a distance at which any model fits into a square picture.
     fn default() -> Self {
         Camera {
             target: Vec3::ZERO,
             yaw_degrees: 0.0,
             pitch_degrees: 0.0,
             distance: 5.4,
-            // A lens of 70 mm on a picture of 36 × 24 mm.
+            // Corresponds to a lens of 70 mm on a picture of 36 × 24 mm.
             fov_y_degrees: 19.5,
             lens: Lens::Perspective,
         }
@@ -75,7 +76,7 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// Looks at points, such as the vertices of a model, from a viewpoint, framed.
+    /// Returns a camera at a viewpoint that frames these points, for example the vertices of a model.
     pub fn seen_from(viewpoint: Viewpoint, points: &[Vec3], aspect: f32) -> Camera {
         let mut camera = Camera {
             yaw_degrees: viewpoint.yaw_degrees,
@@ -87,12 +88,12 @@ impl Camera {
         camera.clamped()
     }
 
-    /// Focal length that has its field of view on a picture of 36 × 24 mm.
+    /// Returns the focal length that has the camera's field of view on a picture of 36 × 24 mm.
     pub fn focal_length_mm(&self) -> f32 {
         (0.5 * f64::from(FILM_HEIGHT_MM) / self.half_tangent()) as f32
     }
 
-    /// Sets the focal length; the camera moves so that the target keeps its size in the picture.
+    /// Sets the focal length, and moves the camera so that the target keeps its size in the picture.
     pub fn set_focal_length(&mut self, millimeters: f32) {
         let height = self.height_at_target();
         let fov_y_degrees = 2.0 * (0.5 * FILM_HEIGHT_MM / millimeters).atan().to_degrees();
@@ -111,21 +112,21 @@ impl Camera {
         }
     }
 
-    /// Turns around the vertical axis through the target; positive shows what was on the right.
+    /// Turns around the vertical axis through the target. A positive angle shows more of the right side.
     pub fn turn(&mut self, yaw_degrees: f32) {
         if yaw_degrees.is_finite() {
-            // Wrapped before they are added, since a small angle would be lost beside a large one.
+            // Both angles are wrapped before they are added, since a small angle would be lost when added to a large one.
             self.yaw_degrees = wrapped(self.yaw_degrees) + wrapped(yaw_degrees);
         }
         *self = self.clamped();
     }
 
-    /// Moves sideways by a drag; the point of the target's plane under the pointer stays under it.
+    /// Moves sideways by a drag. The point under the pointer in the plane of the target stays under it.
     pub fn pan(&mut self, drag_px: Vec2, viewport_px: Vec2) {
         self.pan_holding(self.target, drag_px, viewport_px);
     }
 
-    /// Moves sideways by a drag; `point`, such as one picked under the pointer, stays under it.
+    /// Moves sideways by a drag. `point`, for example one picked under the pointer, stays under it.
     pub fn pan_holding(&mut self, point: Vec3, drag_px: Vec2, viewport_px: Vec2) {
         *self = self.clamped();
         let depth = (point - self.eye()).dot(self.forward());
@@ -141,12 +142,12 @@ impl Camera {
         }
     }
 
-    /// Moves toward the target: a factor of 2 doubles its size in the picture.
+    /// Moves toward the target. A factor of 2 doubles its size in the picture.
     pub fn zoom(&mut self, factor: f32) {
         self.zoom_toward(self.target, factor);
     }
 
-    /// Moves toward the point of the target's plane under the pointer, which stays under it.
+    /// Moves toward the point under the pointer in the plane of the target. The point stays under the pointer.
     pub fn zoom_at(&mut self, pointer: Vec2, aspect: f32, factor: f32) {
         let camera = self.clamped();
         let at = camera.offset_at_target(pointer, aspect);
@@ -168,14 +169,14 @@ impl Camera {
         }
     }
 
-    /// Moves the target to a point and keeps the distance; with a `normal`, the camera looks straight at the surface there.
+    /// Moves the target to a point and keeps the distance. With a `normal`, the camera looks straight at the surface there.
     pub fn focus(&mut self, point: Vec3, normal: Option<Vec3>) {
         if point.is_finite() {
             self.target = point;
         }
         if let Some(toward) = normal.and_then(Vec3::try_normalize) {
             self.pitch_degrees = toward.y.clamp(-1.0, 1.0).asin().to_degrees();
-            // The normal of a floor or a ceiling gives no yaw.
+            // The normal of a floor or a ceiling defines no yaw.
             if toward.x.hypot(toward.z) > 1e-4 {
                 self.yaw_degrees = toward.x.atan2(toward.z).to_degrees();
             }
@@ -183,8 +184,8 @@ impl Camera {
         *self = self.clamped();
     }
 
-    /// Moves the target so that the points are in the middle of the picture, and the eye to the distance at which all of them
-    /// are in it with a margin. For points in one place the distance stays.
+    /// Moves the target so that the points are in the middle of the picture, and the eye to the distance at which the
+    /// picture shows all of them with a margin. If all points are in one place, the distance is kept.
     pub fn frame(&mut self, points: &[Vec3], aspect: f32) {
         *self = self.clamped();
         let aspect = f64::from(clamped_aspect(aspect));
@@ -196,7 +197,7 @@ impl Camera {
             (shorter, longer)
         };
         let slope = DVec2::new(share_x * aspect, share_y) * self.half_tangent();
-        // Through a perspective lens, a point is inside if `x + slope × z ≤ middle + slope × distance`, and so on all sides.
+        // With a perspective lens, a point is inside if `x + slope × z ≤ middle + slope × distance`, and likewise for the other sides.
         let lens = match self.lens {
             Lens::Perspective => 1.0,
             Lens::Orthographic => 0.0,
@@ -214,7 +215,7 @@ impl Camera {
             return;
         }
         let middle = (high - low) * 0.5;
-        // From the plane through the origin of view space; the target goes to the middle of the points.
+        // The distance is measured from the plane through the origin of view space. The target moves to the middle of the points.
         let distance = ((high + low) * 0.5 / slope).max_element();
         let depth = 0.5 * (depths[0] + depths[1]);
         self.target = (self.axes() * middle.extend(depth)).as_vec3();
@@ -225,8 +226,8 @@ impl Camera {
         *self = self.clamped();
     }
 
-    /// Part of a picture of this size that shows a box in view space, with its corners: the left, upper, right and lower border in
-    /// pixels, one beyond what is seen. None where a part of the box lies behind the eye.
+    /// Returns the part of a picture of this size that shows a box in view space, given by two corners: the left, upper,
+    /// right and lower border in pixels, with a margin of one pixel. `None` if a part of the box is behind the eye.
     pub fn part_of_picture(&self, [low, high]: [Vec3; 2], [width, height]: [u32; 2]) -> Option<[u32; 4]> {
         let rows = self.picture_rows();
         let half = 0.5 * f64::from(height);
@@ -255,8 +256,8 @@ impl Camera {
         ])
     }
 
-    /// Rows that map a place of view space, with a 1 behind it, to its place in the picture to the right and up, both times the depth,
-    /// and to the depth: x over depth and y over depth count from the middle of the picture in halves of its height.
+    /// Returns rows that map a point of view space (with a fourth component of 1) to its position to the right and up, both multiplied by
+    /// the depth, and to the depth. Positions divided by the depth are relative to the middle of the picture, in units of half its height.
     pub fn picture_rows(&self) -> [DVec4; 3] {
         let axes = self.axes();
         let eye = self.eye_f64();
@@ -288,13 +289,13 @@ impl Camera {
         self.axes().y_axis.as_vec3()
     }
 
-    /// View units from the lower to the upper edge of the picture at the target.
+    /// Returns the height of the picture at the target, in view units.
     pub fn height_at_target(&self) -> f32 {
         let camera = self.clamped();
         (2.0 * f64::from(camera.distance) * camera.half_tangent()) as f32
     }
 
-    /// The camera with all numbers clamped to their ranges.
+    /// Returns the camera with all numbers clamped to their ranges.
     fn clamped(&self) -> Camera {
         let at = self.target.to_array();
         Camera {
@@ -309,7 +310,7 @@ impl Camera {
         }
     }
 
-    /// Right, up and backward in view space, computed from the angles, so that looking straight down is no special case.
+    /// Returns right, up and backward in view space. They are computed from the angles, so that looking straight down is no special case.
     fn axes(&self) -> DMat3 {
         let camera = self.clamped();
         let (sin_yaw, cos_yaw) = f64::from(camera.yaw_degrees).to_radians().sin_cos();
@@ -330,14 +331,14 @@ impl Camera {
         (f64::from(self.clamped().fov_y_degrees) * 0.5).to_radians().tan()
     }
 
-    /// Offset of the pointer from the target in the plane through the target, view units to the right and up.
+    /// Returns the offset of the pointer from the target in the plane through the target, in view units to the right and up.
     fn offset_at_target(&self, pointer: Vec2, aspect: f32) -> Vec2 {
         let pointer = pointer.to_array().map(|at| clamped_or(at, [-100.0, 100.0], 0.5) - 0.5);
         Vec2::new(pointer[0] * clamped_aspect(aspect), -pointer[1]) * self.height_at_target()
     }
 }
 
-/// Width of a viewport for one height; 1 for one without area.
+/// Returns width divided by height of a viewport, or 1 for a viewport without area.
 pub fn aspect_of(viewport_px: Vec2) -> f32 {
     clamped_aspect(viewport_px.x / viewport_px.y)
 }
@@ -350,7 +351,7 @@ fn clamped_aspect(aspect: f32) -> f32 {
     }
 }
 
-/// Clamps a number; `otherwise` where it is NaN.
+/// Clamps a number. Returns `otherwise` for NaN.
 fn clamped_or(value: f32, [low, high]: [f32; 2], otherwise: f32) -> f32 {
     if value.is_nan() {
         otherwise
@@ -359,7 +360,7 @@ fn clamped_or(value: f32, [low, high]: [f32; 2], otherwise: f32) -> f32 {
     }
 }
 
-/// The same direction from −180 up to 180 degrees.
+/// Returns the same direction in the range from −180 to 180 degrees.
 fn wrapped(degrees: f32) -> f32 {
     if !degrees.is_finite() {
         return 0.0;

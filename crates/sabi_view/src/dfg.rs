@@ -1,4 +1,4 @@
-//! Table of the directional albedo of a rough specular surface, the second half of the split sum, and of a sheen.
+//! Table of the directional albedo of a rough specular surface (the second half of the split sum) and of a sheen.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -16,20 +16,20 @@ const CIRCLES: u32 = 16;
 /// Samples on half of each circle.
 const CIRCLE_SAMPLES: u32 = 12;
 
-/// Entries along a side of the coarser table of a sheen, which changes slowly.
+/// Entries along a side of the table of a sheen. It is coarser, since a sheen changes slowly.
 const SHEEN_SIDE: u32 = 32;
-/// Directions of light above the surface over which a sheen is added up: from the horizon up, and around half of it.
+/// Number of light directions above the surface over which a sheen is summed: from the horizon up, and around half of it.
 const SHEEN_SAMPLES: [u32; 2] = [48, 32];
 
-/// Sample of the disk of visible microfacets: across and along the plane of view, and its share of the disk.
+/// Sample of the disk of visible microfacets: position across and along the plane of view, and its share of the disk.
 struct DiskSample {
     across: f64,
     along: f64,
     share: f64,
 }
 
-/// Samples of half of the disk; the other half is its mirror image. Radii grow with the sine, since microfacets turn fast at
-/// the disk's edge, and each sample has a radius of its own, since the border between light from above and from below the
+/// Returns samples of half of the disk; the other half is its mirror image. Radii grow with the sine, since microfacets change their
+/// direction quickly near the disk's edge. Each sample has its own radius, since the border between light from above and from below the
 /// surface may run along a circle. 192 such samples are as accurate as thousands on a regular grid.
 fn disk_samples() -> Vec<DiskSample> {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
@@ -51,15 +51,15 @@ fn disk_samples() -> Vec<DiskSample> {
     samples
 }
 
-/// Scale and bias of F0: with Schlick's Fresnel, GGX with Smith's height-correlated masking reflects `F0 · scale + bias` of
-/// uniform light from all directions (Karis 2013, Real Shading in Unreal Engine 4). `n_v` is the cosine of the view's
-/// angle, above 0; `roughness` is perceptual, the square root of alpha, above 0. Microfacets are sampled
-/// by their visibility (Heitz 2018, Sampling the GGX Distribution of Visible Normals).
+/// Returns scale and bias of F0: with Schlick's Fresnel, GGX with Smith's height-correlated masking reflects `F0 · scale +
+/// bias` of uniform light from all directions (Karis 2013, Real Shading in Unreal Engine 4). `n_v` is the cosine of the
+/// view's angle, above 0. `roughness` is perceptual, the square root of alpha, above 0. Microfacets are sampled by their
+/// visibility (Heitz 2018, Sampling the GGX Distribution of Visible Normals).
 fn integrate(samples: &[DiskSample], n_v: f64, roughness: f64) -> [f64; 2] {
     let alpha = roughness * roughness;
     let squared = alpha * alpha;
     let view = [(1.0 - n_v * n_v).max(0.0).sqrt(), n_v];
-    // The view where the surface is stretched to a half sphere.
+    // The view direction in the space in which the surface is stretched to a half sphere.
     let length = (alpha * view[0]).hypot(view[1]);
     let stretched = [alpha * view[0] / length, view[1] / length];
     let lift = 0.5 * (1.0 + stretched[1]);
@@ -69,7 +69,7 @@ fn integrate(samples: &[DiskSample], n_v: f64, roughness: f64) -> [f64; 2] {
         let level = 1.0 - across * across;
         let up = (1.0 - lift) * level.sqrt() + lift * along;
         let forward = (level - up * up).max(0.0).sqrt();
-        // The half vector: stretched back, it has unit length again.
+        // The half vector. Stretched back, it has unit length again.
         let half = [
             alpha * (forward * stretched[0] - up * stretched[1]),
             alpha * across,
@@ -80,7 +80,7 @@ fn integrate(samples: &[DiskSample], n_v: f64, roughness: f64) -> [f64; 2] {
         let n_l = 2.0 * v_h * half[2] / length - n_v;
         if n_l > 0.0 && v_h > 0.0 {
             let shadowing = (squared + (1.0 - squared) * n_l * n_l).sqrt();
-            // Masking and shadowing over masking alone.
+            // Masking and shadowing, divided by masking alone.
             let weight = share * n_l * (n_v + masking) / (n_v * shadowing + n_l * masking);
             let fresnel = (1.0 - v_h).powi(5);
             sums[0] += weight * (1.0 - fresnel);
@@ -90,9 +90,9 @@ fn integrate(samples: &[DiskSample], n_v: f64, roughness: f64) -> [f64; 2] {
     sums
 }
 
-/// Share of uniform light from all directions that a sheen of white fibers reflects: the distribution of Estevez and Kulla
-/// 2017, "Production friendly microfacet sheen BRDF", with the masking of Neubelt and Pettineo 2013, "Crafting a next-gen
-/// material pipeline", as `view/finish.wgsl` has them. Arguments as in [`integrate`].
+/// Returns the share of uniform light from all directions that a sheen of white fibers reflects: the distribution of
+/// Estevez and Kulla 2017, "Production friendly microfacet sheen BRDF", with the masking of Neubelt and Pettineo 2013,
+/// "Crafting a next-gen material pipeline", as in `view/finish.wgsl`. Arguments as in [`integrate`].
 fn integrate_sheen(n_v: f64, roughness: f64) -> f64 {
     let power = 1.0 / (roughness * roughness).max(0.005);
     let n_v = n_v.max(1e-3);
@@ -104,7 +104,7 @@ fn integrate_sheen(n_v: f64, roughness: f64) -> f64 {
         let n_l = middle(up, heights);
         let forward = (1.0 - n_l * n_l).sqrt() * (PI * middle(around, turns)).cos();
         let v_l = sin_v * forward + n_v * n_l;
-        // Of the half vector; its length is that of the sum of both directions.
+        // Cosine for the half vector. The divisor is the length of the sum of both directions.
         let cos = ((n_l + n_v) / (2.0 + 2.0 * v_l).sqrt()).min(1.0);
         let facets = (2.0 + power) * (1.0 - cos * cos).max(1e-6).powf(0.5 * power) / (2.0 * PI);
         sum += facets / (4.0 * (n_l + n_v - n_l * n_v)) * n_l;
@@ -112,7 +112,7 @@ fn integrate_sheen(n_v: f64, roughness: f64) -> f64 {
     (sum * 2.0 * PI / f64::from(heights * turns)).min(1.0)
 }
 
-/// A value of a square table between four of its entries, which stand for the middles of their squares.
+/// Interpolates a value of a square table from four of its entries. Entries are values at the middles of their squares.
 fn between(table: &[f64], side: u32, x: f64, y: f64) -> f64 {
     let corner = |at: f64| (at * f64::from(side) - 0.5).clamp(0.0, f64::from(side - 1));
     let (x, y) = (corner(x), corner(y));
@@ -128,8 +128,8 @@ fn between(table: &[f64], side: u32, x: f64, y: f64) -> f64 {
     top + (bottom - top) * y.fract()
 }
 
-/// The table, row by row: `n_v` grows along a row and the roughness from row to row; an entry stands for the middle of its
-/// square.
+/// Returns the table, row by row: `n_v` grows along a row and the roughness from row to row. An entry is the value at the
+/// middle of its square.
 fn table() -> &'static [[f32; 3]] {
     static TABLE: OnceLock<Vec<[f32; 3]>> = OnceLock::new();
     TABLE.get_or_init(|| {
@@ -148,7 +148,7 @@ fn table() -> &'static [[f32; 3]] {
     })
 }
 
-/// Scale and bias of F0, and the albedo of a sheen, by the cosine of the view, along x, and perceptual roughness, along y.
+/// Returns scale and bias of F0, and the albedo of a sheen, by the cosine of the view's angle along x, and perceptual roughness along y.
 pub(crate) fn dfg_texture(gpu: &Gpu) -> Result<wgpu::Texture, ViewError> {
     let size = wgpu::Extent3d {
         width: SIDE,

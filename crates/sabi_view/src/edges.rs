@@ -20,7 +20,8 @@ wgsl_struct! {
 /// Half-edge: an edge of one triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct HalfEdge {
-    /// Bits of the positions of its ends, model units, the smaller first, so that both half-edges of an edge have the same.
+    /// Bits of the positions of its ends in model units, the smaller position first, so that both half-edges of an edge
+    /// have the same value.
     ends: [[u32; 3]; 2],
     /// Number of its chart in UV.
     uv_chart: u32,
@@ -30,7 +31,7 @@ pub(crate) struct HalfEdge {
 
 impl HalfEdge {
     fn new(ends: [[f32; 3]; 2], uv_chart: u32, uvs: [[f32; 2]; 2]) -> HalfEdge {
-        // Zero has two signs.
+        // Adding 0 turns −0 into 0, so that equal positions have equal bits.
         let [a, b] = ends.map(|end| end.map(|at| (at + 0.0).to_bits()));
         let [of_a, of_b] = uvs.map(|uv| uv.map(f32::to_bits));
         let (ends, uvs) = if a <= b {
@@ -79,7 +80,7 @@ pub(crate) fn displaced_half_edges(displaced: &Displaced, atlas: &Atlas) -> Vec<
         }
         first += same.len();
         edges.sort_unstable();
-        // Edges within an original triangle are shared by two of the triangles that it was cut into.
+        // Edges inside an original triangle are shared by two of the triangles into which it was cut.
         let outer = edges.chunk_by(|a, b| a == b).filter(|shared| shared.len() == 1);
         half_edges.extend(outer.map(|shared| {
             let ends = shared[0].map(|end| end as usize);
@@ -93,7 +94,8 @@ pub(crate) fn displaced_half_edges(displaced: &Displaced, atlas: &Atlas) -> Vec<
     half_edges
 }
 
-/// Lines along all edges, and along the seams: edges at which charts or texture coordinates differ, or the surface ends.
+/// Returns lines along all edges and lines along the seams. A seam is an edge at which charts or texture coordinates differ
+/// or the surface ends.
 pub(crate) fn lines(mut half_edges: Vec<HalfEdge>, placement: &Placement) -> [Vec<Line>; 2] {
     half_edges.par_sort_unstable();
     let edges = half_edges.chunk_by(|a, b| a.ends == b.ends);

@@ -12,7 +12,7 @@ use sabi_gpu::Gpu;
 use crate::error::ViewError;
 pub use panorama::Panorama;
 
-/// An environment on the device. Its axes are those of the scene: see [`Panorama`].
+/// An environment on the device. For the axes see [`Panorama`].
 pub struct Environment {
     specular: wgpu::Texture,
     backdrop: wgpu::Texture,
@@ -20,7 +20,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Prefilters a panorama; waits until the device is done.
+    /// Prefilters a panorama, and waits until the device is done.
     pub fn new(gpu: &Gpu, panorama: &Panorama) -> Result<Environment, ViewError> {
         let levels = backdrop::levels(panorama);
         let backdrop = backdrop::upload(gpu, &levels)?;
@@ -32,7 +32,8 @@ impl Environment {
         })
     }
 
-    /// As [`Environment::new`], with reflections that [`Environment::prefiltered_bytes`] returned for the same panorama.
+    /// Creates an environment like [`Environment::new`], with reflections that [`Environment::prefiltered_bytes`] returned
+    /// for the same panorama.
     pub fn from_prefiltered(gpu: &Gpu, panorama: &Panorama, prefiltered: &[u8]) -> Result<Environment, ViewError> {
         let specular = cube_bytes::upload(gpu, prefilter::face_side(panorama), prefiltered)?;
         let levels = backdrop::levels(panorama);
@@ -43,14 +44,13 @@ impl Environment {
         })
     }
 
-    /// Reads the prefiltered reflections back, for storing: level by level from roughness 0 to 1, within each the
-    /// faces +X -X +Y -Y +Z -Z, within each the rows from the top; a texel is four half floats, little-endian. The side
-    /// of a face halves from level to level.
+    /// Reads the prefiltered reflections back, for storing: level by level from roughness 0 to 1, in each level the faces +X -X +Y -Y +Z
+    /// -Z, in each face the rows from the top. A texel is four half floats, little-endian. The side of a face halves from level to level.
     pub fn prefiltered_bytes(&self, gpu: &Gpu) -> Result<Vec<u8>, ViewError> {
         cube_bytes::read(gpu, &self.specular)
     }
 
-    /// Irradiance divided by pi, linear, at a normal of unit length: the radiance of a white diffuse surface.
+    /// Returns irradiance divided by pi, linear, at a normal of unit length. This is the radiance of a white diffuse surface.
     pub fn irradiance_at(&self, normal: Vec3) -> Vec3 {
         let row = |row: [f32; 4]| Vec4::from_array(row).truncate().as_dvec3();
         irradiance::evaluate(&self.irradiance.map(row), normal).as_vec3()
@@ -69,13 +69,13 @@ impl Environment {
         self.specular.mip_level_count()
     }
 
-    /// Irradiance divided by pi, linear: the sum of these rows times 1, x, y, z, xy, yz, zx, 3y² - 1 and x² - z² of a
-    /// normal of unit length; the fourth number of a row is 0.
+    /// Returns the coefficients of irradiance divided by pi, linear. The irradiance is the sum of these rows times 1, x, y,
+    /// z, xy, yz, zx, 3y² - 1 and x² - z² of a normal of unit length. The fourth number of a row is 0.
     pub(crate) fn irradiance(&self) -> [[f32; 4]; 9] {
         self.irradiance
     }
 
-    /// The panorama with all its mip levels, see [`Panorama::place`].
+    /// Returns the panorama with all its mip levels; see [`Panorama::place`].
     pub(crate) fn backdrop(&self) -> wgpu::TextureView {
         self.backdrop.create_view(&Default::default())
     }

@@ -8,15 +8,15 @@ pub enum ViewError {
     /// Error of the device.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// Width and height of an environment do not fit its pixels, or there are none.
+    /// Width and height of an environment do not match its number of pixels, or are 0.
     #[error(
         "an environment of {width} × {height} pixels cannot be made of {given}; it needs at least one, and as many as its \
          sides say"
     )]
     Panorama {
-        /// Pixels across, as given.
+        /// Requested width in pixels.
         width: u32,
-        /// Pixels down, as given.
+        /// Requested height in pixels.
         height: u32,
         /// Number of pixels given.
         given: u64,
@@ -24,14 +24,14 @@ pub enum ViewError {
     /// The stored bytes of an environment are not in this program's format.
     #[error("the prefiltered environment is damaged ({0}); prefilter its picture again")]
     Prefiltered(String),
-    /// A picture without pixels, or with too many.
+    /// A picture has no pixels, or too many.
     #[error("a picture of {width} × {height} pixels cannot be drawn; each side has 1 to {longest} pixels")]
     Size {
-        /// Requested, pixels.
+        /// Requested width in pixels.
         width: u32,
-        /// Requested, pixels.
+        /// Requested height in pixels.
         height: u32,
-        /// Longest side that the adapter allows.
+        /// Longest side that the adapter allows, in pixels.
         longest: u32,
     },
 }

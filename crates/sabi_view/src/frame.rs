@@ -1,4 +1,4 @@
-//! Uniforms of a sample, which all shaders of a picture share; see `frame.wgsl`.
+//! Uniforms of a sample, shared by all shaders of a picture; see `frame.wgsl`.
 
 use bytemuck::Zeroable;
 use glam::{Mat4, Vec3};
@@ -41,14 +41,14 @@ wgsl_struct! {
     }
 }
 
-/// Level of the reflections that a blurred background shows, relative to the last level.
+/// Level of the reflections that a blurred background shows, divided by the last level.
 const BLUR: f32 = 0.42;
 
-/// Light of the middle of a studio's backdrop: about 1.5 stops below a gray of 18 % that is lit as the model is.
+/// Light of the middle of a studio's backdrop: about 1.5 stops below a gray of 18 % that is lit like the model.
 const BACKDROP: f32 = 0.11;
 
 impl Frame {
-    /// Uniforms of one sample of a picture.
+    /// Computes the uniforms of one sample of a picture.
     pub(crate) fn new(scene: &Scene<'_>, shot: &Shot, [width, height]: [u32; 2], sample: u32) -> Frame {
         let lights = &lights_of_sample(scene, shot, sample);
         let aspect = width as f32 / height as f32;
@@ -77,7 +77,7 @@ impl Frame {
             ground: scene
                 .ground(shot)
                 .map_or([0.0, 1.0, 0.0, 0.0], |ground| [ground.height, ground.radius, 0.0, 0.0]),
-            // As bright in every exposure.
+            // Dividing by the exposure makes the backdrop equally bright in every exposure.
             backdrop: [BACKDROP / shot.exposure_stops.exp2(); 4],
             environment: [cos, sin, shot.environment_strength, last_level],
             sample,
@@ -111,7 +111,7 @@ fn light_row(light: &Light, first_layer: usize) -> LightRow {
     }
 }
 
-/// Offset of a sample from the pixel's center, pixels: Halton points with the density of a tent filter of radius 1.
+/// Returns the offset of a sample from the pixel's center in pixels: Halton points with the density of a tent filter of radius 1.
 fn jitter(sample: u32, samples: u32) -> [f32; 2] {
     if samples <= 1 {
         return [0.0; 2];
@@ -119,7 +119,7 @@ fn jitter(sample: u32, samples: u32) -> [f32; 2] {
     [halton(sample + 1, 2), halton(sample + 1, 3)].map(tent)
 }
 
-/// Maps uniform numbers in 0..1 to −1..1 with the density of a tent.
+/// Maps a uniform number in 0..1 to −1..1 with the density of a tent.
 fn tent(uniform: f32) -> f32 {
     if uniform < 0.5 {
         (2.0 * uniform).sqrt() - 1.0

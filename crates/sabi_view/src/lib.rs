@@ -1,7 +1,7 @@
 //! The PBR viewport: a model with its maps, lit by an environment and lights.
 //!
-//! Directions and places are right-handed with +Y up. Everything is drawn in view space: the model's box is centered and its
-//! largest side is 1, so that models of all sizes are handled alike.
+//! Directions and positions are right-handed with +Y up. Everything is drawn in view space: the model's box is centered and
+//! its largest side is 1, so that models of all sizes are treated in the same way.
 //!
 //! Invariants:
 //! * The viewport reads the textures that an evaluation stored: a normal and a color are decoded as an exported map's are.

@@ -1,13 +1,13 @@
-//! Lights as they stand in a sample of a picture, and the lights of a studio.
+//! Lights in a sample of a picture, and the lights of a studio.
 
 use glam::Vec3;
 
 use crate::scene::{Light, LightPlace, MOST_LIGHTS, Scene, Shot};
 
-/// Strength of the environment beside the lights of a studio, which leave it to fill the shadows.
+/// Strength of the environment when it is used with the lights of a studio. It fills the shadows.
 pub const STUDIO_ENVIRONMENT_STRENGTH: f32 = 0.6;
 
-/// Key and rim light of a studio, which stand still before the camera: from the left above, and from behind.
+/// Key and rim light of a studio, fixed relative to the camera: from the left above, and from behind.
 pub const STUDIO_LIGHTS: [Light; 2] = [
     Light {
         place: LightPlace::Directional([-0.573, 0.574, 0.586]),
@@ -25,8 +25,8 @@ pub const STUDIO_LIGHTS: [Light; 2] = [
     },
 ];
 
-/// The lights of a scene as they stand in a sample: turned with the camera where they follow it, and each moved to a point of
-/// its disc, so that the mean of the samples has soft shadows. A picture of one sample has all of them at their middles.
+/// Returns the lights of a scene in a sample. Lights that follow the camera are turned with it. Each light is moved to a point of its
+/// disc, so that the mean of the samples has soft shadows. In a picture of one sample all lights are at the middles of their discs.
 pub(crate) fn lights_of_sample(scene: &Scene<'_>, shot: &Shot, sample: u32) -> Vec<Light> {
     let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
     let placed = |light: &Light| {
@@ -45,18 +45,18 @@ pub(crate) fn lights_of_sample(scene: &Scene<'_>, shot: &Shot, sample: u32) -> V
     lights.iter().map(placed).collect()
 }
 
-/// Returns true if a light of the scene stands elsewhere in each sample.
+/// Returns true if a light of the scene has a different position in each sample.
 pub(crate) fn move_between_samples(scene: &Scene<'_>, shot: &Shot) -> bool {
     shot.samples > 1 && scene.lights.iter().any(|light| light.size_degrees > 0.0)
 }
 
-/// Direction to a point of the disc of a far light: the middle in the first sample, then points that fill the disc evenly.
+/// Returns the direction to a point of the disc of a far light: the middle in the first sample, then points that fill the disc evenly.
 fn on_disc(towards: [f32; 3], size_degrees: f32, sample: u32) -> [f32; 3] {
     let middle = Vec3::from(towards).normalize_or(Vec3::Y);
     if sample == 0 || size_degrees <= 0.0 {
         return middle.to_array();
     }
-    // The plastic number's sequence (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+    // The sequence of the plastic number (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
     let share = |step: f64| (0.5 + f64::from(sample) * step).fract() as f32;
     let radius = share(0.754_877_666_246_693).sqrt() * (0.5 * size_degrees).to_radians().tan();
     let (sin, cos) = (share(0.569_840_290_998_053) * std::f32::consts::TAU).sin_cos();

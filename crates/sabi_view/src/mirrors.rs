@@ -1,4 +1,4 @@
-//! Everything in this crate that stands in WGSL files as well.
+//! Everything in this crate that is also declared in WGSL files.
 
 use sabi_gpu::{Mirror, MirrorsWgsl};
 
@@ -14,8 +14,8 @@ use crate::renderer::passes::Caster;
 use crate::scene::Mode;
 use crate::upload::CHART_BITS;
 
-/// Structs, constants, overrides and workgroup sizes that stand here and in WGSL. A test compares them with all linked
-/// modules.
+/// Returns the structs, constants, overrides and workgroup sizes that are declared here and in WGSL. A test compares them
+/// with all linked modules.
 pub fn mirrors() -> Vec<Mirror> {
     let mut mirrors = vec![
         BloomPass::mirror(),

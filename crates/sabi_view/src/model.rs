@@ -25,10 +25,10 @@ wgsl_struct! {
     vertex "view/corner" Corner:
     /// Vertex of the drawn model.
     pub(crate) struct Vertex {
-        /// View space.
+        /// Position in view space.
         pub(crate) position: [f32; 3],
         pub(crate) normal: [f32; 3],
-        /// With the sign of the bitangent.
+        /// Tangent, with the sign of the bitangent as the fourth component.
         pub(crate) tangent: [f32; 4],
         /// Texel coordinates on the chart's page.
         pub(crate) texel: [f32; 2],
@@ -49,13 +49,13 @@ pub(crate) struct MaterialRange {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DrawMesh {
     pub(crate) vertices: Vec<Vertex>,
-    /// Three per triangle, sorted by material.
+    /// Three indices per triangle, sorted by material.
     pub(crate) indices: Vec<u32>,
     pub(crate) ranges: Vec<MaterialRange>,
 }
 
 impl DrawMesh {
-    /// Mesh of a model. A vertex of the model that is on several charts becomes one vertex for each.
+    /// Returns the mesh of a model. A vertex of the model that is on several charts becomes one vertex for each chart.
     pub(crate) fn of(model: &Model, atlas: &Atlas, placement: &Placement) -> DrawMesh {
         let mesh = &model.mesh;
         let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
@@ -85,7 +85,7 @@ impl DrawMesh {
         made
     }
 
-    /// Mesh of a displaced copy of a model, each of whose vertices is on one chart.
+    /// Returns the mesh of a displaced copy of a model. Each vertex of the copy is on one chart.
     pub(crate) fn of_displaced(displaced: &Displaced, model: &Model, atlas: &Atlas, placement: &Placement) -> DrawMesh {
         let material = |triangle: usize| model.mesh.triangle_material[displaced.triangle_from[triangle] as usize];
         let mut order: Vec<u32> = (0..displaced.triangles.len() as u32).collect();
@@ -117,14 +117,14 @@ impl DrawMesh {
         made
     }
 
-    /// Ends the last range at the last index.
+    /// Ends the last range at the present end of the indices.
     fn end_range(&mut self) {
         if let Some(range) = self.ranges.last_mut() {
             range.indices.end = self.indices.len() as u32;
         }
     }
 
-    /// Begins a range of triangles of a material, unless the last one is of the same.
+    /// Begins a range of triangles of a material, unless the last range has the same material.
     fn begin_range(&mut self, model: &Model, material: u32) {
         if self.ranges.last().is_some_and(|range| range.material == material) {
             return;
@@ -144,7 +144,7 @@ fn vertex_of(mesh: &Mesh, placement: &Placement, vertex: u32, texel: [f32; 2], c
     Vertex {
         position: placement.view_from_model(mesh.positions[vertex]).to_array(),
         normal: mesh.normals[vertex],
-        // A mesh without tangents has no normal map that would need them.
+        // A mesh without tangents has no normal map that would need them, so any tangent is used.
         tangent: mesh.tangents.get(vertex).copied().unwrap_or([1.0, 0.0, 0.0, 1.0]),
         texel,
         chart,
@@ -159,22 +159,22 @@ pub struct ViewModel {
     pub(crate) index_count: u32,
     /// Bind group of the surface, for relief.
     pub(crate) surface: wgpu::BindGroup,
-    /// View units in a working unit.
+    /// View units per working unit.
     pub(crate) view_from_working: f32,
-    /// For each chart, the shift from texture coordinates in texels to texels on its page, and the page.
+    /// For each chart, its page and the offset from texture coordinates in texels to texels on the page.
     pub(crate) charts: wgpu::TextureView,
-    /// Lines along all edges and along the seams, each with its number of lines.
+    /// Lines along all edges, and lines along the seams, each with the number of lines.
     pub(crate) edges: [(wgpu::Buffer, u32); 2],
     pub(crate) texels_of_uv: f32,
-    /// Texels along a unit of view space, the median over the surface by area.
+    /// Texels per unit of view space: the median over the surface by area.
     pub(crate) median_density: f32,
-    /// Shade of the model, once it was found.
+    /// Shade of the model, once it has been computed.
     pub(crate) shade: OnceLock<Shade>,
     /// Placement of the model in view space.
     pub placement: Placement,
 }
 
-/// Parts of a model that its copy on the device is made of.
+/// Parts from which a model on the device is created.
 #[derive(Clone, Copy)]
 pub struct ViewModelParts<'a> {
     /// The model.
@@ -195,16 +195,16 @@ impl ViewModel {
         ViewModel::upload(gpu, parts, made, half_edges(&model.mesh, atlas))
     }
 
-    /// Uploads a displaced copy of a model, with the placement of the model. Lines over it are the displaced edges and seams of
-    /// the model.
+    /// Uploads a displaced copy of a model, with the placement of the model. Lines are drawn along the displaced edges and
+    /// seams of the model.
     pub fn displaced(gpu: &Gpu, displaced: &Displaced, parts: ViewModelParts<'_>) -> Result<ViewModel, ViewError> {
         let ViewModelParts { model, atlas, .. } = parts;
         let made = DrawMesh::of_displaced(displaced, model, atlas, &Placement::of(&model.mesh));
         ViewModel::upload(gpu, parts, made, displaced_half_edges(displaced, atlas))
     }
 
-    /// Adds the shade of the model on the ground and on itself, which takes longer to find than a first picture may take. The
-    /// first shade stays.
+    /// Adds the shade of the model on the ground and on itself. It is added later since computing it takes longer than a
+    /// first picture should. Further calls have no effect.
     pub fn set_shade(
         &self,
         gpu: &Gpu,
@@ -226,12 +226,12 @@ impl ViewModel {
         self.shade.get().is_some()
     }
 
-    /// Ground below the model, once it was found.
+    /// Returns the ground below the model, once it has been computed.
     pub(crate) fn ground(&self) -> Option<&Ground> {
         self.shade.get()?.ground.as_ref()
     }
 
-    /// Openness of the model's surface, once it was found.
+    /// Returns the openness of the model's surface, once it has been computed.
     pub(crate) fn openness(&self) -> Option<&Openness> {
         self.shade.get()?.openness.as_ref()
     }
@@ -287,7 +287,7 @@ fn chart_row(chart: &sabi_surface::atlas::Chart) -> [f32; 4] {
     [u as f32, v as f32, chart.page as f32, 0.0]
 }
 
-/// Texels along a unit of view space, the median over the surface by area.
+/// Returns the texels per unit of view space: the median over the surface by area.
 fn median_density(mesh: &Mesh, atlas: &Atlas, placement: &Placement) -> f32 {
     let mut densities: Vec<(f64, f64)> = Vec::with_capacity(mesh.triangles.len());
     for (triangle, texels) in mesh.triangles.iter().zip(&atlas.triangle_texels) {

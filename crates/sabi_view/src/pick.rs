@@ -1,4 +1,4 @@
-//! Place of the model under the pointer.
+//! The point of the model under the pointer.
 
 use glam::{DVec3, Vec3};
 use sabi_surface::atlas::Atlas;
@@ -10,7 +10,7 @@ use crate::{Placement, Ray};
 #[cfg(test)]
 mod tests;
 
-/// Half the diagonal of any model's box in view space is at most 0.87.
+/// Radius that encloses every model: half the diagonal of a model's box in view space is at most 0.87.
 const MODEL_RADIUS: f64 = 1.0;
 
 /// First hit of a ray with the surface, from either side.
@@ -18,25 +18,25 @@ const MODEL_RADIUS: f64 = 1.0;
 pub struct Picked {
     /// Triangle, an index into [`Mesh::triangles`].
     pub triangle: u32,
-    /// Barycentric coordinates: none negative, with a sum of 1.
+    /// Barycentric coordinates. They are not negative, and their sum is 1.
     pub barycentric: [f32; 3],
-    /// Texture coordinates; zero on a mesh without any.
+    /// Texture coordinates; zero for a mesh that has none.
     pub uv: [f32; 2],
     /// Chart of the atlas.
     pub chart: u32,
     /// Page of the atlas.
     pub page: u32,
-    /// Place on that page, texels.
+    /// Position on that page in texels.
     pub texel: [f32; 2],
-    /// Place on the material's map, texels from its upper left corner; a map repeats outside of the unit square.
+    /// Position on the material's map in texels from its upper left corner. The map repeats outside of the unit square.
     pub map_texel: [f32; 2],
-    /// Place in space, model units.
+    /// Position in model units.
     pub position: Vec3,
-    /// Place in view space.
+    /// Position in view space.
     pub position_view: Vec3,
-    /// Shading normal, interpolated, unit length; pointing out of the surface even where its back is hit.
+    /// Interpolated shading normal, unit length. It points out of the surface even if the back is hit.
     pub normal: Vec3,
-    /// Normal of the triangle itself, unit length; zero for one without area.
+    /// Normal of the triangle itself, unit length; zero for a triangle without area.
     pub face_normal: Vec3,
     /// True if the ray hit the back of the surface.
     pub is_back_face: bool,
@@ -48,11 +48,11 @@ pub struct Picked {
     pub distance: f32,
 }
 
-/// Returns the first hit of a ray of view space with a mesh, whose hierarchy, atlas and place in view space are given.
+/// Returns the first hit of a ray in view space with a mesh. The hierarchy, the atlas and the placement are those of the mesh.
 pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placement) -> Option<Picked> {
     let origin = ray.origin.as_dvec3();
     let direction = ray.direction.as_dvec3().try_normalize()?;
-    // The ray starts near the model, since single precision is coarse far away from it.
+    // The start is moved along the ray to near the model, since single precision is coarse far away from it.
     let skipped = (-origin.dot(direction) - MODEL_RADIUS).max(0.0);
     let begin = (origin + direction * skipped) / placement.scale + DVec3::from(placement.center);
     let hit = bvh.closest(
@@ -62,8 +62,8 @@ pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placeme
     )?;
     let corners = corners(mesh, hit.triangle)?;
     let [a, b, c] = corners.map(|corner| (corner - DVec3::from(placement.center)) * placement.scale);
-    // The ray was rounded to the model's units, so the intersection is computed again. A ray along the plane has none: the
-    // caster's own is kept.
+    // The ray was rounded to the model's units, so the intersection is computed again. A ray along the plane has no
+    // intersection; in this case the caster's coordinates are kept.
     let shares = barycentric([a, b, c], origin, direction).unwrap_or(hit.barycentric.map(f64::from));
     let shares = clamped_inside(shares);
     let position = a * shares[0] + b * shares[1] + c * shares[2];
@@ -98,8 +98,8 @@ fn corners(mesh: &Mesh, triangle: u32) -> Option<[DVec3; 3]> {
     Some([place(a)?, place(b)?, place(c)?])
 }
 
-/// Barycentric coordinates of the intersection of a line with the plane of a triangle (Möller and Trumbore); none for a line
-/// parallel to the plane.
+/// Returns the barycentric coordinates of the intersection of a line with the plane of a triangle (Möller and Trumbore);
+/// `None` for a line parallel to the plane.
 fn barycentric([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
     let (u, v) = (b - a, c - a);
     let across = direction.cross(v);
@@ -110,7 +110,7 @@ fn barycentric([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option
     (of_b.is_finite() && of_c.is_finite()).then_some([1.0 - of_b - of_c, of_b, of_c])
 }
 
-/// Barycentric coordinates moved onto the triangle where rounding put them outside.
+/// Returns barycentric coordinates that rounding has put outside of the triangle, moved onto it.
 fn clamped_inside(shares: [f64; 3]) -> [f64; 3] {
     let clamped = shares.map(|share| share.clamp(0.0, 1.0));
     let sum: f64 = clamped.iter().sum();
@@ -122,14 +122,14 @@ fn clamped_inside(shares: [f64; 3]) -> [f64; 3] {
 }
 
 fn face_normal([a, b, c]: [DVec3; 3]) -> Vec3 {
-    // Scaled up first, since the product underflows for a model of 1e-30 units.
+    // The vectors are scaled up first, since the product underflows for a model of 1e-30 units.
     let (u, v) = (b - a, c - a);
     let large = u.abs().max(v.abs()).max_element();
     let normal = (u / large).cross(v / large).try_normalize();
     normal.map_or(Vec3::ZERO, DVec3::as_vec3)
 }
 
-/// Value of the vertices, interpolated at a point of a triangle; zero for meshes without such values.
+/// Returns the interpolated value of the vertices at a point of a triangle; zero for meshes without such values.
 fn interpolated<const N: usize>(mesh: &Mesh, triangle: usize, of_vertices: &[[f32; N]], shares: [f32; 3]) -> [f32; N] {
     let corners = mesh.triangles[triangle].map(|vertex| of_vertices.get(vertex as usize).copied());
     weighted(corners.map(|value| value.unwrap_or([0.0; N])), shares)

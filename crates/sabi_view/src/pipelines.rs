@@ -22,7 +22,7 @@ use options::{
 };
 pub(crate) use switches::{MAP_BITS, RasterVariant, SHOWN_COLOR, SHOWN_VECTOR, Switches};
 
-/// All pipelines of a renderer, each made when it is first used.
+/// All pipelines of a renderer. Each is created when it is first used.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
     /// Bind group layout of a surface.
@@ -33,7 +33,7 @@ pub(crate) struct Pipelines {
 }
 
 impl Pipelines {
-    /// Creates all layouts, and no pipeline yet.
+    /// Creates all layouts and no pipelines.
     pub(crate) fn new(gpu: &Gpu) -> Result<Pipelines, GpuError> {
         Ok(Pipelines {
             layouts: gpu.guarded("the viewport's layouts", Layouts::new)?,
@@ -43,7 +43,7 @@ impl Pipelines {
         })
     }
 
-    /// Pipelines of a list that are not compiled yet, each once.
+    /// Returns those of the pipelines that have not been compiled yet, without repeats.
     pub(crate) fn missing(&self, wanted: Vec<PipelineKey>) -> BTreeSet<PipelineKey> {
         let mut missing: BTreeSet<PipelineKey> = wanted.into_iter().collect();
         if let Ok(made) = self.made.lock() {
@@ -52,7 +52,7 @@ impl Pipelines {
         missing
     }
 
-    /// Pipeline of a purpose, compiled when it is first used.
+    /// Returns the pipeline with this key. It is compiled when it is first used.
     pub(crate) fn get(&self, gpu: &Gpu, key: PipelineKey) -> Result<wgpu::RenderPipeline, GpuError> {
         if let Ok(made) = self.made.lock()
             && let Some(known) = made.get(&key)
@@ -64,7 +64,7 @@ impl Pipelines {
         if made.is_err()
             && let Ok(mut modules) = self.modules.lock()
         {
-            // A module may have caused the failure.
+            // The modules are dropped as well, since one of them may have caused the failure.
             modules.clear();
         }
         let made = made?;
@@ -96,14 +96,14 @@ impl Pipelines {
                 let on_model = depth(wgpu::CompareFunction::Always, wgpu::CompareFunction::NotEqual, false);
                 self.display(device, module, "encode", PICTURE_FORMAT, development, Some(on_model))
             }
-            // Samples are transformed before they are summed.
+            // Samples are already transformed when they are summed.
             PipelineKey::EncodeMean => {
                 self.display(device, module, "encode_sum", PICTURE_FORMAT, Development::DONE, None)
             }
         }
     }
 
-    /// A shader module, compiled when it is first used.
+    /// Returns a shader module. It is compiled when it is first used.
     fn module(&self, gpu: &Gpu, shader: ViewShader) -> Result<wgpu::ShaderModule, GpuError> {
         if let Ok(modules) = self.modules.lock()
             && let Some(known) = modules.get(&shader)

@@ -1,22 +1,22 @@
-//! Placement of a model in view space: centered, its largest side 1.
+//! Placement of a model in view space: centered, with a largest side of 1.
 
 use glam::{DVec3, Vec3};
 use sabi_surface::model::Mesh;
 
 /// Transform between model space and view space: `view = (model − center) × scale`.
 ///
-/// Applied in double precision, so that models far from their origin and models of any size keep their precision. Vertices
+/// It is applied in double precision, so that models of any size and far from their origin keep their precision. Vertices
 /// are transformed once and uploaded in view space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Middle of the model's box, model units.
     pub center: [f64; 3],
-    /// View units in one model unit: finite and above 0.
+    /// View units per model unit. It is finite and above 0.
     pub scale: f64,
 }
 
 impl Placement {
-    /// Places a mesh by the box of the vertices that its triangles use. One without extent keeps its size.
+    /// Places a mesh by the box of the vertices that its triangles use. A mesh without extent keeps its size.
     pub fn of(mesh: &Mesh) -> Placement {
         let Some([low, high]) = bounds(mesh) else {
             return Placement {
@@ -41,7 +41,7 @@ impl Placement {
         (position.into().as_dvec3() / self.scale + DVec3::from(self.center)).as_vec3()
     }
 
-    /// Finite vertices that triangles of a mesh use, in view space; some more than once.
+    /// Returns the finite vertices that triangles of a mesh use, in view space, some of them more than once.
     pub fn points_in_view(&self, mesh: &Mesh) -> Vec<Vec3> {
         let used = mesh.triangles.iter().flatten();
         let places = used.filter_map(|&vertex| mesh.positions.get(vertex as usize));
@@ -49,14 +49,14 @@ impl Placement {
         places.filter(|place| place.is_finite()).collect()
     }
 
-    /// Lowest and highest corner of a mesh's box in view space; a single point for a mesh without finite vertices.
+    /// Returns the lowest and the highest corner of a mesh's box in view space; a single point for a mesh without finite vertices.
     pub fn box_in_view(&self, mesh: &Mesh) -> [Vec3; 2] {
         let [low, high] = bounds(mesh).unwrap_or([DVec3::from(self.center); 2]);
         [low, high].map(|corner| ((corner - DVec3::from(self.center)) * self.scale).as_vec3())
     }
 }
 
-/// Lowest and highest corner of the box of all vertices in use, model units.
+/// Returns the lowest and the highest corner of the box of all used vertices in model units.
 fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     let used = mesh.triangles.iter().flatten();
     let places = used.filter_map(|&vertex| mesh.positions.get(vertex as usize));
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn a_model_of_any_size_anywhere_is_centered_and_one_unit_large() {
+    fn a_model_of_any_size_at_any_position_is_centered_with_a_largest_side_of_1() {
         for scale in [1e-30, 1e-6, 1.0, 1e6, 1e37] {
             let mesh = triangle([[0.0, 0.0, 0.0], [2.0 * scale, 0.0, 0.0], [0.0, scale, scale]]);
             let [low, high] = Placement::of(&mesh).box_in_view(&mesh);

@@ -1,17 +1,17 @@
 //! Intersection of a ray with a chart's relief by fine marching on the processor: the reference for the shader.
 //!
 //! Relief space is (texel u, texel v, height): texels on the page of the chart, heights in model units along the normal, as
-//! stored. The surface itself is height 0; heights may lie before it (above 0) and behind it (below 0). A ray enters at the
-//! highest height, goes down to the lowest, and meets the relief where it first is no longer above it.
+//! stored. The surface itself is at height 0; heights may be in front of it (above 0) and behind it (below 0). A ray enters
+//! at the highest height and goes down to the lowest. It hits the relief at the first point that is not above the relief.
 
 /// Steps of the march in one texel.
 const STEPS_PER_TEXEL: f64 = 64.0;
-/// Fewest and most steps of a march.
+/// Minimum and maximum number of steps of a march.
 const STEPS: [f64; 2] = [256.0, 4e6];
 /// Bisections of the step in which the ray goes below the relief.
 const BISECTIONS: u32 = 40;
 
-/// Linear transform of directions into relief space at one point of a surface, whose texels count as equal parallelograms.
+/// Linear transform of directions into relief space at one point of a surface. The texels are assumed to be equal parallelograms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReliefFrame {
     /// Step of one texel to the right, model units.
@@ -23,7 +23,7 @@ pub struct ReliefFrame {
 }
 
 impl ReliefFrame {
-    /// Transforms a direction from model space to relief space: (texels, texels, model units). None for a degenerate frame.
+    /// Transforms a direction from model space to relief space: (texels, texels, model units). Returns `None` for a degenerate frame.
     pub fn relief_from_model(&self, direction: [f64; 3]) -> Option<[f64; 3]> {
         let [u, v, n] = [self.model_from_texel_u, self.model_from_texel_v, self.normal].map(glam::DVec3::from);
         let solved = glam::DMat3::from_cols(u, v, n).inverse() * glam::DVec3::from(direction);
@@ -34,16 +34,16 @@ impl ReliefFrame {
 /// Hit of a ray with a relief.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReliefHit {
-    /// Place on the page, texels.
+    /// Position on the page in texels.
     pub texel: [f64; 2],
-    /// Height there, model units.
+    /// Height at that position in model units.
     pub height: f64,
 }
 
-/// Returns the first hit of a ray with a relief. `texel` is its intersection with the surface itself (height 0), `direction`
-/// its direction in relief space; all heights are between `low` and `high`. None for rays that do not go down.
+/// Returns the first hit of a ray with a relief. `texel` is its intersection with the surface itself (height 0), `direction` its direction
+/// in relief space; all heights are between `low` and `high`. Returns `None` for rays that do not go down.
 ///
-/// A ray that starts below the relief (at `high`, so only by rounding) hits it there.
+/// A ray that starts below the relief (at `high`, so only because of rounding) hits it at its start.
 pub fn march(
     height: impl Fn([f64; 2]) -> f64,
     texel: [f64; 2],
@@ -76,7 +76,7 @@ pub fn march(
         above = ray_at(step);
         step += 1.0;
     }
-    // At the lowest height the ray counts as below in spite of rounding.
+    // At the lowest height, the ray counts as below the relief in spite of rounding.
     let mut below = ray_at(step);
     for _ in 0..BISECTIONS {
         let middle = (above + below) * 0.5;
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flat_relief_is_met_where_the_ray_reaches_its_height() {
+    fn a_flat_relief_is_hit_where_the_ray_reaches_its_height() {
         for level in [-0.3, 0.0, 0.2] {
             let hit = march(|_| level, [10.0, 20.0], [3.0, -1.0, -0.5], [-0.4, 0.4]).unwrap();
             assert!(near(hit.height, level));
@@ -109,14 +109,14 @@ mod tests {
     }
 
     #[test]
-    fn a_slope_is_met_where_two_lines_cross() {
+    fn a_slope_is_hit_where_two_lines_cross() {
         // Height 0.1 u and a ray through (4, 0): u = 4 − 2 h, so h = 0.4 − 0.2 h.
         let hit = march(|[u, _]| 0.1 * u, [4.0, 0.0], [1.0, 0.0, -0.5], [-1.0, 1.0]).unwrap();
         assert!(near(hit.height, 0.4 / 1.2) && near(hit.texel[0], 4.0 - 0.8 / 1.2));
     }
 
     #[test]
-    fn of_several_ridges_the_first_on_the_way_is_met() {
+    fn the_first_of_several_ridges_is_hit() {
         let ridges = |[u, _]: [f64; 2]| if u.rem_euclid(2.0) < 0.25 { 1.0 } else { 0.0 };
         let hit = march(ridges, [9.0, 0.0], [4.0, 0.0, -0.5], [0.0, 1.0]).unwrap();
         assert!(
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_that_do_not_go_down_meet_nothing() {
+    fn rays_that_do_not_go_down_hit_nothing() {
         for direction in [
             [1.0, 0.0, 0.0],
             [0.0, 0.0, 1.0],
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_direction_is_measured_in_the_texels_of_the_surface() {
+    fn a_direction_is_measured_in_texels_of_the_surface() {
         let frame = ReliefFrame {
             model_from_texel_u: [0.5, 0.0, 0.0],
             model_from_texel_v: [0.25, -0.5, 0.0],

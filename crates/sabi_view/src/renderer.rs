@@ -36,11 +36,11 @@ pub struct Renderer {
     directional_albedo: wgpu::TextureView,
     /// Bound in place of a missing map.
     empty_map: wgpu::TextureView,
-    /// Bound where there is no ground.
+    /// Bound if there is no ground.
     open_ground: wgpu::TextureView,
     /// Bound in place of a sum when there are no earlier samples.
     empty_sum: wgpu::TextureView,
-    /// Bound where there is no bloom.
+    /// Bound if there is no bloom.
     empty_bloom: wgpu::TextureView,
 }
 
@@ -63,7 +63,7 @@ pub(crate) struct Prepared {
     visibility: wgpu::BindGroup,
 }
 
-/// One sample of a picture.
+/// A sample of a picture.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample {
     /// Number, from 0.
@@ -73,7 +73,7 @@ pub(crate) struct Sample {
 }
 
 impl Renderer {
-    /// A renderer; its pipelines are made when they are first used.
+    /// Creates a renderer. Its pipelines are created when they are first used.
     pub fn new(gpu: &Gpu) -> Result<Renderer, ViewError> {
         let device = gpu.device();
         let linear = |address_mode_u| wgpu::SamplerDescriptor {
@@ -119,15 +119,15 @@ impl Renderer {
             };
             self.add_sample(gpu, target, scene, shot, &mut prepared, next)?;
             if sample % 4 == 3 {
-                // Drivers slow down or fail with too much work in the queue.
+                // Without waiting, drivers slow down or fail because of too much work in the queue.
                 gpu.wait()?;
             }
         }
         Ok(())
     }
 
-    /// Prepares the resources shared by all samples of a picture. `before` is what was prepared for another one, whose shadows may be
-    /// the same.
+    /// Prepares the resources shared by all samples of a picture. `before` holds the resources of another picture, whose
+    /// shadow maps are reused if they are the same.
     pub(crate) fn prepare(
         &self,
         gpu: &Gpu,
@@ -144,7 +144,7 @@ impl Renderer {
         })
     }
 
-    /// Draws one sample, and if it is shown the mean of all so far.
+    /// Draws one sample and, if it is shown, the mean of all samples so far.
     pub(crate) fn add_sample(
         &self,
         gpu: &Gpu,
@@ -181,8 +181,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// Draws parts of a picture again, as its first sample shows them. The pixels need not be rastered again where they show the first
-    /// sample's points of the model already.
+    /// Draws parts of a picture again, as its first sample shows them. Pixels need not be rasterized again if they already
+    /// show the model as in the first sample.
     pub(crate) fn draw_part(
         &self,
         gpu: &Gpu,
@@ -216,7 +216,7 @@ impl Renderer {
             bound,
             Some(parts),
         );
-        // The glow of the whole picture stays as it was until it is drawn anew.
+        // The bloom is not updated until the whole picture is drawn again.
         let spread = match &target.bloom {
             Some(levels) if shot.has_bloom() => levels.spread().clone(),
             _ => self.empty_bloom.clone(),
@@ -225,7 +225,7 @@ impl Renderer {
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         let views = [&light, &self.empty_sum, &spread, &shown];
         let key = PipelineKey::EncodeModel(development(shot));
-        // The background has not changed, and has the shadows of all samples.
+        // The background has not changed, and shows the shadows of all samples.
         let depth = target
             .visibility
             .depth
@@ -294,7 +294,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Bind group with these resources at bindings 0, 1, 2, …
+    /// Creates a bind group with these resources at bindings 0, 1, 2, …
     fn bind<'r>(
         &self,
         gpu: &Gpu,
@@ -313,7 +313,7 @@ impl Renderer {
         })
     }
 
-    /// Uniform buffer with these values.
+    /// Creates a uniform buffer with these values.
     fn uniform(&self, gpu: &Gpu, values: &impl Pod) -> Result<wgpu::Buffer, ViewError> {
         let bytes = bytemuck::bytes_of(values);
         Ok(buffer_of(
@@ -328,8 +328,8 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Draws light, the sum of earlier samples and the bloom into `target`, or into parts of it
-    /// with the depth of the picture, with a pipeline for displaying.
+    /// Draws light, the sum of earlier samples and the bloom into `target` with a pipeline for displaying. With `within`,
+    /// only these parts are drawn, using the depth of the picture.
     fn display(
         &self,
         gpu: &Gpu,
@@ -354,7 +354,7 @@ impl Renderer {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
             color_attachments: &[Some(part_attachment(target, parts))],
-            // Only read: 0 in the stencil is no look of the model.
+            // Only read: a stencil of 0 means that the pixel does not show the model.
             depth_stencil_attachment: within.map(|within| wgpu::RenderPassDepthStencilAttachment {
                 view: within.depth,
                 depth_ops: None,
@@ -370,11 +370,11 @@ impl Renderer {
     }
 }
 
-/// Parts of a picture that are drawn again where they show the model.
+/// Parts of a picture that are drawn again for the pixels that show the model.
 #[derive(Clone, Copy)]
 struct ModelParts<'a> {
     parts: &'a [Part],
-    /// Depth of the picture, whose stencil is 0 beside the model.
+    /// Depth of the picture. Its stencil is 0 for pixels that do not show the model.
     depth: &'a wgpu::TextureView,
 }
 
@@ -400,7 +400,7 @@ fn display(shot: &Shot, samples: u32) -> Display {
     let backdrop = match shot.background {
         Background::Plain([r, g, b]) => [r, g, b, 1.0],
         Background::Clear => [0.0; 4],
-        // Modes other than the lit material are shown before a uniform gray.
+        // Modes other than the lit material have a uniform gray behind the model.
         Background::Environment | Background::Blurred | Background::Studio => [0.05, 0.05, 0.05, 1.0],
     };
     Display {

@@ -1,4 +1,4 @@
-//! Scenes and views of them: plain values that a caller fills in.
+//! Scenes and views of them. They are plain values, created by the caller.
 
 use std::str::FromStr;
 
@@ -9,9 +9,9 @@ use crate::environment::Environment;
 use crate::model::ViewModel;
 use crate::shade::Ground;
 
-/// Bloom of pictures that do not choose one: it shows around highlights and emission, and nowhere else.
+/// Bloom of pictures that do not set their own: it is visible only around highlights and emission.
 pub const USUAL_BLOOM: f32 = 0.1;
-/// Most lights of a scene.
+/// Maximum number of lights of a scene.
 pub const MOST_LIGHTS: usize = 4;
 
 /// Model with its materials and lights.
@@ -24,12 +24,12 @@ pub struct Scene<'a> {
     pub look_of_material: &'a [usize],
     /// Environment light.
     pub environment: &'a Environment,
-    /// Lights besides it, at most [`MOST_LIGHTS`]; more are left out.
+    /// Lights in addition to the environment, at most [`MOST_LIGHTS`]. Further lights are ignored.
     pub lights: &'a [Light],
 }
 
 impl Scene<'_> {
-    /// Ground of a shot that shows it.
+    /// Returns the ground of a shot that shows it.
     pub(crate) fn ground(&self, shot: &Shot) -> Option<&Ground> {
         self.model.ground().filter(|_| shot.has_ground)
     }
@@ -40,25 +40,25 @@ impl Scene<'_> {
 pub struct MaterialLook {
     /// Its maps.
     pub maps: DeviceMaps,
-    /// Linear base color and alpha without a map.
+    /// Linear base color and alpha, used if there is no map.
     pub color: [f32; 4],
-    /// Roughness, metallic and occlusion without a map.
+    /// Roughness, metallic and occlusion, used if there are no maps.
     pub surface: [f32; 3],
-    /// True if alpha is 1 everywhere, so that nothing shows through the surface.
+    /// True if alpha is 1 everywhere, so that the surface hides everything behind it.
     pub is_opaque: bool,
-    /// A node's own result, for [`Mode::Node`] and [`Mode::NodeOnClay`].
+    /// Result of a single node, for [`Mode::Node`] and [`Mode::NodeOnClay`].
     pub node: Option<NodeLook>,
 }
 
 impl MaterialLook {
-    /// The node's own result in the modes that show it.
+    /// Returns the node's result in the modes that show it.
     pub(crate) fn shown_node(&self, mode: Mode) -> Option<&NodeLook> {
         self.node
             .as_ref()
             .filter(|_| matches!(mode, Mode::Node | Mode::NodeOnClay))
     }
 
-    /// Textures to bind as the maps of `maps.wgsl`, in their order. A node's own result takes the place of the colors.
+    /// Returns the textures to bind as the maps of `maps.wgsl`, in their order. A node's result replaces the color map.
     pub(crate) fn bound_maps(&self, mode: Mode) -> [Option<&wgpu::Texture>; 9] {
         let DeviceMaps {
             color,
@@ -80,7 +80,7 @@ impl MaterialLook {
     }
 }
 
-/// A node's own result on the linked atlas.
+/// Result of a single node on the linked atlas.
 #[derive(Clone, Debug)]
 pub struct NodeLook {
     /// Its texture, an array of pages.
@@ -89,34 +89,34 @@ pub struct NodeLook {
     pub value_type: NodeType,
 }
 
-/// Type of the values of a node's own result.
+/// Type of the values of a node's result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeType {
     /// One number, shown as gray.
     Mask,
     /// A linear color.
     Color,
-    /// A vector, −1..1 shown as 0..1.
+    /// A vector. −1..1 is shown as 0..1.
     Vector,
 }
 
-/// A light besides the environment.
+/// A light in addition to the environment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Position or direction.
     pub place: LightPlace,
-    /// Linear color: of a directional light the irradiance on a surface that faces it, of a point light that at distance 1.
+    /// Linear color: for a directional light the irradiance on a surface that faces it, for a point light the same at distance 1.
     pub color: [f32; 3],
     /// True if the model casts a shadow in this light.
     pub has_shadow: bool,
-    /// Angle across the disc of a directional light, degrees: the larger, the softer its shadow; 0 is a point.
+    /// Angle across the disc of a directional light in degrees. The larger it is, the softer is the shadow; 0 is a point.
     pub size_degrees: f32,
     /// True if it turns with the camera around the model.
     pub follows_camera: bool,
 }
 
 impl Light {
-    /// The light turned about +Y, for lights that orbit the model or follow the camera.
+    /// Returns the light turned about +Y, for lights that orbit the model or follow the camera.
     pub fn turned(self, degrees: f32) -> Light {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let turned = |[x, y, z]: [f32; 3]| [cos * x + sin * z, y, cos * z - sin * x];
@@ -130,17 +130,17 @@ impl Light {
     }
 }
 
-/// Position or direction of a light, view space.
+/// Position or direction of a light in view space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightPlace {
-    /// Directional light from this direction, which points toward the light.
+    /// Directional light. The direction points toward the light.
     Directional([f32; 3]),
     /// Point light at this position.
     Point([f32; 3]),
 }
 
 impl LightPlace {
-    /// Directional light from two angles: around +Y from +Z towards +X, and above the horizon.
+    /// Returns a directional light from two angles: around +Y from +Z towards +X, and above the horizon.
     pub fn from_angles(yaw_degrees: f32, pitch_degrees: f32) -> LightPlace {
         let (sin_yaw, cos_yaw) = yaw_degrees.to_radians().sin_cos();
         let (sin_pitch, cos_pitch) = pitch_degrees.to_radians().sin_cos();
@@ -159,8 +159,8 @@ pub struct Shot {
     pub environment_strength: f32,
     /// Exposure, stops.
     pub exposure_stops: f32,
-    /// Share of the light above white that spreads around it before the view transform, 0 to 1: the glow of highlights and
-    /// emission. Alpha stays as it is, so that no light reaches clear places.
+    /// Share of the light above white that is spread around it before the view transform, 0 to 1: the glow of highlights
+    /// and emission. Alpha is not changed, so that no light reaches transparent places.
     pub bloom: f32,
     /// View transform.
     pub transform: ViewTransform,
@@ -170,13 +170,13 @@ pub struct Shot {
     pub has_ground: bool,
     /// Mode.
     pub mode: Mode,
-    /// True if heights are ray-marched, so that they occlude each other and cast shadows: slow on software drivers.
+    /// True if heights are ray-marched, so that they occlude each other and cast shadows. This is slow on software drivers.
     pub has_relief: bool,
-    /// Lowest and highest height, working units.
+    /// Lowest and highest height in working units.
     pub height_range: [f32; 2],
     /// Lines over the model.
     pub lines: Vec<Lines>,
-    /// Samples per pixel, whose mean is shown: 1 is quick, 16 has clean edges.
+    /// Samples per pixel, whose mean is shown: 1 is quick, 16 gives clean edges.
     pub samples: u32,
 }
 
@@ -209,9 +209,9 @@ impl Shot {
 /// View transform from light to display values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ViewTransform {
-    /// The sRGB curve alone: brighter values than white are clipped.
+    /// Only the sRGB curve: values brighter than white are clipped.
     Standard,
-    /// PBR Neutral of the Khronos Group: colors are shown as they are, and only highlights are compressed.
+    /// PBR Neutral of the Khronos Group: colors are kept, and only highlights are compressed.
     #[default]
     Neutral,
     /// AgX: bright colors fade to white as on film.
@@ -229,11 +229,11 @@ pub enum Background {
     Environment,
     /// The environment, out of focus.
     Blurred,
-    /// An even gray that darkens towards the corners, in every light alike.
+    /// A uniform gray that darkens towards the corners, the same in every light.
     Studio,
     /// One color, linear and display-referred.
     Plain([f32; 3]),
-    /// Nothing: the picture is clear there.
+    /// No background: the picture is transparent there.
     Clear,
 }
 
@@ -243,7 +243,7 @@ pub enum Mode {
     /// The lit material.
     #[default]
     Material,
-    /// A channel, as it is exported.
+    /// The base color, as it is exported.
     BaseColor,
     /// Opacity.
     Opacity,
@@ -251,13 +251,13 @@ pub enum Mode {
     Roughness,
     /// Metallic.
     Metallic,
-    /// Occlusion, 1 open.
+    /// Occlusion; 1 is open.
     Occlusion,
-    /// Height between two bounds.
+    /// Height, scaled between two bounds.
     Height,
     /// Tangent-space normal.
     Normal,
-    /// The normal that is lit, in the model's space.
+    /// Normal used for lighting, in model space.
     ModelNormal,
     /// Emission.
     Emission,
@@ -265,19 +265,20 @@ pub enum Mode {
     Coat,
     /// Roughness of the clear coat.
     CoatRoughness,
-    /// Direction in the tangent frame along which highlights are drawn out, and strength.
+    /// Direction in the tangent frame in which highlights are stretched, and strength.
     Anisotropy,
     /// Color of the sheen.
     Sheen,
     /// Roughness of the sheen.
     SheenRoughness,
-    /// Shares of light that spread below the surface.
+    /// Shares of light that is scattered below the surface.
     Subsurface,
-    /// Share of the light that goes through.
+    /// Share of the light that passes through the surface.
     Transmission,
-    /// A node's own result.
+    /// Result of a single node.
     Node,
-    /// A node's own mask on clay, dark where it is 0, so that the shape is seen while it is painted; other results as they are.
+    /// Mask of a single node on clay, dark where the mask is 0, so that the shape is visible during painting. Other results
+    /// are shown without clay.
     NodeOnClay,
     /// Squares along the texture coordinates.
     Checker,
@@ -285,9 +286,9 @@ pub enum Mode {
     Density,
     /// Front faces blue, back faces red.
     Facing,
-    /// Plain clay that shows shape alone.
+    /// Plain clay, which shows only the shape.
     Clay,
-    /// Shift of the visible place by relief, texels along u and v: for tests.
+    /// Shift of the visible point by relief, in texels along u and v; for tests.
     Shift,
 }
 
@@ -320,7 +321,7 @@ const MODES: [(&str, Mode, u32); 24] = [
 ];
 
 impl Mode {
-    /// All modes that need nothing but a model with its maps, by name.
+    /// Returns the names of all modes that need only a model with its maps.
     pub fn names() -> impl Iterator<Item = &'static str> {
         MODES
             .iter()

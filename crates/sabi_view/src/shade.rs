@@ -11,7 +11,7 @@ use crate::upload::{table_of, texture, write};
 /// Format of the openness of the ground.
 pub(crate) const GROUND_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
-/// Shade of a model; what could not be found is left out.
+/// Shade of a model. Parts that could not be computed are left out.
 pub(crate) struct Shade {
     pub(crate) ground: Option<Ground>,
     pub(crate) openness: Option<Openness>,
@@ -23,17 +23,17 @@ pub(crate) struct Ground {
     pub(crate) height: f32,
     /// Radius around the vertical axis at which the shade has faded out.
     pub(crate) radius: f32,
-    /// Share of the sky that is open, over a square of twice the radius.
+    /// Share of the sky that is not hidden, over a square with a side of twice the radius.
     pub(crate) openness: wgpu::TextureView,
 }
 
-/// Openness of the model's surface, on an atlas of its own.
+/// Openness of the model's surface, on its own atlas.
 pub(crate) struct Openness {
-    /// Texels for one unit of UV.
+    /// Texels per unit of UV.
     pub(crate) size: f32,
-    /// Mean open direction, −1..1 as 0..1, and the open share.
+    /// Mean open direction, −1..1 stored as 0..1, and the open share.
     pub(crate) texels: wgpu::TextureView,
-    /// For each chart the shift from UVs in texels to texels on its page, and the page.
+    /// For each chart, its page and the offset from UVs in texels to texels on the page.
     pub(crate) charts: wgpu::TextureView,
 }
 

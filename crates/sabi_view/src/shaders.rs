@@ -2,7 +2,7 @@
 
 use sabi_gpu::{Given, ModuleSpec};
 
-/// Bind group of the surface, behind those of the viewport's own; see `lib/atlas.wgsl`.
+/// Bind group of the surface, which follows those of the viewport; see `lib/atlas.wgsl`.
 const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 3);
 
 /// A module with the entry points of one kind of pass.
@@ -34,7 +34,7 @@ impl ViewShader {
         ViewShader::Prefilter,
     ];
 
-    /// File to link, and what it is given.
+    /// Returns the file to link, and the values that it receives.
     pub(crate) fn spec(self) -> ModuleSpec {
         let surface = vec![SURFACE_GROUP];
         let (label, file, given) = match self {
@@ -57,7 +57,7 @@ impl ViewShader {
     }
 }
 
-/// Everything that modules of the viewport are linked from, for tests.
+/// Returns everything from which modules of the viewport are linked, for tests.
 pub fn view_modules() -> Vec<ModuleSpec> {
     ViewShader::ALL.map(ViewShader::spec).to_vec()
 }

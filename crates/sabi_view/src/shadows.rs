@@ -8,7 +8,7 @@ use sabi_gpu::Gpu;
 use crate::error::ViewError;
 use crate::scene::{Light, LightPlace, MOST_LIGHTS};
 
-/// Layers of all shadows together: six for a point light, the faces of a cube around it.
+/// Number of layers of all shadows together. A point light has six, the faces of a cube around it.
 pub(crate) const LAYERS: usize = 6 * MOST_LIGHTS;
 /// Format of the depths.
 pub(crate) const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -34,7 +34,7 @@ pub(crate) fn layers_of(light: &Light) -> usize {
     }
 }
 
-/// Matrices from view space to the layers of the lights' shadows, layer by layer.
+/// Returns matrices from view space to the shadow layers of the lights, layer by layer.
 pub(crate) fn shadow_matrices(lights: &[Light]) -> Vec<Mat4> {
     let with_shadow = lights.iter().filter(|light| light.has_shadow);
     with_shadow
@@ -51,7 +51,7 @@ fn directional_matrix(towards: Vec3) -> Mat4 {
     orthographic(-RADIUS, RADIUS, -RADIUS, RADIUS, RADIUS, 3.0 * RADIUS) * light_from_view
 }
 
-/// The faces of a cube around a light, in the order of `layer_of` in `shadow.wgsl`.
+/// Returns the matrices of the faces of a cube around a light, in the order of `layer_of` in `shadow.wgsl`.
 fn point_matrices(place: Vec3) -> Vec<Mat4> {
     let farthest = place.length() + RADIUS + NEAREST;
     let clip = perspective(std::f32::consts::FRAC_PI_2, 1.0, NEAREST, farthest);
@@ -63,17 +63,17 @@ fn point_matrices(place: Vec3) -> Vec<Mat4> {
     faces.into_iter().map(face).collect()
 }
 
-/// Shadow maps of all lights, one layer after the other.
+/// Shadow maps of all lights, in consecutive layers.
 pub(crate) struct ShadowMaps {
     texture: wgpu::Texture,
     /// All layers, for shaders.
     pub(crate) view: wgpu::TextureView,
-    /// Vertices of the opaque model and lights whose shadows it has.
+    /// Vertices of the opaque model and lights whose shadows the maps show.
     pub(crate) cast: Option<(wgpu::Buffer, Vec<Light>)>,
 }
 
 impl ShadowMaps {
-    /// Shadow maps with a number of layers; at least one, since a binding cannot be empty.
+    /// Creates shadow maps with a number of layers; at least one, since a binding must not be empty.
     pub(crate) fn new(gpu: &Gpu, layers: usize) -> Result<ShadowMaps, ViewError> {
         let side = if layers == 0 { 1 } else { SIDE };
         let texture = gpu.guarded("the shadows", |device| {
@@ -109,7 +109,7 @@ impl ShadowMaps {
         (self.texture.width(), self.texture.depth_or_array_layers()) == (side, layers.max(1) as u32)
     }
 
-    /// One layer, to draw into.
+    /// Returns one layer as a render target.
     pub(crate) fn layer(&self, layer: usize) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2),
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_directional_light_sees_all_of_the_model() {
+    fn a_directional_light_covers_the_whole_model() {
         for towards in [[0.0, 1.0, 0.0], [0.3, 0.5, -0.7], [-1.0, 0.0, 0.0]] {
             let matrix = shadow_matrices(&[light(LightPlace::Directional(towards))])[0];
             for corner in 0..8 {
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn each_place_is_on_the_face_that_looks_at_it() {
+    fn each_position_is_on_the_face_that_looks_at_it() {
         let place = Vec3::new(0.2, 0.4, 0.1);
         let faces = shadow_matrices(&[light(LightPlace::Point(place.to_array()))]);
         let towards = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];

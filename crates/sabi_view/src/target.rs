@@ -10,7 +10,7 @@ use crate::upload::texture;
 
 /// Format of the light of one sample: linear, with coverage as alpha.
 pub(crate) const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Format of reversed depth, with the number of a pixel's look, from 1, in the stencil.
+/// Format of reversed depth. The stencil holds the number of a pixel's look, counted from 1.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
 /// Format of a visibility buffer, in two layers; see `raster.wgsl`.
 pub(crate) const VISIBILITY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
@@ -30,7 +30,7 @@ pub(crate) struct VisibilityBuffer {
 }
 
 impl VisibilityBuffer {
-    /// Textures for a number of pixels.
+    /// Creates the textures for a number of pixels.
     pub(crate) fn new(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<VisibilityBuffer, ViewError> {
         Ok(VisibilityBuffer {
             record: texture(
@@ -50,9 +50,9 @@ pub struct Target {
     pub(crate) size: [u32; 2],
     pub(crate) light: wgpu::Texture,
     pub(crate) visibility: VisibilityBuffer,
-    /// Sums of samples, used in turns; none until a picture has several samples.
+    /// Sums of samples, used alternately; `None` until a picture has several samples.
     pub(crate) sums: Option<[wgpu::TextureView; 2]>,
-    /// Levels of the bloom; none until a picture has it.
+    /// Levels of the bloom; `None` until a picture has bloom.
     pub(crate) bloom: Option<BloomLevels>,
     pub(crate) shown: wgpu::Texture,
 }
@@ -67,7 +67,7 @@ pub struct Pixels {
 }
 
 impl Target {
-    /// Textures for a picture of a size.
+    /// Creates the textures for a picture of this size.
     pub fn new(gpu: &Gpu, size: [u32; 2]) -> Result<Target, ViewError> {
         let [width, height] = size;
         let longest = LONGEST_SIDE.min(gpu.device().limits().max_texture_dimension_2d);
@@ -90,7 +90,7 @@ impl Target {
         self.size
     }
 
-    /// The picture as a texture: codes of sRGB in a plain format, straight alpha.
+    /// Returns the picture as a texture: sRGB codes in a linear format, straight alpha.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.shown
     }
@@ -102,7 +102,7 @@ impl Target {
         Ok(Pixels { size: self.size, rgba })
     }
 
-    /// Reads the light of the last sample back: linear, scene-referred RGB and coverage, row by row from the top.
+    /// Reads back the light of the last sample: linear, scene-referred RGB and coverage, row by row from the top.
     pub fn read_light(&self, gpu: &Gpu) -> Result<Vec<[f32; 4]>, ViewError> {
         let mut bytes = Vec::new();
         gpu.read_layer(&self.light, 0, 0, &mut bytes)?;
@@ -114,7 +114,7 @@ impl Target {
         Ok(pixels.iter().map(pixel).collect())
     }
 
-    /// Textures for sums of samples, used in turns.
+    /// Returns the textures for sums of samples, used alternately.
     pub(crate) fn sums(&mut self, gpu: &Gpu) -> Result<[wgpu::TextureView; 2], ViewError> {
         if let Some(sums) = &self.sums {
             return Ok(sums.clone());

@@ -1,4 +1,4 @@
-//! Viewport: a picture that is refined over several frames while its inputs stay the same.
+//! Viewport: a picture that is refined over several frames while its inputs do not change.
 
 use std::sync::Arc;
 
@@ -13,14 +13,14 @@ use crate::target::Target;
 /// Limits of the work for a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quality {
-    /// True if relief is drawn when a shot asks for it.
+    /// True if relief is drawn for shots that request it.
     pub follows_relief: bool,
     /// Factor by which each side of the picture is reduced while something moves.
     pub moving_divisor: u32,
 }
 
 impl Quality {
-    /// Limits that suit an adapter.
+    /// Returns limits that suit an adapter.
     pub fn of(kind: AdapterKind) -> Quality {
         match kind {
             AdapterKind::Discrete | AdapterKind::Integrated => Quality {
@@ -57,21 +57,21 @@ struct PictureProgress {
     prepared: Prepared,
     /// Number of samples drawn.
     samples: u32,
-    /// True if what the pixels show of the model is that of the first sample.
+    /// True if the pixels show the model as in the first sample.
     shows_first: bool,
 }
 
-/// A scene, told apart from others.
+/// Identification of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneRevision {
-    /// Identifies the scene.
+    /// Number of the scene, different for each scene.
     pub number: u64,
-    /// Earlier scenes of the same model by their numbers, each with the corners of boxes in view space outside of which this one
-    /// looks the same.
+    /// Numbers of earlier scenes of the same model. Each has corners of boxes in view space, outside of which this scene
+    /// looks the same as the earlier one.
     pub changed: Vec<(u64, Vec<[Vec3; 2]>)>,
 }
 
-/// Picture on the device that is drawn again when its inputs change, and refined sample by sample while they stay the same.
+/// Picture on the device that is drawn again when its inputs change, and refined sample by sample while they do not.
 pub struct Viewport {
     renderer: Arc<Renderer>,
     /// Limits of the work for a picture.
@@ -81,7 +81,7 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// A viewport without a picture, with the quality that suits the adapter; several may share a renderer.
+    /// Creates a viewport without a picture, with the quality that suits the adapter. Several viewports may share a renderer.
     pub fn new(gpu: &Gpu, renderer: Arc<Renderer>) -> Viewport {
         Viewport {
             renderer,
@@ -91,12 +91,12 @@ impl Viewport {
         }
     }
 
-    /// Returns the pipelines to make before [`Viewport::show`] key this without a delay.
+    /// Returns the pipelines that have not been created yet. If they are created first, [`Viewport::show`] does not have to wait for them.
     pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<MissingPipelines> {
         self.renderer.missing(scene, &self.reduced(shot))
     }
 
-    /// The shot without features that the quality leaves out.
+    /// Returns the shot without features that the quality excludes.
     fn reduced(&self, shot: &Shot) -> Shot {
         Shot {
             has_relief: shot.has_relief && self.quality.follows_relief,
@@ -104,14 +104,14 @@ impl Viewport {
         }
     }
 
-    /// The picture; none before the first one.
+    /// Returns the picture; `None` before the first one.
     pub fn picture(&self) -> Option<&Target> {
         self.target.as_ref()
     }
 
-    /// Draws the first sample of a picture whose inputs changed, else the next sample if any is missing. While something moves, only
-    /// the part of the last picture is drawn again in which the scene has changed, if that is known. Returns true if it drew, after
-    /// which more samples may be missing; nothing is drawn for a size without area.
+    /// Draws the first sample of a picture if its inputs have changed, otherwise the next missing sample. While something moves, only the
+    /// part of the last picture in which the scene has changed is drawn again, if that part is known. Returns true if a sample was drawn,
+    /// after which more samples may be missing. Nothing is drawn for a size without area.
     pub fn show(
         &mut self,
         gpu: &Gpu,
@@ -132,7 +132,7 @@ impl Viewport {
             Some(target) => target,
             None => Target::new(gpu, inputs.size)?,
         };
-        // A failure must not leave an older picture that looks current.
+        // The progress is taken, so that after a failure no older picture seems to be current.
         let mut progress = match self.progress.take() {
             Some(progress) if progress.inputs == inputs => progress,
             before => PictureProgress {
@@ -162,7 +162,7 @@ impl Viewport {
         Ok(is_unfinished)
     }
 
-    /// Inputs of a picture of the whole scene: coarser and of a single sample while something moves.
+    /// Returns the inputs of a picture of the whole scene. While something moves, it is coarser and has a single sample.
     fn inputs(&self, revision: u64, shot: &Shot, size: [u32; 2], is_moving: bool) -> PictureInputs {
         let divisor = if is_moving {
             self.quality.moving_divisor.max(1)
@@ -179,8 +179,8 @@ impl Viewport {
         }
     }
 
-    /// Draws the part of the last picture in which the scene has changed. Returns whether there was any; none where the last picture
-    /// is another one, or where it is not known what has changed.
+    /// Draws the part of the last picture in which the scene has changed. Returns whether there was such a part; `None` if
+    /// the last picture does not match, or if it is not known what has changed.
     fn show_part(
         &mut self,
         gpu: &Gpu,
@@ -237,14 +237,14 @@ impl Viewport {
     }
 }
 
-/// Parts of the last picture in which a scene has changed; none where that is not known.
+/// Returns the parts of the last picture in which a scene has changed; `None` if they are not known.
 fn changed_parts(
     scene: &Scene<'_>,
     revision: &SceneRevision,
     before: &PictureInputs,
     shot: &Shot,
 ) -> Option<Vec<Part>> {
-    // Relief shifts what is seen, and clear places show what lies behind them.
+    // Relief shifts the visible points, and transparent places show what is behind them.
     let is_plain = !shot.has_relief && scene.looks.iter().all(|look| look.is_opaque);
     let known = revision.changed.iter().find(|(number, _)| *number == before.revision);
     let (_, bounds) = known.filter(|_| is_plain)?;
@@ -254,9 +254,9 @@ fn changed_parts(
     parts.collect()
 }
 
-/// Returns true if two shots look alike but for their samples.
+/// Returns true if two shots look the same except for their samples.
 fn looks_alike(shot: &Shot, other: &Shot) -> bool {
-    // The range of heights is that of the scene, and shows in pictures of the height and in relief alone.
+    // The range of heights belongs to the scene. It is visible only in pictures of the height and in relief.
     let shows_range = shot.mode != Mode::Material || shot.has_relief;
     let height_range = if shows_range {
         shot.height_range
@@ -275,7 +275,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_a_software_driver_gets_less_and_says_so() {
+    fn only_a_software_driver_has_reduced_quality_and_a_remark_about_it() {
         for kind in [AdapterKind::Discrete, AdapterKind::Integrated] {
             assert_eq!(Quality::of(kind).remark(), None);
         }

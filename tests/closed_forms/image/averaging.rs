@@ -1,8 +1,8 @@
-//! What a texel shows that covers many pixels, few or a part of one.
+//! Values of texels that cover many pixels, few pixels or a part of one.
 
 use super::*;
 
-/// Cells of light and dark, finer and finer towards one corner: what aliases when it is read too thinly.
+/// Returns cells of light and dark that become finer towards one corner, which shows aliasing if too few pixels are read.
 fn cells(side: u32) -> Vec<u8> {
     let code = |x: u32, y: u32| {
         let wave = (f64::from(x * x) / f64::from(side) * 1.3).sin() * (f64::from(y * y) / f64::from(side)).cos();
@@ -11,7 +11,7 @@ fn cells(side: u32) -> Vec<u8> {
     (0..side * side).map(|at| code(at % side, at / side)).collect()
 }
 
-/// The mean over what each texel covers of a picture, with the share of pixels that it covers in part.
+/// Returns the mean of a picture over the area of each texel, weighted by the covered share of each pixel.
 fn mean(codes: &[u8], picture: u32, texels: u32, [x, y]: [u32; 2]) -> f64 {
     let side = f64::from(picture) / f64::from(texels);
     let [mut sum, mut weights] = [0.0; 2];
@@ -31,7 +31,7 @@ fn mean(codes: &[u8], picture: u32, texels: u32, [x, y]: [u32; 2]) -> f64 {
 }
 
 #[test]
-fn a_texel_holds_the_mean_of_what_it_covers() {
+fn a_texel_has_the_mean_of_the_area_that_it_covers() {
     // The pixels of a texel that covers a power of two are averaged exactly, up to rounding of single precision; else taps blur by
     // a part of a pixel.
     for (picture, texels, most) in [(1024, 128, 1e-6), (256, 256, 1e-6), (512, 64, 1e-6), (600, 100, 0.02)] {
@@ -53,7 +53,7 @@ fn a_texel_holds_the_mean_of_what_it_covers() {
 
 #[test]
 fn a_long_or_slanted_texel_is_read_along_both_its_sides() {
-    // Stripes of one pixel: what covers several of them is gray.
+    // The stripes are one pixel wide, so a texel over several of them is gray.
     let folder = Folder::new();
     let stripes: Vec<u8> = (0..64 * 64).map(|at| if at % 2 == 0 { 255 } else { 0 }).collect();
     let file = folder.write("stripes.png", png(64, 1, false, &stripes));

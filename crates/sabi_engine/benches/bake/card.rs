@@ -1,4 +1,4 @@
-//! What is measured at 4096², which is for a graphics card: a software driver would take minutes.
+//! Measurements at 4096², for a graphics card. A software driver would take minutes.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ const SIZE: u32 = 4096;
 const RAYS: u32 = 64;
 const STAGES: [&str; 5] = ["load", "atlas", "compile", "run", "encode"];
 
-/// Rays a second of the occlusion of many rays, with the time of all that its node does.
+/// Measures rays per second of occlusion with many rays, including everything that its node does.
 fn bench_occlusion(folder: &Path, model: &Path) {
     let linked = LinkedModel::open(&ModelOptions::new(model, SIZE), &NoProgress).unwrap();
     let owned = linked.atlas.owners.iter().filter(|&&owner| owner >> 31 == 0).count();
@@ -32,7 +32,7 @@ fn bench_occlusion(folder: &Path, model: &Path) {
     row("the same, rays a second", rays / seconds / 1e9, "G", "≥ 1 G");
 }
 
-/// The demo's maps with what each stage takes; the atlas comes from the disk, as in the second bake of a graph.
+/// Measures each stage of the demo's maps. The atlas comes from the disk, as in the second bake of a graph.
 fn bench_maps(folder: &Path) {
     let demo = root().join("tests/graphs/weathered-bench.sabi");
     let bench = root().join("assets/meshes/bench.glb");

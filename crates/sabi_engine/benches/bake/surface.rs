@@ -33,7 +33,7 @@ fn node_seconds(folder: &Path, model: &Path, name: &str, nodes: &str) -> f64 {
     (0..3).map(|_| once()).fold(f64::INFINITY, f64::min) / 1000.0
 }
 
-/// Seconds that the hierarchy alone takes for as many rays of the same kind, on all cores.
+/// Returns the seconds that the hierarchy alone takes for as many rays of the same kind, on all cores.
 fn bare_seconds(linked: &LinkedModel, rays: u32) -> (f64, f64) {
     let bvh = Bvh::build(&linked.model.mesh);
     let fit = Fit::Unit;
@@ -56,7 +56,7 @@ fn bare_seconds(linked: &LinkedModel, rays: u32) -> (f64, f64) {
             let up = glam::Vec3::new(normal(0), normal(1), normal(2)).normalize_or(glam::Vec3::Y);
             let origin = glam::Vec3::new(at(0), at(1), at(2)) + up * 1e-5;
             (0..rays).map(move |ray| {
-                // A sphere on the tip of the normal gives cosine-weighted directions.
+                // Points of a sphere that touches the surface give cosine-weighted directions.
                 let turn = (index as u32 * 64 + ray).wrapping_mul(2_654_435_769) as f32 / 4_294_967_296.0;
                 let height = ((ray as f32 + turn) / rays as f32) * 2.0 - 1.0;
                 let round = (1.0 - height * height).max(0.0).sqrt();
@@ -101,8 +101,8 @@ pub(crate) fn bench_rays(folder: &Path, model: &Path) {
     }
 }
 
-/// The share of a filter's time in which ghosts are filled, the best of three runs. Both are waited for, so that they do not
-/// overlap. A row of it, with how many texels there are of either.
+/// Prints a row with the share of a filter's time in which ghosts are filled (the best of three runs) and the numbers of
+/// texels and ghosts. The program waits for both, so that they do not overlap.
 fn ghost_row(what: &str, model: &Path, nodes: &str) {
     let text = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
     let open = OpenGraph::of_document("bench.sabi", Document::from_json(&text).unwrap());
@@ -137,7 +137,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
     row(&what, 100.0 * share, "%", "≤ 8 %");
 }
 
-/// A cube whose sides are charts of 297 texels an edge, which is half of the sheet: few ghosts beside what is owned.
+/// Writes a cube whose sides are charts with edges of 297 texels, which cover half of the sheet: few ghosts compared with owned texels.
 fn cube(folder: &Path) -> PathBuf {
     const SIDES: [[usize; 4]; 6] = [
         [1, 3, 4, 2],
@@ -187,7 +187,7 @@ pub(crate) fn bench_filters(folder: &Path, model: &Path) {
     row("filter/blur at 1024², radius 0.05", blur, "s", "≤ 0.25 s");
     let twice = taken("blur", r#""radius": 0.1"#) / blur;
     row("the same, radius doubled, as a multiple", twice, "×", "≤ 1.5 ×");
-    // Sixty-four repetitions less one, so that what a run costs once falls out.
+    // The difference between sixty-four repetitions and one removes the fixed cost of a run.
     let steps = |steps: u32| taken("smooth", &format!(r#""steps": {steps}"#));
     let pass = (steps(64) - steps(1)) / 63.0;
     row("a pass over nine neighbors, ghosts filled", 1000.0 * pass, "ms", "");

@@ -63,7 +63,7 @@ impl Bvh2 {
         bvh
     }
 
-    /// Adds the node of more than one leaf's triangles; gives its number.
+    /// Adds a node for more triangles than fit into a leaf, and returns its number.
     fn node(&mut self, items: &mut [Item]) -> usize {
         let index = self.nodes.len() / 4;
         self.nodes.extend([[0.0; 4]; 4]);
@@ -90,7 +90,7 @@ impl Bvh2 {
     }
 }
 
-/// Sorts items so that the best split is at the index it gives.
+/// Sorts items so that the best split is at the returned index.
 fn split(items: &mut [Item]) -> usize {
     let around = items.iter().fold(Bounds::NONE, |bounds, item| bounds.with(item.center));
     let mut best = (f32::INFINITY, 0, 0.0);

@@ -1,4 +1,4 @@
-//! Kernels that follow rays, each on buffers of its own, with nothing around them.
+//! Kernels that follow rays, each with its own buffers and nothing else.
 
 use std::time::Instant;
 
@@ -24,7 +24,7 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// The adapter that all benches run on.
+    /// Opens the adapter that all benches run on.
     pub(crate) fn open() -> Machine {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
@@ -175,7 +175,7 @@ impl Kernel {
         }
     }
 
-    /// Seconds that it takes, and how many rays hit.
+    /// Returns the seconds that it takes, and the number of rays that hit.
     pub(crate) fn run(&self, machine: &Machine) -> (f64, usize) {
         let mut encoder = machine
             .device

@@ -1,10 +1,10 @@
-//! The adapter that benches run on.
+//! The adapter on which benches run.
 
 use std::env;
 
 use sabi_engine::AdapterChoice;
 
-/// Adapter that `SABI_ADAPTER` names as `--adapter` does, else the one that a user gets.
+/// Returns the adapter that `SABI_ADAPTER` names in the form of `--adapter`, otherwise the one that a user gets.
 pub(crate) fn adapter() -> AdapterChoice {
     match env::var("SABI_ADAPTER") {
         Ok(name) => match name.parse() {

@@ -41,7 +41,7 @@ use crate::remedy::Remedy;
 use crate::source::map_output;
 use crate::warning::Warning;
 
-/// Longest time of one GPU submission of a bake: long enough for full throughput, short enough to cancel.
+/// Maximum time of one GPU submission of a bake: long enough for full throughput, short enough for canceling.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// Bakes a graph file. No file is replaced before all are complete, and no model is loaded for a graph with a fault.
@@ -66,18 +66,18 @@ pub fn bake_graph(
     bake_open(open, kinds.clone(), clock, document, request, progress)
 }
 
-/// Checks a request as a bake does before it reads the model.
+/// Checks a request in the same way as a bake before it reads the model.
 pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
     // An unknown preset is reported before the graph's faults.
     set_options(request)?;
     let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
     let channels = map_channels(&graph, &checked_outputs(open, &graph, kinds)?);
     let options = options_for(request, open, &channels)?;
-    // Names that are the same for one material are so for every model.
+    // Names that are the same for one material are the same for every model, so one material is enough.
     Ok(options.refuse_same_names(&[("material", None)], &channels, request.evaluator.model.size)?)
 }
 
-/// Bakes a graph; `clock` runs since it began to be read, and `document` is its text where that is not what the file holds.
+/// Bakes a graph. `clock` started when reading of the graph began. `document` is the text of the graph if it differs from its file.
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
@@ -140,15 +140,15 @@ fn bake_open(
         warnings: warnings.cloned().collect(),
         ..report(request, &evaluator, &plan, &run, written, made_of, conventions)
     };
-    // The record in the folder has the times up to here.
+    // The times in the folder's record end here.
     times.encode.add(clock.lap());
     let report = commit(writer, request, BakeReport { times, ..report }, progress)?;
     times.encode.add(clock.lap());
     Ok(BakeReport { times, ..report })
 }
 
-/// Times of a bake until everything was read and checked, which took `taken` in all: what neither the atlas nor opening the device took
-/// was loading.
+/// Returns the times of a bake until everything was read and checked, which took `taken` in total. Everything except the
+/// atlas and opening the device counts as loading.
 fn times_of_loading(evaluator: &Evaluator, taken: Duration) -> PhaseTimes {
     let PhaseTimes { atlas, compile, .. } = evaluator.times();
     let mut times = PhaseTimes {
@@ -160,7 +160,7 @@ fn times_of_loading(evaluator: &Evaluator, taken: Duration) -> PhaseTimes {
     times
 }
 
-/// Returns the sets of a bake; refuses files that cannot be written where they are to be, before anything is evaluated.
+/// Returns the sets of a bake. Refuses files that cannot be written in their places before anything is evaluated.
 fn checked_sets(
     evaluator: &Evaluator,
     request: &BakeRequest,
@@ -175,7 +175,7 @@ fn checked_sets(
     Ok(sets)
 }
 
-/// Opens the writer of the maps, which takes encoded files from the cache.
+/// Opens the writer of the maps, which reuses encoded files from the cache.
 fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<BakeWriter, EngineError> {
     refuse_foreign_folder(request, graph, options)?;
     check_own_folder(&request.output)?;
@@ -188,7 +188,7 @@ fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -
     Ok(writer)
 }
 
-/// Plans a bake of what is shown; the evaluator takes results from the cache and keeps new ones there.
+/// Plans a bake of the shown results. The evaluator reads results from the cache and stores new ones there.
 fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeRequest) -> Result<Plan, EngineError> {
     evaluator.evaluate_shown_alone();
     evaluator.forget_kernels();
@@ -230,7 +230,7 @@ fn file_names(committed: &Committed) -> Vec<String> {
     names.map(|name| name.to_string_lossy().into_owned()).collect()
 }
 
-/// A warning for each file that an earlier bake left.
+/// Returns a warning for each file that an earlier bake left.
 fn leftover_warnings(committed: &Committed) -> impl Iterator<Item = Warning> {
     let paths = committed.left_over.iter().map(|path| path.display());
     paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now").into())
@@ -269,7 +269,7 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
     })
 }
 
-/// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
+/// Refuses a folder with foreign files, so that maps are not written there because of a mistyped path.
 fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<(), EngineError> {
     let (folder, report) = (&request.output, request.report.as_deref());
     if request.force || !is_foreign_folder(folder, graph, options, report)? {
@@ -291,13 +291,13 @@ fn refuse_same_names(
     Ok(options.refuse_same_names(&sets, outputs, size)?)
 }
 
-/// Channels of the outputs that are maps of their own.
+/// Returns the channels of the outputs that become separate maps.
 fn map_channels(graph: &FlatGraph, outputs: &[usize]) -> Vec<Channel> {
     let found = map_outputs(graph, outputs).into_iter();
     found.map(|(_, channel)| channel).collect()
 }
 
-/// Options of writing the sets of a graph with these outputs.
+/// Returns the options for writing the sets of a graph with these outputs.
 fn options_for(request: &BakeRequest, open: &OpenGraph, outputs: &[Channel]) -> Result<SetOptions, EngineError> {
     let mut options = set_options(request)?;
     // The seed that nodes get.
@@ -307,7 +307,7 @@ fn options_for(request: &BakeRequest, open: &OpenGraph, outputs: &[Channel]) -> 
     Ok(options)
 }
 
-/// Lists the targets of a bake: outputs that serve a set, and those that are maps of their own.
+/// Lists the targets of a bake: outputs that serve a set, and those that become separate maps.
 fn wanted(
     graph: &FlatGraph,
     outputs: &[usize],
@@ -346,7 +346,7 @@ fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), Eng
     Err(EngineError::new(ErrorKind::CannotWrite, why))
 }
 
-/// The report without what is known only after the maps are in place: times, files and warnings.
+/// Returns the report without the parts that are known only after the maps are in place: times, files and warnings.
 fn report(
     request: &BakeRequest,
     evaluator: &Evaluator,
@@ -411,7 +411,8 @@ fn report(
     }
 }
 
-/// Milliseconds by node, to a hundredth. A fused kernel's time is shared out by cost: it cannot be measured node by node.
+/// Returns milliseconds by node, rounded to hundredths. The time of a fused kernel is divided by estimated cost, since it
+/// cannot be measured for each node.
 fn nodes_ms(run: &Run) -> BTreeMap<String, f64> {
     let mut nodes_ms = BTreeMap::new();
     for step in &run.report.steps {

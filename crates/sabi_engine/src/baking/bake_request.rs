@@ -31,21 +31,21 @@ pub struct BakeRequest {
     pub evaluator: EvaluatorOptions,
     /// Folder for the maps.
     pub output: PathBuf,
-    /// Names of export presets, or files of such; empty for the default.
+    /// Names of export presets, or paths of preset files; empty for the default.
     pub presets: Vec<String>,
     /// Folder with presets of the user's own.
     pub preset_folder: Option<PathBuf>,
-    /// Pattern of map names without file extension in place of those of the presets, with tokens as docs/presets.md lists them.
+    /// Pattern of map names without file extension that replaces those of the presets, with tokens as in docs/presets.md.
     pub names: Option<String>,
     /// Channels to export, and `masks`, `colors` and `vectors` for all outputs of a kind; empty for all.
     pub channels: Vec<String>,
-    /// Names of maps of the model itself that are written beside those of the presets.
+    /// Names of maps of the model itself that are written in addition to those of the presets.
     pub mesh_maps: Vec<String>,
-    /// Material whose texture set is exported; none for all.
+    /// Material whose texture set is exported; `None` for all.
     pub material: Option<String>,
-    /// True to export constant channels as maps, too.
+    /// True to also export constant channels as maps.
     pub all_maps: bool,
-    /// Padding around the charts, texels; none to fill everything.
+    /// Padding around the charts in texels; `None` to fill everything.
     pub padding: Option<u32>,
     /// Treatment of differences at seams.
     pub seams: Seams,
@@ -53,9 +53,9 @@ pub struct BakeRequest {
     pub fuse: bool,
     /// True to write into a folder that has files but no earlier maps.
     pub force: bool,
-    /// Options of a glTF copy of the model with the new maps; none for no copy.
+    /// Options of a glTF copy of the model with the new maps; `None` for no copy.
     pub model: Option<CopyOptions>,
-    /// File that the caller writes the report to; refused if the bake reads it.
+    /// File to which the caller writes the report. It is refused if the bake reads it.
     pub report: Option<PathBuf>,
     /// Disk that files are written to.
     pub disk: Disk,
@@ -67,7 +67,7 @@ impl BakeRequest {
         self.padding.map_or(Padding::Infinite, Padding::Texels)
     }
 
-    /// A request without options, and without a folder for the maps.
+    /// Creates a request without options, and without a folder for the maps.
     pub(crate) fn plain(graph: &Path, model: &Path, size: u32) -> BakeRequest {
         BakeRequest {
             graph: graph.to_owned(),
@@ -98,7 +98,7 @@ impl BakeRequest {
     }
 }
 
-/// Returns the padding for a game engine, texels: it grows with the size, so that the same mip levels are covered.
+/// Returns the padding for a game engine in texels. It grows with the size, so that the same mip levels are covered.
 pub fn default_padding(size: u32) -> u32 {
     (size / 128).max(2)
 }
@@ -118,9 +118,9 @@ pub fn export_channels() -> Vec<String> {
     channels.into_iter().chain(outputs).collect()
 }
 
-/// Stem of the documents of a bake: the model, the material that alone is baked, and variant and seed where the names of the maps have
-/// them too: a document takes the place of another one together with the maps that it names. None for a part of the channels: documents
-/// of a part would replace complete ones.
+/// Returns the file stem of the documents of a bake: the model, the material if only one is baked, and variant and seed if
+/// the names of the maps contain them. Therefore a document replaces another one together with the maps that it names.
+/// `None` if only some channels are exported, since documents of these would replace complete ones.
 fn document_stem(request: &BakeRequest, presets: &[NamedPreset]) -> Option<String> {
     let words = Words::of(request);
     let is_in_names = |word: &str| {
@@ -139,7 +139,7 @@ fn document_stem(request: &BakeRequest, presets: &[NamedPreset]) -> Option<Strin
     request.channels.is_empty().then_some(stem)
 }
 
-/// Words of a bake in name patterns, with what they stand for.
+/// Values for the tokens of name patterns of a bake.
 struct Words {
     graph: String,
     mesh: String,
@@ -151,7 +151,7 @@ impl Words {
     fn of(request: &BakeRequest) -> Words {
         let stem = |path: &Path| {
             let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-            // Files have names; `..` is refused when it is read.
+            // A file has a name. A path that ends with `..` is refused when it is read.
             stem.unwrap_or_default()
         };
         let overrides = &request.evaluator.overrides;
@@ -180,14 +180,14 @@ impl Words {
     }
 }
 
-/// Explains why a name pattern is not valid; none where it is.
+/// Explains why a name pattern is not valid; `None` if it is valid.
 pub fn name_pattern_fault(pattern: &str) -> Option<String> {
     let words = NamePattern::WORDS.map(|word| (word, Some(word)));
     let parsed = NamePattern::parse(pattern, &words);
     parsed.err().map(|error| error.to_string())
 }
 
-/// Filters the maps of a preset by channels. Maps of the model itself are none of them, and stay.
+/// Filters the maps of a preset by channels. Maps of the model itself are kept.
 fn with_channels(mut preset: Preset, channels: &[String]) -> Result<Preset, EngineError> {
     let known = export_channels();
     let unknown: Vec<String> = channels
@@ -221,7 +221,7 @@ fn with_mesh_maps(mut preset: Preset, names: &[String]) -> Result<Preset, Engine
     Ok(preset)
 }
 
-/// Options of writing the sets of a request: its presets with the names of their files.
+/// Returns the options for writing the sets of a request: its presets with the names of their files.
 pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineError> {
     let default = [DEFAULT_PRESET.to_owned()];
     let wanted = if request.presets.is_empty() {
@@ -266,7 +266,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_preset_is_left_with_the_maps_that_are_asked_for() {
+    fn a_preset_keeps_only_the_maps_of_the_requested_channels() {
         let stays = |channels: &[&str]| {
             let channels: Vec<String> = channels.iter().map(|name| (*name).to_owned()).collect();
             with_channels(preset::raw().expect("the preset"), &channels).map(|preset| preset.maps.len())
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn maps_reach_out_as_far_as_coarser_levels_need() {
+    fn padding_grows_with_the_size_as_coarser_mip_levels_need() {
         assert_eq!([256, 512, 2048, 8192].map(default_padding), [2, 4, 16, 64]);
     }
 }

@@ -1,4 +1,4 @@
-//! Documents of materials beside the maps.
+//! Documents of materials next to the maps.
 
 use sabi_export::{BakeWriter, SetOptions, unwrapped_materials};
 
@@ -9,13 +9,14 @@ use crate::opening::linked_model::LinkedModel;
 use crate::opening::mesh_report::DecodedUvs;
 use crate::warning::Warning;
 
-/// Refuses documents that cannot be written where they are to be, before the work.
+/// Refuses documents that cannot be written in their places, before the work.
 pub(crate) fn check_documents(options: &SetOptions, writer: &BakeWriter) -> Result<(), EngineError> {
     let names = options.document_names();
     Ok(names.iter().try_for_each(|name| writer.check(name))?)
 }
 
-/// Stages the documents that presets ask for, with the maps that they need in addition, and adds them to what was written.
+/// Writes the documents that presets request, and the additional maps that they need, under temporary names. Adds them to
+/// the written files.
 pub(crate) fn write_documents(
     request: &BakeRequest,
     options: &SetOptions,

@@ -1,4 +1,4 @@
-//! Encoded maps on disk: a map whose pixels did not change is not encoded again.
+//! Cache of encoded maps on disk. A map whose pixels have not changed is not encoded again.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::program_cache::ProgramCache;
 pub(crate) struct EncodedCache(ProgramCache);
 
 impl EncodedCache {
-    /// Opens the cache in a cache folder, on a disk, with a limit of its size; `None` where the program is not known.
+    /// Opens the cache in a cache folder on a disk, with a size limit. `None` if this program cannot be identified.
     pub(crate) fn open(disk: &Disk, cache_dir: &Path, limit_bytes: u64) -> Option<EncodedCache> {
         let cache = ProgramCache::open(cache_dir, "maps", "map", limit_bytes);
         cache.map(|cache| EncodedCache(cache.on_disk(disk)))

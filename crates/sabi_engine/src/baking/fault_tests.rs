@@ -1,5 +1,5 @@
-//! Every fault of the disk at every step of a bake: each map is the earlier one or the new one, and a folder with both never
-//! counts as finished.
+//! Every fault of the disk at every step of a bake. Each map is either the earlier or the new one, and a folder with both
+//! never counts as finished.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -76,7 +76,7 @@ fn a_bake_leaves_whole_maps_wherever_the_disk_fails_and_the_next_one_goes_throug
     bake(&first.request("old.sabi", &Disk::default()), &NoProgress).unwrap();
     let old = first.maps();
     assert_eq!(old.len(), 2, "{:?}", old.keys());
-    // Maps are taken from the cache from now on.
+    // From now on, maps are taken from the cache.
     let again = Place(tempfile::tempdir().unwrap());
     copy(first.0.path(), again.0.path());
     let disk = Disk::counting();

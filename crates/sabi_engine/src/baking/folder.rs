@@ -11,9 +11,9 @@ use crate::baking::recorded::manifest::has_record;
 use crate::error::{EngineError, ErrorKind};
 use crate::source::map_output;
 
-/// Returns true if a folder has files, but neither a record of earlier bakes nor files that look like maps or documents of an earlier
-/// bake of this graph with these options or the default preset. A missing or empty folder is not foreign; hidden files do not count, nor
-/// does the `report` that the bake replaces, since one that failed leaves nothing else.
+/// Returns true if a folder has files, but neither a record of earlier bakes nor files that look like maps or documents of
+/// an earlier bake of this graph with these options or the default preset. A missing or empty folder is not foreign. Hidden
+/// files do not count, and neither does `report`, which the bake replaces: a failed bake leaves only its report.
 pub(crate) fn is_foreign_folder(
     folder: &Path,
     graph: &FlatGraph,
@@ -24,7 +24,7 @@ pub(crate) fn is_foreign_folder(
         return Ok(false);
     };
     if has_record(folder) {
-        // Names may have the seed or the variant of the earlier bake.
+        // The names may contain the seed or the variant of the earlier bake.
         return Ok(false);
     }
     let names: Vec<String> = entries
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn maps_are_known_by_their_names() {
+    fn maps_are_recognized_by_their_names() {
         let [raw] = &SetOptions::raw().expect("the preset").presets[..] else {
             panic!("one preset")
         };

@@ -1,4 +1,4 @@
-//! Losses of a bake: channels that presets leave out, and maps that hold less than their channel or need a factor.
+//! Losses of a bake: channels that presets leave out, and maps that store less than their channel or need a factor.
 
 use std::collections::BTreeMap;
 
@@ -7,9 +7,10 @@ use sabi_export::{BakeWriter, Channel, CutMap, LeftOut, SetOptions};
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::map_encoder::WrittenMaps;
 
-/// Notes the channels that the presets leave out, and warns of these, of emission that a map holds as a part, and of maps that are cut.
+/// Records the channels that the presets leave out. Warns of these, of emission that a map stores divided by a factor, and
+/// of clipped values.
 pub(super) fn tell_losses(request: &BakeRequest, options: &SetOptions, writer: &BakeWriter, written: &mut WrittenMaps) {
-    // With a part of the channels, the others were not asked for.
+    // If only some channels are exported, the user did not request the others.
     if request.channels.is_empty() {
         written.left_out = writer.left_out(options);
     }
@@ -30,7 +31,7 @@ pub(super) fn tell_losses(request: &BakeRequest, options: &SetOptions, writer: &
     written.warnings.extend(sentences.into_iter().map(Into::into));
 }
 
-/// A sentence on channels that a preset for whole materials has no place for. Relief is in its normal map, without the height.
+/// Returns a sentence on channels that a preset for whole materials does not store. Relief is in its normal map, without the height.
 fn left_out_sentence(left: &LeftOut) -> Option<String> {
     let channels = left.channels.iter().filter(|channel| **channel != Channel::Height);
     let names: Vec<String> = channels.map(|channel| channel.name().replace('_', " ")).collect();
@@ -43,7 +44,7 @@ fn left_out_sentence(left: &LeftOut) -> Option<String> {
     })
 }
 
-/// A sentence for each material whose emission is divided by a factor, for all its tiles together.
+/// Returns a sentence for each material whose emission is divided by a factor, for all its tiles together.
 fn scaled_sentences(written: &WrittenMaps) -> Vec<String> {
     let mut found: BTreeMap<(&str, &str), (&str, f32, usize)> = BTreeMap::new();
     for output in &written.outputs {
@@ -64,7 +65,7 @@ fn scaled_sentences(written: &WrittenMaps) -> Vec<String> {
     found.into_iter().map(sentence).collect()
 }
 
-/// A sentence for each channel that is cut in maps.
+/// Returns a sentence for each channel whose values are clipped in maps.
 fn cut_sentences(cut: &[CutMap]) -> Vec<String> {
     let mut found: BTreeMap<(&str, &Channel, &str), (&CutMap, usize)> = BTreeMap::new();
     for map in cut {

@@ -1,4 +1,4 @@
-//! The recipe and the files that the maps of a bake are made of.
+//! The recipe of a bake, and the files that it read.
 
 pub(crate) mod inputs;
 pub(crate) mod recipe;
@@ -12,15 +12,14 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::presets::preset_files;
 use crate::error::EngineError;
 
-/// Recipe and files that the maps of a bake are made of.
+/// Recipe of a bake, and the files that it read.
 pub(crate) struct MadeOf {
     pub(crate) recipe: Recipe,
     pub(crate) inputs: Vec<InputRecord>,
 }
 
 impl MadeOf {
-    /// Records a bake. `read` are the files of the graph and the model; `document` is the graph's text where that is not what its
-    /// file holds.
+    /// Records a bake. `read` are the files of the graph and the model. `document` is the graph's text if it differs from its file.
     pub(crate) fn of(request: &BakeRequest, document: Option<String>, read: &[PathBuf]) -> Result<MadeOf, EngineError> {
         let presets = preset_files(&request.presets, request.preset_folder.as_deref())?;
         // The text counts, not the file.

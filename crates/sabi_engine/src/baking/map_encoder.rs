@@ -1,4 +1,4 @@
-//! Encoding and writing of maps on a thread of their own, while the next ones are read back and computed.
+//! Encoding and writing of maps on a separate thread, while the next maps are read back and computed.
 
 use std::sync::mpsc::{Sender, channel};
 use std::{panic, thread};
@@ -22,7 +22,7 @@ pub(crate) struct WrittenMaps {
     pub(crate) warnings: Vec<Warning>,
     /// Documents of materials that name the maps.
     pub(crate) documents: Vec<DocumentRecord>,
-    /// Channels of materials that presets have no map for.
+    /// Channels of materials for which presets have no map.
     pub(crate) left_out: Vec<LeftOut>,
     /// Copy of the model that uses the maps.
     pub(crate) copy: Option<ModelCopyReport>,
@@ -30,8 +30,8 @@ pub(crate) struct WrittenMaps {
     pub(crate) finish_passes: usize,
 }
 
-/// Sorts maps and constants by their sets. In a set the base color comes first, as people look for it, though it is not written first;
-/// others stay in the order of writing.
+/// Sorts maps and constants by their sets. In a set the base color comes first, since people look for it, though it is not
+/// written first. Others keep the order of writing.
 pub(crate) fn sort_by_set(written: &mut WrittenMaps) {
     let of_color = [Channel::BaseColor, Channel::Opacity].map(|channel| channel.name().into_owned());
     let has_color = |output: &OutputRecord| {
@@ -54,7 +54,7 @@ pub(super) enum MapStep<'s> {
         set: &'s str,
         channel: Channel,
         pixels: ChannelPixels,
-        /// Seams to be erased; none if the graph does not give the channel, which has its neutral value then.
+        /// Seams to be erased; `None` if the graph does not set the channel, which then has its neutral value.
         seams: Option<SetSeams<'s>>,
         /// Memory of the pixels.
         memory: Reserved<'s>,
@@ -65,25 +65,25 @@ pub(super) enum MapStep<'s> {
         set: &'s str,
         channel: Channel,
     },
-    /// Writes what waits for channels that the set does not have.
+    /// Writes maps that still wait for channels which the set does not have.
     Finish { layout: &'s SetLayout, set: &'s str },
     /// Advances the progress.
     Advance,
 }
 
-/// Steps that a [`MapEncoder`] takes in their order.
+/// Sends steps to a [`MapEncoder`], which takes them in order.
 pub(super) struct MapSteps<'s> {
     sender: Sender<MapStep<'s>>,
     budget: &'s MemoryBudget,
 }
 
 impl<'s> MapSteps<'s> {
-    /// Waits until the pixels of earlier steps leave room for those of a channel.
+    /// Waits until there is enough memory for the pixels of a channel besides those of earlier steps.
     pub(super) fn reserve(&self, pixels: usize, channel: &Channel) -> Reserved<'s> {
         self.budget.reserve(pixels * channel.components() * size_of::<f32>())
     }
 
-    /// Hands over a step; fails if an earlier one has failed, whose error [`MapEncoder::take_while`] returns in place of this.
+    /// Sends a step. Fails if an earlier step has failed; in that case [`MapEncoder::take_while`] returns the error of the earlier step.
     pub(super) fn send(&self, step: MapStep<'s>) -> Result<(), EngineError> {
         let sent = self.sender.send(step);
         sent.map_err(|_| EngineError::new(ErrorKind::Interrupted, "an earlier map could not be written"))
@@ -95,15 +95,15 @@ pub(super) struct MapEncoder<'w> {
     pub(super) writer: &'w mut BakeWriter,
     pub(super) options: &'w SetOptions,
     pub(super) written: WrittenMaps,
-    /// Steps of the progress that are done, and all of them.
+    /// Number of finished steps for the progress, and number of all steps.
     pub(super) done: usize,
     pub(super) of: usize,
     pub(super) progress: &'w dyn Progress,
 }
 
 impl MapEncoder<'_> {
-    /// Runs `compute`, and takes its steps on another thread. Fails with the error that would come first if each step were
-    /// taken before the next one is computed.
+    /// Runs `compute`, and takes its steps on another thread. If it fails, the error is the one that would come first if
+    /// each step were taken before the next is computed.
     pub(super) fn take_while<'s>(
         &mut self,
         budget: &'s MemoryBudget,
@@ -112,7 +112,7 @@ impl MapEncoder<'_> {
         let (sender, receiver) = channel();
         thread::scope(|scope| {
             let taking = scope.spawn(move || receiver.into_iter().try_for_each(|step| self.take(step)));
-            // Dropped at the end, which ends the other thread.
+            // Dropped at the end of the closure, which ends the other thread.
             let steps = MapSteps { sender, budget };
             let computed = compute(&steps);
             drop(steps);
@@ -131,7 +131,7 @@ impl MapEncoder<'_> {
                 seams,
                 memory,
             } => {
-                // A large map takes seconds to encode.
+                // Checked before each map, since encoding a large map takes seconds.
                 stop_if_canceled(self.progress)?;
                 if let Some(seams) = &seams {
                     seams.settle(layout, &channel, &mut pixels);
@@ -191,7 +191,7 @@ mod tests {
 
     const SIZE: u32 = 16;
 
-    /// Progress that is remembered, and can be canceled.
+    /// Progress that records reports and can be canceled.
     #[derive(Default)]
     struct Noted {
         steps: Mutex<Vec<usize>>,
@@ -248,7 +248,7 @@ mod tests {
         steps.send(MapStep::Advance)
     }
 
-    /// Takes the steps of a computation with room for one map; returns the names of the files.
+    /// Takes the steps of a computation, with memory for one map. Returns the names of the files.
     fn taken<'s>(
         progress: &Noted,
         budget: &'s MemoryBudget,
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_of_an_earlier_map_goes_before_that_of_a_later_computation() {
+    fn the_error_of_an_earlier_map_comes_before_that_of_a_later_one() {
         let (layout, budget) = (layout(), MemoryBudget::new(usize::MAX));
         let lost = || EngineError::new(ErrorKind::OutOfMemory, "the device is lost");
         let error = |set: &str| {
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn a_canceled_bake_encodes_no_map_that_waits() {
+    fn a_canceled_bake_encodes_no_further_map() {
         let (progress, layout, budget) = (Noted::default(), layout(), MemoryBudget::new(usize::MAX));
         progress.is_canceled.store(true, Ordering::Relaxed);
         let canceled = taken(&progress, &budget, |steps| {

@@ -1,4 +1,4 @@
-//! Maps: results read back, laid out like the model's UVs, and written.
+//! Maps: results that are read back, laid out like the model's UVs, and written.
 
 mod in_bands;
 mod material;
@@ -34,9 +34,9 @@ pub(crate) struct SetWork<'p> {
     pub(crate) key: SetKey,
     /// Stem of its file names.
     pub(crate) name: String,
-    /// Result that serves each material, by material index; empty if none does.
+    /// Result that serves each material, by material index; empty if no result does.
     pub(crate) materials: BTreeMap<u32, &'p PlannedResult>,
-    /// Results that are maps of their own, with the channel that each is.
+    /// Results that become separate maps, each with its channel.
     pub(crate) maps: Vec<(Channel, &'p PlannedResult)>,
 }
 
@@ -52,22 +52,22 @@ pub(crate) struct MapWriter<'a> {
 
 /// Approximate memory limit for the layouts and paddings of sets that are written together.
 const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
-/// Limit for the pixels of maps that wait or are being encoded, where textures are in the same memory: a mask of 4096², or two color
-/// maps of 2048². A larger map is alone.
+/// Limit for the pixels of maps that wait or are being encoded, for devices that keep textures in the same memory: a mask
+/// of 4096², or two color maps of 2048². A larger map is processed alone.
 const PIXEL_BUDGET_BYTES: usize = 96 << 20;
-/// The same where the device has a memory of its own: two color maps of 4096², one of which is encoded while the other is laid out.
+/// The same limit for devices with their own memory: two color maps of 4096², one of which is encoded while the other is laid out.
 const DISCRETE_PIXEL_BUDGET_BYTES: usize = 384 << 20;
 /// Bytes per pixel of a layout's source and cover, and at most of the padding's sources.
 const LAYOUT_PIXEL_BYTES: usize = 9;
 
-/// Bytes of the layout and the padding of a set of maps of a size, at most.
+/// Returns the maximum number of bytes of the layout and the padding of a set of maps of a size.
 fn layout_bytes(size: u32) -> usize {
     (size as usize).pow(2) * LAYOUT_PIXEL_BYTES
 }
 
 impl MapWriter<'_> {
-    /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together. The pixels of the
-    /// first set may have been laid out before.
+    /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together. The
+    /// pixels of the first set may already be laid out.
     pub(crate) fn write(
         &self,
         run: &mut Run,
@@ -116,7 +116,7 @@ impl MapWriter<'_> {
         }
         let mut written = encoder.written;
         written.finish_passes = finish_passes;
-        // Planes were written plane by plane; the report lists them set by set.
+        // Maps were written plane by plane, but the report lists them set by set.
         sort_by_set(&mut written);
         Ok(written)
     }
@@ -150,18 +150,18 @@ struct OpenSet<'a> {
     results: SheetResults<'a>,
     layout: SetLayout,
     padding: PaddingMap,
-    /// Texels that its pixels take values from, found on first use.
+    /// Texels from which its pixels take values, computed on first use.
     bands: OnceLock<BandGather>,
     seams: OnceLock<SeamSamples>,
     borders: OnceLock<ChartBorders>,
 }
 
-/// Maps that are read back and laid out, and handed over as steps.
+/// Maps that are read back, laid out, and sent as steps.
 struct Maps<'a, 's> {
     from: &'s MapWriter<'s>,
     steps: &'a MapSteps<'s>,
     finish_passes: usize,
-    /// True if no other sets read the results afterwards.
+    /// True if no other sets read the results later.
     frees_results: bool,
     progress: &'a dyn Progress,
 }
@@ -182,7 +182,7 @@ impl<'s> Maps<'_, 's> {
         for set in open.iter().filter(|set| set.results.distinct.len() > 1) {
             self.material(run, &set.results.distinct, &[set])?;
         }
-        // A material that no output serves keeps the maps that it has.
+        // A material that no output serves keeps its existing maps.
         for set in open.iter().filter(|set| !set.work.materials.is_empty()) {
             self.steps.send(MapStep::Finish {
                 layout: &set.layout,
@@ -225,8 +225,8 @@ impl<'s> Maps<'_, 's> {
         Ok(())
     }
 
-    /// Hands over one channel; without a plane, its neutral value, or nothing where few materials have the channel. There is one
-    /// plane for each result of the set, or one for the whole set.
+    /// Sends one channel. Without a plane, sends its neutral value, or nothing for a channel that few materials have. There
+    /// is one plane for each result of the set, or one for the whole set.
     fn channel(
         &mut self,
         set: &'s OpenSet<'s>,
@@ -262,7 +262,7 @@ impl<'s> Maps<'_, 's> {
             set.padding.gather(layout, &channel, first, texel)
         };
         if channel == Channel::Normal && !layout.shared.is_empty() {
-            // The mean of unit vectors is shorter than 1.
+            // The mean of unit vectors is shorter than 1, so it is normalized.
             for normal in pixels.data.chunks_exact_mut(3) {
                 let length = normal.iter().map(|part| part * part).sum::<f32>().sqrt();
                 if length > 0.0 {
@@ -274,7 +274,7 @@ impl<'s> Maps<'_, 's> {
         self.send(set, channel, pixels, planes.iter().any(Option::is_some), memory)
     }
 
-    /// Hands over the pixels of a channel.
+    /// Sends the pixels of a channel.
     fn send(
         &self,
         set: &'s OpenSet<'s>,

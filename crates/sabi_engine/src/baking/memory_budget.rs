@@ -1,8 +1,8 @@
-//! Limit for memory that one thread fills and another one frees.
+//! Limit for memory that one thread fills and another thread frees.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Bytes that may be in use at once.
+/// Number of bytes that may be in use at the same time.
 #[derive(Debug)]
 pub(super) struct MemoryBudget {
     limit: usize,
@@ -26,7 +26,7 @@ impl MemoryBudget {
         }
     }
 
-    /// Waits until the bytes fit beside all others. More than the limit is granted while nothing else is in use.
+    /// Waits until the bytes fit together with all others. More than the limit is granted if nothing else is in use.
     pub(super) fn reserve(&self, bytes: usize) -> Reserved<'_> {
         let is_full = |in_use: &mut usize| *in_use > 0 && in_use.saturating_add(bytes) > self.limit;
         let waited = self.freed.wait_while(self.lock(), is_full);

@@ -1,4 +1,4 @@
-//! Maps of the model itself, as nodes that are appended to the graph: they are planned, cached and written like its own.
+//! Maps of the model itself. They are nodes that are appended to the graph, and are planned, cached and written like its own nodes.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use sabi_plan::Target;
 
 use crate::evaluating::evaluator::Evaluator;
 
-/// Rays of a texel; four times as many would halve the noise.
+/// Number of rays of a texel. Four times as many would halve the noise.
 const RAYS: f64 = 64.0;
 /// Reach of occlusion, bent normals and thickness, as a share of the model's largest side.
 const REACH: f64 = 0.2;
 /// Reach of curvature, as a share of the model's largest side.
 const BEND_RADIUS: f64 = 0.02;
 
-/// Appends the nodes of the maps that presets ask for to the graph, and returns the result of each map.
+/// Appends the nodes of the maps that presets request to the graph, and returns the result of each map.
 pub(super) fn append_mesh_maps(evaluator: &mut Evaluator, options: &SetOptions) -> Vec<(MeshMap, Target)> {
     let is_wanted = |wanted: &MeshMap| {
         let channel = Channel::Mesh(*wanted);
@@ -33,7 +33,7 @@ pub(super) fn append_mesh_maps(evaluator: &mut Evaluator, options: &SetOptions) 
     targets
 }
 
-/// Returns the nodes of a map, of which the last has the result, and its port. The first one gets the index `first`.
+/// Returns the nodes of a map and the port of its result, which belongs to the last node. The first node gets the index `first`.
 fn nodes_of(map: MeshMap, first: usize) -> (Vec<FlatNode>, &'static str) {
     let single = |kind: &str, params: &[(&str, Value)]| vec![node(map, kind, params)];
     let by = |word: &str| [("by", Value::Text(word.to_owned()))];
@@ -50,7 +50,7 @@ fn nodes_of(map: MeshMap, first: usize) -> (Vec<FlatNode>, &'static str) {
     }
 }
 
-/// A ramp over the bounding box along each axis, and the vector of them.
+/// Returns nodes for a ramp over the bounding box along each axis, and for the vector of these ramps.
 fn position(first: usize) -> Vec<FlatNode> {
     let axes = ["x", "y", "z"];
     let ramp = |axis: usize| {
@@ -74,7 +74,7 @@ fn position(first: usize) -> Vec<FlatNode> {
     vec![ramp(0), ramp(1), ramp(2), vector]
 }
 
-/// A node whose id is not valid in a graph file. It does not depend on the fit and the seed of the document.
+/// Returns a node whose id is not valid in a graph file. It does not depend on the fit and the seed of the document.
 fn node(map: MeshMap, kind: &str, params: &[(&str, Value)]) -> FlatNode {
     let params = params.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
     FlatNode {
@@ -91,7 +91,7 @@ fn node(map: MeshMap, kind: &str, params: &[(&str, Value)]) -> FlatNode {
     }
 }
 
-/// Returns the lowest and highest place of the model along its axes, in the units of its file.
+/// Returns the lowest and highest coordinates of the model, in the units of its file.
 pub(super) fn file_bounds(evaluator: &Evaluator) -> [[f32; 3]; 2] {
     let model = evaluator.model();
     let scale = model.file_from_working();

@@ -38,7 +38,7 @@ pub(crate) fn open_copy<'m>(
         unwrapped_uv_set: linked.unwrapped.as_ref().map(|unwrapped| unwrapped.uv_set),
     };
     let copy = ModelCopy::open(source, &baked, copy_options)?;
-    // A name that is refused is reported before the work.
+    // A name that would be refused is reported before the work.
     writer.check(&copy.file_name())?;
     writer.keep_model_maps();
     if copy_options.keeps_look && has_vertex_colors(model, &baked_materials(model, &baked)) {
@@ -61,7 +61,7 @@ fn has_vertex_colors(model: &Model, baked: &BTreeSet<u32>) -> bool {
     !mesh.colors.is_empty() && vertices.any(|vertex| mesh.colors.get(*vertex as usize) != Some(&[1.0; 4]))
 }
 
-/// Stages the copy beside the maps, and adds its report entry.
+/// Writes the copy next to the maps under a temporary name, and adds its report entry.
 pub(crate) fn write_copy(
     copy: Option<ModelCopy<'_>>,
     writer: &mut BakeWriter,

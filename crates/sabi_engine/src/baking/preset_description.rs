@@ -1,17 +1,17 @@
-//! A preset in words, for `sabi presets` and the window.
+//! Descriptions of presets, for `sabi presets` and the window.
 
 use sabi_export::preset::{Content, Document, Format, Map, MapSize, NormalY, Preset, When};
 use sabi_export::{Channel, EngineFormat};
 use serde::Serialize;
 
-/// A preset in words; docs/report.md lists the keys.
+/// Description of a preset; docs/report.md lists the keys.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PresetDescription {
     /// Name in the file.
     pub name: String,
     /// Description, a sentence.
     pub about: String,
-    /// `+` where green of normal maps means upward, `-` where it means downward.
+    /// `+` if green of normal maps means upward, `-` if it means downward.
     pub normal_y: &'static str,
     /// Pattern of file names.
     pub names: String,
@@ -19,11 +19,11 @@ pub struct PresetDescription {
     pub files: Vec<PresetFile>,
     /// Its documents.
     pub documents: Vec<PresetDocument>,
-    /// Channels of materials that none of its files has a part of, and that a bake leaves out.
+    /// Channels of materials that none of its files contains, so that a bake leaves them out.
     pub left_out: Vec<String>,
 }
 
-/// A document of a preset in words; it has the name of the model.
+/// Description of a document of a preset. Its name is that of the model.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PresetDocument {
     /// Format, as preset files name it.
@@ -37,7 +37,7 @@ pub struct PresetDocument {
 /// A file of a preset in words.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PresetFile {
-    /// Word in the name of the file; none for the files of outputs, which have their names.
+    /// Word in the name of the file; `None` for the files of outputs, which have the names of the outputs.
     pub map: Option<String>,
     /// `masks`, `colors` or `vectors` for a file for each output of that kind.
     pub outputs: Option<&'static str>,
@@ -45,24 +45,24 @@ pub struct PresetFile {
     pub ending: &'static str,
     /// Bits of a sample.
     pub bits: u8,
-    /// Content of each component in the order of the file; none for the files of outputs.
+    /// Content of each component in the order of the file; empty for the files of outputs.
     pub components: Vec<String>,
     /// `srgb` or `linear`.
     pub color_space: &'static str,
     /// True if gradients are dithered.
     pub dither: bool,
-    /// True if the file holds 0 to 1 whatever its channel holds; the report of a bake says how to get back.
+    /// True if the file stores 0 to 1 whatever the range of its channel is. The report of a bake says how to convert back.
     pub normalize: bool,
-    /// Format that an engine has it in.
+    /// Format in which an engine stores it.
     pub engine_format: &'static str,
-    /// Size, where it is not that of the bake: `1/2` or `2048x1024`.
+    /// Size if it differs from that of the bake: `1/2` or `2048x1024`.
     pub size: Option<String>,
-    /// Condition for writing it, as preset files write it.
+    /// Condition for writing it, in the form of preset files.
     pub when: String,
 }
 
 impl PresetFile {
-    /// Its content in a line: `R occlusion, G roughness, B metallic`.
+    /// Returns its content in a line: `R occlusion, G roughness, B metallic`.
     pub fn packing(&self) -> String {
         let letters: &[&str] = match self.components.len() {
             0 => return format!("each of the graph's {}", self.outputs.unwrap_or("outputs")),
@@ -74,7 +74,7 @@ impl PresetFile {
         let parts: Vec<String> = parts
             .map(|(letter, component)| format!("{letter} {component}"))
             .collect();
-        // A whole color reads better in one word.
+        // A whole color is shown as one word, which is easier to read.
         let whole = self.components.first().and_then(|first| first.strip_suffix(".r"));
         let is_whole = |name: &&str| {
             let letters = ["r", "g", "b"].into_iter().map(|letter| format!("{name}.{letter}"));
@@ -107,7 +107,7 @@ pub fn describe_preset(preset: &Preset) -> PresetDescription {
         files: preset.maps.iter().map(file).collect(),
         documents: preset.documents.iter().map(document).collect(),
         left_out: match preset.left_out() {
-            // A preset without a map of materials leaves none out.
+            // A preset without maps of materials reports no channels as left out.
             all if all.len() == Channel::ALL.len() => Vec::new(),
             left_out => left_out.iter().map(|channel| channel.name().into_owned()).collect(),
         },

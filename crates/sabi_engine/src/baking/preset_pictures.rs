@@ -1,4 +1,4 @@
-//! Pictures that the presets write, as an import finds them again: their names, and what their components hold.
+//! Names and contents of the pictures that the presets write, by which an import recognizes them.
 
 use std::ops::Range;
 
@@ -10,22 +10,22 @@ use sabi_export::preset::{BUILTIN_NAMES, ComponentSource, Content, Map, NormalY,
 pub struct PresetPicture {
     /// Text of its file name before that of the material, such as `T_`.
     pub before: String,
-    /// Word for it in its file name, such as `ORM`.
+    /// Word in its file name for its content, such as `ORM`.
     pub name: String,
     /// True if it has one color component.
     pub is_gray: bool,
-    /// Contents of its components; a component that holds one number everywhere is missing.
+    /// Contents of its components. Components that contain the same number everywhere are left out.
     pub parts: Vec<PicturePart>,
 }
 
 /// Channel in a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PicturePart {
-    /// Name of the channel in reports, such as `base_color`; none for what is no channel of materials.
+    /// Name of the channel in reports, such as `base_color`; `None` if it is not a channel of materials.
     pub channel: Option<String>,
-    /// Components that hold it, red first. A gray picture has one color component, and its alpha is the second.
+    /// Range of components that contain it, red first. A gray picture has one color component, and its alpha is the second.
     pub components: Range<usize>,
-    /// True if the picture holds 1 minus the value.
+    /// True if the picture stores 1 minus the value.
     pub is_inverted: bool,
     /// True for normals whose green points downward.
     pub is_green_down: bool,
@@ -33,8 +33,8 @@ pub struct PicturePart {
     pub is_alpha: bool,
 }
 
-/// Lists the pictures of all presets that come with Sabi, each name of a preset once. Files that outputs of the graph become have
-/// names of their own and are not listed.
+/// Lists the pictures of all built-in presets, without repeated names. Files of the graph's outputs have their own names
+/// and are not listed.
 pub fn preset_pictures() -> Vec<PresetPicture> {
     let presets = BUILTIN_NAMES.into_iter().filter_map(|name| builtin(name)?.ok());
     let mut found = Vec::new();
@@ -52,10 +52,10 @@ fn picture(preset: &Preset, map: &Map) -> Option<PresetPicture> {
     let Content::Packed(components) = &map.content else {
         return None;
     };
-    // A pattern that begins with a token has nothing before it.
+    // A pattern that begins with a token has no text before it.
     let first = preset.names.find(['$', '{', '(']).unwrap_or(preset.names.len());
     let before = &preset.names[..first];
-    // Gray and gray with alpha have one color component, the others three.
+    // Gray pictures, with or without alpha, have one color component; the others have three.
     let colors = if components.len() < 3 { 1 } else { 3 };
     let mut parts = Vec::new();
     let mut at = 0;
@@ -68,7 +68,7 @@ fn picture(preset: &Preset, map: &Map) -> Option<PresetPicture> {
             let source = components.get(at + next).map(|component| &component.source);
             matches!(source, Some(ComponentSource::Channel(same, index)) if same == channel && *index == next)
         };
-        // A channel of three components may be packed by its first alone.
+        // A channel of three components may be stored by its first component alone.
         let count = (1..channel.components()).take_while(|next| is_next(*next)).count() + 1;
         let is_whole = count == channel.components();
         let is_material = !matches!(channel, Channel::Mesh(_)) && channel.output_kind().is_none();
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_of_presets_tell_where_each_channel_is() {
+    fn pictures_of_presets_show_where_each_channel_is() {
         let part = |channel: &str, components: Range<usize>| (channel.to_owned(), components, false);
         assert_eq!(
             parts("T_", "ORM"),

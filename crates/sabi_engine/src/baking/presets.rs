@@ -1,4 +1,4 @@
-//! Presets by name: those that come with Sabi, those of the user's folder, and files.
+//! Presets by name: built-in presets, those of the user's folder, and files.
 
 use std::path::{Path, PathBuf};
 
@@ -18,18 +18,18 @@ const ENDING: &str = "toml";
 pub struct ListedPreset {
     /// Name on the command line.
     pub name: String,
-    /// File of the user's own; none for those that come with Sabi.
+    /// File of a preset of the user; `None` for built-in presets.
     pub file: Option<PathBuf>,
-    /// The preset, or why its file cannot be used.
+    /// The preset, or the reason why its file cannot be used.
     pub preset: Result<Preset, String>,
 }
 
-/// Returns the folder of the user's own presets: `SABI_PRESETS`, else `sabi/presets` in the system's folder for settings.
+/// Returns the folder of the user's own presets: `SABI_PRESETS`, otherwise `sabi/presets` in the system's folder for settings.
 pub fn default_preset_folder() -> Option<PathBuf> {
     own_folder("SABI_PRESETS", "presets")
 }
 
-/// Lists the presets that come with Sabi, the default first, and those of a folder by name.
+/// Lists the built-in presets, the default first, and then those of a folder sorted by name.
 pub fn export_presets(folder: Option<&Path>) -> Vec<ListedPreset> {
     let of_sabi = BUILTIN_NAMES.into_iter().filter_map(|name| {
         Some(ListedPreset {
@@ -46,7 +46,7 @@ pub fn export_presets(folder: Option<&Path>) -> Vec<ListedPreset> {
     of_sabi.chain(own).collect()
 }
 
-/// Returns the text of a preset's file, by name or path as [`find_preset`] takes them.
+/// Returns the text of a preset's file, given by name or path as for [`find_preset`].
 pub fn preset_text(name: &str, folder: Option<&Path>) -> Result<String, EngineError> {
     match builtin_text(name) {
         Some(text) => Ok(text.to_owned()),
@@ -54,7 +54,7 @@ pub fn preset_text(name: &str, folder: Option<&Path>) -> Result<String, EngineEr
     }
 }
 
-/// Finds a preset: one that comes with Sabi, one of the user's folder by its file's name, or a file by its path.
+/// Finds a preset: a built-in one, one of the user's folder by its file's name, or a file by its path.
 pub fn find_preset(name: &str, folder: Option<&Path>) -> Result<Preset, EngineError> {
     match builtin(name) {
         Some(read) => read.map_err(|error| EngineError::of(ErrorKind::Defect, error)),
@@ -62,7 +62,7 @@ pub fn find_preset(name: &str, folder: Option<&Path>) -> Result<Preset, EngineEr
     }
 }
 
-/// Returns the files of these presets, as [`find_preset`] takes them; those that come with Sabi have none.
+/// Returns the files of these presets, which are given as for [`find_preset`]. Built-in presets have no file.
 pub(crate) fn preset_files(names: &[String], folder: Option<&Path>) -> Result<Vec<PathBuf>, EngineError> {
     let own = names.iter().filter(|name| builtin_text(name).is_none());
     own.map(|name| file_of(name, folder)).collect()
@@ -87,7 +87,7 @@ fn text_of(file: &Path) -> Result<String, EngineError> {
     String::from_utf8(bytes).map_err(|_| fault(ErrorKind::BadInput, "is no text; save it as UTF-8"))
 }
 
-/// Returns the file of a preset that does not come with Sabi.
+/// Returns the file of a preset that is not built in.
 fn file_of(name: &str, folder: Option<&Path>) -> Result<PathBuf, EngineError> {
     let own = own_files(folder);
     if let Some((_, file)) = own.iter().find(|(known, _)| known == name) {
@@ -111,7 +111,7 @@ fn file_of(name: &str, folder: Option<&Path>) -> Result<PathBuf, EngineError> {
     Err(EngineError::new(ErrorKind::Usage, why))
 }
 
-/// The preset files of a folder with their names, sorted by name. A folder that cannot be read has none.
+/// Returns the preset files of a folder with their names, sorted by name; empty if the folder cannot be read.
 fn own_files(folder: Option<&Path>) -> Vec<(String, PathBuf)> {
     let entries = folder.and_then(|folder| std::fs::read_dir(folder).ok());
     let paths = entries
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_preset_is_told_with_those_that_exist() {
+    fn an_error_for_an_unknown_preset_lists_those_that_exist() {
         let told = |name: &str| find_preset(name, None).expect_err("unknown").to_string();
         assert_eq!(
             told("unrael"),

@@ -1,4 +1,4 @@
-//! Bakes as reports and output folders record them.
+//! Bakes recorded in reports and output folders.
 
 pub(crate) mod manifest;
 pub(crate) mod recorded_bake;

@@ -15,7 +15,7 @@ use crate::phases::PhaseTimes;
 use crate::program::Build;
 use crate::warning::Warning;
 
-/// Version of reports: 2 says how the maps were made.
+/// Version of reports. Since version 2, they describe how the maps were made.
 pub const REPORT_VERSION: u32 = 2;
 
 /// Report of a bake; docs/report.md lists the keys of its file.
@@ -49,11 +49,11 @@ pub struct BakeReport {
     pub finish_passes: usize,
     /// Ids of nodes that share a kernel, a list for each kernel of more than one.
     pub fused: Vec<Vec<String>>,
-    /// Texels that the kernels of the graph ran over, in whole tiles and added up over all of them.
+    /// Number of texels over which the kernels of the graph ran, in whole tiles, summed over all kernels.
     pub evaluated_texels: u64,
-    /// Most bytes that textures took at a time.
+    /// Maximum number of bytes that textures took at the same time.
     pub peak_texture_bytes: u64,
-    /// True if nothing had to be done, because all files of an earlier bake were there: the times are those of that one.
+    /// True if nothing had to be done, because all files of an earlier bake were there. The times are those of the earlier bake.
     pub up_to_date: bool,
     /// True if the atlas was read from the cache.
     pub atlas_cached: bool,
@@ -61,9 +61,9 @@ pub struct BakeReport {
     pub rays_cached: Vec<String>,
     /// Ids of nodes whose results were read from the cache.
     pub results_cached: Vec<String>,
-    /// Maps that were not encoded, because their pixels are those of an earlier bake.
+    /// Maps that were not encoded, because their pixels are the same as in an earlier bake.
     pub maps_cached: Vec<String>,
-    /// True if the unwrapping was read from the cache; `None` where the model's own UVs are used.
+    /// True if the unwrapping was read from the cache; `None` if the model's own UVs are used.
     pub unwrapping_cached: Option<bool>,
     /// Times of the phases.
     #[serde(rename = "stages_ms")]
@@ -78,7 +78,7 @@ pub struct BakeReport {
     pub constants: Vec<ConstantRecord>,
     /// Documents of materials that name the maps.
     pub documents: Vec<DocumentRecord>,
-    /// Channels of materials that presets have no map for.
+    /// Channels of materials for which presets have no map.
     pub left_out: Vec<LeftOut>,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
@@ -91,10 +91,10 @@ pub struct BakeReport {
 }
 
 impl BakeReport {
-    /// Returns the report for a file of this base, with paths relative to its folder where both share more than the root.
+    /// Returns the report for a file of this base. Paths are relative to its folder if they share more than the root with it.
     #[must_use]
     pub fn placed(&self, base: &PathBase) -> BakeReport {
-        // All paths are absolute, so that no folder is asked where they start.
+        // All paths are absolute, so the current folder does not matter.
         let from = PathBase::of_folder(absolute(base.folder()));
         let mut report = self.clone();
         report.recipe = report.recipe.moved(&from, base);
@@ -104,7 +104,7 @@ impl BakeReport {
         report
     }
 
-    /// All files of the bake: their paths relative to the output folder, and the BLAKE3 of their bytes.
+    /// Returns all files of the bake: their paths relative to the output folder, and the BLAKE3 of their bytes.
     pub fn written_files(&self) -> impl Iterator<Item = (&str, &str)> {
         let maps = self.outputs.iter().map(|output| (&*output.path, &*output.blake3));
         let documents = self.documents.iter();
@@ -130,7 +130,7 @@ pub struct Conventions {
 }
 
 impl Conventions {
-    /// The conventions of maps of these presets.
+    /// Returns the conventions of maps of these presets.
     pub(crate) fn of(presets: &[NamedPreset]) -> Conventions {
         let green = |named: &NamedPreset| match named.preset.normal_y {
             NormalY::Up => "+",
@@ -155,15 +155,15 @@ pub struct BakedMesh {
     pub file: String,
     /// Triangles of all parts.
     pub triangles: usize,
-    /// Charts in UV; one that overlaps itself counts in the parts that do not.
+    /// Charts in UV. A chart that overlaps itself counts as the parts that do not.
     pub charts: usize,
     /// Share of the atlas that charts cover.
     pub coverage: f64,
-    /// Lowest and highest place of the model along its axes, in the units of its file.
+    /// Lowest and highest coordinates of the model, in the units of its file.
     pub bounds: [[f32; 3]; 2],
     /// Charts that share places on the maps.
     pub overlap: OverlapReport,
-    /// Results of unwrapping the model; `None` where its own UVs are used.
+    /// Results of unwrapping the model; `None` if its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
     /// UVs that the file stores under a transform.
     pub decoded_uvs: Vec<DecodedUvs>,
@@ -171,7 +171,7 @@ pub struct BakedMesh {
     pub smooth_degrees: Option<f32>,
     /// Names of the parts of the file that were left out.
     pub parts_left_out: Vec<String>,
-    /// Faces that were turned, because they were inside out.
+    /// Number of faces that were turned because they were inside out.
     pub turned_faces: usize,
 }
 
@@ -192,7 +192,7 @@ pub struct ModelCopyReport {
     pub copy: CopiedFileReport,
     /// Files beside it.
     pub files: Vec<CopiedFileReport>,
-    /// Changes of the looks of the materials that got maps.
+    /// Changes of the looks of the materials that received maps.
     pub changes: Vec<LookChange>,
 }
 

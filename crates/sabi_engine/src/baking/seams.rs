@@ -12,7 +12,7 @@ use crate::opening::linked_model::LinkedModel;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Seams {
-    /// Adjusts the texels beside seams until both sides agree.
+    /// Adjusts the texels next to seams until both sides agree.
     #[default]
     Erase,
     /// Writes every texel as it was evaluated.
@@ -30,7 +30,7 @@ pub(super) struct SetSeams<'s> {
 }
 
 impl SetSeams<'_> {
-    /// Lets the texels around charts repeat their charts where the data jumps, and adjusts both sides of the set's seams in channels
+    /// Repeats charts in the texels around them where the data jumps, and adjusts both sides of the set's seams in channels
     /// whose differences are visible: a step in the height is a crack, and one in the normal is a line in every highlight.
     pub(super) fn settle(&self, layout: &SetLayout, channel: &Channel, pixels: &mut ChannelPixels) {
         let atlas = &self.of_model.linked.atlas;
@@ -43,7 +43,7 @@ impl SetSeams<'_> {
     }
 }
 
-/// Seams of a model, found on first use.
+/// Seams of a model, computed on first use.
 pub(crate) struct ModelSeams<'a> {
     wanted: Seams,
     linked: &'a LinkedModel,
@@ -59,8 +59,8 @@ impl<'a> ModelSeams<'a> {
         }
     }
 
-    /// Adjusts both sides of a set's seams; `samples` caches its seam samples. Returns whether texels may have changed, so that the
-    /// padding must be updated.
+    /// Adjusts both sides of a set's seams. `samples` caches its seam samples. Returns true if texels may have changed, so
+    /// that the padding must be updated.
     fn erase(
         &self,
         layout: &SetLayout,

@@ -10,7 +10,7 @@ use crate::baking::maps::SetWork;
 use crate::evaluating::texture_sets::TextureSet;
 use crate::source::map_output;
 
-/// Finds the planned results that are maps of their own, in every texture set: outputs of the graph, and maps of the model.
+/// Finds the planned results that become separate maps in every texture set: outputs of the graph, and maps of the model.
 fn own_maps<'p>(
     graph: &FlatGraph,
     plan: &'p Plan,

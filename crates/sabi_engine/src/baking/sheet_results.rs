@@ -1,5 +1,4 @@
-//! Assignment of results to the texels of a sheet that materials share: each texel is read from the result that serves its
-//! material.
+//! Assignment of results to the texels of a sheet that materials share. Each texel is read from the result that serves its material.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +15,7 @@ pub(crate) struct SheetResults<'p> {
 }
 
 impl<'p> SheetResults<'p> {
-    /// Assigns the results that serve the materials of a set. Ghosts are read like their chart.
+    /// Assigns the results that serve the materials of a set. Ghosts use the result of their chart.
     pub(crate) fn new(atlas: &Atlas, result_of_material: &BTreeMap<u32, &'p PlannedResult>) -> SheetResults<'p> {
         let mut results: Vec<&PlannedResult> = Vec::new();
         let mut of_material: BTreeMap<u32, u16> = BTreeMap::new();
@@ -31,7 +30,7 @@ impl<'p> SheetResults<'p> {
         let mut of_texel = Vec::new();
         if results.len() > 1 {
             let of_chart = atlas.charts.iter().map(|chart| of_material.get(&chart.material));
-            // Charts of other sets and empty texels are not read; any index does.
+            // Charts of other sets and empty texels are not read, so any index may be used.
             let of_chart: Vec<u16> = of_chart.map(|at| at.copied().unwrap_or(0)).collect();
             let of_owner = |owner: &u32| chart_of(atlas, *owner).and_then(|chart| of_chart.get(chart as usize));
             let of_owners = atlas.owners.iter().map(of_owner);
@@ -43,12 +42,11 @@ impl<'p> SheetResults<'p> {
         }
     }
 
-    /// Reads a texel from planes, one for each result; none where its result does not have the plane. A single plane serves all
-    /// texels.
+    /// Reads a texel from planes, one for each result; `None` if its result does not have the plane. A single plane serves all texels.
     pub(crate) fn texel(&self, planes: &[Option<PlaneData>], texel: usize) -> Option<[f32; 4]> {
         let at = match planes {
             [_] => 0,
-            // The list is empty where one result serves all texels.
+            // The list is empty if one result serves all texels.
             _ => usize::from(self.of_texel.get(texel).copied().unwrap_or(0)),
         };
         Some(planes.get(at)?.as_ref()?.texel(texel))

@@ -24,7 +24,7 @@ pub(super) struct Draft<'m> {
     pub(super) row: &'m MatrixRow,
     pub(super) graph: WrittenFile,
     pub(super) model: WrittenFile,
-    /// Variant of the graph; none for its own values.
+    /// Variant of the graph; `None` for its own values.
     pub(super) variant: Option<String>,
     /// Name of the variant in folders.
     pub(super) variant_name: Option<String>,
@@ -41,15 +41,15 @@ pub(super) struct GraphWithKinds {
     pub(super) kinds: Rc<Kinds>,
 }
 
-/// Graphs that were opened, each once.
+/// Graphs that have been opened, without repeats.
 #[derive(Default)]
 pub(super) struct Graphs {
     graphs: BTreeMap<PathBuf, Result<Rc<GraphWithKinds>, EngineError>>,
     /// Kinds by the folder of the graph.
     kinds: BTreeMap<PathBuf, Rc<Kinds>>,
-    /// Paths from which all of them may open what they name.
+    /// Paths from which all graphs may open the files that they name.
     trusted: TrustedPaths,
-    /// Entries of folders that the patterns of the matrix led past.
+    /// Number of folder entries that were examined for the patterns of the matrix.
     looked_at: usize,
 }
 
@@ -69,7 +69,7 @@ impl Graphs {
         if let Some(known) = self.graphs.get(path) {
             return known.clone();
         }
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned(); // A bare file name lies in the current folder.
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned(); // A bare file name refers to the current folder.
         let opened = OpenGraph::open_trusting(path, &self.trusted).map(|open| {
             let kinds = self
                 .kinds
@@ -83,15 +83,15 @@ impl Graphs {
     }
 }
 
-/// Values that a table has for all its items.
+/// Values that a table sets for all its items.
 struct RowValues {
     variant: Option<String>,
     seed: Option<u32>,
     set: Vec<(String, Value)>,
 }
 
-/// All combinations of a matrix: models first, presets last, so that items which share work follow each other. Adds faults about files
-/// and variants that are not there, and gives the combinations of all others.
+/// All combinations of a matrix: models first, presets last, so that items which share work follow each other. Adds faults
+/// about missing files and variants, and returns the combinations of all others.
 ///
 /// # Errors
 /// There are more items than the matrix allows, or the work was canceled.
@@ -118,7 +118,7 @@ pub(super) fn expanded<'m>(
     }
     drafts.retain(|draft| {
         let all = matrix.exclusions.iter().chain(&draft.row.exclusions);
-        // Each that applies is used, and not the first alone.
+        // All of them are evaluated, not only the first that applies, since each records that it was used.
         let applying = all.filter(|exclusion| exclusion.applies_to(draft)).count();
         applying == 0
     });
@@ -135,7 +135,7 @@ struct Expansion<'m> {
 }
 
 impl<'m> Expansion<'m> {
-    /// Axes of a table without what is not there, which is added to the faults.
+    /// Returns the axes of a table without missing files and variants, which are added to the faults.
     ///
     /// # Errors
     /// The work was canceled.
@@ -184,12 +184,12 @@ impl<'m> Expansion<'m> {
                 },
             }
         }
-        // A graph that cannot be opened may have a variant that fits.
+        // A graph that cannot be opened may have a variant that fits, so unused patterns are reported only if all graphs were opened.
         if is_complete {
             patterns.sentences().for_each(|why| faults.add(said(why)));
         }
         with_variants.retain(|(file, choices)| {
-            // Without the variant of such a pattern, more is not known.
+            // If such a pattern fits no variant, that fault has been reported already.
             if choices.is_empty() && patterns.0.is_empty() {
                 let why = format!(
                     "{} has no variant that is asked for; add \"\" to 'variants' for its own values, or leave the graph out",
@@ -253,7 +253,7 @@ impl<'m> Expansion<'m> {
 }
 
 impl RowValues {
-    /// Values of a table and of its files; adds the faults of files.
+    /// Returns the values of a table and of its files. Adds the faults of files.
     fn of(row: &MatrixRow, base: &PathBase, faults: &mut Faults) -> RowValues {
         let mut values = RowValues {
             variant: None,
@@ -277,10 +277,10 @@ impl RowValues {
     }
 }
 
-/// Pattern for all variants of a graph, which fits a graph without any as well.
+/// Pattern for all variants of a graph. It also fits a graph that has none.
 const ALL_VARIANTS: &str = "*";
 
-/// Patterns of a table that no variant of any of its graphs has fitted so far.
+/// Patterns of a table that have not fitted any variant of its graphs so far.
 struct UnusedPatterns<'m>(Vec<&'m str>);
 
 impl<'m> UnusedPatterns<'m> {
@@ -300,7 +300,7 @@ fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?'])
 }
 
-/// Variants of a graph that a table asks for, which may be none; the error is a clause. Takes the patterns that fit one out of `patterns`.
+/// Returns the variants of a graph that a table requests; may be empty. The error is a clause. Removes patterns that fit from `patterns`.
 fn variants(
     row: &MatrixRow,
     values: &RowValues,
@@ -322,7 +322,7 @@ fn variants(
         let parsed = Pattern::new(pattern).map_err(|error| format!("'{pattern}' is no pattern: {}", error.msg))?;
         let known = open.document.graph.variants().keys();
         let fitting = known.filter(|name| parsed.matches(name)).map(|name| VariantChoice {
-            // One name cannot stand for several variants.
+            // One name cannot be used for several variants.
             name: None,
             variant: Some(name.clone()),
             set: choice.set.clone(),
@@ -337,7 +337,7 @@ fn variants(
 }
 
 impl SeedChoice {
-    /// Seed for a model. One for each model follows from its path, so that more models change none.
+    /// Returns the seed for a model. A seed for each model is computed from its path, so that further models do not change it.
     fn of(self, model: &WrittenFile) -> u32 {
         match self {
             SeedChoice::Number(seed) => seed,
@@ -351,7 +351,7 @@ impl SeedChoice {
 }
 
 impl Exclusion {
-    /// Returns true if all conditions apply, and remembers that.
+    /// Returns true if all conditions apply, and records that.
     fn applies_to(&self, draft: &Draft<'_>) -> bool {
         let applies = self.conditions.iter().all(|(key, condition)| match (key, condition) {
             (ExclusionKey::Size, Condition::Number(size)) => draft.size == *size,
@@ -362,7 +362,7 @@ impl Exclusion {
                 draft.presets.iter().any(|preset| pattern.matches(preset))
             }
             (ExclusionKey::Variant, Condition::Text(pattern)) => {
-                // The graph's own values have the empty name.
+                // The graph's own values have an empty variant name.
                 pattern.matches(draft.variant_name.as_deref().unwrap_or(""))
             }
             _ => false,
@@ -372,7 +372,7 @@ impl Exclusion {
     }
 }
 
-/// Returns true if a pattern fits a file's path, or its name without folder and ending.
+/// Returns true if a pattern fits a file's path, or its name without folder and extension.
 fn is_file(pattern: &Pattern, file: &WrittenFile) -> bool {
     pattern.matches(&file.written) || pattern.matches(&file.stem())
 }

@@ -19,7 +19,8 @@ use crate::source::strokes::{files_beside, paint_folder};
 /// File that a bake reads.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ItemInput {
-    /// Name that does not depend on where the project is: from the folder of the graph, below `mesh/` from that of the model.
+    /// Name that does not depend on the location of the project: the path from the folder of the graph, or below `mesh/`
+    /// from the folder of the model.
     pub name: String,
     /// Path.
     pub path: String,
@@ -28,13 +29,13 @@ pub struct ItemInput {
 }
 
 impl ItemInput {
-    /// What identifies the content, wherever the file is.
+    /// Returns the fields that identify the content, independent of the location of the file.
     pub(super) fn identity(&self) -> [&str; 2] {
         [&self.name, &self.blake3]
     }
 }
 
-/// Files by names that do not depend on where the project is.
+/// Files by names that do not depend on the location of the project.
 pub(super) type NamedInputs = BTreeMap<String, PathBuf>;
 
 /// Lists the files of a graph: itself, group files, pictures, strokes, and node files of the artist. Files that are missing are
@@ -44,7 +45,7 @@ pub(super) fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
     let graph = named_path(&open.path);
     let base = PathBase::of_file(&graph);
     let name = |path: &Path| {
-        // A name that is no text cannot stand in a graph.
+        // A name that is not text cannot be in a graph.
         let written = base.write(path);
         written.unwrap_or_else(|_| path.to_string_lossy().into_owned())
     };

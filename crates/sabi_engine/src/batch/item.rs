@@ -1,4 +1,4 @@
-//! Items of a bake plan: one bake each, with all that a worker needs for it.
+//! Items of a bake plan: one bake each, with everything that a worker needs for it.
 
 use std::path::PathBuf;
 
@@ -35,7 +35,7 @@ pub struct BakeItem {
     pub build: Build,
 }
 
-/// Options of the machine that runs an item. The maps depend on them by rounding only.
+/// Options of the machine that runs an item. The maps depend on them only by rounding.
 #[derive(Clone, Debug)]
 pub struct ItemMachine {
     /// Adapter to run on.
@@ -44,13 +44,13 @@ pub struct ItemMachine {
     pub caster: CasterChoice,
     /// Size limit of the textures of a run, bytes.
     pub budget_bytes: u64,
-    /// Folder of the disk cache; none for no cache.
+    /// Folder of the disk cache; `None` for no cache.
     pub cache_dir: Option<PathBuf>,
     /// True to write into folders that have files but no earlier maps.
     pub force: bool,
-    /// Paths from which the graphs and models may open what they name, besides their own folders and projects.
+    /// Paths from which the graphs and models may open the files that they name, in addition to their own folders and projects.
     pub trusted: TrustedPaths,
-    /// Most bytes of memory for the files and pictures of a model.
+    /// Maximum memory for the files and pictures of a model, in bytes.
     pub memory_bytes: u64,
 }
 
@@ -69,7 +69,7 @@ impl Default for ItemMachine {
 }
 
 impl BakeItem {
-    /// Hash of everything that can change the maps. Where the files are is no part of it, but what they are called is.
+    /// Returns a hash of everything that can change the maps. It contains the names of files but not their locations.
     pub(super) fn hashed(&self) -> Result<String, EngineError> {
         let mut inputs: Vec<[&str; 2]> = self.inputs.iter().map(ItemInput::identity).collect();
         inputs.sort_unstable();
@@ -87,7 +87,7 @@ impl BakeItem {
     /// Returns the request for this bake; `base` is the absolute folder of the plan's file.
     pub fn request(&self, base: &PathBase, machine: &ItemMachine) -> BakeRequest {
         let recipe = self.recipe.clone().with_absolute_paths(base);
-        // All presets that do not come with Sabi are named by their files.
+        // All presets that are not built in are named by their files.
         let mut request = recipe.request(&self.folder(base), machine.cache_dir.clone(), None);
         request.force = machine.force;
         request.evaluator.adapter = machine.adapter.clone();
@@ -99,15 +99,15 @@ impl BakeItem {
         request
     }
 
-    /// Returns true if the item was baked, by this program on whatever adapter, and all its files are as they were written. `base` is
-    /// the absolute folder of the plan's file.
+    /// Returns true if this program baked the item, on any adapter, and none of its files has changed. `base` is the
+    /// absolute folder of the plan's file.
     pub fn is_finished(&self, base: &PathBase, hashes: &mut InputHashes) -> bool {
         let request = self.request(base, &ItemMachine::default());
         is_finished_on_any_machine(&request, |path| hashes.of(path).ok())
     }
 
-    /// Refuses an item that another program planned, or with an input that is not as it was when the plan was made. `base` is the
-    /// absolute folder of the plan's file.
+    /// Refuses an item that another program planned, or that has an input which has changed since the plan was made. `base`
+    /// is the absolute folder of the plan's file.
     ///
     /// # Errors
     /// A sentence for each input.
@@ -139,7 +139,7 @@ impl BakeItem {
     }
 }
 
-/// A recipe with the names of its files alone.
+/// Returns a recipe that has only the names of its files.
 fn without_folders(mut recipe: Recipe) -> Recipe {
     let name = |path: &str| path.rsplit('/').next().unwrap_or(path).to_owned(); // A path has a last part.
     recipe.graph = name(&recipe.graph);

@@ -1,4 +1,4 @@
-//! Matrix files: TOML that says which graphs are baked on which models, with which settings.
+//! Matrix files: TOML that defines which graphs are baked on which models, with which settings.
 
 use std::path::{Path, PathBuf};
 
@@ -13,9 +13,9 @@ use crate::opening::toml_file::read_table;
 /// Version of the format.
 const VERSION: i64 = 1;
 
-/// Most items of a matrix that does not allow more.
+/// Maximum number of items, unless the matrix allows more.
 pub(super) const DEFAULT_LIMIT: usize = 10_000;
-/// Most items that a matrix can allow.
+/// Maximum number of items that a matrix can allow.
 const LARGEST_LIMIT: usize = 100_000;
 
 const KEYS: [&str; 6] = ["bake", "defaults", "exclude", "limit", "out", "version"];
@@ -29,7 +29,7 @@ pub(super) struct Matrix {
     pub(super) limit: usize,
     /// Its `[[bake]]` tables, with the defaults.
     pub(super) rows: Vec<MatrixRow>,
-    /// Items of any table that are left out.
+    /// Conditions for leaving out items of any table.
     pub(super) exclusions: Vec<Exclusion>,
 }
 
@@ -52,7 +52,7 @@ impl Matrix {
         PathBase::of_file(&self.path)
     }
 
-    /// Reads the values of a file; the errors are clauses, one for each fault.
+    /// Reads the values of a file. The errors are clauses, one for each fault.
     fn of_table(path: &Path, mut table: Table) -> Result<Matrix, Vec<String>> {
         refuse_version(table.get("version")).map_err(|why| vec![why])?;
         let mut faults: Vec<String> = table.keys().filter_map(|key| unknown_key(key)).collect();
@@ -85,7 +85,7 @@ impl Matrix {
             Some(_) => Err(vec![
                 "'bake' takes tables, each of which begins with [[bake]]".to_owned(),
             ]),
-            // A misspelled key was probably meant.
+            // If there are other faults, the missing key is probably one that is misspelled.
             None if faults.is_empty() => Err(vec!["there is nothing to bake; begin a table with [[bake]]".to_owned()]),
             None => Ok(Vec::new()),
         };
@@ -115,7 +115,7 @@ fn refuse_version(version: Option<&Toml>) -> Result<(), String> {
     }
 }
 
-/// A clause about a key that no matrix has.
+/// Returns a clause about a key that a matrix cannot have.
 fn unknown_key(key: &str) -> Option<String> {
     let advice = match nearest(key, KEYS) {
         _ if KEYS.contains(&key) => return None,
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_has_the_defaults_where_it_says_nothing_else() {
+    fn a_table_uses_the_defaults_for_keys_that_it_does_not_set() {
         let text = "version = 1\nout = \"o/$mesh\"\n[defaults]\ngraphs = \"a.sabi\"\nsizes = [64, 128]\nset = { a = 1 }\nup = \"z\"\n\
             [[bake]]\nmodels = \"a.glb\"\n[[bake]]\nname = \"b\"\nmodels = [\"b*.glb\"]\nsizes = 32\nset = { b = 2 }\nup = \"y\"\n";
         let matrix = read(text).expect("a matrix");
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!((first.words.as_str(), second.words.as_str()), ("bake 1", "bake 'b'"));
     }
 
-    /// Matrices, and why each is refused.
+    /// Invalid matrices, each with the error.
     const REFUSED: [(&str, &str); 18] = [
         ("[[bake]]", "there is no version; begin with version = 1"),
         (
@@ -230,7 +230,7 @@ mod tests {
     ];
 
     #[test]
-    fn what_no_matrix_has_is_refused_with_its_name() {
+    fn keys_and_values_that_no_matrix_can_have_are_refused_by_name() {
         for (text, why) in REFUSED {
             assert_eq!(read(text).map(drop), Err(why.to_owned()), "{text}");
         }

@@ -35,11 +35,11 @@ pub(super) struct MatrixRow {
     pub(super) seeds: Vec<SeedChoice>,
     /// Texels along a side of the maps.
     pub(super) sizes: Vec<u32>,
-    /// Presets; those of an inner list are baked together.
+    /// Presets. Those of an inner list are baked together.
     pub(super) presets: Vec<Vec<String>>,
-    /// Values by knob or `node.param`; later ones win.
+    /// Values by knob or `node.param`. Later values override earlier ones.
     pub(super) set: Vec<(String, Value)>,
-    /// Files of values, which its own values win over.
+    /// Files of values, which are overridden by the table's own values.
     pub(super) set_files: Vec<String>,
     /// Other options.
     pub(super) options: ItemOptions,
@@ -52,9 +52,9 @@ pub(super) struct MatrixRow {
 /// Variant of a graph, with values on top of it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct VariantChoice {
-    /// Name that folders have; that of the variant where it is none.
+    /// Name in folder names; `None` for the name of the variant.
     pub(super) name: Option<String>,
-    /// Variant, or a pattern for several; none for the graph's own values.
+    /// Variant, or a pattern for several; `None` for the graph's own values.
     pub(super) variant: Option<String>,
     /// Values on top of all others.
     pub(super) set: Vec<(String, Value)>,
@@ -64,15 +64,15 @@ pub(super) struct VariantChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SeedChoice {
     Number(u32),
-    /// One for each model, which follows from its path.
+    /// A seed for each model, computed from its path.
     PerModel,
 }
 
-/// Items that are left out: those that all its conditions apply to.
+/// Condition for leaving out items: those to which all parts of it apply.
 #[derive(Clone, Debug)]
 pub(super) struct Exclusion {
     pub(super) conditions: Vec<(ExclusionKey, Condition)>,
-    /// True once it has left out an item; of the defaults, in any table.
+    /// True once it has left out an item. A condition of the defaults may have done so in any table.
     pub(super) is_used: Rc<Cell<bool>>,
 }
 
@@ -156,7 +156,7 @@ impl MatrixRow {
         }
     }
 
-    /// Takes a value in place of what it has; the errors are clauses.
+    /// Sets a value for a key, in place of the default. The errors are clauses.
     pub(super) fn take(&mut self, key: &str, value: Toml) -> Result<(), Vec<String>> {
         match (key, value) {
             ("set", Toml::Table(values)) => {
@@ -171,7 +171,7 @@ impl MatrixRow {
         }
     }
 
-    /// Takes a value that has one fault at most.
+    /// Sets a value that can have at most one fault.
     fn take_plain(&mut self, key: &str, value: Toml) -> Result<(), String> {
         match key {
             "name" if self.words == "defaults" => return Err("only a [[bake]] has a name".to_owned()),
@@ -253,7 +253,7 @@ pub(super) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, Vec<String>> {
     all(tables.into_iter().map(exclusion))
 }
 
-/// Collects values, or all faults of those that cannot be read.
+/// Collects values, or the faults of all that cannot be read.
 pub(super) fn all<T>(read: impl Iterator<Item = Result<T, Vec<String>>>) -> Result<Vec<T>, Vec<String>> {
     let (mut values, mut faults) = (Vec::new(), Vec::new());
     for read in read {
@@ -358,7 +358,7 @@ fn variant(value: Toml) -> Result<VariantChoice, String> {
     Ok(choice)
 }
 
-/// A value of TOML as JSON. Dates become texts, which no option takes.
+/// Converts a TOML value to JSON. Dates become texts, which no option accepts.
 fn json(value: &Toml) -> Json {
     match value {
         Toml::String(text) => text.as_str().into(),

@@ -1,4 +1,4 @@
-//! Options of a matrix: what a bake is asked for besides graph, model, values, size and presets.
+//! Options of a matrix: settings of a bake besides graph, model, values, size and presets.
 
 use std::path::Path;
 
@@ -16,10 +16,10 @@ use crate::source::paint::without_paint;
 /// Options that are set, by name.
 pub(super) type ItemOptions = Map<String, Json>;
 
-/// Sets an option of a request; `None` for a value that it does not take.
+/// Sets an option of a request. Returns `None` for a value that it does not accept.
 type Apply = fn(&mut BakeRequest, &Json) -> Option<()>;
 
-/// An option: its name, the values that it takes in words, and its effect.
+/// An option: its name, a description of the values that it accepts, and its effect.
 struct ItemOption {
     name: &'static str,
     takes: &'static str,
@@ -184,7 +184,7 @@ const OF_COPIES: [&str; 2] = ["embed", "keep_look"];
 /// # Errors
 /// As of [`check_option`], or an option of a copy of the model stands without a copy.
 pub(super) fn apply_options(request: &mut BakeRequest, options: &ItemOptions) -> Result<(), String> {
-    // The copy of the model comes first, since other options are of the copy.
+    // The copy of the model comes first, since other options apply to the copy.
     let is_copy = |name: &str| name == "with_model";
     let copy = options.iter().filter(|(name, _)| is_copy(name));
     let others = options.iter().filter(|(name, _)| !is_copy(name));
@@ -233,7 +233,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_option_takes_what_its_words_say() {
+    fn an_option_accepts_the_values_in_its_description() {
         let good = [
             ("all_maps", json!(true)),
             ("channels", json!(["normal", "masks"])),
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn the_look_is_kept_in_whatever_order_the_options_stand() {
+    fn the_look_is_kept_in_any_order_of_the_options() {
         let mut request = BakeRequest::plain(Path::new("a.sabi"), Path::new("a.glb"), 64);
         let options = json!({ "keep_look": true, "with_model": true });
         apply_options(&mut request, options.as_object().expect("an object")).expect("known options");

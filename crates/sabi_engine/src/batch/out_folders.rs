@@ -6,7 +6,7 @@ use sabi_export::folder_name;
 
 use super::expansion::Draft;
 
-/// Returns the folder of a draft as the matrix writes it; the error is a clause.
+/// Returns the folder of a draft as written in the matrix. The error is a clause.
 pub(super) fn out_folder(draft: &Draft<'_>) -> Result<String, String> {
     let Some(pattern) = &draft.row.out else {
         return Err("there is no 'out'; write, for example, out = \"export/$mesh/$graph(_$variant)\"".to_owned());
@@ -16,7 +16,7 @@ pub(super) fn out_folder(draft: &Draft<'_>) -> Result<String, String> {
         stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
     };
     let (mesh, graph) = (draft.model.stem(), draft.graph.stem());
-    // A seed of the graph itself is the same in all items.
+    // The graph's own seed is the same in all items.
     let seed = draft.seed.map(|seed| seed.to_string());
     let size = draft.size.to_string();
     let presets = draft.presets.iter().map(stem).collect::<Vec<_>>().join("-");
@@ -32,15 +32,15 @@ pub(super) fn out_folder(draft: &Draft<'_>) -> Result<String, String> {
     folder_name(pattern, &words).map_err(|why| format!("folders cannot be named '{pattern}': {why}"))
 }
 
-/// Two items of which one would write into the folder of the other, or below it; none if all are apart. Letters that differ in
-/// case alone are the same on some disks.
+/// Returns two items of which one would write into the folder of the other, or below it; `None` if there are no such items.
+/// Names that differ only in case count as the same, as on some disks.
 pub(super) fn first_clash(folders: &[PathBuf]) -> Option<(usize, usize)> {
     let mut sorted: Vec<(PathBuf, usize)> = folders
         .iter()
         .enumerate()
         .map(|(at, folder)| (folder.to_string_lossy().to_lowercase().into(), at))
         .collect();
-    // Paths are compared folder by folder, so that those below one come right after it.
+    // Paths are compared folder by folder, so that folders below one come directly after it.
     sorted.sort();
     let clash = sorted.windows(2).find(|pair| pair[1].0.starts_with(&pair[0].0))?;
     Some((clash[0].1, clash[1].1))

@@ -8,7 +8,7 @@ use super::item::BakeItem;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::unread::{kind_of_unread, why_unread};
 
-/// Larger files are refused before they are read.
+/// Maximum size. Larger files are refused before they are read.
 const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 
 /// Bakes that belong together.
@@ -16,7 +16,7 @@ const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 pub struct BakePlan {
     /// Absolute folder of its file.
     pub base: PathBase,
-    /// The bakes, each at the place that is its number.
+    /// The bakes. The number of a bake is its index.
     pub items: Vec<BakeItem>,
 }
 
@@ -33,7 +33,7 @@ impl BakePlan {
         })?;
         let bad = |why: &str| EngineError::new(ErrorKind::BadInput, said(why));
         let text = String::from_utf8(bytes).map_err(|_| bad("this is no text, and so no plan"))?;
-        let folder = path.parent().unwrap_or(Path::new("")); // A bare name lies in the current folder.
+        let folder = path.parent().unwrap_or(Path::new("")); // A bare name refers to the current folder.
         let base = canonical(folder).map_err(|error| bad(&io_reason(&error)))?;
         let base = PathBase::of_folder(base);
         let mut items = Vec::new();

@@ -1,4 +1,4 @@
-//! Planning: a matrix becomes a plan, and what could not be baked is refused.
+//! Planning: a matrix becomes a plan, and bakes that would fail are refused.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -193,14 +193,14 @@ impl ItemPlanner<'_> {
                 .map_or_else(|| shown.clone(), |file| file.to_string_lossy().into_owned())
         };
         request.presets = presets.iter().map(whole).collect();
-        // What is told shows paths as they are written; a plan needs whole ones.
+        // Messages show paths as they are written, but a plan needs complete paths.
         request.graph = whole_path(&self.from, &draft.graph.written);
         request.evaluator.model.path = whole_path(&self.from, &draft.model.written);
         // As it was told for all drafts.
         let out = out_folder(draft)
             .map_err(|why| bad(format!("{}: {}: {why}", self.matrix.path.display(), draft.row.words)))?;
         let out = whole_path(&self.from, &out);
-        // A missing one was told by the check.
+        // The check has reported missing presets.
         let files_of_presets = presets.iter().filter_map(|(_, file)| file.as_ref());
         let files_of_presets = files_of_presets.filter(|file| file.exists());
         let mut item = BakeItem {
@@ -221,13 +221,13 @@ impl ItemPlanner<'_> {
         Ok(item)
     }
 
-    /// A path for the plan: relative to its folder where both share more than the root.
+    /// Returns a path for the plan: relative to its folder if both share more than the root.
     fn path_text(&self, path: &Path) -> String {
         moved(&stored_path(path), &self.from, &self.to)
     }
 
-    /// Presets of a draft as they are shown: names of those that come with Sabi, and files of all others. Adds the faults of those that
-    /// are not there.
+    /// Returns the presets of a draft as they are shown: names of built-in presets, and files of all others. Adds the
+    /// faults of missing presets.
     fn presets(&self, draft: &Draft<'_>, faults: &mut Faults) -> Vec<(String, Option<PathBuf>)> {
         let found = draft.presets.iter().map(|name| {
             let shown = match is_preset_file(name) {
@@ -242,7 +242,7 @@ impl ItemPlanner<'_> {
         told.collect()
     }
 
-    /// Checks a request as its bake does before it reads the model, once for each graph and settings.
+    /// Checks a request in the same way as its bake before it reads the model, once for each graph and settings.
     fn check(&mut self, graph: &GraphWithKinds, request: &BakeRequest) -> Result<(), EngineError> {
         let mut settings = Recipe::of(request, None);
         // What no check depends on.
@@ -288,11 +288,11 @@ impl ItemPlanner<'_> {
     }
 }
 
-/// Values of a draft; of one name, the last.
+/// Returns the values of a draft. If a name occurs several times, the last value is used.
 fn values(draft: &Draft<'_>) -> Vec<(String, Value)> {
     let mut set: Vec<(String, Value)> = Vec::new();
     for (name, value) in &draft.set {
-        // Its place is that of the last one, since names may mean the same parameter.
+        // The value is moved to the end, since different names may mean the same parameter.
         set.retain(|(known, _)| known != name);
         set.push((name.clone(), value.clone()));
     }

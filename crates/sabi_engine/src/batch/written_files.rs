@@ -1,4 +1,4 @@
-//! Files that a matrix names, also by patterns.
+//! Files that a matrix names, directly or by patterns.
 
 use std::collections::{BTreeSet, HashSet};
 use std::fs::{self, DirEntry};
@@ -9,7 +9,7 @@ use sabi_files::PathBase;
 
 use crate::phases::Progress;
 
-/// Most entries of folders that the patterns of a matrix may lead past together.
+/// Maximum number of folder entries that are examined for all patterns of a matrix together.
 const MOST_LOOKED_AT: usize = 1_000_000;
 
 /// A file as a matrix names it.
@@ -21,7 +21,7 @@ pub(super) struct WrittenFile {
     pub(super) path: PathBuf,
 }
 
-/// Names of files in a pattern, as shells have them.
+/// Rules for file names in a pattern, as in shells.
 const SHELL: MatchOptions = MatchOptions {
     case_sensitive: true,
     require_literal_separator: true,
@@ -29,10 +29,10 @@ const SHELL: MatchOptions = MatchOptions {
 };
 
 impl WrittenFile {
-    /// The file's name without folder and ending.
+    /// Returns the file's name without folder and extension.
     pub(super) fn stem(&self) -> String {
         let stem = self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        // Files have names; what has none is refused when it is read.
+        // A file has a name. A path without one is refused when it is read.
         stem.unwrap_or_default()
     }
 }
@@ -68,7 +68,7 @@ pub(super) fn written_files(
     Ok(files)
 }
 
-/// Finds the files that a pattern fits; the error is a clause.
+/// Finds the files that a pattern fits. The error is a clause.
 fn matching(
     base: &PathBase,
     written: &str,
@@ -103,11 +103,11 @@ enum Part {
     Fitting(Pattern),
 }
 
-/// Search for the files that a pattern fits, which looks at each folder once for each part of the pattern.
+/// Search for the files that a pattern fits. It reads each folder once for each part of the pattern.
 struct Walk<'p, 'l> {
     written: &'p str,
     parts: Vec<Part>,
-    /// Folders with the part that their entries have to fit.
+    /// Folders to read, each with the index of the part that their entries have to fit.
     open: Vec<(PathBuf, usize)>,
     known: HashSet<(PathBuf, usize)>,
     found: BTreeSet<PathBuf>,
@@ -118,7 +118,7 @@ impl<'p, 'l> Walk<'p, 'l> {
     fn new(folder: &Path, written: &'p str, looked_at: &'l mut usize) -> Result<Walk<'p, 'l>, String> {
         let slashed = written.replace('\\', "/");
         let is_pattern = |part: &str| part.contains(['*', '?', '[']);
-        // The parts before the first pattern are a path, which may be absolute.
+        // The parts before the first wildcard are a path, which may be absolute.
         let split = slashed.split('/').take_while(|part| !is_pattern(part));
         let length: usize = split.map(|part| part.len() + 1).sum();
         let (start, rest) = slashed.split_at(length.min(slashed.len()));
@@ -178,7 +178,7 @@ impl<'p, 'l> Walk<'p, 'l> {
         Ok(self.found)
     }
 
-    /// Takes a path that fits all parts up to this one.
+    /// Adds a path that fits all parts up to this one.
     fn take(&mut self, path: PathBuf, at: usize, is_last: bool) {
         match is_last {
             true if path.is_file() => drop(self.found.insert(path)),
@@ -193,10 +193,10 @@ impl<'p, 'l> Walk<'p, 'l> {
         }
     }
 
-    /// Lists a folder; one that cannot be read has nothing that can be baked.
+    /// Lists a folder; empty if the folder cannot be read, since nothing in it could be baked.
     fn entries(&mut self, folder: &Path, progress: &dyn Progress) -> Result<Vec<DirEntry>, String> {
         let mut found = Vec::new();
-        // The folder of a matrix that is named without one is the current folder.
+        // For a matrix without a folder in its path, it is the current folder.
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
         } else {
@@ -268,7 +268,7 @@ mod tests {
         assert_eq!(of(&["m/c*.glb"]), Err("no file fits 'm/c*.glb'".to_owned()));
     }
 
-    /// Canceled once it was looked at so many times.
+    /// Progress that is canceled after it has been asked this many times.
     struct After(std::sync::atomic::AtomicUsize);
 
     impl Progress for After {
@@ -289,7 +289,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_of_folders_in_a_circle_are_no_more_files() {
+    fn links_of_folders_in_a_circle_do_not_multiply_files() {
         let folder = tempfile::tempdir().expect("a folder");
         fs::create_dir(folder.path().join("a")).expect("made");
         fs::write(folder.path().join("a/x.glb"), "").expect("written");
@@ -297,7 +297,7 @@ mod tests {
         let base = PathBase::of_folder(folder.path());
         let found = written_files(&base, &["**/**/*.glb".to_owned()], &mut 0, &NoProgress).expect("one file");
         assert_eq!(found.len(), 1);
-        // All patterns together are limited.
+        // The limit applies to all patterns together.
         let mut looked_at = MOST_LOOKED_AT;
         let told = written_files(&base, &["**/*.glb".to_owned()], &mut looked_at, &NoProgress);
         assert!(told.expect_err("over").contains("with the patterns before it"));

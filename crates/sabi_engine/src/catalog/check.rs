@@ -57,7 +57,7 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
 /// Checks a graph in memory.
 pub fn check_graph(open: &OpenGraph) -> Result<CheckReport, EngineError> {
     let kinds = Kinds::beside(Some(&open.path), &open.trusted);
-    // A faulty node file is a fault only of graphs that use it.
+    // A fault in a node file affects only graphs that use the node.
     let mut report = CheckReport {
         warnings: kinds.faults.iter().map(ToString::to_string).collect(),
         ..CheckReport::default()

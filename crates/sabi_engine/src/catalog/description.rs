@@ -1,4 +1,4 @@
-//! Node kinds as `sabi nodes --json` and the reference show them; docs/report.md lists the keys.
+//! Descriptions of node kinds for `sabi nodes --json` and the reference; docs/report.md lists the keys.
 
 use sabi_graph::{PortType, Value};
 use serde::Serialize;
@@ -26,9 +26,9 @@ pub struct NodeDescription {
     pub shape: Option<&'static str>,
     /// Inputs in order.
     pub inputs: Vec<InputDescription>,
-    /// Outputs in order; the first one is meant where a wire names none.
+    /// Outputs in order. A wire that names no output reads the first one.
     pub outputs: Vec<OutputDescription>,
-    /// Parameters in order, without those that stand in for inputs.
+    /// Parameters in order, without those that are defaults of inputs.
     pub params: Vec<ParamDescription>,
 }
 
@@ -44,9 +44,9 @@ pub struct InputDescription {
     pub ty: String,
     /// Description of its effect, for artists.
     pub doc: String,
-    /// True if the node gives no result while nothing is connected.
+    /// True if the node has no result unless this is connected.
     pub required: bool,
-    /// Value of the knob, or words for what stands in otherwise, while nothing is connected.
+    /// Value of the knob, or a description of the default, while nothing is connected.
     pub default: Option<Value>,
 }
 
@@ -75,7 +75,7 @@ pub struct ParamDescription {
     pub doc: String,
     /// Sort of values: `number`, `toggle`, `choice`, `color`, `length`, `angle`, `seed`, `stops`, `curve`, `text` or `file`.
     pub takes: &'static str,
-    /// Value until it is set, as a graph file holds it.
+    /// Default value in the form of a graph file.
     pub default: Value,
     /// Words of a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -86,7 +86,7 @@ pub struct ParamDescription {
     /// Ends of the slider.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub soft: Option<[Value; 2]>,
-    /// True if a mask that is linked to it, as to an input, multiplies it at each place.
+    /// True if a mask can be linked to it like to an input. The mask multiplies it at each place.
     pub takes_mask: bool,
 }
 

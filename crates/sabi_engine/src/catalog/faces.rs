@@ -1,5 +1,5 @@
-//! Catalog entry of each node of a document: that of its kind, except that instances of a group have one of that group,
-//! and reroutes have the type of the wire that they pass on.
+//! Catalog entry of each node of a document. It is the entry of its kind, except that an instance of a group has the entry
+//! of the group, and a reroute has the type of the wire that it passes on.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -12,9 +12,9 @@ use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
 
 use super::{Catalog, Entry, Knob, Port, label_of, placeholder};
 
-/// Deepest nesting of group files; deeper ones are shown as missing.
+/// Maximum nesting of group files. Deeper ones are shown as missing.
 const DEEPEST_FILE: usize = 16;
-/// Deepest nesting of groups; deeper ones are shown as missing, and no evaluation accepts them.
+/// Maximum nesting of groups. Deeper ones are shown as missing, and no evaluation accepts them.
 const DEEPEST_GROUP: usize = 256;
 
 /// Reads a group file by its path relative to the document that names it.
@@ -53,7 +53,7 @@ impl Faces {
         faces
     }
 
-    /// Builds the entry for a file that is used as a group again, whose knobs start from values of the main graph.
+    /// Rebuilds the entry for a file that is used as a group. Its knobs have the values of the main graph.
     pub fn refresh_whole(&mut self, document: &Document) {
         let whole = Published {
             name: &document.name,
@@ -75,7 +75,7 @@ impl Faces {
         self.of_groups.get(name)
     }
 
-    /// Returns the entry for instances of the document itself, when another file uses it as a group.
+    /// Returns the entry for instances of the document itself, for other files that use it as a group.
     pub fn of_whole(&self) -> Option<&Arc<Entry>> {
         self.of_whole.as_ref()
     }
@@ -94,7 +94,7 @@ struct FacesBuilder<'a, 'r> {
     read: ReadGroup<'r>,
     depth: usize,
     faces: Faces,
-    /// Groups whose entries are being built; a group inside itself has no entry.
+    /// Groups whose entries are being built. A group inside itself has no entry.
     open: BTreeSet<String>,
 }
 
@@ -110,7 +110,7 @@ impl FacesBuilder<'_, '_> {
             },
         };
         let fed: BTreeSet<&SlotRef> = inputs.values().flat_map(|input| &input.to).collect();
-        // In topological order, so that a reroute finds the type of its source.
+        // The topological order lets a reroute find the type of its source.
         for id in graph.topological_order() {
             let Some(node) = graph.node(id.as_str()) else {
                 continue;
@@ -123,7 +123,7 @@ impl FacesBuilder<'_, '_> {
         }
     }
 
-    /// Builds the entry for a node; `is_fed` tells whether an input of the group leads to one of its inputs.
+    /// Builds the entry for a node. `is_fed` returns true if an input of the group leads to that input of the node.
     fn face(&mut self, body: &Body, node: &Node, is_fed: impl Fn(&str) -> bool) -> Arc<Entry> {
         let catalog = self.catalog;
         let kind = node.kind.as_str();
@@ -183,7 +183,7 @@ impl FacesBuilder<'_, '_> {
             return None;
         }
         let document = (self.read)(name)?;
-        // Files that it names lie beside it.
+        // Files that it names are relative to its folder.
         let folder = name.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
         let read = &mut self.read;
         let mut beside = |inner: &str| match folder.as_str() {
@@ -194,7 +194,7 @@ impl FacesBuilder<'_, '_> {
     }
 }
 
-/// The entry with inputs for the masks that are linked to parameters of a node.
+/// Returns the entry with inputs for the masks that are linked to parameters of a node.
 fn with_param_masks(entry: &Arc<Entry>, is_linked: impl Fn(&str) -> bool) -> Arc<Entry> {
     let masks = entry.param_masks.iter();
     let linked: Vec<Port> = masks.filter(|port| is_linked(&port.name)).cloned().collect();
@@ -274,7 +274,7 @@ impl Published<'_> {
         let default = exposed.default.as_ref().or(set).unwrap_or(&inner.ty.default).clone();
         let inner_type = match exposed.curves.is_empty() {
             true => inner.ty.clone(),
-            // The parameters take other values than the knob, which is a plain number.
+            // The parameters accept other values than the knob, which is a plain number.
             false => ParamType::new(Role::Plain, Memory::F32, &ParamValue::Floats(vec![0.0])),
         };
         Some(Knob {

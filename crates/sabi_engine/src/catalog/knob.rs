@@ -2,7 +2,7 @@
 
 use sabi_nodes::kind::{Input, Param, ParamType};
 
-/// Something that can be set: a parameter, or an input while nothing is connected to it.
+/// A value that can be set: a parameter, or the default of an input to which nothing is connected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knob {
     /// Name in graph files.
@@ -11,7 +11,7 @@ pub struct Knob {
     pub label: String,
     /// Description of its effect, for artists.
     pub doc: String,
-    /// Values it takes; the default is that of the node, which a group may have set.
+    /// Values that it accepts. The default is that of the node, which a group may have set.
     pub ty: ParamType,
     /// True if it sets the value of an input that is not connected.
     pub is_of_input: bool,
@@ -28,7 +28,7 @@ impl Knob {
         }
     }
 
-    /// The knob that stands in for an input; `None` for an input that has none.
+    /// Returns the knob for the default of an input; `None` if the input has none.
     pub(super) fn of_input(input: &Input) -> Option<Knob> {
         Some(Knob {
             name: input.name.clone(),

@@ -11,7 +11,7 @@ use crate::catalog::label_of;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
 
-/// Most bytes of a file that takes the place of a node's, more than any node has.
+/// Maximum size in bytes of a file that replaces a node's file; larger than any node.
 const MOST_BYTES: u64 = 1 << 20;
 
 /// Fault of the text of a node.
@@ -32,12 +32,12 @@ pub struct NodeDraft {
     pub id: String,
     /// Text, with or without faults.
     pub text: String,
-    /// Text that the file held when it was last read or written; `None` before it is written for the first time.
+    /// Text that the file had when it was last read or written; `None` before it is written for the first time.
     pub known: Option<String>,
 }
 
-/// Returns the folder for new nodes of a graph: `nodes` beside it, or the user's own while it has no file. `None` where this
-/// system has no folder for settings.
+/// Returns the folder for new nodes of a graph: `nodes` beside it, or the user's own folder while the graph has no file.
+/// `None` if this system has no folder for settings.
 pub fn new_node_folder(graph: Option<&Path>) -> Option<PathBuf> {
     Kinds::folders(graph).pop()
 }
@@ -116,13 +116,13 @@ impl NodeDraft {
                 return Err(EngineError::new(ErrorKind::CannotWrite, why));
             }
             Ok(_) => disk.write_whole(&file, self.text.as_bytes()).map_err(cannot)?,
-            // A file that another program makes at this moment stays, and so does one that cannot be read.
+            // If the file cannot be read, or another program creates it at this moment, it is not overwritten.
             Err(_) => disk.write_new(&file, self.text.as_bytes()).map_err(cannot)?,
         }
         Ok(file)
     }
 
-    /// Returns whether a file with this content may be replaced: it is the one that was read or written last, or the text.
+    /// Returns true if a file with this content may be replaced: the content was read or written last, or is the new text.
     fn may_replace(&self, found: &[u8]) -> bool {
         let is_known = self.known.as_ref().is_some_and(|known| known.as_bytes() == found);
         is_known || found == self.text.as_bytes()
@@ -148,8 +148,7 @@ impl NodeDraft {
     }
 }
 
-/// Returns the text of a node as the start of a new one: with the title of the new id, and without the former ids of the old
-/// one.
+/// Returns the text of a node as the beginning of a new node, with the title of the new id and without the former ids of the old node.
 pub fn new_node_text(text: &str, id: &str) -> String {
     let name = id.rsplit('/').next().unwrap_or(id);
     let mut has_title = false;
@@ -170,7 +169,7 @@ pub fn new_node_text(text: &str, id: &str) -> String {
 }
 
 impl Kinds {
-    /// Returns the folder that a kind was read from, if it is one of the user's.
+    /// Returns the folder from which a kind was read, if it is one of the user's.
     pub fn own_folder(&self, graph: Option<&Path>, id: &str) -> Option<PathBuf> {
         let kind = self.library.kind(id)?;
         Kinds::folders(graph)
@@ -196,7 +195,7 @@ mod tests {
                          @optional @default 1\nfn mask(source: f32) -> f32 {\n    return source * 0.5;\n}\n";
 
     #[test]
-    fn a_node_is_checked_as_it_is_typed_and_faults_name_their_line() {
+    fn a_node_is_checked_during_typing_and_faults_have_their_line() {
         let kinds = Kinds::builtin();
         let folder = Path::new("nodes");
         assert_eq!(check_node(&kinds, folder, "adjust/half", SOUND), []);
@@ -209,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_node_has_a_title_of_its_own_and_no_name_that_another_had() {
+    fn a_new_node_has_its_own_title_and_no_former_ids() {
         let text = new_node_text(SOUND, "adjust/a_third");
         assert!(text.starts_with("//! A third\n//! Gives half of a mask.\n\n"), "{text}");
         assert!(!text.contains("@was"));
@@ -227,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn an_id_is_a_category_and_a_name_that_nobody_has() {
+    fn an_id_is_a_category_and_a_free_name() {
         let kinds = Kinds::builtin();
         let told = |id: &str| node_id_fault(&kinds, Path::new("nodes"), id);
         assert_eq!(told("noise/mine"), None);
@@ -290,7 +289,7 @@ mod tests {
             .save(&Disk::default())
             .expect_err("a file is no folder");
         assert!(told.to_string().contains("cannot be written"), "{told}");
-        // A fault is in the file, and not in the last version without one.
+        // The fault is in the file. The last version without a fault is still used.
         let broken = SOUND.replace("0.5", "hlaf");
         draft(&nodes, &broken, Some(SOUND))
             .save(&Disk::default())

@@ -19,12 +19,12 @@ pub fn picture_of(kind: &str, side: u32) -> Option<Pixels> {
     small_picture(png, side)
 }
 
-/// Decodes the central square of an 8-bit PNG, at most `side` pixels along a side; `None` where it is none.
+/// Decodes the central square of an 8-bit PNG, at most `side` pixels along a side; `None` if it is not such a file.
 pub fn small_picture(png: &[u8], side: u32) -> Option<Pixels> {
     Some(smaller(&decoded(png)?, side))
 }
 
-/// Decodes the central square of the first of several pictures side by side, of four to three each.
+/// Decodes the central square of the first of several pictures in a row, each with an aspect ratio of 4 : 3.
 pub(crate) fn first_square(png: &[u8], side: u32) -> Option<Pixels> {
     let strip = decoded(png)?;
     let [width, height] = strip.size;

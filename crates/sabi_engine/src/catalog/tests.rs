@@ -17,7 +17,7 @@ fn faces(document: &Document) -> Faces {
 }
 
 #[test]
-fn every_kind_has_a_face_with_a_name_and_something_to_connect() {
+fn every_kind_has_an_entry_with_a_name_and_a_summary() {
     for entry in catalog().entries() {
         assert!(!entry.label.is_empty() && !entry.summary.is_empty(), "{}", entry.id);
         assert!(entry.inputs.len() + entry.outputs.len() > 0, "{}", entry.id);
@@ -83,7 +83,7 @@ fn an_input_that_is_not_connected_is_a_knob() {
 }
 
 #[test]
-fn a_wire_finds_the_port_that_takes_it_as_it_is_before_one_that_converts() {
+fn a_wire_prefers_a_port_of_its_own_type() {
     let catalog = catalog();
     let layer = catalog.entry("effect/layer").expect("a built-in kind");
     let found = |ty| layer.input_for(Some(ty)).map(|port| port.name.as_str());
@@ -94,7 +94,7 @@ fn a_wire_finds_the_port_that_takes_it_as_it_is_before_one_that_converts() {
 }
 
 #[test]
-fn a_group_shows_what_it_publishes_and_a_reroute_what_comes_in() {
+fn a_group_shows_its_published_ports_and_a_reroute_the_type_of_its_wire() {
     let document = document(
         r#""groups": { "wear": {
             "inputs": { "where": { "to": ["worn.below"] } },
@@ -123,7 +123,7 @@ fn a_group_shows_what_it_publishes_and_a_reroute_what_comes_in() {
 }
 
 #[test]
-fn what_nobody_knows_has_a_face_all_the_same() {
+fn unknown_kinds_and_groups_have_an_entry() {
     let document = document(
         r#""nodes": {
             "lost": { "kind": "magic/wand", "pos": [0, 0] },

@@ -1,4 +1,4 @@
-//! Graph that is evaluated, with the kinds and files that it names.
+//! A graph that is evaluated, with the kinds and files that it names.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,12 +25,12 @@ pub(crate) struct EvaluatedGraph {
     pictures: Pictures,
     strokes: Strokes,
     trusted: TrustedPaths,
-    /// Memory that the pictures of the model may take, and each one of the graph, bytes.
+    /// Memory limit in bytes for the pictures of the model, and for each picture of the graph.
     memory_bytes: u64,
 }
 
 impl EvaluatedGraph {
-    /// `flat` is the flattened document of `open`; the pictures of the model take at most `memory_bytes`.
+    /// Creates the graph. `flat` is the flattened document of `open`. The pictures of the model take at most `memory_bytes`.
     pub(crate) fn new(
         open: &OpenGraph,
         flat: FlatGraph,
@@ -72,12 +72,12 @@ impl EvaluatedGraph {
         self.kinds.adapt_to(model);
     }
 
-    /// Appends a node of the model's own materials, whose index is the number of nodes before.
+    /// Appends a node of the model's own materials. Its index is the previous number of nodes.
     pub(crate) fn append_model_source(&mut self, fit: Fit) {
         self.flat.nodes.push(model_source_node(fit));
     }
 
-    /// Appends nodes, the first of which gets the number of nodes before as its index.
+    /// Appends nodes. The index of the first is the previous number of nodes.
     pub(crate) fn append(&mut self, nodes: Vec<FlatNode>) {
         self.flat.nodes.extend(nodes);
     }
@@ -99,7 +99,7 @@ impl EvaluatedGraph {
         PathBase::of_file(&self.path)
     }
 
-    /// Access to the files that nodes name.
+    /// Returns access to the files that nodes name.
     pub(crate) fn files(&self) -> Files<'_> {
         Files {
             pictures: &self.pictures,
@@ -156,13 +156,13 @@ impl EvaluatedGraph {
         own.chain(named).collect()
     }
 
-    /// Drops the decoded pictures; they are read again when they are needed again.
+    /// Drops the decoded pictures. They are read again when they are needed.
     pub(crate) fn forget_pictures(&self) {
         self.pictures.clear();
     }
 }
 
-/// Makes a node of the model's own materials. Its id is not valid in a graph file.
+/// Creates a node of the model's own materials. Its id is not valid in a graph file.
 pub(crate) fn model_source_node(fit: Fit) -> FlatNode {
     FlatNode {
         id: "(model)".to_owned(),

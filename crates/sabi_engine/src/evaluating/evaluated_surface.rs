@@ -1,4 +1,4 @@
-//! Surface that a graph is evaluated on: a model under a fit and a seed, uploaded to the device.
+//! Surface on which a graph is evaluated: a model with a fit and a seed, uploaded to the device.
 
 use std::sync::{Arc, OnceLock};
 
@@ -16,7 +16,7 @@ use crate::phases::{PhaseTimes, Progress};
 use crate::source::SourceSurface;
 use crate::source::picture_table::PictureTables;
 
-/// Model under a fit and a seed, with everything on the device that depends on them.
+/// Model with a fit and a seed, and everything on the device that depends on them.
 pub(crate) struct EvaluatedSurface {
     linked: Arc<LinkedModel>,
     fit: Fit,
@@ -27,11 +27,11 @@ pub(crate) struct EvaluatedSurface {
     hierarchy_on_device: OnceLock<DeviceHierarchy>,
     /// Pictures that sources show.
     picture_tables: PictureTables,
-    /// Texels that show the values of others; none where charts do not overlap.
+    /// Texels that show the values of others; `None` if charts do not overlap.
     shares: OnceLock<Option<Shares>>,
-    /// Ghosts that show their own chart where the data jumps.
+    /// Ghosts that repeat their own chart where the data jumps.
     borders: OnceLock<Borders>,
-    /// Tiles whose results are shown; none where nearly all are.
+    /// Tiles whose results are shown; `None` if nearly all are.
     shown: OnceLock<Option<ShownTiles>>,
     /// Hash of the surface, part of the keys of results.
     key: [u8; 32],
@@ -69,14 +69,14 @@ impl EvaluatedSurface {
         })
     }
 
-    /// Uploads the surface again if the fit or the seed is another one.
+    /// Uploads the surface again if the fit or the seed has changed.
     pub(crate) fn set_fit_and_seed(&mut self, gpu: &Gpu, fit: Fit, seed: u32) -> Result<(), EngineError> {
         if (fit, seed) == (self.fit, self.seed) {
             return Ok(());
         }
         let linked = self.linked.clone();
         let uploaded = EvaluatedSurface::upload(gpu, linked, fit, seed, &mut PhaseTimes::default())?;
-        // Shared texels, borders and shown tiles depend on the atlas alone.
+        // Shared texels, borders and shown tiles depend only on the atlas, so they are kept.
         let shares = std::mem::take(&mut self.shares);
         let borders = std::mem::take(&mut self.borders);
         let shown = std::mem::take(&mut self.shown);
@@ -123,13 +123,13 @@ impl EvaluatedSurface {
         self.levels.widths(self.model(), has_filters)
     }
 
-    /// Builds and uploads the coarser levels that a plan runs on, as far as they are missing.
+    /// Builds and uploads the coarser levels on which a plan runs, as far as they are missing.
     pub(crate) fn make_levels(&mut self, plan: &Plan, gpu: &Gpu) -> Result<(), EngineError> {
         let model = self.linked.fitted(self.fit);
         self.levels.make(plan, gpu, model, self.seed)
     }
 
-    /// Returns the surface as sources see it.
+    /// Returns the surface in the form that sources use.
     pub(crate) fn for_sources<'a>(&'a self, progress: &'a dyn Progress) -> SourceSurface<'a> {
         SourceSurface {
             model: &self.linked.model,
@@ -147,12 +147,12 @@ impl EvaluatedSurface {
         }
     }
 
-    /// Drops the pictures on the device; they are uploaded again on their next use.
+    /// Drops the pictures on the device. They are uploaded again on their next use.
     pub(crate) fn forget_pictures(&self) {
         self.picture_tables.clear();
     }
 
-    /// Returns the tiles whose results are shown by maps and pictures; found on first use. None where nearly all are.
+    /// Returns the tiles whose results maps and pictures show, computed on first use. `None` if nearly all are shown.
     pub(crate) fn shown(&self) -> Option<&ShownTiles> {
         let found = self.shown.get_or_init(|| {
             let tiles = self.linked.shown_tiles()?;
@@ -161,12 +161,11 @@ impl EvaluatedSurface {
         found.as_ref()
     }
 
-    /// Returns the texels that show the values of other texels, as an engine finds them on the maps; computed on first use. None
+    /// Returns the texels that show the values of other texels, as on the maps in an engine; computed on first use. `None`
     /// for a model without overlapping charts.
     ///
-    /// Sources and targets are texels of one result. Only an unwrapped model has charts of several results on one sheet, and there
-    /// charts do not overlap, unless they are too small for the size: a texel that lost its pixel to another material's chart
-    /// shows its own material.
+    /// Sources and targets are texels of one result. Only an unwrapped model has charts of several results on one sheet. There charts do
+    /// not overlap, unless they are too small for the size. A texel whose pixel shows a chart of another material shows its own material.
     pub(crate) fn shares(&self, gpu: &Gpu) -> Result<Option<&Shares>, EngineError> {
         if self.shares.get().is_none() {
             let shared = self.linked.shared_texels();
@@ -174,13 +173,13 @@ impl EvaluatedSurface {
                 true => None,
                 false => Some(Shares::upload(gpu, &self.on_device, shared.groups())?),
             };
-            // Another thread that was faster has computed the same value.
+            // Another thread may have been faster. It has computed the same value.
             let _ = self.shares.set(shares);
         }
         Ok(self.shares.get().and_then(Option::as_ref))
     }
 
-    /// Returns the ghosts that show their own chart where the data jumps; found on first use.
+    /// Returns the ghosts that repeat their own chart where the data jumps, computed on first use.
     pub(crate) fn borders(&self, gpu: &Gpu) -> Result<&Borders, EngineError> {
         if let Some(known) = self.borders.get() {
             return Ok(known);
@@ -192,13 +191,13 @@ impl EvaluatedSurface {
             own: ghost.own,
         });
         let uploaded = Borders::upload(gpu, &self.on_device, ghosts, STEEPER)?;
-        // Another thread that was faster has computed the same value.
+        // Another thread may have been faster. It has computed the same value.
         Ok(self.borders.get_or_init(|| uploaded))
     }
 }
 
-/// Hashes the surface: what the atlas is made of, and the position of every triangle in space. The version of the program is not
-/// part of it, since results are kept in memory, and ray results on disk have a version of their own.
+/// Returns a hash of the surface: of the inputs of the atlas, and of the position of every triangle in space. The version
+/// of the program is not included, since results are kept in memory, and ray results on disk have their own version.
 fn key_of(linked: &LinkedModel, tables: &SurfaceTables) -> [u8; 32] {
     let mut hash = blake3::Hasher::new();
     hash.update(&atlas_key(&linked.model.mesh, &AtlasOptions::new(linked.atlas.size)));

@@ -31,7 +31,7 @@ use crate::warning::Warning;
 pub struct EvaluatorOptions {
     /// Model.
     pub model: ModelOptions,
-    /// Variant, values and seed in place of those of the file. A text is a typed value: its meaning depends on the parameter.
+    /// Variant, values and seed that override those of the file. A value may be a text, whose meaning depends on the parameter.
     pub overrides: Overrides,
     /// Fit in place of the document's.
     pub fit: Option<Fit>,
@@ -48,13 +48,13 @@ pub struct EvaluatorOptions {
 pub struct RaySettings {
     /// Ray caster.
     pub caster: CasterChoice,
-    /// Treatment of ray hits: all rays are traced, or hits are remembered for shorter rays, as while a knob is dragged.
+    /// Treatment of ray hits: all rays are cast, or hits are stored and used for shorter rays, for example while a knob is dragged.
     pub hits: Hits,
-    /// Limit of rays per texel, for a quick and noisy picture; none for all rays.
+    /// Limit of rays per texel for a quick and noisy picture; `None` for all rays.
     pub most_rays: Option<u32>,
 }
 
-/// Evaluator of a graph on a model: plans and runs, and collects times and warnings.
+/// Evaluator of a graph on a model. It plans and runs, and collects times and warnings.
 pub struct Evaluator {
     graph: EvaluatedGraph,
     surface: EvaluatedSurface,
@@ -65,15 +65,15 @@ pub struct Evaluator {
     kept_results: Option<ProgramCache>,
     budget: TextureBudget,
     times_ghosts: bool,
-    /// True if kernels are forgotten once no step needs them.
+    /// True if kernels are forgotten as soon as no further step needs them.
     forgets_kernels: bool,
-    /// True if results are read where they are shown, and nowhere else.
+    /// True if results are read only where they are shown.
     shows_alone: bool,
     times: PhaseTimes,
     warnings: Vec<Warning>,
 }
 
-/// Fit and seed that take the place of the document's.
+/// Fit and seed that override the document's.
 struct FixedSettings {
     fit: Option<Fit>,
     seed: Option<u32>,
@@ -95,8 +95,8 @@ impl FixedSettings {
 }
 
 impl EvaluatorOptions {
-    /// Returns the paths from which a graph file may open what it names, when the user asks for these options: those that its model
-    /// may, and files that are given as values.
+    /// Returns the paths from which a graph file may open the files that it names, for these options of the user: the paths
+    /// for its model, and files that are given as values.
     pub fn trusted_with(&self, graph: &Path) -> TrustedPaths {
         let base = PathBase::of_file(graph);
         let texts = self.overrides.set.iter().filter_map(|(_, value)| value.as_text());
@@ -105,8 +105,8 @@ impl EvaluatorOptions {
         files.fold(trusted, |trusted, text| trusted.with_path(&base.resolve(text)))
     }
 
-    /// Returns the limit of textures beside a model that takes `model_bytes`. A driver that runs on the processor keeps them in the
-    /// memory of the process, which bounds them there as well.
+    /// Returns the limit of textures in addition to a model that takes `model_bytes`. A driver that runs on the processor
+    /// keeps textures in the memory of the process, so the memory limit applies to them as well.
     fn texture_budget(&self, kind: AdapterKind, model_bytes: u64) -> TextureBudget {
         let left = self.model.memory_bytes.saturating_sub(model_bytes);
         match kind {
@@ -124,7 +124,7 @@ impl Evaluator {
         Evaluator::flat_graph_and_find(open, kinds, options, &[]).map(|(graph, _)| graph)
     }
 
-    /// Flattens the graph, and finds the origin of the results of some nodes of the document.
+    /// Flattens the graph, and finds the nodes from which the results of some nodes of the document come.
     pub(crate) fn flat_graph_and_find(
         open: &OpenGraph,
         kinds: &Kinds,
@@ -142,7 +142,7 @@ impl Evaluator {
         Ok((graph, found))
     }
 
-    /// Loads the model, opens the device and brings everything together; `graph` is from [`Evaluator::flat_graph`].
+    /// Loads the model, opens the device and creates the evaluator. `graph` is from [`Evaluator::flat_graph`].
     pub fn open(
         open: &OpenGraph,
         graph: FlatGraph,
@@ -153,7 +153,7 @@ impl Evaluator {
         Evaluator::open_resized(open, graph, kinds, options, progress, |_| options.model.size)
     }
 
-    /// As [`Evaluator::open`], with maps of the size that is chosen for the loaded model and its texture coordinates.
+    /// Opens an evaluator like [`Evaluator::open`], with maps of a size that is chosen for the loaded model and its texture coordinates.
     pub(crate) fn open_resized(
         open: &OpenGraph,
         graph: FlatGraph,
@@ -197,7 +197,7 @@ impl Evaluator {
         Ok(evaluator)
     }
 
-    /// Brings together a loaded model and a device that others may use too.
+    /// Creates an evaluator from a loaded model and a device that others may use too.
     pub fn assemble(
         open: &OpenGraph,
         graph: FlatGraph,
@@ -237,8 +237,8 @@ impl Evaluator {
         Ok(evaluator)
     }
 
-    /// Replaces the graph, for example after an edit; `graph` is the flattened document of `open`. The model stays loaded; only
-    /// the tables of the surface are computed again where the document has another fit or seed.
+    /// Replaces the graph, for example after an edit. `graph` is the flattened document of `open`. The model stays loaded.
+    /// The tables of the surface are computed again only if the fit or the seed has changed.
     pub fn set_graph(&mut self, open: &OpenGraph, graph: FlatGraph) -> Result<(), EngineError> {
         let (fit, seed) = self.fixed.of(&open.document);
         self.surface.set_fit_and_seed(&self.gpu, fit, seed)?;
@@ -247,7 +247,7 @@ impl Evaluator {
         Ok(())
     }
 
-    /// Replaces the flat graph by one of the same document, whose fit and seed are the same.
+    /// Replaces the flat graph by another one of the same document, with the same fit and seed.
     pub fn set_flat_graph(&mut self, graph: FlatGraph) {
         self.graph.set_flat(graph);
     }
@@ -258,12 +258,12 @@ impl Evaluator {
         self.reset_warnings();
     }
 
-    /// Appends a node of the model's own materials to the graph; its index is the number of nodes before.
+    /// Appends a node of the model's own materials to the graph. Its index is the previous number of nodes.
     pub(crate) fn append_model_source(&mut self) {
         self.graph.append_model_source(self.surface.fit());
     }
 
-    /// Appends nodes to the graph; the index of the first one is the number of nodes before.
+    /// Appends nodes to the graph. The index of the first is the previous number of nodes.
     pub(crate) fn append_nodes(&mut self, nodes: Vec<FlatNode>) {
         self.graph.append(nodes);
     }
@@ -283,19 +283,19 @@ impl Evaluator {
         self.surface.model()
     }
 
-    /// Fit of the document, or the one that overrides it.
+    /// Returns the fit of the document, or the one that overrides it.
     pub fn fit(&self) -> Fit {
         self.surface.fit()
     }
 
-    /// Corners of boxes around some tiles in model space.
+    /// Returns the corners of boxes around some tiles in model space.
     pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Vec<[DVec3; 2]> {
         let scale = self.model().model_from_working();
         let bounds = self.surface.for_sources(&NoProgress).bounds_of(tiles).into_iter();
         bounds.map(|corners| corners.map(|corner| corner * scale)).collect()
     }
 
-    /// Hash of the surface under the fit and the seed.
+    /// Returns a hash of the surface with its fit and seed.
     pub(crate) fn surface_key(&self) -> [u8; 32] {
         self.surface.key()
     }
@@ -310,12 +310,12 @@ impl Evaluator {
         self.surface.on_device()
     }
 
-    /// Texels that show the values of others, where charts overlap.
+    /// Returns the texels that show the values of others, if charts overlap.
     pub(crate) fn shares(&self) -> Result<Option<&Shares>, EngineError> {
         self.surface.shares(&self.gpu)
     }
 
-    /// What maps that are shown take over from exported ones.
+    /// Returns the changes of exported maps that shown maps take over.
     pub(crate) fn exported(&self) -> Result<Exported<'_>, EngineError> {
         Ok(Exported {
             shares: self.shares()?,
@@ -324,28 +324,28 @@ impl Evaluator {
         })
     }
 
-    /// Settings of the rays of the next plan and run.
+    /// Returns the settings of the rays for the next plan and run.
     pub fn rays(&self) -> RaySettings {
         self.rays
     }
 
-    /// Settings of the rays of the next plan and run, to be changed.
+    /// Returns the settings of the rays for the next plan and run, for changing them.
     pub fn rays_mut(&mut self) -> &mut RaySettings {
         &mut self.rays
     }
 
-    /// Has runs evaluate what maps and pictures show, and what that depends on: of charts that lie on each other on the maps, the
-    /// one that is exported. Elsewhere results hold anything.
+    /// Limits runs to the parts of the surface that maps and pictures show, and to the parts on which these depend. If
+    /// charts overlap on the maps, only the chart that is exported is evaluated. Results elsewhere are undefined.
     pub fn evaluate_shown_alone(&mut self) {
         self.shows_alone = true;
     }
 
-    /// Tiles whose results are shown, where runs evaluate what is shown alone; none if they evaluate everything.
+    /// Returns the tiles whose results are shown if runs are limited to them; `None` if runs evaluate everything.
     pub(crate) fn shown(&self) -> Option<&ShownTiles> {
         self.shows_alone.then(|| self.surface.shown()).flatten()
     }
 
-    /// Has runs report the share of time that filling ghosts takes.
+    /// Makes runs report the time for filling ghosts.
     pub fn time_ghosts(&mut self) {
         self.times_ghosts = true;
     }
@@ -355,12 +355,12 @@ impl Evaluator {
         self.times
     }
 
-    /// Warnings for the artist, each once.
+    /// Returns the warnings for the artist, without repeats.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
-    /// Takes the warnings after the first `known` ones.
+    /// Returns the warnings after the first `known` ones.
     pub(crate) fn take_warnings_after(&mut self, known: usize) -> Vec<Warning> {
         self.warnings.split_off(known)
     }
@@ -374,20 +374,20 @@ impl Evaluator {
         }
     }
 
-    /// Drops the warnings about the last graph.
+    /// Drops the warnings about the previous graph.
     fn reset_warnings(&mut self) {
         self.warnings = self.surface.linked().warnings();
         let left_out = self.graph.kinds().left_out();
         self.warnings.extend(left_out.map(Warning::from));
     }
 
-    /// Lists the files that the graph and the model were read from, which must not be overwritten.
+    /// Lists the files from which the graph and the model were read. They must not be overwritten.
     pub(crate) fn read_files(&self, open: &OpenGraph) -> Vec<PathBuf> {
         let model = self.linked().model.files.iter().cloned();
         self.graph.read_files(open).into_iter().chain(model).collect()
     }
 
-    /// Returns what the model is uploaded from for drawing.
+    /// Returns the data from which the model is uploaded for drawing.
     pub fn view_parts(&self) -> ViewModelParts<'_> {
         let linked = self.linked();
         ViewModelParts {
@@ -415,7 +415,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn textures_of_a_driver_on_the_processor_take_what_the_model_leaves_of_the_memory() {
+    fn textures_of_a_processor_driver_count_in_the_memory_of_the_process() {
         let mut model = ModelOptions::new(Path::new("cube.glb"), 64);
         model.memory_bytes = 1000;
         let options = EvaluatorOptions {

@@ -1,4 +1,4 @@
-//! Looks of a model's materials: textures on the device, made of a run's results.
+//! Looks of a model's materials: textures on the device, computed from a run's results.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
@@ -24,20 +24,20 @@ pub struct ModelLooks {
     pub looks: Vec<MaterialLook>,
     /// Index into `looks` for each material of the model.
     pub look_of_material: Vec<usize>,
-    /// True if the looks are materials, which are lit, and not a node's numbers or colors.
+    /// True if the looks are materials, which are lit; false for a node's numbers or colors.
     pub is_lit: bool,
     /// Lowest and highest height, in working units.
     pub height_range: [f32; 2],
-    /// Identity, by which they are told apart from earlier ones of the model; none where it is not known.
+    /// Identity, which distinguishes them from earlier looks of the model; `None` if it is not known.
     pub identity: Option<LooksIdentity>,
 }
 
-/// Identity of the looks of a model, by which they are told apart from earlier ones.
+/// Identity of the looks of a model, which distinguishes them from earlier ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LooksIdentity {
     /// Hash of all that they show.
     pub key: [u8; 32],
-    /// Hash of earlier looks, and the corners of boxes in model space outside of which these look the same.
+    /// Hash of earlier looks, and corners of boxes in model space outside of which these looks are the same.
     pub since: Option<([u8; 32], Vec<[DVec3; 2]>)>,
 }
 
@@ -53,8 +53,7 @@ pub(crate) enum LookAssignment {
 /// Longest time of one GPU submission.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// Evaluates the looks of a model: of one node, or else of the outputs, with the model's own materials where no output serves
-/// them.
+/// Evaluates the looks of a model: of one node, or otherwise of the outputs, with the model's own materials where no output serves them.
 pub fn evaluate_looks(
     evaluator: &mut Evaluator,
     subject: Option<&Target>,
@@ -83,7 +82,7 @@ pub fn evaluate_looks(
     looks_of_run(evaluator, &plan, &mut run, &assignment, &options, None)
 }
 
-/// Makes the looks of all materials from the results of a run. With a cache, only what has changed is made again.
+/// Creates the looks of all materials from the results of a run. With a cache, only changed looks are created again.
 pub(crate) fn looks_of_run(
     evaluator: &Evaluator,
     plan: &Plan,
@@ -94,11 +93,12 @@ pub(crate) fn looks_of_run(
 ) -> Result<ModelLooks, EngineError> {
     let (are_opaque, height_range) = value_extents(evaluator, plan, run, options, cache.as_deref_mut())?;
     let exported = Exported {
-        // Results that are not kept are drawn, and nothing else; two of them may have a plane in common.
+        // Results that are not kept are used only for drawing, so they may be changed. Two results may share a plane, so
+        // this is done only for a single result.
         changes_results: cache.is_none() && plan.results.len() == 1,
         ..evaluator.exported()?
     };
-    // Materials without triangles get the neutral look.
+    // Materials without triangles have the neutral look.
     let mut looks = vec![neutral_look()];
     for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
         looks.push(MaterialLook {
@@ -157,8 +157,7 @@ fn identity(
     Ok(Some(LooksIdentity { key: of(key), since }))
 }
 
-/// Finds which results are opaque everywhere, and the lowest and highest height of all results, in working units; 0 without
-/// heights.
+/// Returns which results are opaque everywhere, and the lowest and highest height of all results, in working units; 0 without heights.
 fn value_extents(
     evaluator: &Evaluator,
     plan: &Plan,
@@ -190,8 +189,8 @@ fn value_extents(
     Ok((are_opaque, if heights[0] <= heights[1] { heights } else { [0.0; 2] }))
 }
 
-/// Makes the look of one result, taken as opaque: a material with its maps, any other type as numbers or colors. Where charts
-/// overlap and at the borders of charts it shows what a bake writes there; see [`Evaluator::exported`].
+/// Creates the look of one result that counts as opaque: a material with its maps, any other type as numbers or colors. Where charts
+/// overlap and at the borders of charts, it shows the values that a bake writes there; see [`Evaluator::exported`].
 fn look(
     evaluator: &Evaluator,
     run: &mut Run,

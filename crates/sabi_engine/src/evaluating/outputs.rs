@@ -22,7 +22,7 @@ pub(crate) fn materials(graph: &FlatGraph, outputs: &[usize]) -> Vec<usize> {
         .collect()
 }
 
-/// Filters the outputs that are maps of their own, with their channels.
+/// Filters the outputs that become separate maps, with their channels.
 pub(crate) fn map_outputs(graph: &FlatGraph, outputs: &[usize]) -> Vec<(usize, Channel)> {
     let nodes = outputs.iter().copied();
     nodes
@@ -30,8 +30,8 @@ pub(crate) fn map_outputs(graph: &FlatGraph, outputs: &[usize]) -> Vec<(usize, C
         .collect()
 }
 
-/// All outputs. A material output inside a group, with which the group is shown when it is opened by itself, counts only in a
-/// graph that has none of its own.
+/// Returns all outputs. A material output inside a group, which is used when the group is opened by itself, counts only if
+/// the graph has no output of its own.
 fn all_outputs(graph: &FlatGraph) -> impl Iterator<Item = usize> {
     let is_own = |node: &FlatNode| !node.id.contains('/');
     let has_own = graph
@@ -61,7 +61,7 @@ pub(crate) fn missing_output(graph: &FlatGraph) -> Option<String> {
     })
 }
 
-/// Lists outputs whose maps would have the same file name, a sentence for each.
+/// Lists outputs whose maps would have the same file name, with a sentence for each.
 pub(crate) fn duplicate_map_names(graph: &FlatGraph) -> Vec<String> {
     let mut taken: BTreeMap<String, (usize, String)> = BTreeMap::new();
     let mut sentences = Vec::new();
@@ -90,21 +90,21 @@ pub(crate) fn duplicate_map_names(graph: &FlatGraph) -> Vec<String> {
     sentences
 }
 
-/// Finds the output that serves each of the model's materials, given their names: an output that lists the material wins over
-/// one that takes all, and among equals the first by id.
+/// Finds the output that serves each of the model's materials, given their names. An output that lists the material has
+/// priority over one for all materials. Among equals, the first by id is used.
 pub(crate) fn serving_outputs(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<Option<usize>> {
     let nodes = materials(graph, outputs);
     let of = |names: &[&str; 2]| {
         let claims = nodes
             .iter()
             .filter_map(|&node| Some((claim(&graph.nodes[node], names)?, node)));
-        // `min_by_key` returns the first of equals.
+        // Among equals, `min_by_key` returns the first.
         claims.min_by_key(|(claim, _)| *claim).map(|(_, node)| node)
     };
     names.iter().map(of).collect()
 }
 
-/// Lists the outputs that serve no material of the model, a sentence for each.
+/// Lists the outputs that serve no material of the model, with a sentence for each.
 pub(crate) fn unused_outputs(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<String> {
     let served = serving_outputs(graph, outputs, names);
     let nodes = materials(graph, outputs).into_iter();
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn an_output_that_serves_nothing_is_told() {
+    fn an_output_that_serves_no_material_is_reported() {
         let names = [["wood", "wood"], ["steel", "steel"]];
         let graph = flat(&[output("a", "*"), output("b", "*"), output("c", "wod")].join(","));
         assert_eq!(
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_graph_from_which_nothing_comes_says_why() {
+    fn a_graph_without_outputs_has_an_error_that_says_why() {
         let muted = |id: &str| format!(r#""{id}": {{ "kind": "output/mask", "muted": true }}"#);
         let cases = [
             (

@@ -1,4 +1,4 @@
-//! Texels of overlapping charts, which show in the viewport what the maps hold.
+//! Texels of overlapping charts, which show the same values in the viewport as on the maps.
 
 use std::collections::BTreeSet;
 
@@ -9,8 +9,8 @@ use crate::evaluating::texture_space::set_layout;
 use crate::opening::linked_model::LinkedModel;
 
 impl LinkedModel {
-    /// Finds the texels of all texture sets that show the values of other texels, as the maps do. Nothing is laid out for a model
-    /// without overlap.
+    /// Finds the texels of all texture sets that show the values of other texels on the maps. Nothing is laid out for a
+    /// model without overlap.
     pub fn shared_texels(&self) -> SharedTexels {
         let sheets = sharing_sheets(&self.atlas);
         let mut shared = SharedTexels::default();
@@ -24,12 +24,11 @@ impl LinkedModel {
     }
 }
 
-/// Share of the texels that must lie on others before those that are shown are told from the rest, which takes time, too.
+/// Minimum share of overlapping texels. Below it, finding the shown texels takes more time than it saves.
 const LEAST_SHARED: f64 = 0.1;
 
 impl LinkedModel {
-    /// Finds the tiles with texels whose own values maps and pictures show, by column, row and page; none where these are nearly
-    /// all.
+    /// Returns the tiles whose own values maps and pictures show, by column, row and page; `None` if these are nearly all tiles.
     pub(crate) fn shown_tiles(&self) -> Option<Vec<[u32; 3]>> {
         let texels =
             |charts: &mut dyn Iterator<Item = &Chart>| -> u64 { charts.map(|chart| u64::from(chart.texels)).sum() };
@@ -51,7 +50,7 @@ impl LinkedModel {
     }
 }
 
-/// Lists the sheets on which charts may overlap, each other or, where a texture repeats, themselves. The atlas report lists a
+/// Lists the sheets on which charts may overlap each other or, if a texture repeats, themselves. The atlas report lists a
 /// limited number of pairs, so all sheets are returned for a model with any overlap.
 fn sharing_sheets(atlas: &Atlas) -> BTreeSet<u32> {
     let overlaps = atlas.report.overlap_texels > 0;

@@ -14,7 +14,7 @@ use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Most materials that an error lists.
+/// Maximum number of materials that an error lists.
 const MOST_LISTED: usize = 12;
 
 /// Texture set of a model.
@@ -27,7 +27,7 @@ pub struct TextureSet {
 }
 
 impl TextureSet {
-    /// Returns a name that is unique among the sets: the stem, and the tile number where its material has several tiles.
+    /// Returns a name that is unique among the sets: the stem, and the tile number if its material has several tiles.
     pub fn title(&self) -> String {
         match self.key.udim {
             Some(number) => format!("{} {number}", self.name),
@@ -36,7 +36,7 @@ impl TextureSet {
     }
 }
 
-/// Lists the sets of all materials, or of those with the wanted name or stem. Never empty.
+/// Lists the sets of all materials, or of those with the wanted name or stem. There is at least one.
 pub(crate) fn texture_sets(model: &Model, atlas: &Atlas, wanted: Option<&str>) -> Result<Vec<TextureSet>, EngineError> {
     let stems = sheet_names(model);
     let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
@@ -85,7 +85,7 @@ fn used_materials(atlas: &Atlas) -> Vec<u32> {
     used.into_iter().collect()
 }
 
-/// A warning for each material that gets no maps, because none of its surface reaches a texel.
+/// Returns a warning for each material that gets no maps because none of its surface reaches a texel.
 pub(crate) fn materials_without_maps(model: &Model, atlas: &Atlas) -> Vec<Warning> {
     let stems = set_names(model);
     let mut bare = used_materials(atlas);
@@ -104,7 +104,7 @@ pub(crate) fn materials_without_maps(model: &Model, atlas: &Atlas) -> Vec<Warnin
     bare.into_iter().map(warning).collect()
 }
 
-/// Returns the name of a material, or its stem where it has none, and its stem.
+/// Returns the name of a material (its stem if it has no name), and its stem.
 fn names_of<'m>(model: &'m Model, stems: &'m [String], material: u32) -> [&'m str; 2] {
     let index = material as usize;
     let stem = stems.get(index).map_or(model.stem.as_str(), String::as_str);
@@ -112,7 +112,7 @@ fn names_of<'m>(model: &'m Model, stems: &'m [String], material: u32) -> [&'m st
     [if own.is_empty() { stem } else { own }, stem]
 }
 
-/// A warning that says which of several sets a preview shows; none where there is no choice.
+/// Returns a warning that says which of several sets a preview shows; `None` if there is only one.
 pub(crate) fn shown_set_warning(sets: &[TextureSet]) -> Option<Warning> {
     let first = sets.first().filter(|_| sets.len() > 1)?;
     let tile = first
@@ -129,7 +129,7 @@ pub(crate) fn shown_set_warning(sets: &[TextureSet]) -> Option<Warning> {
     })
 }
 
-/// Warns about a material that no output serves.
+/// Returns a warning about a material that no output serves.
 fn unserved_warning(name: &str) -> String {
     format!(
         "the material '{name}' keeps the maps it has, since no output serves it; to bake it, list it in 'materials' of an \
@@ -142,14 +142,14 @@ fn unserved_warning(name: &str) -> String {
 pub(crate) struct OutputAssignment {
     /// Node by material for each set: an output, or [`OutputAssignment::model_source`]. Empty for a set that no output serves.
     pub(crate) nodes: Vec<BTreeMap<u32, usize>>,
-    /// Index of the node of the model's own materials, still to be appended, if a part of a sheet needs it.
+    /// Index of the node of the model's own materials, which has yet to be appended, if a part of a sheet needs it.
     pub(crate) model_source: Option<usize>,
     /// Warnings about probable mistakes.
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// Finds the outputs that serve the sets; `outputs` are those of the graph. On a shared sheet, materials that no output serves
-/// keep their own look.
+/// Finds the outputs that serve the sets. `outputs` are those of the graph. On a shared sheet, materials that no output
+/// serves keep their own look.
 pub(crate) fn assign_outputs(
     open: &OpenGraph,
     graph: &FlatGraph,
@@ -200,8 +200,8 @@ pub(crate) fn assign_outputs(
     })
 }
 
-/// Finds the node that each material shows: the output that serves it, or else the node of the model's own materials, still to
-/// be appended. Also returns warnings about outputs that serve no material.
+/// Finds the node that each material shows: the output that serves it, or otherwise the node of the model's own materials,
+/// which has yet to be appended. Also returns warnings about outputs that serve no material.
 pub(crate) fn assign_shown_nodes(graph: &FlatGraph, linked: &LinkedModel) -> (BTreeMap<u32, usize>, Vec<String>) {
     let LinkedModel { model, atlas, .. } = linked;
     let outputs = outputs(graph);
@@ -210,7 +210,7 @@ pub(crate) fn assign_shown_nodes(graph: &FlatGraph, linked: &LinkedModel) -> (BT
     let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
     let by_material = serving_outputs(graph, &outputs, &names);
     let shown = used.iter().zip(by_material);
-    // The node of the model's own materials is appended at the end.
+    // The node of the model's own materials will be appended at the end.
     let shown = shown.map(|(&material, output)| (material, output.unwrap_or(graph.nodes.len())));
     (shown.collect(), unused_outputs(graph, &outputs, &names))
 }

@@ -22,12 +22,12 @@ pub(crate) struct TextureSpace {
     borders: ChartBorders,
 }
 
-/// Meaning of the numbers of a plane, which decides how they are displayed.
+/// Meaning of the numbers of a plane, which determines how they are displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaneKind {
-    /// Independent numbers, with 0..1 displayed as black to white.
+    /// Independent numbers. 0..1 is displayed as black to white.
     Numbers,
-    /// Linear color, displayed in sRGB; a fourth number is its opacity.
+    /// Linear color, displayed in sRGB. A fourth number is its opacity.
     Color,
     /// Numbers in −1..1, displayed as 0..1.
     Signed,
@@ -56,7 +56,7 @@ impl TextureSpace {
         }
     }
 
-    /// Lets the texels around charts repeat their charts, as those of exported maps do.
+    /// Repeats charts in the texels around them, as exported maps do.
     fn settle(&self, plane: Plane, values: &mut [f32]) {
         let (_, _, components) = shape_of(plane);
         let BorderKind {
@@ -82,7 +82,7 @@ impl TextureSpace {
         }
     }
 
-    /// Returns for each pixel whether a chart covers it; the others hold padding.
+    /// Returns for each pixel true if a chart covers it. The others contain padding.
     pub(crate) fn is_owned(&self) -> Vec<bool> {
         self.layout.cover.iter().map(|cover| *cover == Cover::Owned).collect()
     }
@@ -123,7 +123,7 @@ impl TextureSpace {
     }
 }
 
-/// Returns the layout of a texture set, by the overlap setting of the model.
+/// Returns the layout of a texture set for the overlap setting of the model.
 pub(crate) fn set_layout(linked: &LinkedModel, key: SetKey) -> SetLayout {
     match linked.overlap {
         Overlap::Merge => SetLayout::merged(&linked.atlas, key),

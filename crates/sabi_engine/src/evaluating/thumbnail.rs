@@ -12,7 +12,7 @@ use crate::error::{EngineError, ErrorKind};
 /// Side of a thumbnail, pixels.
 const SIDE: u32 = 128;
 
-/// Stored thumbnails; the version changes whenever earlier ones should no longer be shown.
+/// Cache of thumbnails. The version changes whenever earlier thumbnails should no longer be shown.
 const KIND: CacheKind = CacheKind {
     prefix: "thumb",
     version: 1,
@@ -110,7 +110,7 @@ fn cache(cache_dir: &Path) -> Cache {
     Cache::new(cache_dir.join("thumbnails"), KIND)
 }
 
-/// Hashes the texts, each after its length, so that no two lists collide.
+/// Returns a hash of the texts, each preceded by its length, so that no two lists have the same input.
 fn key(of: &[&str]) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     for text in of {
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thumbnail_is_the_middle_of_a_picture_and_light_is_what_is_averaged() {
+    fn a_thumbnail_is_the_middle_of_a_picture_averaged_in_linear_light() {
         let wide = plain([1000, 256], |x, _| match x {
             372..628 if x % 2 == 0 => [255, 255, 255, 255],
             372..628 => [0, 0, 0, 255],
@@ -139,7 +139,7 @@ mod tests {
         });
         let small = thumbnail_of(&wide);
         assert_eq!(small.size, [128, 128]);
-        // Half the light of white is code 188.
+        // Half the light of white has the code 188.
         assert!(small.rgba.chunks_exact(4).all(|pixel| pixel == [188, 188, 188, 255]));
         let tiny = plain([3, 2], |x, y| [x as u8, y as u8, 0, 255]);
         assert_eq!(thumbnail_of(&tiny).size, [2, 2], "nothing is made larger");
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_covers_nothing_adds_no_color() {
+    fn transparent_pixels_add_no_color() {
         let half = plain([256, 256], |x, _| match x % 2 {
             0 => [200, 100, 50, 255],
             _ => [255, 255, 255, 0],
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thumbnail_is_found_by_what_it_is_of_and_by_nothing_else() {
+    fn a_thumbnail_is_found_by_its_key_only() {
         let cache = tempfile::tempdir().expect("a folder");
         let picture = plain([2, 2], |x, y| [x as u8 * 90, y as u8 * 30, 7, 255]);
         store_thumbnail(cache.path(), &["one.sabi", "{}"], &picture).expect("kept");
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_cannot_be_written_to_is_told() {
+    fn storing_in_a_folder_that_cannot_be_written_to_is_an_error() {
         let cache = tempfile::tempdir().expect("a folder");
         let file = cache.path().join("file");
         std::fs::write(&file, "no folder").expect("written");

@@ -1,4 +1,4 @@
-//! Graphs as `sabi info` shows them: what can be set, what comes out, and which files it takes; docs/report.md lists the keys.
+//! Descriptions of graphs for `sabi info`: knobs, outputs, and files; docs/report.md lists the keys.
 
 use std::collections::BTreeMap;
 
@@ -39,7 +39,7 @@ pub struct GraphDescription {
     pub outputs: Vec<GraphOutput>,
     /// Groups that the file defines, by name.
     pub groups: Vec<GroupDescription>,
-    /// Files that it takes besides its own, by role and path.
+    /// Files that it uses besides its own, by role and path.
     pub files: Vec<FileDescription>,
     /// Sentences about things that are missing, or probably not intended.
     pub warnings: Vec<String>,
@@ -54,17 +54,17 @@ pub struct KnobDescription {
     pub label: String,
     /// Description of its effect, for artists.
     pub doc: String,
-    /// Title of the part of the panel that it stands in.
+    /// Title of the section of the panel that contains it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<String>,
     /// Parameters that it sets, `node.param`.
     pub to: Vec<String>,
-    /// Sort of values, as of a parameter of a node; `None` if the node or its kind is not known.
+    /// Type of its values, as for a parameter of a node; `None` if the node or its kind is not known.
     pub takes: Option<&'static str>,
-    /// Unit of its numbers: `degrees`, or `fit` for lengths, where 1 is the length that the fit names.
+    /// Unit of its numbers: `degrees`, or `fit` for lengths. A length of 1 is the length that the fit names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
-    /// Value of the first parameter until it is set.
+    /// Default value of the first parameter.
     pub default: Option<Value>,
     /// Value in this graph, without a variant.
     pub value: Option<Value>,
@@ -95,7 +95,7 @@ pub struct GraphOutput {
     pub node: String,
     /// `output/material`, `output/mask`, `output/color` or `output/vector`.
     pub kind: String,
-    /// Materials of the model that get the result, separated by commas; `*` for all.
+    /// Materials of the model that receive the result, separated by commas; `*` for all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub materials: Option<String>,
     /// Name of the map of a mask.
@@ -114,7 +114,7 @@ pub struct GroupDescription {
     pub library: Option<String>,
 }
 
-/// Describes a graph. Whatever is missing or faulty is left out and named in a warning.
+/// Describes a graph. Missing or faulty parts are left out and named in a warning.
 pub fn describe_graph(open: &OpenGraph) -> GraphDescription {
     let kinds = Kinds::beside(Some(&open.path), &open.trusted);
     let document = &open.document;
@@ -123,7 +123,7 @@ pub fn describe_graph(open: &OpenGraph) -> GraphDescription {
     let flat = open.flatten(&Overrides::default());
     match &flat {
         Ok(flat) => warnings.extend(missing_output(flat).map(|why| open.with_path(why))),
-        // A group file that cannot be opened is told by the warnings about files.
+        // The warnings about files include group files that cannot be opened.
         Err(_) if files.lacks_groups => {}
         Err(error) => warnings.extend(error.messages.iter().cloned()),
     }
@@ -135,7 +135,7 @@ pub fn describe_graph(open: &OpenGraph) -> GraphDescription {
         name: document.name.clone(),
         about: document.description.about.clone(),
         words: document.description.words.clone(),
-        // The text was read already, so it has a version.
+        // The text has been read already, so it has a version.
         version: format_version(&open.text).unwrap_or_default(),
         fit: fit(document.fit),
         seed: document.seed,
@@ -192,7 +192,7 @@ fn knobs(open: &OpenGraph, kinds: &Kinds) -> Vec<KnobDescription> {
 
 impl KnobDescription {
     fn of(name: &str, exposed: &Exposed, document: &Document, faces: &Faces) -> KnobDescription {
-        // As of a node that is this graph: its default is the value that the graph sets.
+        // The knob is that of a node which is this graph, so its default is the value that the graph sets.
         let knob = faces.of_whole().and_then(|whole| whole.knob(name));
         let ty = knob.map(|knob| &knob.ty);
         let first = exposed.to.first();
@@ -202,7 +202,7 @@ impl KnobDescription {
         };
         let value = ty.map(|ty| ty.default.clone());
         let value = value.or_else(|| exposed.default.clone()).or_else(set);
-        // The parameters take other values than a knob with curves.
+        // The parameters accept other values than a knob with curves.
         let of_param = || default_of_param(faces, first?);
         let default = match exposed.curves.is_empty() {
             true => of_param(),

@@ -1,4 +1,4 @@
-//! Files that a graph takes, as `sabi info` lists them.
+//! Files that a graph uses, as `sabi info` lists them.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub struct FileDescription {
     pub role: &'static str,
     /// Absolute path.
     pub path: String,
-    /// Path as it is written in the graph or a group file; `None` for files that are found by their place.
+    /// Path as written in the graph or a group file; `None` for files that are found by their location.
     pub written: Option<String>,
     /// True if there is such a file.
     pub exists: bool,
@@ -107,7 +107,7 @@ fn strokes(document: &NamedDocument) -> Vec<FileDescription> {
 }
 
 impl FileDescription {
-    /// A sentence about a model or strokes that are not there; other files are told by what names them.
+    /// Returns a sentence about missing models or strokes. Other missing files are reported by the nodes that name them.
     fn missing(&self) -> Option<String> {
         let path = &self.path;
         let sentence = match (self.role, &self.written) {

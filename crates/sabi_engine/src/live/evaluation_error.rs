@@ -11,11 +11,11 @@ pub(super) enum EvaluationError {
     Superseded,
     /// The device is lost.
     Lost(EngineError),
-    /// The result of a node cannot be made; nodes that do not need it can be evaluated.
+    /// The result of a node cannot be computed. Nodes that do not need it can be evaluated.
     Node {
         node: String,
         why: String,
-        /// True if it kept the device busy for too long.
+        /// True if the node kept the device busy for too long.
         is_too_long: bool,
     },
     /// Anything else.
@@ -58,7 +58,7 @@ impl EvaluationError {
                     is_too_long: false,
                 };
             }
-            // A kernel of a window has one node.
+            // A kernel for a window belongs to one node.
             GpuError::TooLong { nodes, .. } if !nodes.is_empty() => {
                 return EvaluationError::Node {
                     node: nodes.join(", "),
@@ -82,7 +82,7 @@ impl EvaluationError {
     }
 }
 
-/// Error for results that do not fit into memory, with what helps in a window.
+/// Returns the error for results that do not fit into memory, with remedies for a window.
 fn out_of_memory(what: &str) -> EngineError {
     EngineError::new(ErrorKind::OutOfMemory, what).with_remedies([Remedy::SmallerSize, Remedy::CloseOtherPrograms])
 }

@@ -19,7 +19,7 @@ use crate::opening::linked_model::FittedModel;
 use crate::opening::linked_model::LinkedModel;
 use crate::warning::Warning;
 
-/// Event for a window. What it holds never changes afterwards.
+/// Event for a window. Its contents never change afterwards.
 pub enum LiveEvent {
     /// The model was loaded, at the coarse or the full size, or its fit has changed.
     Model {
@@ -30,7 +30,7 @@ pub enum LiveEvent {
         /// The model.
         model: Arc<LiveModel>,
     },
-    /// The model cannot be loaded; the last good one stays in use.
+    /// The model cannot be loaded. The last model that was loaded stays in use.
     ModelFailed {
         /// Revision of the model.
         model_revision: u64,
@@ -49,7 +49,7 @@ pub enum LiveEvent {
         model: Arc<LiveModel>,
         /// Looks of its materials, as textures on the device.
         looks: Arc<ModelLooks>,
-        /// Id of the output that gives each material, by the material's index; materials that no output gives are missing.
+        /// Id of the output that serves each material, by the material's index. Materials without an output are missing.
         outputs: Arc<BTreeMap<u32, String>>,
     },
     /// Exact values of an inspected node.
@@ -84,16 +84,16 @@ pub enum LiveEvent {
         /// All faults.
         faults: Faults,
     },
-    /// The list of image and group files that the graph names has changed; they need not exist.
+    /// The list of image and group files that the graph names has changed. The files need not exist.
     Files {
         /// Revision of the request.
         revision: u64,
         /// Paths of the files.
         files: BTreeSet<PathBuf>,
-        /// Refusals of files that it names and may not open.
+        /// Refusals of files that the graph names but may not open.
         refused: Vec<Refusal>,
     },
-    /// Times of a request, once it is answered or superseded.
+    /// Times of a request, sent once it is answered or superseded.
     Times {
         /// Revision of the request.
         revision: u64,
@@ -105,14 +105,14 @@ pub enum LiveEvent {
         /// Revision of the request.
         revision: u64,
     },
-    /// A part of a request could not be evaluated; the next request tries again.
+    /// A part of a request could not be evaluated. The next request tries again.
     Failed {
         /// Revision of the request.
         revision: u64,
         /// Cause.
         error: EngineError,
     },
-    /// The device is lost, or the worker ended: no event follows, and a new evaluator has to be started.
+    /// The device is lost, or the worker has ended. No event follows, and a new evaluator has to be started.
     Lost(EngineError),
 }
 
@@ -132,7 +132,7 @@ pub struct LiveModel {
     pub fit: Fit,
     /// Warnings about the model and its atlas at this size.
     pub warnings: Vec<Warning>,
-    /// Texture sets; empty where its UVs cover no texel at this size.
+    /// Texture sets; empty if the model's UVs cover no texel at this size.
     pub sets: Vec<TextureSet>,
 }
 
@@ -142,7 +142,7 @@ impl LiveModel {
         self.linked.fitted(self.fit)
     }
 
-    /// Returns a texture set, or the first where the model does not have the wanted one.
+    /// Returns a texture set, or the first if the model does not have the wanted one.
     pub fn set(&self, wanted: Option<SetKey>) -> Option<&TextureSet> {
         self.sets.get(self.index_of_set(wanted))
     }
@@ -150,7 +150,7 @@ impl LiveModel {
     /// Returns the index of [`LiveModel::set`].
     pub(super) fn index_of_set(&self, wanted: Option<SetKey>) -> usize {
         let at = self.sets.iter().position(|set| Some(set.key) == wanted);
-        at.unwrap_or(0) // The first set stands in for one that the model does not have.
+        at.unwrap_or(0) // If the model does not have the wanted set, the first is used.
     }
 }
 
@@ -163,9 +163,9 @@ pub struct Inspected {
     pub size: u32,
     /// Texture set whose layout is used.
     pub set: TextureSet,
-    /// Planes: one of a mask, color or vector, all that are set of a material.
+    /// Planes: one for a mask, color or vector, and for a material all that are set.
     pub planes: Vec<ResultPlane>,
-    /// For each pixel whether a chart covers it; others hold padding.
+    /// For each pixel, true if a chart covers it. The others contain padding.
     pub is_on_surface: Vec<bool>,
 }
 
@@ -174,23 +174,23 @@ pub struct Inspected {
 pub struct Faults {
     /// Faults of nodes.
     pub faults: Vec<NodeFault>,
-    /// Nodes that wait for a file that was not chosen yet, each with a sentence that asks for it.
+    /// Nodes for which a file has yet to be chosen, each with a sentence that asks for it.
     pub unchosen: Vec<NodeFault>,
-    /// Nodes without a fault that need a faulty node, or one without a file.
+    /// Nodes without a fault of their own that need a faulty node or a node without a file.
     pub blocked: Vec<BlockedNode>,
     /// Faults that belong to no node.
     pub other: Vec<String>,
     /// Warnings for the artist.
     pub warnings: Vec<Warning>,
-    /// Ids of nodes that kept the device busy for too long, as in [`NodeFault::node`]. They are left out until they are changed
-    /// or muted, since a window is better shown without them.
+    /// Ids of nodes that kept the device busy for too long, as in [`NodeFault::node`]. They are left out until they are
+    /// changed or muted, so that the window stays usable.
     pub too_long: Vec<String>,
 }
 
 /// Fault of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeFault {
-    /// Id of the node; inside groups `instance/inner`.
+    /// Id of the node; for nodes inside groups `instance/inner`.
     pub node: String,
     /// Sentence that names the node.
     pub sentence: String,
@@ -218,6 +218,6 @@ pub struct LiveTimes {
     pub texture_bytes: u64,
     /// Size limit of the cache in bytes.
     pub budget_bytes: u64,
-    /// Time from the request to the last picture of a viewport; none where no picture changed.
+    /// Time from the request to the last picture of a viewport; `None` if no picture changed.
     pub latency: Option<Duration>,
 }

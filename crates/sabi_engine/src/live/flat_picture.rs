@@ -10,7 +10,7 @@ use crate::error::EngineError;
 use crate::evaluating::texture_space::rgb_codes;
 
 impl SizedModel {
-    /// Draws a result in texture space as a square picture, transparent where no chart lies.
+    /// Draws a result in texture space as a square picture, transparent where there is no chart.
     pub(super) fn flat_picture(
         &mut self,
         plan: &Plan,
@@ -38,7 +38,7 @@ impl SizedModel {
     }
 }
 
-/// Resizes a square picture: each pixel is the mean of the covered pixels that lie on a chart, or the nearest one.
+/// Resizes a square picture. Each pixel is the mean of those covered pixels that are on a chart, or the nearest one.
 fn reduced(from: usize, to: usize, is_there: &[bool], code: impl Fn(usize) -> [u8; 3]) -> Vec<u8> {
     let range = |at: usize| {
         let start = at * from / to;
@@ -69,8 +69,8 @@ mod tests {
     use super::reduced;
 
     #[test]
-    fn a_pixel_is_the_mean_of_what_lies_on_charts() {
-        // Two by two pixels become one; the last of them lies on no chart.
+    fn a_pixel_is_the_mean_of_the_pixels_on_charts() {
+        // Two by two pixels become one. The last of them is not on a chart.
         let codes = [[0, 0, 0], [90, 0, 0], [0, 0, 30], [255; 3]];
         let one = reduced(2, 1, &[true, true, true, false], |pixel| codes[pixel]);
         assert_eq!(one, [30, 0, 10, 191]);

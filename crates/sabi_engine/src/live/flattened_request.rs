@@ -1,4 +1,4 @@
-//! Request with its flat graph, and the nodes of it that failed.
+//! Request with its flat graph, and the nodes that failed.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ pub(super) struct FlattenedRequest {
     pub(super) faults: Faults,
 }
 
-/// Node whose result could not be made. It is tried again once its parameters, its file or the node files change.
+/// Node whose result could not be computed. It is tried again once its parameters, its file or the node files change.
 pub(super) struct FailedNode {
     pub(super) why: String,
     /// True if it kept the device busy for too long.
@@ -29,8 +29,8 @@ pub(super) struct FailedNode {
 }
 
 impl FlattenedRequest {
-    /// Records that a node's result cannot be made. Returns whether this node of the graph had not failed before: otherwise
-    /// planning again without it would not end.
+    /// Records that a node's result cannot be computed. Returns true if this node of the graph had not failed before;
+    /// without this check, planning again without the node might not end.
     pub(super) fn record_failure(
         &self,
         failed_nodes: &mut BTreeMap<String, FailedNode>,
@@ -73,7 +73,7 @@ impl FlattenedRequest {
         nodes.map(|node| self.graph.nodes[node].id.as_str())
     }
 
-    /// Keeps the targets that need no failed node.
+    /// Returns the targets that need no failed node.
     pub(super) fn without_failed(
         &self,
         targets: &[Target],

@@ -1,4 +1,4 @@
-//! How the evaluator follows the graph that is edited.
+//! Updates of the evaluator's graph, which is being edited.
 
 use std::sync::Arc;
 
@@ -7,10 +7,10 @@ use sabi_graph::Edit;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 
-/// Change of the evaluated graph since the request before. Edits spare a copy of the whole document for each move of a slider.
+/// Change of the evaluated graph since the previous request. With edits, the document need not be copied for each move of a slider.
 #[derive(Clone, Debug, Default)]
 pub struct GraphUpdate {
-    /// Graph that replaces the one before; none where edits alone describe the change.
+    /// Graph that replaces the previous one; `None` if edits alone describe the change.
     whole: Option<Arc<OpenGraph>>,
     /// Edits after that, oldest first.
     edits: Vec<Edit>,

@@ -1,4 +1,4 @@
-//! Flattening of graphs in which some group instances cannot be opened: the rest is evaluated without them.
+//! Flattening of graphs in which some group instances cannot be opened. The rest is evaluated without them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -9,13 +9,13 @@ use sabi_graph::{FlatGraph, GROUP_KIND, NodeId, NodeRef, Overrides, ResultOrigin
 use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
 
-/// Unknown kind that replaces a failed instance: its node has no result, and nodes downstream are blocked.
+/// Unknown kind that replaces a failed instance. Its node has no result, and nodes downstream are blocked.
 const FAILED_GROUP_KIND: &str = "graph/failed-group";
 
 /// Flat graph, and the instances that could not be opened.
 pub(super) struct OpenedGroups {
     pub(super) graph: FlatGraph,
-    /// Origin of each wanted node's result in the flat graph.
+    /// Node in the flat graph from which each wanted node's result comes.
     pub(super) found: Vec<ResultOrigin>,
     /// Reason of each failed instance, by its id.
     pub(super) failed_groups: BTreeMap<String, String>,

@@ -11,9 +11,9 @@ pub(super) struct LoadedModel {
     pub(super) revision: u64,
     /// Options it was loaded with; their size is the full one.
     pub(super) options: Arc<ModelOptions>,
-    /// Coarse size; none where the full size is no larger.
+    /// Coarse size; `None` if the full size is not larger.
     pub(super) coarse: Option<SizedModel>,
-    /// Full size; none before it is needed, and where it failed.
+    /// Full size; `None` before it is needed, and if it failed to load.
     pub(super) full: Option<SizedModel>,
     /// True if the full size failed to load.
     pub(super) has_full_failed: bool,
@@ -39,12 +39,12 @@ impl LoadedModel {
     }
 
     /// Lists the warnings about the model and about the current request. Those about the model are of its full size, since
-    /// nobody asked for the other one; of the coarse size only where the full one cannot be loaded.
+    /// the user did not choose the coarse one. They are of the coarse size only if the full one cannot be loaded.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let first = self.coarse.as_ref().or(self.full.as_ref());
         let coarse = self.coarse.as_ref().filter(|_| !self.has_full_failed);
         let of_coarse = coarse.map(|sized| sized.model.linked.warnings());
-        let of_coarse = of_coarse.unwrap_or_default(); // None where the full size is no larger.
+        let of_coarse = of_coarse.unwrap_or_default(); // There is no coarse size if the full size is not larger.
         let of_request = first.into_iter().flat_map(SizedModel::warnings);
         let of_request = of_request.filter(|warning| !of_coarse.contains(warning));
         let of_model = self.full.as_ref().map(|sized| sized.model.linked.warnings());

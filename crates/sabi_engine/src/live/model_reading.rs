@@ -1,4 +1,4 @@
-//! Reading of a model on a thread of its own, so that one which is no longer wanted is not waited for.
+//! Reading of a model on a separate thread, so that the worker need not wait for a model that is no longer wanted.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,17 +10,17 @@ use crate::error::EngineError;
 use crate::opening::linked_model::LinkedModel;
 use crate::phases::{Phase, Progress, stop_if_canceled, unless_left};
 
-/// Time between two looks at whether a model that was left has ended.
+/// Interval for checking whether the reading of an abandoned model has ended.
 const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
-/// Reading of models, one after the other. A model that is left ends at its next look, on its own thread; the next one is read
-/// after that, so that memory is taken by one.
+/// Reading of models, one after another. The reading of an abandoned model ends at its next check, on its own thread. Only
+/// then the next model is read, so that only one model takes memory.
 #[derive(Default)]
 pub(super) struct ModelReading {
     left: Option<JoinHandle<()>>,
 }
 
-/// Progress of reading a model, which is canceled once another one is requested.
+/// Progress of reading a model. It is canceled once another model is requested.
 pub(super) struct LoadProgress {
     queue: Arc<WorkerQueue>,
     model_revision: u64,
@@ -60,7 +60,7 @@ impl ModelReading {
     /// Reads a model by `work`.
     ///
     /// # Errors
-    /// That of the work, or one of kind `Interrupted` as soon as another model is requested.
+    /// The error of the work, or one of kind `Interrupted` as soon as another model is requested.
     pub(super) fn read(
         &mut self,
         progress: &Arc<LoadProgress>,
@@ -84,7 +84,7 @@ impl ModelReading {
     }
 }
 
-/// Cancelation of reading for the thread that waits for it, which has the turn already.
+/// Cancelation of reading, for the thread that waits for it. That thread does not wait for its turn.
 struct Wanted<'p>(&'p LoadProgress);
 
 impl Progress for Wanted<'_> {
@@ -109,7 +109,7 @@ mod tests {
         EngineError::new(ErrorKind::BadInput, "no model")
     }
 
-    /// Work that ends once it is told to.
+    /// Returns work that ends when it receives a message.
     fn waiting(go: Receiver<()>) -> impl FnOnce(&dyn Progress) -> Result<LinkedModel, EngineError> + Send {
         move |_| {
             let _ = go.recv();
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn a_model_that_is_no_longer_wanted_is_not_waited_for() {
+    fn reading_of_a_model_that_is_no_longer_wanted_does_not_delay_the_caller() {
         let queue = Arc::new(WorkerQueue::new(&LiveOptions::default()));
         let progress = Arc::new(LoadProgress::new(&queue, 1));
         let mut reading = ModelReading::default();
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn the_next_model_is_read_once_the_one_that_was_left_has_heard_of_it() {
+    fn the_next_model_is_read_after_the_abandoned_one_has_ended() {
         let queue = Arc::new(WorkerQueue::new(&LiveOptions::default()));
         let progress = Arc::new(LoadProgress::new(&queue, 1));
         let mut reading = ModelReading::default();

@@ -1,14 +1,14 @@
-//! Precedence of evaluators that share a device: an artist waits for one of them, and the others work while it rests.
+//! Precedence of evaluators that share a device. The artist waits for one of them, and the others work while it is idle.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Longest time between two looks at whether the work that waits for its turn is still wanted.
+/// Maximum interval for checking whether waiting work is still wanted.
 const LOOK_AGAIN: Duration = Duration::from_millis(50);
 
-/// Order of evaluators that share a device. Between two steps, the work of an evaluator waits as long as one that is before it
-/// has work: one of a lower rank, or an older one of the same rank.
+/// Order of evaluators that share a device. Between two steps, the work of an evaluator waits while an evaluator of a lower
+/// rank, or an older one of the same rank, has work.
 #[derive(Clone, Debug, Default)]
 pub struct Precedence(Arc<Shared>);
 
@@ -22,9 +22,9 @@ struct Shared {
 struct State {
     /// Evaluators that have work, by rank and age.
     working: BTreeSet<Place>,
-    /// Number of places that were given.
+    /// Number of places that have been assigned.
     places: u64,
-    /// Time until which all but those of rank 0 wait.
+    /// Time until which all evaluators except those of rank 0 wait.
     held_until: Option<Instant>,
 }
 
@@ -32,7 +32,7 @@ struct State {
 type Place = (u8, u64);
 
 impl Precedence {
-    /// Lets evaluators of all ranks but 0 wait for a while, since the window needs the device.
+    /// Makes evaluators of all ranks except 0 wait for a while, since the window needs the device.
     pub fn hold(&self, for_time: Duration) {
         self.lock().held_until = Some(Instant::now() + for_time);
     }
@@ -61,19 +61,19 @@ pub(super) struct Turn {
 }
 
 impl Turn {
-    /// Notes that there is work, for which all evaluators after this one wait.
+    /// Records that there is work. All evaluators after this one wait for it.
     pub(super) fn begin(&self) {
         self.precedence.lock().working.insert(self.place);
     }
 
-    /// Notes that there is no work any more.
+    /// Records that there is no work.
     pub(super) fn end(&self) {
         if self.precedence.lock().working.remove(&self.place) {
             self.precedence.0.changed.notify_all();
         }
     }
 
-    /// Waits until no evaluator before this one has work, or until the work is not wanted any more.
+    /// Waits until no evaluator before this one has work, or until the work is no longer wanted.
     pub(super) fn wait(&self, is_unwanted: impl Fn() -> bool) {
         loop {
             if is_unwanted() {
@@ -95,7 +95,7 @@ impl Drop for Turn {
 }
 
 impl State {
-    /// Time that the work of a place has to wait at least; none where it is its turn.
+    /// Returns the minimum time that the work of a place has to wait; `None` if it is its turn.
     fn time_to_wait(&self, place: Place) -> Option<Duration> {
         if self.working.first().is_some_and(|first| *first < place) {
             return Some(LOOK_AGAIN);

@@ -20,7 +20,7 @@ pub(super) struct WorkerQueue {
     changed: Condvar,
     turn: Turn,
     pub(super) activity: SharedActivity,
-    /// Number of threads that find the shade of a model.
+    /// Number of threads that compute the shade of a model.
     pub(super) shade_searches: AtomicUsize,
 }
 
@@ -66,19 +66,19 @@ impl WorkerQueue {
         self.changed.notify_one();
     }
 
-    /// Adds to the pictures that the window has dropped.
+    /// Adds pictures that the window has dropped.
     pub(super) fn mark_dropped(&self, dropped: Dropped) {
         let known = &mut self.lock().dropped;
         known.subjects.extend(dropped.subjects);
         known.thumbnails.extend(dropped.thumbnails);
     }
 
-    /// Takes the pictures that the window has dropped since the last call.
+    /// Returns and removes the pictures that the window has dropped since the last call.
     pub(super) fn take_dropped(&self) -> Dropped {
         std::mem::take(&mut self.lock().dropped)
     }
 
-    /// Waits for a request; none once the queue is closed.
+    /// Waits for a request. Returns `None` once the queue is closed.
     pub(super) fn next(&self) -> Option<SubmittedRequest> {
         let mut state = self.lock();
         loop {
@@ -89,7 +89,7 @@ impl WorkerQueue {
             }
             if state.request.is_some() {
                 drop(state);
-                // A newer request may replace it meanwhile.
+                // A newer request may replace it during this wait.
                 self.wait_for_turn();
                 state = self.lock();
                 state.is_working = !state.is_closed;
@@ -109,7 +109,7 @@ impl WorkerQueue {
         self.changed.notify_one();
     }
 
-    /// Waits until no evaluator before this one has work; not after the queue is closed.
+    /// Waits until no evaluator before this one has work. Does not wait after the queue is closed.
     pub(super) fn wait_for_turn(&self) {
         self.turn.wait(|| self.is_closed());
     }
@@ -138,7 +138,7 @@ impl WorkerQueue {
 
     pub(super) fn send(&self, event: LiveEvent) {
         let mut state = self.lock();
-        // A window that has not taken events for a while needs the newest pictures only.
+        // A window that has not taken events for a while needs only the newest pictures.
         state.events.retain(|older| !is_outdated(older, &event));
         if matches!(event, LiveEvent::Done { .. } | LiveEvent::Lost(_)) {
             state.is_working = false;
@@ -180,7 +180,7 @@ fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     }
 }
 
-/// Publishes the progress of work. Between two of its steps, the work waits for its turn, and is canceled when it is obsolete.
+/// Publishes the progress of work. Between two of its steps, the work waits for its turn, and is canceled if it is obsolete.
 pub(super) struct WorkProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
     /// True if newer requests cancel the work; otherwise only closing the queue does.

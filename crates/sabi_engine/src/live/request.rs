@@ -16,27 +16,27 @@ use crate::opening::linked_model::ModelOptions;
 /// Options of the live evaluator.
 #[derive(Clone, Debug)]
 pub struct LiveOptions {
-    /// Folder of the disk cache; none to compute everything on each start.
+    /// Folder of the disk cache; `None` to compute everything after each start.
     pub cache_dir: Option<PathBuf>,
     /// Size limit of the cache of results in GPU memory.
     pub cache_bytes: u64,
     /// Size limit of the textures of one evaluation, besides the cache.
     pub budget_bytes: u64,
-    /// Longest time of one GPU submission; the window draws with the same device.
+    /// Maximum time of one GPU submission, since the window draws with the same device.
     pub submission: Duration,
     /// Side of a thumbnail, pixels.
     pub thumbnail_px: u32,
-    /// Skips the coarse picture where the last full one took less than this, since it would only flicker; zero to draw it always.
+    /// The coarse picture is skipped if the last full one took less than this, since it would only flicker. With zero it is always drawn.
     pub coarse_after: Duration,
     /// Ray caster.
     pub caster: CasterChoice,
-    /// True to find the shade of models on themselves and on the ground once their first pictures are done.
+    /// True to compute the shade of models on themselves and on the ground after their first pictures.
     pub finds_shade: bool,
-    /// True to find it before the first picture, for pictures that are drawn once.
+    /// True to compute it before the first picture, for pictures that are drawn once.
     pub finds_shade_first: bool,
     /// Precedence of the evaluators that share the device.
     pub precedence: Precedence,
-    /// Rank among them: between two steps, work waits as long as an evaluator of a lower rank has any.
+    /// Rank among them. Between two steps, work waits while an evaluator of a lower rank has work.
     pub rank: u8,
 }
 
@@ -62,34 +62,33 @@ impl Default for LiveOptions {
 /// left out of the answer.
 #[derive(Clone, Debug)]
 pub struct LiveRequest {
-    /// Revision that all events of this request carry; rises with every edit.
+    /// Revision that all events of this request contain. It rises with every edit.
     pub revision: u64,
-    /// The graph, or how it was edited since the request before.
+    /// The graph, or its edits since the previous request.
     pub graph: GraphUpdate,
     /// All node kinds.
     pub kinds: Arc<Kinds>,
-    /// Revision of the kinds; rises when node files are read again.
+    /// Revision of the kinds. It rises when node files are read again.
     pub kinds_revision: u64,
     /// The model, with the size of full pictures.
     pub model: Arc<ModelOptions>,
-    /// Revision of the model; it is loaded again when this rises: for another model, another size, or a changed file.
+    /// Revision of the model. The model is loaded again when it rises: for another model, another size, or a changed file.
     pub model_revision: u64,
-    /// Texels per UV unit of coarse pictures; not used where the full size is not larger.
+    /// Texels per UV unit of coarse pictures. Not used if the full size is not larger.
     pub coarse_size: u32,
     /// Subjects of the viewports, most important first.
     pub subjects: Vec<ViewSubject>,
     /// Nodes whose exact values are read back at full size, most important first.
     pub inspected: Vec<NodeRef>,
-    /// Texture set of pictures in texture space; the model's first where it does not have this one.
+    /// Texture set for pictures in texture space. If the model does not have it, its first set is used.
     pub set: Option<SetKey>,
     /// Nodes that need a thumbnail, most important first.
     pub thumbnails: Vec<NodeRef>,
-    /// True for a thumbnail of the model with the materials of the graph's outputs, which is sent whether it has changed or not.
+    /// True for a thumbnail of the model with the materials of the graph's outputs. It is sent even if it has not changed.
     pub outputs_thumbnail: bool,
     /// True if thumbnails show texture space instead of the model.
     pub is_flat: bool,
-    /// True while a knob is dragged: ray hits are remembered, coarse pictures trace few rays, and thumbnails follow
-    /// full pictures.
+    /// True while a knob is dragged. Then ray hits are cached, coarse pictures use few rays, and thumbnails follow full pictures.
     pub is_moving: bool,
 }
 

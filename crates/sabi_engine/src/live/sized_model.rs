@@ -36,15 +36,15 @@ pub(super) struct SizedModel {
     pub(super) model: Arc<LiveModel>,
     /// Layout of the texture set that was last wanted.
     texture_space: Option<(TextureSet, TextureSpace)>,
-    /// Node whose result each material shows.
+    /// Index of the node whose result each material shows.
     pub(super) node_of_material: BTreeMap<u32, usize>,
     /// Warnings about outputs that serve no material.
     unused_outputs: Vec<String>,
-    /// Warnings by the sources of the run that gave them: sources with cached results do not warn again.
+    /// Warnings, each with the sources of the run that caused it. Sources with cached results do not warn again.
     source_warnings: Vec<(BTreeSet<[u8; 32]>, Warning)>,
     /// Sources that the current request needs.
     sources: BTreeSet<[u8; 32]>,
-    /// True if the current request traces rays.
+    /// True if the current request casts rays.
     traces_rays: bool,
     kinds_revision: u64,
     /// True if this is the coarse size.
@@ -122,7 +122,7 @@ impl SizedModel {
         })
     }
 
-    /// Sets the graph of a request. Returns whether the fit has changed, so that the model must be sent again.
+    /// Sets the graph of a request. Returns true if the fit has changed, so that the model must be sent again.
     pub(super) fn set_graph(
         &mut self,
         request: &LiveRequest,
@@ -137,7 +137,7 @@ impl SizedModel {
         let surface = self.evaluator.surface_key();
         let (node_of_material, unused_outputs) = assign_shown_nodes(graph, self.evaluator.linked());
         self.node_of_material = node_of_material;
-        // A node at the end of the graph gives the model's own materials where no output serves them.
+        // A node at the end of the graph provides the model's own materials for those that no output serves.
         let mut graph = graph.clone();
         graph.nodes.push(model_source_node(open.document.fit));
         self.evaluator.set_graph(open, graph)?;
@@ -155,7 +155,7 @@ impl SizedModel {
         Ok(is_another)
     }
 
-    /// Returns the layout of the wanted texture set, or of the first where the model does not have it, and the evaluator.
+    /// Returns the layout of the wanted texture set, or of the first if the model does not have it, and the evaluator.
     pub(super) fn texture_space(
         &mut self,
         wanted: Option<SetKey>,
@@ -173,7 +173,7 @@ impl SizedModel {
         Ok((evaluator, set, texture_space))
     }
 
-    /// Plans the targets as far as possible. While a knob is dragged, coarse pictures trace few rays that are not cached.
+    /// Plans the targets as far as possible. While a knob is dragged, coarse pictures use few rays, which are not cached.
     pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
         self.evaluator.rays_mut().most_rays = None;
         let mut plan = self.try_plan(targets);
@@ -191,7 +191,7 @@ impl SizedModel {
         plan
     }
 
-    /// Returns true if the targets take only some tiles that strokes have changed.
+    /// Returns true if the targets need only some tiles that strokes have changed.
     pub(super) fn runs_in_part(&mut self, targets: &[Target]) -> bool {
         let plan = self.plan(targets);
         self.cache
@@ -218,7 +218,7 @@ impl SizedModel {
         warnings.cloned().chain(sentences)
     }
 
-    /// Checks the model for what rays cannot rely on, if the current request traces any.
+    /// Checks the model for properties on which rays depend, if the current request casts any.
     pub(super) fn check_solidity(&self) {
         if self.traces_rays {
             solidity::of_model(&self.model.linked);
@@ -256,7 +256,7 @@ impl SizedModel {
         Ok(run)
     }
 
-    /// Makes the looks of materials from the results of a run.
+    /// Creates the looks of materials from the results of a run.
     pub(super) fn looks(
         &mut self,
         plan: &Plan,
@@ -306,7 +306,7 @@ fn live_model(evaluator: &Evaluator, model_revision: u64) -> Result<Arc<LiveMode
         view,
         fit: evaluator.fit(),
         warnings: linked.warnings(),
-        // A model without any has an empty list; an error is reported where a set is wanted.
+        // A model without sets has an empty list. An error is reported when a set is wanted.
         sets: texture_sets(&linked.model, &linked.atlas, None).unwrap_or_default(),
     }))
 }

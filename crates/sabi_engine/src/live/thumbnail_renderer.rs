@@ -14,17 +14,17 @@ use crate::error::EngineError;
 use crate::evaluating::looks::ModelLooks;
 use crate::opening::environment::{DEFAULT_ENVIRONMENT, load_environment};
 
-/// Version of the pictures: it changes whenever the same material on the same model is drawn differently, so that pictures that
-/// are kept on disk are drawn again.
+/// Version of the pictures. It changes whenever the same material on the same model is drawn differently, so that pictures
+/// that are stored on disk are drawn again.
 pub const THUMBNAIL_VERSION: u32 = 3;
-/// Samples per pixel; without several the outline on a transparent background has visible steps.
+/// Samples per pixel. With only one, the outline on a transparent background has visible steps.
 const SAMPLES: u32 = 4;
 
 /// Renderer of thumbnails.
 pub(super) struct ThumbnailRenderer {
     renderer: Renderer,
     environment: Environment,
-    /// Pose of the last model, and whether it was made with the shade of the model.
+    /// Pose of the last model, and whether it includes the shade of the model.
     last_pose: Option<(Arc<LiveModel>, bool, Pose)>,
 }
 
@@ -32,7 +32,7 @@ impl ThumbnailRenderer {
     /// Loads the environment.
     pub(super) fn new(gpu: &Gpu, cache_dir: Option<&Path>) -> Result<ThumbnailRenderer, EngineError> {
         let light = DEFAULT_ENVIRONMENT;
-        // A light that could not be cached is computed again at the next start.
+        // Light that could not be cached is computed again at the next start.
         let (environment, _) = load_environment(gpu, light, cache_dir)?;
         Ok(ThumbnailRenderer {
             renderer: Renderer::new(gpu)?,
@@ -41,7 +41,7 @@ impl ThumbnailRenderer {
         })
     }
 
-    /// Returns the renderer in its place, which is created if there is none.
+    /// Returns the renderer in its place. It is created if there is none.
     pub(super) fn in_place<'r>(
         place: &'r mut Option<ThumbnailRenderer>,
         gpu: &Gpu,
@@ -105,7 +105,7 @@ impl ThumbnailRenderer {
         model: &Arc<LiveModel>,
         look: &MaterialLook,
     ) -> Result<Pixels, EngineError> {
-        // A pose has the shade bound that the model had when it was made.
+        // A pose keeps the shade that the model had when the pose was created.
         let has_shade = model.view.has_shade();
         let is_same =
             |(known, had_shade, _): &(Arc<LiveModel>, bool, Pose)| Arc::ptr_eq(known, model) && *had_shade == has_shade;
@@ -130,7 +130,7 @@ impl ThumbnailRenderer {
     }
 }
 
-/// Draws a picture of a model; again where its shade, which another thread finds, has arrived meanwhile.
+/// Draws a picture of a model. Draws it again if its shade, which another thread computes, has arrived in the meantime.
 fn with_settled_shade(
     model: &LiveModel,
     mut draw: impl FnMut() -> Result<Pixels, EngineError>,

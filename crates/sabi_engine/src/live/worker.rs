@@ -51,11 +51,11 @@ pub(super) struct Worker {
     pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
     /// Time that the last full picture took.
     pub(super) full_duration: Option<Duration>,
-    /// Revision of the model whose shade was last looked for, and in how many sizes.
+    /// Revision of the model whose shade was computed last, and for how many sizes.
     shaded: Option<(Option<u64>, usize)>,
 }
 
-/// Hashes of what was sent, so that nothing is sent twice.
+/// Hashes of everything that was sent, so that nothing is sent twice.
 #[derive(Default)]
 pub(super) struct Sent {
     pub(super) looks: BTreeMap<ViewSubject, SentLooks>,
@@ -68,7 +68,7 @@ pub(super) struct Sent {
 /// Picture that a viewport shows.
 #[derive(Clone, Copy, Default)]
 pub(super) struct SentLooks {
-    /// Hash of the coarse picture, also after the full one was sent.
+    /// Hash of the coarse picture. It is kept after the full picture has been sent.
     pub(super) coarse: Option<Key>,
     /// Hash of the full picture, once it was sent.
     pub(super) full: Option<Key>,
@@ -85,7 +85,7 @@ pub(super) struct Job {
     pub(super) latency: Option<Duration>,
     /// Hashes of the coarse pictures of this request.
     pub(super) coarse_keys: BTreeMap<ViewSubject, Key>,
-    /// True if the full picture is the first one, which is always finished.
+    /// True if the full picture comes first. The first picture is always finished.
     pub(super) is_full_first: bool,
 }
 
@@ -118,7 +118,7 @@ impl Worker {
         let mut worker = PanicGuard(self);
         while let Some((request, submitted)) = worker.0.queue.next() {
             let revision = request.revision;
-            // State that a panic leaves inconsistent is dropped by the reset.
+            // A panic may leave the state inconsistent, so the reset drops it.
             match catch_unwind(AssertUnwindSafe(|| worker.0.answer(request, submitted))) {
                 Ok(Ok(())) => {}
                 Ok(Err(loss)) => {
@@ -178,7 +178,7 @@ impl Worker {
         if outcome.is_ok()
             && let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::best)
         {
-            // Built here, since the window picks with it and must not block.
+            // Built here, since the window needs it for picking and must not be blocked.
             sized.model.linked.hierarchy();
             self.find_shade();
         }
@@ -195,19 +195,19 @@ impl Worker {
         Ok(())
     }
 
-    /// Finds the shade of the loaded model.
+    /// Computes the shade of the loaded model.
     fn find_shade_now(&self) {
         for sized in self.loaded.iter().flat_map(LoadedModel::sizes) {
             let model = &sized.model;
             if !model.view.has_shade() {
                 let shade = model.linked.shade(self.options.cache_dir.as_deref());
-                // Without memory for it, pictures are drawn without.
+                // If there is no memory for it, pictures are drawn without shade.
                 let _ = model.view.set_shade(&self.gpu, shade.ground, shade.openness);
             }
         }
     }
 
-    /// Finds the shade of the loaded model on a thread of its own, since it takes longer than an edit may wait.
+    /// Computes the shade of the loaded model on a separate thread, since it would delay an edit too long.
     fn find_shade(&mut self) {
         let models: Vec<Arc<LiveModel>> = self
             .loaded
@@ -227,18 +227,18 @@ impl Worker {
         let find = move || {
             for model in models {
                 let shade = model.linked.shade(cache_dir.as_deref());
-                // Without memory for it, or without a device, the picture stays as it is.
+                // If there is no memory for it, or no device, the picture stays as it is.
                 let _ = model.view.set_shade(&gpu, shade.ground, shade.openness);
                 wake();
             }
             drop(search);
             wake();
         };
-        // Without a thread, the picture stays as it is.
+        // If no thread can be started, the picture stays as it is.
         let _ = std::thread::Builder::new().name("sabi shade".to_owned()).spawn(find);
     }
 
-    /// Forgets that pictures were sent which the window has dropped.
+    /// Forgets that pictures which the window has dropped were sent.
     fn forget_dropped(&mut self) {
         let dropped = self.queue.take_dropped();
         for subject in &dropped.subjects {
@@ -313,7 +313,7 @@ impl Worker {
     }
 }
 
-/// Mark that the shade of a model is being found, until it is dropped.
+/// Records, until it is dropped, that the shade of a model is being computed.
 struct ShadeSearch(Arc<WorkerQueue>);
 
 impl ShadeSearch {

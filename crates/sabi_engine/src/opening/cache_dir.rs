@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::error::{EngineError, ErrorKind};
 
-/// Most MiB of results of nodes, and of encoded maps, that are kept in a cache folder.
+/// Default limit for the results of nodes, and for encoded maps, in a cache folder, in MiB each.
 const DEFAULT_BUDGET_MIB: u64 = 4096;
 const BUDGET_VARIABLE: &str = "SABI_CACHE_MIB";
 
@@ -27,7 +27,7 @@ pub(crate) fn cache_budget_bytes() -> Result<u64, EngineError> {
     })
 }
 
-/// `SABI_CACHE_DIR`, else a `sabi` folder where the system keeps caches; none where it has no such place.
+/// Returns `SABI_CACHE_DIR`, otherwise a `sabi` folder in the system's folder for caches; `None` if the system has none.
 pub fn default_cache_dir() -> Option<PathBuf> {
     let variable = |name: &str| {
         std::env::var_os(name)

@@ -8,7 +8,7 @@ use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Share of its maps below which a layout is likely not meant as one: UVs in another scale, or of a part of a larger sheet.
+/// Share of its maps below which a layout is probably a mistake: UVs in another scale, or of a part of a larger sheet.
 const LEAST_COVERED: f64 = 0.05;
 
 /// Texels of a sheet.
@@ -18,7 +18,7 @@ struct Sheet {
     maps: u64,
 }
 
-/// Warns about each sheet that covers little of its maps. Those that cover nothing are told by the bake.
+/// Warns about each sheet that covers little of its maps. The bake reports those that cover nothing.
 pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
     let atlas = &linked.atlas;
     let mut sheets: BTreeMap<u32, Sheet> = BTreeMap::new();
@@ -52,7 +52,7 @@ pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
     sparse.map(warning).collect()
 }
 
-/// A small share in percent, with one digit that counts.
+/// Returns a small share in percent, with one significant digit.
 fn percent(share: f64) -> String {
     let percent = share * 100.0;
     match percent {
@@ -68,7 +68,7 @@ mod tests {
     use super::percent;
 
     #[test]
-    fn a_share_is_told_with_one_digit_that_counts() {
+    fn a_share_is_shown_with_one_significant_digit() {
         assert_eq!(
             [0.0431, 0.0092, 0.00052, 0.00003].map(percent),
             ["4 %", "0.9 %", "0.05 %", "less than 0.01 %"]

@@ -1,4 +1,4 @@
-//! Graph file in memory, with access to the files that it names.
+//! A graph file in memory, with access to the files that it names.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -20,10 +20,10 @@ use crate::remedy::Remedy;
 use crate::source::pictures::Pictures;
 use crate::source::strokes::Strokes;
 
-/// Graph files larger than this are refused before they are read.
+/// Maximum size. Larger graph files are refused before they are read.
 pub(crate) const SIZE_LIMIT_BYTES: u64 = 64 << 20;
 
-/// First bytes of an archive, such as a packed graph.
+/// First bytes of an archive, for example of a packed graph.
 const ARCHIVE: &[u8] = b"PK\x03\x04";
 
 /// An open graph file.
@@ -33,23 +33,23 @@ pub struct OpenGraph {
     pub path: PathBuf,
     /// Parsed content of the file.
     pub document: Document,
-    /// Text of the file, to find the positions of faults in.
+    /// Text of the file, for finding the positions of faults.
     pub text: Arc<str>,
-    /// Pictures that its nodes name, as far as they were opened.
+    /// Pictures that its nodes name, as far as they have been opened.
     pub pictures: Pictures,
-    /// Strokes of its paint nodes, as far as they were read or painted.
+    /// Strokes of its paint nodes, as far as they have been read or painted.
     pub strokes: Strokes,
-    /// Paths outside of its folder from which it may open what it names.
+    /// Paths outside of its folder from which it may open the files that it names.
     pub trusted: TrustedPaths,
 }
 
 impl OpenGraph {
-    /// An empty graph, as if it were in a file of this name.
+    /// Creates an empty graph, as if it were in a file of this name.
     pub fn empty(path: impl Into<PathBuf>) -> OpenGraph {
         OpenGraph::of_document(path, Document::new(""))
     }
 
-    /// A graph in memory, as if it were in a file of this name that the user names.
+    /// Creates a graph in memory, as if it were in a file of this name that the user names.
     pub fn of_document(path: impl Into<PathBuf>, document: Document) -> OpenGraph {
         let path = path.into();
         let trusted = TrustedPaths::of_file(&path);
@@ -68,14 +68,14 @@ impl OpenGraph {
         OpenGraph::open_trusting(path, &TrustedPaths::default())
     }
 
-    /// Reads a graph file that the user names. It may open what it names below these paths, below its folder, and in the project
-    /// that it belongs to.
+    /// Reads a graph file that the user names. The graph may open the files that it names below these paths, below its
+    /// folder, and in the project to which it belongs.
     pub fn open_trusting(path: &Path, trusted: &TrustedPaths) -> Result<OpenGraph, EngineError> {
         let _span = tracing::debug_span!("open graph", path = %path.display()).entered();
         OpenGraph::of_text(path, read_text(path), trusted.clone().with_file(path))
     }
 
-    /// Reads a graph file that the user names, and the kinds of its nodes. Canceled at any moment.
+    /// Reads a graph file that the user names, and the kinds of its nodes. Can be canceled at any moment.
     pub(crate) fn open_with_kinds(
         path: PathBuf,
         trusted: TrustedPaths,
@@ -88,7 +88,7 @@ impl OpenGraph {
         })?
     }
 
-    /// Reads a group file that this graph names as `written`, if it may open it. The group may open what this graph may.
+    /// Reads a group file that this graph names as `written`, if it may open it. The group may open the same files as this graph.
     pub fn open_group(&self, written: &str) -> Result<OpenGraph, EngineError> {
         let base = self.base();
         if let Err(Unread::Refused(refusal)) = self.trusted.check(&base, written) {
@@ -102,8 +102,8 @@ impl OpenGraph {
         OpenGraph::of_text(path, read_text(path), trusted)
     }
 
-    /// Reads a graph from a stream, as if it were in a file of that name in the current folder, which relative paths in it start
-    /// from.
+    /// Reads a graph from a stream, as if it were in a file of this name in the current folder. Relative paths in it start
+    /// from that folder.
     pub fn read(name: impl AsRef<Path>, stream: impl Read) -> Result<OpenGraph, EngineError> {
         let mut bytes = Vec::new();
         let read = stream.take(SIZE_LIMIT_BYTES + 1).read_to_end(&mut bytes);
@@ -120,7 +120,7 @@ impl OpenGraph {
         OpenGraph::of_text(name, bytes.and_then(text_of), TrustedPaths::of_file(name))
     }
 
-    /// Returns the graph's text where that is not what its file holds: one with unsaved changes, or from elsewhere.
+    /// Returns the graph's text if it differs from its file: with unsaved changes, or from another origin.
     pub(crate) fn unsaved_text(&self) -> Option<String> {
         let text = self.document.to_json();
         let is_saved = read_text(&self.path).is_ok_and(|saved| saved == text);
@@ -145,9 +145,9 @@ impl OpenGraph {
         })
     }
 
-    /// Returns the folder that paths in the file start from.
+    /// Returns the folder from which paths in the file start.
     pub fn folder(&self) -> &Path {
-        self.path.parent().unwrap_or(Path::new("")) // A bare file name lies in the current folder.
+        self.path.parent().unwrap_or(Path::new("")) // A bare file name refers to the current folder.
     }
 
     /// Returns the base that resolves paths in the file.
@@ -155,7 +155,7 @@ impl OpenGraph {
         PathBase::of_file(&self.path)
     }
 
-    /// Has these pictures read again on their next use, for changes that neither length nor time shows.
+    /// Makes these pictures be read again on their next use, for changes that do not change the length or the time of the file.
     pub fn look_again(&self, pictures: &BTreeSet<PathBuf>) {
         self.pictures.look_again(pictures);
     }
@@ -171,7 +171,7 @@ impl OpenGraph {
             .contents(&self.base(), &self.trusted, graph, &kinds.sources, nodes, u64::MAX)
     }
 
-    /// Lists the keys of the file that nothing reads, as sentences with the file's path, line and column before them.
+    /// Lists the keys of the file that are not used, as sentences that begin with the file's path, line and column.
     pub fn unknown_keys(&self) -> Vec<String> {
         let found = unknown_keys(&self.text);
         let path = self.path.display();
@@ -184,17 +184,17 @@ impl OpenGraph {
             .collect()
     }
 
-    /// Returns a sentence about the graph, with the file's path before it.
+    /// Returns a sentence about the graph that begins with the file's path.
     pub(crate) fn with_path(&self, sentence: impl fmt::Display) -> String {
         format!("{}: {sentence}", self.path.display())
     }
 
-    /// Search for the places of nodes in the file.
+    /// Returns a search for the positions of nodes in the file.
     pub(crate) fn locator(&self) -> Locator<'_> {
         Locator::new(&self.text)
     }
 
-    /// Returns a sentence about a faulty node, with the file's path, line and column before it; `locator` is that of the file.
+    /// Returns a sentence about a faulty node that begins with the file's path, line and column. `locator` is that of the file.
     pub(crate) fn with_position(
         &self,
         locator: &Locator<'_>,
@@ -212,7 +212,7 @@ impl OpenGraph {
         self.flatten_and_find(overrides, &[]).map(|(graph, _)| graph)
     }
 
-    /// Flattens the graph, and finds the origin of the results of some nodes of the document.
+    /// Flattens the graph, and finds where the results of some nodes of the document come from.
     pub(crate) fn flatten_and_find(
         &self,
         overrides: &Overrides,
@@ -221,8 +221,8 @@ impl OpenGraph {
         self.flatten_and_list(overrides, wanted, &mut BTreeSet::new())
     }
 
-    /// Flattens the graph as [`OpenGraph::flatten_and_find`] does. Adds the group files that were looked for to `groups`, also
-    /// where that fails.
+    /// Flattens the graph like [`OpenGraph::flatten_and_find`]. Adds the group files that were searched to `groups`, even
+    /// if flattening fails.
     pub(crate) fn flatten_and_list(
         &self,
         overrides: &Overrides,
@@ -241,7 +241,7 @@ impl OpenGraph {
         })
     }
 
-    /// Flattens a document as if it were in this file. An error comes with its class, if the files are its cause.
+    /// Flattens a document as if it were in this file. If files cause an error, its class is returned as well.
     pub(crate) fn try_flatten(
         &self,
         document: &Document,
@@ -264,8 +264,8 @@ impl OpenGraph {
                 class.kind = error.kind;
                 format!("{}: {error}", path.display())
             })?;
-            // A group may name what lies beside it.
-            let folder = path.parent().unwrap_or(Path::new("")); // A bare name lies in the current folder.
+            // A group may name files in its own folder.
+            let folder = path.parent().unwrap_or(Path::new("")); // A bare name refers to the current folder.
             trusted = std::mem::take(&mut trusted).with_path(folder);
             Document::from_json(&text).map_err(|error| error.with_name(path.display().to_string()).to_string())
         };
@@ -283,7 +283,7 @@ impl OpenGraph {
             set: Vec::new(),
             ..overrides.clone()
         };
-        // The values of a variant belong to the file; a name of a missing variant belongs to the overrides.
+        // The values of a variant belong to the file. If a variant is missing, its name belongs to the overrides.
         is_gone_without(&without_values)
             || matches!(error, FlattenError::NoSuchVariant { .. }) && is_gone_without(&Overrides::default())
     }

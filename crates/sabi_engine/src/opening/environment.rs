@@ -1,4 +1,4 @@
-//! Environments that light the model: Sabi's own by name, or a picture.
+//! Environments that light the model: built-in ones by name, or a picture.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use crate::error::{EngineError, ErrorKind};
 /// Name of the environment that is shown by default.
 pub(crate) const DEFAULT_ENVIRONMENT: &str = "studio";
 
-/// Sabi's own environments, the default first; `cargo xtask assets` writes them.
+/// Built-in environments, the default first. `cargo xtask assets` writes them.
 const BUILT_IN: [(&str, &[u8]); 5] = [
     (
         DEFAULT_ENVIRONMENT,
@@ -34,23 +34,23 @@ const BUILT_IN: [(&str, &[u8]); 5] = [
     ),
 ];
 
-/// Files of environments larger than this are not read.
+/// Maximum size of environment files. Larger ones are not read.
 const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 
-/// Stored environments of 1 or 4 MiB each; the version changes whenever the same panorama is prefiltered differently.
+/// Cache of environments of 1 or 4 MiB each. The version changes whenever the same panorama is prefiltered differently.
 const KIND: CacheKind = CacheKind {
     prefix: "light",
     version: 2,
     limit_bytes: 64 << 20,
 };
 
-/// Lists the names of Sabi's own environments, the default first.
+/// Lists the names of the built-in environments, the default first.
 pub fn built_in_environments() -> impl Iterator<Item = &'static str> {
     BUILT_IN.iter().map(|(name, _)| *name)
 }
 
-/// Loads an environment and prefilters it on the device. `choice` is the name of one of Sabi's own or the path of a picture,
-/// see [`read_panorama`]. Prefiltered light is stored in the cache folder, if there is one. Also returns warnings.
+/// Loads an environment and prefilters it on the device. `choice` is the name of a built-in environment or the path of a
+/// picture; see [`read_panorama`]. Prefiltered light is stored in the cache folder, if there is one. Also returns warnings.
 pub fn load_environment(
     gpu: &Gpu,
     choice: &str,
@@ -63,7 +63,7 @@ pub fn load_environment(
     Ok((environment, remarks))
 }
 
-/// Prefilters a panorama on the device; also returns a warning where the result could not be stored in the cache folder.
+/// Prefilters a panorama on the device. Also returns a warning if the result could not be stored in the cache folder.
 pub(crate) fn environment_of(
     gpu: &Gpu,
     panorama: &Panorama,
@@ -113,8 +113,8 @@ fn key_of(gpu: &Gpu, panorama: &Panorama) -> [u8; 32] {
     *hasher.finalize().as_bytes()
 }
 
-/// Reads one of Sabi's own environments by its name, or a latitude-longitude picture by its path. OpenEXR and Radiance HDR
-/// store linear light; other pictures count as sRGB unless they declare that they are linear. Also returns warnings.
+/// Reads a built-in environment by its name, or a latitude-longitude picture by its path. OpenEXR and Radiance HDR store
+/// linear light; other pictures count as sRGB unless they declare that they are linear. Also returns warnings.
 pub fn read_panorama(choice: &str) -> Result<(Panorama, Vec<String>), EngineError> {
     if let Some((name, bytes)) = BUILT_IN.iter().find(|(name, _)| *name == choice) {
         return decoded(name, bytes);
@@ -128,7 +128,7 @@ pub fn read_panorama(choice: &str) -> Result<(Panorama, Vec<String>), EngineErro
     decoded(choice, &bytes)
 }
 
-/// Error for a name of neither an environment nor a file.
+/// Returns the error for a name that is neither an environment nor a file.
 fn no_such(choice: &str) -> EngineError {
     let own = built_in_environments().collect::<Vec<_>>().join(", ");
     let advice = match nearest(choice, built_in_environments()) {

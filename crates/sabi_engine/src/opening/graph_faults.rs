@@ -49,7 +49,7 @@ pub(crate) fn targets(nodes: impl IntoIterator<Item = usize>) -> Vec<Target> {
     nodes.into_iter().map(|node| Target { node, port: None }).collect()
 }
 
-/// Explains an error in sentences, with the faults of the kind's file where the kind is unknown because of them.
+/// Explains an error in sentences. If a kind is unknown because of faults in its file, includes these faults.
 fn explain(open: &OpenGraph, locator: &Locator<'_>, kinds: &Kinds, error: &PlanError) -> Vec<String> {
     let faults: Vec<String> = match error.problem {
         Problem::UnknownKind { .. } => kinds.faults_of(&error.kind).map(ToString::to_string).collect(),
@@ -67,10 +67,10 @@ fn explain(open: &OpenGraph, locator: &Locator<'_>, kinds: &Kinds, error: &PlanE
         .collect()
 }
 
-/// Most errors of a graph that are explained: the place of each is counted from the beginning of the text.
+/// Maximum number of errors of a graph that are explained, since the position of each is found by counting from the beginning of the text.
 const MOST_EXPLAINED: usize = 100;
 
-/// Explains errors in sentences, those of a graph with very many in part.
+/// Explains errors in sentences; only some of them if there are very many.
 pub(crate) fn explained<'e>(
     open: &OpenGraph,
     kinds: &Kinds,
@@ -126,7 +126,7 @@ pub(crate) fn remedies_of(errors: &[PlanError]) -> Option<Remedy> {
     }
 }
 
-/// Refuses a graph with faults that the targets depend on, with a sentence for each. Returns the plan without a model.
+/// Refuses a graph with faults on which the targets depend, with a sentence for each. Returns the plan without a model.
 pub(crate) fn refuse_faults(
     open: &OpenGraph,
     graph: &FlatGraph,

@@ -23,7 +23,7 @@ pub struct Kinds {
     pub sinks: BTreeMap<String, SourceKind>,
     /// Faults of node files; other files are not affected.
     pub faults: Vec<Fault>,
-    /// Paths from which node files are read besides their own folder and its project: a link leads nowhere else.
+    /// Paths from which node files are read in addition to their own folder and its project. Links must not lead elsewhere.
     trusted: TrustedPaths,
 }
 
@@ -48,20 +48,19 @@ impl Kinds {
         kinds
     }
 
-    /// Lets links among node files lead to these paths, from the next reading on.
+    /// Allows links among node files to lead to these paths, from the next reading on.
     pub fn trust(&mut self, trusted: &TrustedPaths) {
         self.trusted = std::mem::take(&mut self.trusted).with(trusted);
     }
 
     /// Lists the node folders of a graph: the user's, and `nodes` beside it. They need not exist.
     pub fn folders(graph: Option<&Path>) -> Vec<PathBuf> {
-        // A bare file name lies in the current folder.
+        // A bare file name refers to the current folder.
         let beside = graph.map(|graph| graph.parent().unwrap_or(Path::new("")).join("nodes"));
         own_node_folder().into_iter().chain(beside).collect()
     }
 
-    /// Reads folders again: takes changed files, keeps the last good version of faulty ones, and drops nodes whose files do not
-    /// exist any more.
+    /// Reads folders again: uses changed files, keeps the last good version of faulty ones, and drops nodes whose files no longer exist.
     pub fn reread(&mut self, folders: &[PathBuf]) {
         for folder in folders {
             self.faults.retain(|fault| !fault.path.starts_with(folder));
@@ -73,7 +72,7 @@ impl Kinds {
         }
     }
 
-    /// Sets the content of the kinds that show the model.
+    /// Sets the values of the kinds that depend on the model.
     pub(crate) fn adapt_to(&mut self, model: &Model) {
         let own = source::kinds_for(model);
         self.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
@@ -117,8 +116,8 @@ impl Kinds {
         self.faults.iter().filter(is_of)
     }
 
-    /// Returns the paths that node files of a folder may be read from. The user's own folder stands for itself, also as a link; one
-    /// beside a graph is a part of what the graph brings, and may not lead out of the graph's folder and project.
+    /// Returns the paths from which node files of a folder may be read. The user's own folder may be a link. A folder
+    /// beside a graph may come from elsewhere with the graph, so it must not lead out of the graph's folder and project.
     pub(crate) fn trusted_for(folder: &Path, trusted: &TrustedPaths) -> TrustedPaths {
         match own_node_folder().is_some_and(|own| own == folder) {
             true => trusted.clone().with_path(folder),
@@ -135,7 +134,7 @@ impl Kinds {
     }
 }
 
-/// The user's own folder of node files.
+/// Returns the user's own folder of node files.
 fn own_node_folder() -> Option<PathBuf> {
     own_folder("SABI_NODES", "nodes")
 }

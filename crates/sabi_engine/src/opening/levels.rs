@@ -1,4 +1,4 @@
-//! Levels of the surface besides the finest, built when a plan runs on them.
+//! Levels of the surface besides the finest one. They are built when a plan runs on them.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +10,12 @@ use sabi_surface::points::SurfacePoints;
 use crate::error::EngineError;
 use crate::opening::linked_model::FittedModel;
 
-/// Spacings for the side of a square as large as the surface: of the finest points, which are 160 000, at least of the widest, and
-/// below which there are none.
+/// Spacings of points, as fractions of the side of a square as large as the surface: of the finest points (160 000 of
+/// them), the minimum for the widest, and the limit below which there are no points.
 const FINEST_POINTS: f64 = 512.0;
 const WIDEST_POINTS: f64 = 100.0;
 const FEWEST_POINTS: f64 = 24.0;
-/// Least texels for the spacing of points, since their cells are made of texels.
+/// Minimum number of texels for the spacing of points, since the cells of points consist of texels.
 const TEXELS_FOR_SPACING: f64 = 2.5;
 
 /// Levels of a surface that were built so far.
@@ -85,7 +85,7 @@ impl SurfaceLevels {
         }
     }
 
-    /// Builds and uploads the levels that a plan runs on, as far as they are missing.
+    /// Builds and uploads the levels on which a plan runs, as far as they are missing.
     pub(crate) fn make(
         &mut self,
         plan: &Plan,
@@ -127,7 +127,7 @@ impl SurfaceLevels {
         Ok(())
     }
 
-    /// Spreads points over the level of texels that their cells are made of, and uploads both.
+    /// Spreads points over the level of texels from which their cells are built, and uploads both.
     fn add_points(&mut self, number: u32, gpu: &Gpu, model: FittedModel<'_>, seed: u32) -> Result<(), EngineError> {
         let widths = self.widths(model, true);
         let spacing = widths.of(Level::Points(number));

@@ -39,11 +39,11 @@ pub struct ModelOptions {
     pub up: Up,
     /// Factor for all lengths of the file.
     pub scale: f32,
-    /// Scene of a glTF file; none for the one that the file names.
+    /// Scene of a glTF file; `None` for the file's default scene.
     pub scene: Option<u32>,
-    /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
+    /// Angle between faces up to which their shading is smooth, in degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
-    /// Parts that count, and faces that are turned; where nothing is said, a graph decides that names the model.
+    /// Parts that are used, and faces that are turned. Where this has no value, that of a graph which names the model is used.
     pub reading: SavedReading,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
@@ -51,25 +51,25 @@ pub struct ModelOptions {
     pub udim: Udim,
     /// Texels per UV unit.
     pub size: u32,
-    /// Folder of the disk cache; none to build the atlas every time.
+    /// Folder of the disk cache; `None` to build the atlas every time.
     pub cache_dir: Option<PathBuf>,
-    /// Paths outside of its folder from which it may open what it names.
+    /// Paths outside of its folder from which it may open the files that it names.
     pub trusted: TrustedPaths,
-    /// Most bytes of memory for its files and pictures.
+    /// Maximum memory for its files and pictures, in bytes.
     pub memory_bytes: u64,
 }
 
-/// Treatment of charts that overlap on the maps: stacked and mirrored ones, or those of a tiling texture.
+/// Treatment of charts that overlap on the maps: stacked and mirrored ones, or those of a repeating texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Overlap {
-    /// Writes the result of the first chart. Surfaces whose UVs repeat so often that their maps would show little of them are
+    /// Uses the result of the first chart. Surfaces whose UVs repeat so often that their maps would show little of them are
     /// unwrapped, each onto a sheet of its own.
     #[default]
     Auto,
-    /// Writes the result of the first chart.
+    /// Uses the result of the first chart.
     First,
-    /// Writes the mean of the results of all charts.
+    /// Uses the mean of the results of all charts.
     Merge,
     /// Unwraps the whole model onto one sheet for all its materials, so that no charts overlap.
     Unwrap,
@@ -112,7 +112,7 @@ impl ModelOptions {
 pub struct LinkedModel {
     /// Model, with the new mesh if it was unwrapped.
     pub model: Arc<Model>,
-    /// Result of unwrapping; none where its own UVs are used.
+    /// Result of unwrapping; `None` if its own UVs are used.
     pub unwrapped: Option<Unwrapping>,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
@@ -124,18 +124,18 @@ pub struct LinkedModel {
     pub atlas: Atlas,
     /// Connected pieces of its parts.
     pub pieces: Arc<Pieces>,
-    /// Ray hierarchy; built for the first ray, and earlier by the live evaluator.
+    /// Ray hierarchy. It is built for the first ray, or earlier by the live evaluator.
     pub bvh: Arc<OnceLock<Bvh>>,
-    /// Index of the mesh for brushes; made for the first stroke.
+    /// Index of the mesh for brushes. It is built for the first stroke.
     pub paint_index: Arc<OnceLock<SurfaceIndex>>,
-    /// Its shade on the ground, found when a picture first needs it.
+    /// Its shade on the ground, computed when a picture first needs it.
     ground: Arc<OnceLock<Option<Ground>>>,
-    /// Its openness for the charts of the atlas, found when a picture first needs it.
+    /// Its openness for the charts of the atlas, computed when a picture first needs it.
     openness: OnceLock<Option<Openness>>,
     finest_texel: OnceLock<f64>,
     area: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
-    /// Warnings about what rays cannot rely on.
+    /// Warnings about properties on which rays depend.
     pub(crate) solidity: OnceLock<Vec<Warning>>,
     /// True if the atlas was read from the cache.
     pub atlas_was_cached: bool,
@@ -145,11 +145,11 @@ pub struct LinkedModel {
     pub(crate) farthest: f64,
     /// Model units per unit of the file.
     pub scale: f64,
-    /// Angle up to which its shading was smoothed, degrees; none for the normals of the file.
+    /// Angle up to which its shading was smoothed, in degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
 }
 
-/// Shade of a model on the ground and on itself; what cannot be found is left out.
+/// Shade of a model on the ground and on itself. Parts that cannot be computed are left out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ModelShade<'a> {
     pub(crate) ground: Option<&'a Ground>,
@@ -174,7 +174,7 @@ pub struct Unwrapping {
 }
 
 impl LinkedModel {
-    /// Bytes that its files, its mesh and its atlas take.
+    /// Returns the number of bytes that its files, its mesh and its atlas take.
     pub(crate) fn memory_bytes(&self) -> u64 {
         self.model.file_bytes + mesh_bytes(self.model.mesh.triangles.len() as u64) + self.atlas.memory_bytes()
     }
@@ -187,7 +187,7 @@ impl LinkedModel {
         LinkedModel::link(model, options, progress)
     }
 
-    /// Loads a model without its atlas. Canceled at any moment of its reading.
+    /// Loads a model without its atlas. Can be canceled at any moment.
     pub fn load_model(options: &ModelOptions, progress: &dyn Progress) -> Result<Model, EngineError> {
         if !(options.scale.is_finite() && options.scale > 0.0) {
             let why = format!("the scale of a model is a number above 0, not {}", options.scale);
@@ -213,8 +213,8 @@ impl LinkedModel {
         Ok(loaded?)
     }
 
-    /// Builds the atlas of a loaded model or reads it from the cache. A model without usable UVs is unwrapped first. Canceled at any
-    /// moment.
+    /// Builds the atlas of a loaded model or reads it from the cache. A model without usable UVs is unwrapped first. Can be
+    /// canceled at any moment.
     pub fn link(model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
@@ -245,7 +245,7 @@ impl LinkedModel {
         }
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
         let (largest_side, farthest) = extents(&model);
-        // After the atlas, which refuses incomplete meshes.
+        // This comes after the atlas, which refuses incomplete meshes.
         let pieces = Arc::new(Pieces::of(&model.mesh));
         Ok(LinkedModel {
             model: Arc::new(model),
@@ -271,7 +271,7 @@ impl LinkedModel {
         })
     }
 
-    /// Builds the atlas of another size. The model and its ray hierarchy are shared.
+    /// Builds the atlas for another size. The model and its ray hierarchy are shared.
     pub fn resized(&self, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
@@ -305,14 +305,14 @@ impl LinkedModel {
         self.bvh.get_or_init(|| Bvh::build(&self.model.mesh))
     }
 
-    /// Returns the shade of the model, found on first use or read from a cache folder.
+    /// Returns the shade of the model, computed on first use or read from a cache folder.
     pub(crate) fn shade(&self, cache_dir: Option<&Path>) -> ModelShade<'_> {
         let _span = tracing::debug_span!("find the shade of the model").entered();
         let (mesh, bvh) = (&self.model.mesh, self.hierarchy());
         let ground = self.ground.get_or_init(|| Ground::of(mesh, bvh));
         let openness = self.openness.get_or_init(|| {
             let folder = cache_dir.map(|folder| folder.join("atlas"));
-            // A model without an atlas of that size is drawn without.
+            // If an atlas of that size cannot be built, the model is drawn without it.
             Openness::of(mesh, &self.atlas, bvh, folder.as_deref()).ok()
         });
         ModelShade {
@@ -321,7 +321,7 @@ impl LinkedModel {
         }
     }
 
-    /// Returns the shade of the model, if it was found.
+    /// Returns the shade of the model if it has been computed.
     pub(crate) fn found_shade(&self) -> Option<ModelShade<'_>> {
         let (ground, openness) = (self.ground.get()?, self.openness.get()?);
         Some(ModelShade {

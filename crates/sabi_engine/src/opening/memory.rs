@@ -1,19 +1,19 @@
-//! Memory that a model and its pictures may take.
+//! Memory limits for a model and its pictures.
 
 use std::fs;
 use std::sync::OnceLock;
 
-/// Memory of a model where that of the machine is not known, bytes.
+/// Memory of a model in bytes if that of the machine is not known.
 const UNKNOWN: u64 = 8 << 30;
-/// Least memory of a model by default, bytes.
+/// Minimum default memory of a model in bytes.
 const LEAST: u64 = 1 << 30;
 
-/// Returns the memory that a model may take by default, bytes: half of what the machine has, or what the group of this process
-/// may take of it.
+/// Returns the default memory limit for a model in bytes: half of the machine's memory, or half of the limit for the group
+/// of this process.
 pub fn default_memory_bytes() -> u64 {
     static BYTES: OnceLock<u64> = OnceLock::new();
     *BYTES.get_or_init(|| {
-        // Linux alone says it in files; other systems would need calls of their own.
+        // Only Linux reports it in files; other systems would need system calls.
         let machine = fs::read_to_string("/proc/meminfo")
             .ok()
             .and_then(|text| total_of(&text));
@@ -23,7 +23,7 @@ pub fn default_memory_bytes() -> u64 {
     })
 }
 
-/// Half of a machine's memory, bytes.
+/// Returns half of a machine's memory in bytes.
 fn share_of(machine: Option<u64>) -> u64 {
     machine.map_or(UNKNOWN, |bytes| (bytes / 2).max(LEAST))
 }

@@ -1,4 +1,4 @@
-//! A model and its atlas in numbers, for `sabi mesh` and the report of a bake; docs/report.md lists the keys.
+//! Report on a model and its atlas for `sabi mesh` and the report of a bake; docs/report.md lists the keys.
 
 use sabi_export::set_names;
 use sabi_surface::model::{Model, UvDecoding};
@@ -22,15 +22,15 @@ pub struct MeshReport {
     pub parts_left_out: Vec<String>,
     /// Connected pieces of all parts.
     pub pieces: usize,
-    /// Names of the materials, as files are named after them.
+    /// Names of the materials, as used in file names.
     pub materials: Vec<String>,
-    /// Results of unwrapping the model; `None` where its own UVs are used.
+    /// Results of unwrapping the model; `None` if its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
     /// UVs that the file stores under a transform.
     pub decoded_uvs: Vec<DecodedUvs>,
     /// Angle between faces up to which the shading was smoothed, degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
-    /// Faces that were turned, because they were inside out.
+    /// Number of faces that were turned because they were inside out.
     pub turned_faces: usize,
     /// Faces that are inside out.
     pub inside_out_faces: usize,
@@ -44,21 +44,21 @@ pub struct MeshReport {
     pub pages: u32,
     /// Width and height of a page, texels.
     pub page_size: [u32; 2],
-    /// Charts in UV; one that overlaps itself counts in the parts that do not.
+    /// Charts in UV. A chart that overlaps itself counts as the parts that do not.
     pub charts: usize,
     /// Share of the atlas that charts cover.
     pub coverage: f32,
     /// Charts that share places on the maps.
     pub overlap: OverlapReport,
-    /// Texture sets that a bake makes maps for.
+    /// Texture sets for which a bake makes maps.
     pub sets: Vec<SetReport>,
     /// Pairs of charts that share places.
     pub overlapping_charts: usize,
-    /// Charts that lie exactly on an earlier one.
+    /// Number of charts that are exactly on an earlier one.
     pub stacked_charts: u32,
     /// Charts whose UVs are mirrored.
     pub mirrored_charts: u32,
-    /// Charts whose place in the atlas is not that of their UVs.
+    /// Number of charts whose place in the atlas differs from that of their UVs.
     pub moved_charts: u32,
     /// Charts thinner than two texels.
     pub thin_charts: u32,
@@ -72,7 +72,7 @@ pub struct MeshReport {
     pub border_edges: u32,
     /// Texels of the rings around charts.
     pub ghost_texels: usize,
-    /// Ghosts without a link over a seam.
+    /// Ghosts without a link across a seam.
     pub unlinked_ghosts: u32,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
@@ -81,7 +81,7 @@ pub struct MeshReport {
 /// UVs of a material that the file stores under a transform: `uv = stored × scale + offset`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DecodedUvs {
-    /// Name of the material, as files are named after it.
+    /// Name of the material, as used in file names.
     pub material: String,
     /// Factor of u and v.
     pub scale: [f32; 2],
@@ -90,7 +90,7 @@ pub struct DecodedUvs {
 }
 
 impl DecodedUvs {
-    /// Lists the materials whose stored UVs were decoded; none where the whole model was unwrapped.
+    /// Lists the materials whose stored UVs were decoded; empty if the whole model was unwrapped.
     pub(crate) fn of(linked: &LinkedModel) -> Vec<DecodedUvs> {
         if linked.model.mesh.is_one_sheet {
             return Vec::new();
@@ -111,7 +111,7 @@ impl DecodedUvs {
 /// Results of unwrapping a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UnwrappingReport {
-    /// `TEXCOORD` that a copy of the model has the new UVs in.
+    /// `TEXCOORD` of the new UVs in a copy of the model.
     pub uv_set: u32,
     /// Connected pieces.
     pub pieces: u32,
@@ -121,9 +121,9 @@ pub struct UnwrappingReport {
     pub charts: u32,
     /// Share of the sheet that triangles cover.
     pub coverage: f32,
-    /// Longest direction of a triangle by its shortest, averaged by area; 1 is no stretch.
+    /// Longest direction of a triangle divided by its shortest, averaged by area; 1 means no stretch.
     pub stretch: f32,
-    /// The same at its worst, among the triangles with 99.9 % of the area.
+    /// The worst value of the same, among the triangles with 99.9 % of the area.
     pub worst_stretch: f32,
     /// Texels between charts.
     pub gap_texels: f32,
@@ -147,7 +147,7 @@ impl UnwrappingReport {
     }
 }
 
-/// Lists the parts that a file has and its model has not.
+/// Lists the parts of a file that its model does not have.
 pub(crate) fn parts_left_out(model: &Model) -> Vec<String> {
     let left_out = model.file_parts.iter().filter(|part| part.left_out.is_some());
     left_out.map(|part| part.name.clone()).collect()

@@ -12,7 +12,7 @@ use crate::opening::tiles;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Most parts that a warning names.
+/// Maximum number of parts that a warning names.
 const MOST_NAMED: usize = 12;
 
 impl LinkedModel {
@@ -27,7 +27,7 @@ impl LinkedModel {
         all.chain(self.refused_files()).collect()
     }
 
-    /// Warns about parts that were left out by what their names mean.
+    /// Warns about parts that were left out because of the meaning of their names.
     fn parts_left_out(&self) -> Option<Warning> {
         let parts = self.model.file_parts.iter();
         let by_name = parts.filter(|part| matches!(part.left_out, Some(LeftOut::Hull | LeftOut::CoarserLevel)));
@@ -52,7 +52,7 @@ impl LinkedModel {
         ))
     }
 
-    /// Warns about pictures that the model names and that are not there.
+    /// Warns about pictures that the model names but that are missing.
     fn missing_pictures(&self) -> Option<Warning> {
         let names = self.model.missing_pictures();
         let are = match names.len() {
@@ -65,7 +65,7 @@ impl LinkedModel {
         Some(Warning::new(sentence, [Remedy::TextureFolder]))
     }
 
-    /// Warns about files that the model names and may not open.
+    /// Warns about files that the model names but may not open.
     fn refused_files(&self) -> Option<Warning> {
         let files: BTreeSet<String> = self.model.refused.iter().map(ToString::to_string).collect();
         let first = files.first()?;

@@ -1,4 +1,4 @@
-//! Overlaps of charts on the maps: counts by sort and material, and remedies.
+//! Overlaps of charts on the maps: counts by type and material, and remedies.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::opening::linked_model::{LinkedModel, Overlap};
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Most materials that a report names.
+/// Maximum number of materials that a report names.
 const MATERIALS: usize = 10;
 
 /// Charts that share places on the maps, in a report.
@@ -19,11 +19,11 @@ pub struct OverlapReport {
     /// Pairs of charts that share places.
     #[serde(flatten)]
     pub pairs: SharedPairs,
-    /// Texels whose place another chart claims as well.
+    /// Texels whose place is also used by another chart.
     pub texels: u64,
     /// True if there are more pairs than the atlas lists.
     pub more_than_counted: bool,
-    /// Share of the owned texels whose place another chart claims as well.
+    /// Share of the owned texels whose place is also used by another chart.
     pub share: f64,
     /// Materials with the most shared texels, at most 10.
     pub materials: Vec<MaterialOverlap>,
@@ -35,18 +35,18 @@ pub struct MaterialOverlap {
     /// Pairs of charts that share places.
     #[serde(flatten)]
     pub pairs: SharedPairs,
-    /// Name of the material, as files are named after it.
+    /// Name of the material, as used in file names.
     pub material: Option<String>,
-    /// Texels that pairs of charts share, added up.
+    /// Texels that pairs of charts share, summed over the pairs.
     pub texels: u64,
 }
 
 /// Texture set of a model in a report: the maps of a material, or of one of its UDIM tiles.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SetReport {
-    /// Name of the material, as files are named after it; that of the model where all materials share one sheet.
+    /// Name of the material as used in file names, or of the model if all materials share one sheet.
     pub material: String,
-    /// UDIM number, where the material uses several tiles.
+    /// UDIM number if the material uses several tiles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub udim: Option<u32>,
     /// Charts in UV.
@@ -63,18 +63,18 @@ pub struct SetOverlap {
     /// Pairs of charts that share places.
     #[serde(flatten)]
     pub pairs: SharedPairs,
-    /// Texels that pairs of charts share, added up.
+    /// Texels that pairs of charts share, summed over the pairs.
     pub texels: u64,
 }
 
 /// Pairs of charts that share places on the maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct SharedPairs {
-    /// Pairs that lie on each other exactly and wind the same way.
+    /// Pairs of charts in exactly the same place with the same orientation.
     pub stacked: u32,
-    /// Pairs that lie on each other exactly, one of them mirrored.
+    /// Pairs of charts in exactly the same place, one of them mirrored.
     pub mirrored: u32,
-    /// Pairs in different UV tiles, and charts larger than one: a texture repeats there.
+    /// Pairs in different UV tiles, and charts larger than a tile, on which a texture repeats.
     pub tiling: u32,
     /// Pairs that share a part only.
     pub partial: u32,
@@ -85,7 +85,7 @@ pub(crate) struct OverlapTotals {
     by_material: BTreeMap<u32, SetOverlap>,
     /// Overlaps by texture set. A pair of charts counts for the tile of the first one.
     by_set: BTreeMap<SetKey, SetOverlap>,
-    /// Share of the owned texels whose place another chart claims as well.
+    /// Share of the owned texels whose place is also used by another chart.
     share: f64,
     /// True if there are more pairs than the atlas lists, so that their counts are lower bounds.
     is_cut: bool,
@@ -128,7 +128,7 @@ impl OverlapTotals {
         for &(a, b, texels) in &atlas.report.overlapping_charts {
             let pair = [a, b].map(|chart| &charts[chart as usize]);
             let [first, second] = pair.map(|chart| chart.parts[0]);
-            // Tiles of UDIM layouts have maps of their own, on which charts of other tiles overlap as those of one tile do.
+            // Tiles of UDIM layouts have separate maps. On these, charts of other tiles overlap in the same way as those of one tile.
             let repeats = first.uv_tile != second.uv_tile && !is_udim(first);
             let are_whole = pair.iter().all(|chart| chart.texels() == texels);
             let mut pairs = SharedPairs::default();
@@ -191,7 +191,7 @@ impl OverlapTotals {
         let described = set_keys(atlas).into_iter().filter_map(|key| {
             let own = charts.iter().filter(|chart| key.is_home_of(chart.parts[0]));
             let texels: Vec<u64> = own.map(UvChart::texels).filter(|texels| *texels > 0).collect();
-            // Nothing is written for a material without a surface.
+            // Nothing is written for a material without a surface, so it needs no name.
             let material = names.get(key.material as usize).filter(|_| !texels.is_empty())?;
             Some(SetReport {
                 material: material.clone(),
@@ -265,7 +265,7 @@ impl OverlapTotals {
     }
 }
 
-/// Returns other treatments of overlaps, best first. The mean suits exact copies only.
+/// Returns other treatments of overlaps, best first. The mean is suitable only for exact copies.
 fn remedies(overlap: Overlap, was_unwrapped: bool, copies: bool) -> &'static [Remedy] {
     match overlap {
         _ if was_unwrapped => &[Remedy::LargerSize, Remedy::EditUvs],

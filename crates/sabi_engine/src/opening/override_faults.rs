@@ -1,4 +1,4 @@
-//! Check of the values that a request sets: faults that the graph has only with them are faults of the request.
+//! Check of the values that a request sets. Faults that the graph has only with them are faults of the request.
 
 use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{FileContents, PlanError, Problem};
@@ -10,8 +10,8 @@ use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
 use crate::opening::kinds::Kinds;
 use crate::opening::setting::read_typed;
 
-/// Refuses values that no node takes, and names that no node has. A file may contain such values, since it may be of a newer
-/// version of Sabi; a request may not. `graph` is the flat graph with the overrides.
+/// Refuses values that no node accepts, and names that no node has. A file may contain such values, since it may be of a
+/// newer version of Sabi, but a request may not. `graph` is the flat graph with the overrides.
 pub(crate) fn refuse_bad_values(
     open: &OpenGraph,
     graph: &FlatGraph,
@@ -36,11 +36,11 @@ pub(crate) fn refuse_bad_values(
     Err(EngineError::several(ErrorKind::Usage, messages))
 }
 
-/// Most settings of which each one that is wrong is told.
+/// Maximum number of settings up to which each wrong one is reported.
 const MOST_LOOKED_AT: usize = 500;
 
-/// Returns an error with all faults of the values that a request sets, given the first one, which keeps the graph from being flattened:
-/// each name and value is tried alone, and those that remain together.
+/// Returns an error with all faults of the values that a request sets. `first` is the first of these faults, with which the
+/// graph cannot be flattened. Each name and value is tried separately, and then the remaining ones together.
 pub(crate) fn all_override_faults(
     open: &OpenGraph,
     kinds: &Kinds,
@@ -60,7 +60,7 @@ pub(crate) fn all_override_faults(
         }
         faults.add(error);
     }
-    // Each takes a look at the whole graph; what is wrong in very many was written by a program.
+    // Each check examines the whole graph. Very many settings were written by a program, which needs no list of all faults.
     if overrides.set.len() > MOST_LOOKED_AT {
         return first;
     }

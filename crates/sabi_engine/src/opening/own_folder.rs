@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// Returns a folder of the user: that of an environment variable, else `sabi/NAME` in the system's folder for settings.
+/// Returns a folder of the user: that of an environment variable, otherwise `sabi/NAME` in the system's folder for settings.
 pub(crate) fn own_folder(variable: &str, name: &str) -> Option<PathBuf> {
     let value = |name: &str| {
         std::env::var_os(name)

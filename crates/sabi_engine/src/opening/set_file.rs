@@ -17,8 +17,8 @@ pub struct SetFile {
     pub variant: Option<String>,
     /// Seed in place of the graph's.
     pub seed: Option<u32>,
-    /// Values by exposed knob or `node.param`, in the order of the file. A text is read by the type of what it sets, as
-    /// [`read_setting`](crate::read_setting) has it.
+    /// Values by exposed knob or `node.param`, in the order of the file. A text is parsed by the type of the parameter, as
+    /// by [`read_setting`](crate::read_setting).
     pub set: Vec<(String, Value)>,
 }
 
@@ -36,7 +36,7 @@ impl SetFile {
         SetFile::of_table(table).map_err(said)
     }
 
-    /// Reads the values of a file; the errors are clauses, one for each fault.
+    /// Reads the values of a file. The errors are clauses, one for each fault.
     fn of_table(table: Table) -> Result<SetFile, Vec<String>> {
         let mut file = SetFile::default();
         let mut faults = Vec::new();
@@ -65,7 +65,8 @@ fn unknown_key(key: &str) -> String {
     }
 }
 
-/// Adds the values of a table; returns a clause for each that nothing takes. Without quotes, `node.param = 1` is a table in a table.
+/// Adds the values of a table. Returns a clause for each value that no parameter could accept. Without quotes, `node.param
+/// = 1` is a table in a table.
 pub(crate) fn add_values(set: &mut Vec<(String, Value)>, prefix: &str, values: Table) -> Vec<String> {
     let mut faults = Vec::new();
     for (key, value) in values {
@@ -125,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_graph_could_take_is_refused_with_its_name() {
+    fn values_that_no_graph_could_accept_are_refused_by_name() {
         let cases = [
             ("varient = \"x\"", "there is no key 'varient'; did you mean 'variant'?"),
             (

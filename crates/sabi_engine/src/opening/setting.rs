@@ -16,7 +16,7 @@ pub fn read_setting(text: &str) -> Result<(String, Value), String> {
 }
 
 /// Parses the texts of overrides by the types of the parameters that they set: the name of a map may be `42`, and a color
-/// `111111`. A text that sets no known parameter is parsed by its form, so that messages show it as it was meant.
+/// `111111`. A text that sets no known parameter is parsed by its form, so that messages show the intended value.
 pub(crate) fn read_typed(open: &OpenGraph, kinds: &Kinds, overrides: &Overrides) -> Overrides {
     let mut read = overrides.clone();
     for (_, value) in &mut read.set {
@@ -31,10 +31,11 @@ pub(crate) fn read_typed(open: &OpenGraph, kinds: &Kinds, overrides: &Overrides)
                 changed.set[at].1 = value;
                 open.flatten(&changed)
             };
-            // Flattening checks no values of parameters, so the parameters that differ between two probes are those that are set.
+            // Flattening does not check values of parameters. Therefore the parameters that are set are those that differ
+            // between two probes.
             let value = match (with(Value::Bool(false)), with(Value::Bool(true))) {
                 (Ok(off), Ok(on)) => parsed(&changed_params(&off, &on, kinds), text),
-                // A knob with a range or of a group instance; of these, the name of a variant is a text.
+                // It sets a knob with a range or a knob of a group instance. If it is the name of a variant, it stays a text.
                 _ => (with(likely_value(text)).is_err() && with(typed.clone()).is_ok()).then(|| typed.clone()),
             };
             if let Some(value) = value {
@@ -56,7 +57,7 @@ fn changed_params(off: &FlatGraph, on: &FlatGraph, kinds: &Kinds) -> Vec<ParamTy
     types.collect()
 }
 
-/// Parses a text as a value that all these parameters take; `None` where there is none.
+/// Parses a text as a value that all these parameters accept; `None` if there is no such value.
 fn parsed(types: &[ParamType], text: &str) -> Option<Value> {
     let value = types.first()?.parse(text).ok();
     let value = value.filter(|value| types.iter().all(|ty| ty.takes(value)));
@@ -101,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_for_something_unknown_is_read_as_what_it_looks_like() {
+    fn a_value_for_an_unknown_name_is_parsed_by_its_form() {
         let cases = [
             ("0.8", Value::Number(0.8)),
             ("true", Value::Bool(true)),

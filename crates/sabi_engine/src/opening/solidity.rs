@@ -1,4 +1,4 @@
-//! Warnings about models that rays cannot rely on: open, inside out, self-intersecting, or without a clear inside.
+//! Warnings about models that are unsuitable for rays: open, inside out, self-intersecting, or without a clear inside.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Lists warnings about the model for a plan that traces rays; none for others.
+/// Lists warnings about the model for a plan that casts rays; empty for others.
 pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<Warning> {
     let traces_rays = |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
     if !plan.steps.iter().any(traces_rays) {
@@ -92,7 +92,7 @@ fn crossings(linked: &LinkedModel) -> u32 {
                 .cross(corners[2] - corners[0])
                 .normalize_or_zero();
             let beyond = [start, start + way].map(|end| (end - corners[0]).dot(normal));
-            // Both ends have a distance from the face, on opposite sides: faces that touch do not count.
+            // Both ends have a distance from the face, on opposite sides, so faces that touch do not count.
             pieces[other as usize] == pieces[triangle as usize]
                 && beyond[0] * beyond[1] < 0.0
                 && beyond.iter().all(|beyond| beyond.abs() > OFF_FACE * length)
@@ -129,7 +129,7 @@ fn inside_warning(mesh: &Mesh) -> Option<&'static str> {
 /// Computes the enclosed volume, negative where faces point inward, and the area.
 fn measured(mesh: &Mesh) -> (f64, f64) {
     let place = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
-    // Relative to a vertex of the model, so that a model far from the origin loses no precision.
+    // Positions are relative to a vertex of the model, so that a model far from the origin loses no precision.
     let Some(origin) = mesh.triangles.first().map(|triangle| place(triangle[0])) else {
         return (0.0, 0.0);
     };

@@ -1,4 +1,4 @@
-//! A stroke file in numbers, for `sabi paint info`.
+//! Report on a stroke file for `sabi paint info`.
 
 use std::path::Path;
 
@@ -17,11 +17,11 @@ pub struct StrokeReport {
     pub model: String,
     /// Size of the file.
     pub bytes: usize,
-    /// Steps: strokes that were added, and changes of them.
+    /// Number of steps, which add strokes or change them.
     pub steps: usize,
-    /// Bytes that belong to no whole step.
+    /// Number of bytes that belong to no complete step.
     pub damaged_bytes: usize,
-    /// The versions that nothing was painted after; a graph names one of them, or one before.
+    /// The versions after which nothing was painted. A graph names one of them, or an earlier one.
     pub versions: Vec<VersionReport>,
 }
 

@@ -9,7 +9,7 @@ use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Largest part of a tile by which a chart may reach into the next one and still belongs to its tile.
+/// Maximum part of a tile by which a chart may extend into the next tile and still belong to its own.
 const OVERREACH: f64 = 0.01;
 
 /// Warns about the tiles of a model's UVs.
@@ -40,7 +40,7 @@ fn unwrapped<'n>(linked: &LinkedModel, name: impl Fn(u32) -> &'n str) -> Option<
     Some(Warning::new(sentence, [Remedy::KeepOwnUvs]))
 }
 
-/// Warns about tiles that were taken for a texture that repeats although they could be UDIM.
+/// Warns about tiles that were treated as a repeating texture although they could be UDIM.
 fn taken_for_repeating<'n>(linked: &LinkedModel, name: impl Fn(u32) -> &'n str) -> Vec<Warning> {
     if linked.udim != Udim::Auto || linked.model.mesh.is_one_sheet {
         return Vec::new();
@@ -74,7 +74,7 @@ fn taken_for_repeating<'n>(linked: &LinkedModel, name: impl Fn(u32) -> &'n str) 
     charts.into_iter().filter_map(warning).collect()
 }
 
-/// Returns whether a chart lies in one tile, as those of UDIM layouts do.
+/// Returns true if a chart is in one tile, like those of UDIM layouts.
 fn is_within_its_tile(chart: &UvChart<'_>, size: u32) -> bool {
     let size = f64::from(size);
     // Texels are whole.

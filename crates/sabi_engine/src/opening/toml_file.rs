@@ -1,4 +1,4 @@
-//! TOML files that people write: read whole, with faults at their places.
+//! TOML files that people write. They are read completely, and faults are reported with their positions.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use toml::Table;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::unread::{kind_of_unread, why_unread};
 
-/// Larger files are refused before they are read.
+/// Maximum size. Larger files are refused before they are read.
 const SIZE_LIMIT_BYTES: u64 = 16 << 20;
 
 /// Reads a TOML file. `plural` is the name of such files in messages.
@@ -36,7 +36,7 @@ pub(crate) fn read_table(path: &Path, plural: &str) -> Result<Table, EngineError
     })
 }
 
-/// Line and column of a byte, from 1.
+/// Returns line and column of a byte, from 1.
 fn position(text: &str, at: usize) -> (usize, usize) {
     let before = text.get(..at).unwrap_or(text); // Past the end is at the end.
     let line = before.rsplit('\n').next().unwrap_or(before);

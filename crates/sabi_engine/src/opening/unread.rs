@@ -1,10 +1,10 @@
-//! Sentences about files that were named and are not read.
+//! Sentences about files that could not be read.
 
 use sabi_files::Unread;
 
 use crate::error::ErrorKind;
 
-/// Kind of the error that a file is not read.
+/// Returns the kind of the error for a file that could not be read.
 pub(crate) fn kind_of_unread(unread: &Unread) -> ErrorKind {
     match unread {
         Unread::TooLarge(_) => ErrorKind::BadInput,
@@ -12,8 +12,8 @@ pub(crate) fn kind_of_unread(unread: &Unread) -> ErrorKind {
     }
 }
 
-/// Why a file is not read. `ending` and `plural` are the ending and the name of the files that are, and `limit_bytes` their
-/// largest size.
+/// Returns the reason why a file was not read. `ending` and `plural` are the extension and the name of the expected files,
+/// and `limit_bytes` is their maximum size.
 pub(crate) fn why_unread(unread: &Unread, ending: &str, plural: &str, limit_bytes: u64) -> String {
     match unread {
         Unread::Missing => "there is no such file; check the path".to_owned(),

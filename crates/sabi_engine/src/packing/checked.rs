@@ -29,7 +29,7 @@ pub(super) fn check(
     };
     let mut faults = Vec::new();
     for overrides in all_variants(&graph.open.document) {
-        // A graph that cannot be flattened, such as one that lacks a group file, is packed as it is.
+        // A graph that cannot be flattened, for example without a group file, is packed as it is.
         let Ok(before) = graph.open.flatten(&overrides) else {
             continue;
         };

@@ -1,4 +1,4 @@
-//! Entries that an archive may have: what a bake reads, and nothing that another program acts on.
+//! Entries that an archive may have: files that a bake reads, and no files on which other programs act.
 
 use std::path::Path;
 
@@ -7,28 +7,28 @@ use sabi_surface::load::ENDINGS;
 
 use super::manifest;
 
-/// Endings of graphs, of node files and of strokes.
+/// Extensions of graphs, of node files and of strokes.
 const OWN_ENDINGS: [&str; 3] = ["sabi", "wgsl", "strokes"];
-/// Endings of vertex data and of material libraries.
+/// Extensions of vertex data and of material libraries.
 const DATA_ENDINGS: [&str; 6] = ["bin", "buf", "buffer", "dat", "glbin", "mtl"];
-/// Endings of pictures that are taken by their name. Others are looked into.
+/// Extensions of pictures that are accepted by their name. For others, the content is examined.
 const PICTURE_ENDINGS: [&str; 18] = [
     "avif", "basis", "bmp", "dds", "exr", "gif", "hdr", "jpeg", "jpg", "ktx", "ktx2", "pic", "png", "psd", "tga",
     "tif", "tiff", "webp",
 ];
-/// Largest picture that is looked into.
+/// Maximum size of a picture whose content is examined.
 const MOST_PICTURE_BYTES: u64 = 1 << 30;
 /// Folder of node files.
 const NODES: &str = "nodes";
 
-/// Returns true for the ending of a file of a model or of its pictures, lower case.
+/// Returns true for the lower-case extension of a file of a model or of its pictures.
 pub(super) fn is_usual_ending(ending: &str) -> bool {
     DATA_ENDINGS.contains(&ending) || PICTURE_ENDINGS.contains(&ending)
 }
 
-/// Checks the name of an entry; the error is a clause.
+/// Checks the name of an entry. The error is a clause.
 pub(super) fn check_name(name: &str) -> Result<(), String> {
-    // Some disks leave joiners of letters out of names, so that they could stand before or in `.git`.
+    // Some disks ignore zero-width joiners in names, so that a name with them could mean `.git`.
     let is_joiner = |letter: char| matches!(letter, '\u{200c}' | '\u{200d}');
     if let Some(hidden) = name
         .split('/')
@@ -45,7 +45,7 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Checks that a file is one of those that a bake reads: by the ending of its entry, or because it is a picture. The error is a clause.
+/// Checks that a file is one of those that a bake reads: by the extension of its entry, or because it is a picture. The error is a clause.
 pub(super) fn check_file(name: &str, path: &Path) -> Result<(), String> {
     if name == manifest::NAME || ending(name).is_some_and(|ending| is_known(&ending)) {
         return Ok(());
@@ -57,7 +57,7 @@ pub(super) fn check_file(name: &str, path: &Path) -> Result<(), String> {
     }
 }
 
-/// Returns true if bytes begin as a picture of this name does.
+/// Returns true if bytes begin like a picture of this name.
 pub(super) fn is_picture(name: &str, bytes: &[u8]) -> bool {
     sabi_image::check_header(name, bytes).is_ok()
 }
@@ -66,7 +66,7 @@ fn is_known(ending: &str) -> bool {
     OWN_ENDINGS.contains(&ending) || ENDINGS.contains(&ending) || is_usual_ending(ending)
 }
 
-/// Ending of the last part of a name, lower case.
+/// Returns the extension of the last part of a name in lower case.
 fn ending(name: &str) -> Option<String> {
     let file = name.rsplit('/').next().unwrap_or(name);
     file.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase())
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_names_that_no_other_program_acts_on_are_those_of_entries() {
+    fn names_on_which_other_programs_act_are_refused() {
         for good in [
             "graph.sabi",
             "pack.json",
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_other_kinds_are_taken_for_pictures_by_their_content_alone() {
+    fn files_of_other_kinds_are_accepted_only_if_they_are_pictures() {
         let folder = tempfile::tempdir().unwrap();
         let text = folder.path().join("text");
         std::fs::write(&text, b"[autorun]\nopen=x.exe\n").unwrap();

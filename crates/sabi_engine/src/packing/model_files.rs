@@ -15,9 +15,9 @@ use crate::opening::memory::default_memory_bytes;
 pub(super) struct ModelFiles {
     /// The model file.
     pub(super) path: PathBuf,
-    /// Files that it names: the path from its folder at which it finds them, and the path at which they are here.
+    /// Files that it names: the path from its folder at which it finds them, and their path on this machine.
     named: BTreeMap<String, PathBuf>,
-    /// Files that it names and that are not there, as it writes them.
+    /// Missing files that it names, as written in the model.
     pub(super) missing: Vec<String>,
 }
 
@@ -45,18 +45,18 @@ impl ModelFiles {
         })
     }
 
-    /// Returns true if it names no other file.
+    /// Returns true if it names no other files.
     pub(super) fn is_alone(&self) -> bool {
         self.named.is_empty()
     }
 
-    /// Most folders that its paths lead up from its own.
+    /// Returns the largest number of folders that its paths lead up from its own.
     pub(super) fn levels_up(&self) -> usize {
         let up = |place: &String| place.split('/').take_while(|part| *part == "..").count();
         self.named.keys().map(up).max().unwrap_or(0)
     }
 
-    /// Names of its files in an archive, the model's first, where the model is in this folder of it.
+    /// Returns the names of its files in an archive, the model's first, if the model is in this folder of the archive.
     pub(super) fn placed_in(&self, folder: &str) -> Vec<(PathBuf, String)> {
         let own = self
             .path
@@ -83,7 +83,7 @@ pub(crate) fn files_of_model(path: &Path, trusted: &TrustedPaths) -> Result<BTre
     Ok(files)
 }
 
-/// Files by the places from the model's folder at which the model finds them, or a sentence about two of one place.
+/// Returns files by the paths from the model's folder at which the model finds them, or a sentence about two files with the same path.
 fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>, String> {
     let mut placed: BTreeMap<String, PathBuf> = BTreeMap::new();
     for (written, found) in named {
@@ -104,12 +104,12 @@ fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>,
 struct Search<'t> {
     base: PathBase,
     trusted: &'t TrustedPaths,
-    /// Folder in which files are looked for that are not where the model says.
+    /// Folder in which files are searched that are not where the model expects them.
     elsewhere: Option<FolderSearch>,
     refused: Vec<Refusal>,
     named: BTreeMap<String, PathBuf>,
     missing: Vec<String>,
-    /// A file that is none of a model, with advice.
+    /// A file that does not belong to a model, with advice.
     strange: Option<(PathBuf, &'static str)>,
 }
 
@@ -143,7 +143,7 @@ impl<'t> Search<'t> {
             ..LoadOptions::default()
         };
         let loaded = load_bytes(&name, &bytes, &mut |written| search.find(written), &options);
-        // That a file may not be opened says more than what is missing without it.
+        // The error about a file that may not be opened explains more than one about the parts that are missing without it.
         if search.refused.is_empty() {
             loaded?;
         }
@@ -202,7 +202,7 @@ impl<'t> Search<'t> {
         Err("there is no such file".to_owned())
     }
 
-    /// Reason, with advice, that a file which is no picture is none of a model; none for data of a model.
+    /// Returns the reason, with advice, why a file that is not a picture does not belong to a model; `None` for data of a model.
     fn strangeness(&self, file: &Path) -> Option<&'static str> {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         if !self.base.is_above(file) {
@@ -216,7 +216,7 @@ impl<'t> Search<'t> {
         }
     }
 
-    /// Paths that led nowhere; one that is found in another spelling is not missing.
+    /// Returns paths that led nowhere. A file that was found with another spelling is not missing.
     fn missing(&self) -> Vec<String> {
         let is_spelled = |written: &str| {
             let spellings = self.named.keys().chain(&self.missing).filter(|other| *other != written);
@@ -229,10 +229,10 @@ impl<'t> Search<'t> {
     }
 }
 
-/// URIs of buffers and pictures of a glTF file; none of others.
+/// Returns URIs of buffers and pictures of a glTF file; none for other files.
 fn uris(bytes: &[u8]) -> Vec<String> {
     let json = match bytes.strip_prefix(b"glTF") {
-        // A header of 12 bytes, of which 4 are gone, the length and kind of the first chunk, and the chunk.
+        // A header of 12 bytes, of which 4 have been read, then the length and type of the first chunk, and the chunk.
         Some(rest) => {
             let length = rest
                 .get(8..12)
@@ -252,8 +252,8 @@ fn uris(bytes: &[u8]) -> Vec<String> {
     uris.map(str::to_owned).collect()
 }
 
-/// Path from the model's folder at which the model finds a file that it names. On another machine, an absolute path leads nowhere, and
-/// the bare name is looked for beside the model.
+/// Returns the path from the model's folder at which the model finds a file that it names. On another machine, an absolute
+/// path leads nowhere, and the bare name is searched beside the model.
 fn place_of(written: &str) -> String {
     let slashed = written.replace('\\', "/");
     let has_drive = slashed.as_bytes().get(1) == Some(&b':');
@@ -264,7 +264,7 @@ fn place_of(written: &str) -> String {
     direct.to_string_lossy().replace('\\', "/")
 }
 
-/// Name of a place from a folder of the archive; `..` leads to the folder above.
+/// Returns the name of a path from a folder of the archive. `..` leads to the parent folder.
 fn joined(folder: &str, place: &str) -> String {
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
     for part in place.split('/') {

@@ -1,4 +1,4 @@
-//! Documents and pictures that a graph names, itself and through its group files.
+//! Documents and pictures that a graph names, directly or through its group files.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,10 +13,10 @@ use crate::opening::kinds::Kinds;
 use crate::session::path_rewrite::document_with_paths;
 use crate::source::pictures::{base_of, named_file};
 
-/// Most group files, as when a graph is opened.
+/// Maximum number of group files, the same as when a graph is opened.
 const MOST_DOCUMENTS: usize = 1000;
 
-/// Files that a graph names in all its variants. Pictures may be missing, or be none.
+/// Files that a graph names in all its variants. Pictures may be missing, or be other files.
 pub(crate) struct NamedFiles {
     /// The graph, and its group files.
     pub(crate) documents: Vec<NamedDocument>,
@@ -28,9 +28,9 @@ pub(crate) struct NamedFiles {
 
 /// Place that names a file.
 pub(crate) struct Naming {
-    /// The path as it is written there.
+    /// The path as written in the document.
     pub(crate) written: String,
-    /// Words for the place in messages.
+    /// Description of the place in the document, for messages.
     pub(crate) words: String,
     /// Reason that the file may not be opened, if it may not.
     pub(crate) refusal: Option<Refusal>,
@@ -50,7 +50,7 @@ pub(crate) struct UnopenedGroup {
 pub(crate) struct NamedDocument {
     /// Its file, as [`whole_path`] gives it.
     pub(crate) path: PathBuf,
-    /// Its path as it is written where it is named first; `None` for the graph itself.
+    /// Its path as written where it is named first; `None` for the graph itself.
     pub(crate) written: Option<String>,
     pub(crate) open: OpenGraph,
 }
@@ -113,8 +113,8 @@ impl NamedFiles {
         }
     }
 
-    /// Pictures that instances of group files bring into these: such a path starts from the group file, and is known only once all
-    /// groups are inlined.
+    /// Returns pictures that instances of group files pass into the groups. Such a path starts from the group file, and is
+    /// known only after all groups are inlined.
     fn pictures_from_outside(&self, kinds: &Kinds) -> Vec<(PathBuf, PathBase, String)> {
         let graph = &self.documents[0];
         let base = graph.base();
@@ -157,7 +157,7 @@ impl NamedDocument {
         PathBase::of_file(&self.path)
     }
 
-    /// Nodes of the graph and of the groups in it, each with words for messages.
+    /// Returns the nodes of the graph and of its groups, each with a description for messages.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = (String, &Node)> {
         let named = |group: Option<&str>, (id, node): (&NodeId, &Node)| {
             let place = group.map_or_else(String::new, |group| format!(" in group '{group}'"));
@@ -168,7 +168,7 @@ impl NamedDocument {
     }
 }
 
-/// Graphs of a document: its own, and those of its groups by name.
+/// Returns the graphs of a document: its own, and those of its groups by name.
 fn graphs(document: &Document) -> impl Iterator<Item = (Option<&str>, &Graph)> {
     let groups = document
         .groups
@@ -177,7 +177,7 @@ fn graphs(document: &Document) -> impl Iterator<Item = (Option<&str>, &Graph)> {
     std::iter::once((None, &document.graph)).chain(groups)
 }
 
-/// Absolute path of a file that a document names, without detours.
+/// Returns the absolute path of a file that a document names, without `.` and `..`.
 pub(crate) fn whole_path(base: &PathBase, written: &str) -> PathBuf {
     let read = base.resolve(written);
     let direct = without_detours(&absolute(&read));
@@ -185,22 +185,22 @@ pub(crate) fn whole_path(base: &PathBase, written: &str) -> PathBuf {
         return direct;
     }
     match (canonical(&direct), canonical(&read)) {
-        // Behind a link to a folder, `..` leads elsewhere than its text says.
+        // Behind a link to a folder, `..` may lead elsewhere than its text suggests.
         (there, Ok(real)) if there.as_ref().ok() != Some(&real) => real,
         _ => direct,
     }
 }
 
-/// Absolute path of a file that the user names: links to its folder are resolved, but not the file, whose name counts.
+/// Returns the absolute path of a file that the user names. Links to its folder are resolved, but not the file itself, whose name matters.
 pub(crate) fn named_path(path: &Path) -> PathBuf {
-    let folder = path.parent().unwrap_or(Path::new("")); // A bare name lies in the current folder.
+    let folder = path.parent().unwrap_or(Path::new("")); // A bare name refers to the current folder.
     match (canonical(folder), path.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => absolute(path),
     }
 }
 
-/// The graph's own values, and each of its variants.
+/// Returns the overrides for the graph's own values, and for each of its variants.
 pub(crate) fn all_variants(document: &Document) -> Vec<Overrides> {
     let names = document.graph.variants().keys().cloned().map(Some);
     let all = std::iter::once(None).chain(names);
@@ -211,7 +211,7 @@ pub(crate) fn all_variants(document: &Document) -> Vec<Overrides> {
     .collect()
 }
 
-/// A document without the model that it is shown on, and the folder of that model's pictures.
+/// Returns a document without its preview model.
 pub(crate) fn without_model(document: &Document) -> Document {
     let mut document = document.clone();
     if let Some(preview) = &mut document.preview {
@@ -221,7 +221,7 @@ pub(crate) fn without_model(document: &Document) -> Document {
     document
 }
 
-/// Paths of pictures and group files in a document.
+/// Returns the paths of pictures and group files in a document.
 fn paths_in(document: &Document) -> BTreeSet<String> {
     let paths = RefCell::new(BTreeSet::new());
     document_with_paths(&without_model(document), &|path| {

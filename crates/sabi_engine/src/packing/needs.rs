@@ -72,7 +72,7 @@ impl Needs {
                     "{words} names the picture {}, which is missing",
                     path.display()
                 )),
-                // A graph from elsewhere must not make anyone send other files of their computer.
+                // A graph from another person must not make the user send other files of this computer.
                 Err((why, _)) => bad.push(format!("{words}: {why}")),
             }
         }

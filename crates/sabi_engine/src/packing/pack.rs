@@ -35,16 +35,16 @@ pub struct PackRequest {
     pub graph: PathBuf,
     /// Model that goes into the archive.
     pub model: PackedModel,
-    /// Parts of the model that count, and faces that are turned, for the graph in the archive; where nothing is said, as the graph has
-    /// it for this model.
+    /// Parts of the model that are used, and faces that are turned, for the graph in the archive. Where this has no value,
+    /// the graph's choice for this model is used.
     pub reading: SavedReading,
     /// The archive.
     pub output: PathBuf,
-    /// Packs without files that are missing, which become warnings.
+    /// True to pack without missing files, each of which becomes a warning.
     pub allows_missing: bool,
     /// Replaces an archive that exists.
     pub replaces: bool,
-    /// Paths from which the graph and the model may open what they name, besides their own folders and projects.
+    /// Paths from which the graph and the model may open the files that they name, in addition to their own folders and projects.
     pub trusted: TrustedPaths,
 }
 
@@ -83,11 +83,11 @@ pub struct PackedFile {
     pub name: String,
     /// Size unpacked, bytes.
     pub bytes: u64,
-    /// The file that it is a copy of, if that lies outside of the graph's folder.
+    /// The original file, if it is outside of the graph's folder.
     pub from: Option<String>,
 }
 
-/// All that was found for an archive.
+/// Everything that was found for an archive.
 struct Found {
     needs: Needs,
     model: Option<ModelFiles>,
@@ -174,7 +174,7 @@ impl Found {
         })
     }
 
-    /// Gives all files their places, and returns the model's.
+    /// Assigns names in the archive to all files, and returns the model's.
     fn places(&self) -> Result<(Places, Option<String>), EngineError> {
         let [graph, groups @ ..] = self.needs.documents.as_slice() else {
             return Err(EngineError::new(ErrorKind::Defect, "a graph is no document"));
@@ -190,10 +190,10 @@ impl Found {
         })?;
         let name = match name.strip_suffix(ENDING) {
             Some(_) => name.to_owned(),
-            // Under the same stem it finds its strokes.
+            // With the same stem, the graph finds its strokes.
             None => format!("{}{ENDING}", name.rsplit_once('.').map_or(name, |(stem, _)| stem)),
         };
-        // Places that the files must have come before those that are free.
+        // Names that files must have are assigned before those that can be chosen.
         places.take_as(&graph.path, &name)?;
         take_strokes(graph, &mut places)?;
         for (name, path) in &self.nodes {
@@ -215,7 +215,7 @@ impl Found {
         Ok((places, model))
     }
 
-    /// The documents with the paths of the archive, the graph first.
+    /// Returns the documents with the paths of the archive, the graph first.
     fn rewritten(&self, places: &Places, model: Option<&str>) -> Vec<RewrittenDocument> {
         let documents = self.needs.documents.iter().enumerate();
         let named = documents.filter_map(|(index, document)| Some((index, document, places.of(&document.path)?)));
@@ -228,7 +228,7 @@ impl Found {
     }
 }
 
-/// The model of a pack with the files that it names, none if it is missing, and how it is read.
+/// Returns the model of a pack with the files that it names (`None` if it is missing), and the choices for reading it.
 fn model_of(
     graph: &NamedDocument,
     request: &PackRequest,
@@ -285,7 +285,7 @@ fn model_of(
     Ok((Some(files), reading))
 }
 
-/// Adds what the strokes of a document lack.
+/// Reports missing strokes of a document.
 fn look_for_strokes(document: &NamedDocument, missing: &mut Vec<String>, warnings: &mut Vec<String>) {
     let strokes = &document.open.strokes;
     let painted = document.nodes().filter(|(_, node)| node.kind == PAINT);
@@ -304,7 +304,7 @@ fn look_for_strokes(document: &NamedDocument, missing: &mut Vec<String>, warning
     warnings.extend(strokes.faults(&document.path));
 }
 
-/// Gives the strokes of a document their places beside it.
+/// Assigns names to the strokes of a document, beside it.
 fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), EngineError> {
     if !document.nodes().any(|(_, node)| node.kind == PAINT) {
         return Ok(());
@@ -323,7 +323,7 @@ fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), Eng
     Ok(())
 }
 
-/// Refuses a file that is found and not named, and that links lead out of the trusted paths: it must not be sent along.
+/// Refuses a file that was found without being named, if links lead out of the trusted paths: it must not be sent along.
 fn refuse_link(path: &Path, trusted: &TrustedPaths) -> Result<(), EngineError> {
     match trusted.check_found(path) {
         Err(Unread::Refused(refusal)) => {
@@ -337,7 +337,7 @@ fn refuse_link(path: &Path, trusted: &TrustedPaths) -> Result<(), EngineError> {
     }
 }
 
-/// Refuses an archive in the place of a file that goes into it.
+/// Refuses an archive that would replace a file which goes into it.
 fn refuse_input(output: &Path, places: &Places) -> Result<(), EngineError> {
     let Ok(output) = canonical(output) else { return Ok(()) };
     if places

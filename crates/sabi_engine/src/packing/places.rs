@@ -14,17 +14,17 @@ use crate::error::{EngineError, ErrorKind};
 
 /// Folder in an archive for files from outside of the graph's folder.
 const OUTSIDE: &str = "files";
-/// Folders that are tried for a name that is taken.
+/// Maximum number of folders that are tried if a name is already used.
 const MOST_FOLDERS: usize = 10_000;
 
-/// Files of an archive and their places in it.
+/// Files of an archive with their names in it.
 pub(super) struct Places {
     /// Folder of the graph.
     root: PathBuf,
     names: EntryNames,
     /// Name of each file, by its path.
     of: BTreeMap<PathBuf, String>,
-    /// Files by name. One file may have two, if a model names it by two paths.
+    /// Files by name. A file may have two names, if a model refers to it by two paths.
     files: BTreeMap<String, PathBuf>,
 }
 
@@ -53,13 +53,13 @@ impl Places {
         &self.files
     }
 
-    /// Returns true if a file lies elsewhere than below the graph's folder.
+    /// Returns true if a file is not below the graph's folder.
     pub(super) fn is_outside(&self, path: &Path) -> bool {
         !path.starts_with(&self.root)
     }
 
-    /// Gives a file a place: its own below the graph's folder, else one in the folder for files from outside. It keeps its name as far
-    /// as every system can hold it.
+    /// Assigns a name to a file: its own path below the graph's folder, otherwise one in the folder for files from outside.
+    /// The file name is kept as far as every system allows it.
     pub(super) fn take(&mut self, path: &Path) -> Result<(), EngineError> {
         if self.of.contains_key(path) {
             return Ok(());
@@ -85,7 +85,7 @@ impl Places {
         ))
     }
 
-    /// Gives a file exactly this place.
+    /// Assigns exactly this name to a file.
     pub(super) fn take_as(&mut self, path: &Path, name: &str) -> Result<(), EngineError> {
         if self.files.get(name).is_some_and(|known| known == path) {
             return Ok(());
@@ -106,7 +106,7 @@ impl Places {
             let why = check_file(name, path).err()?;
             Some(format!("{} cannot be packed: {why}", path.display()))
         };
-        // A file that is missing is told elsewhere.
+        // Missing files are reported elsewhere.
         let faults: Vec<String> = self
             .files
             .iter()
@@ -119,7 +119,7 @@ impl Places {
         }
     }
 
-    /// Gives a model and the files that it names their places: as they lie to each other, since the model is not changed.
+    /// Assigns names to a model and the files that it names. Their relative positions are kept, since the model is not changed.
     pub(super) fn take_model(&mut self, model: &ModelFiles) -> Result<String, EngineError> {
         let own = self.below(&model.path).and_then(|own| {
             own.rsplit_once('/')
@@ -129,7 +129,7 @@ impl Places {
         let depth = |folder: &str| folder.split('/').filter(|part| !part.is_empty()).count();
         let own = own.filter(|folder| depth(folder) >= model.levels_up());
         let fresh = (1..MOST_FOLDERS).map(|number| {
-            // As many folders as the model's paths lead up.
+            // As many folders as the model's paths lead up, so that all stay inside of the archive.
             let below = "/model".repeat(model.levels_up());
             match model.is_alone() {
                 true => outside(number),
@@ -171,7 +171,7 @@ impl Places {
         self.files.insert(name, path.to_owned());
     }
 
-    /// Path from the graph's folder, with `/` between folders; none outside of it, or with a name that is not Unicode.
+    /// Returns the path from the graph's folder, with `/` between folders; `None` outside of it, or for a name that is not Unicode.
     fn below(&self, path: &Path) -> Option<String> {
         let parts = path.strip_prefix(&self.root).ok()?.components().map(|part| match part {
             Component::Normal(name) => name.to_str(),
@@ -181,7 +181,7 @@ impl Places {
     }
 }
 
-/// Folder for files from outside; one whose name is taken goes to the next one.
+/// Returns a folder for files from outside. If a name is already used in one, the next one is tried.
 fn outside(number: usize) -> String {
     match number {
         1 => OUTSIDE.to_owned(),
@@ -196,7 +196,7 @@ fn refused(shown: &str, fault: impl fmt::Display) -> EngineError {
     )
 }
 
-/// Name of a file, with `_` for what some systems refuse.
+/// Returns the name of a file, with `_` in place of characters that some systems refuse.
 fn plain_name(path: &Path) -> String {
     let name = path
         .file_name()
@@ -207,7 +207,7 @@ fn plain_name(path: &Path) -> String {
     let plain = plain.trim_end_matches(['.', ' ']).trim_start_matches('.');
     match EntryNames::default().add(plain) {
         Ok(()) => plain.to_owned(),
-        // The name of a device, or none at all.
+        // The name is that of a device, or empty.
         Err(_) => format!("file_{plain}"),
     }
 }

@@ -1,4 +1,4 @@
-//! Documents with the paths that their files have in the archive.
+//! Documents with the paths of their files in the archive.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::places::Places;
 use crate::opening::linked_model::SavedReading;
 use crate::session::path_rewrite::document_with_paths;
 
-/// Folder that stands for the archive where paths are computed.
+/// Folder that represents the archive in computations of paths.
 const ROOT: &str = "/archive";
 
 /// A document of the archive.
@@ -18,19 +18,19 @@ pub(super) struct RewrittenDocument {
     /// Name in the archive.
     pub(super) name: String,
     pub(super) document: Document,
-    /// Text of the file: that of the original, byte for byte, where no path changes.
+    /// Text of the file: the same bytes as the original if no path changes.
     pub(super) text: String,
 }
 
-/// Model that the graph in the archive is shown on.
+/// Preview model of the graph in the archive.
 pub(super) enum ShownModel<'a> {
-    /// As its file says: that of a group file is not packed, and no bake needs it.
+    /// As in its file. The preview model of a group file is not packed, and no bake needs it.
     AsWritten,
-    /// This entry, or none, and how it is read.
+    /// This entry or no model, and the choices for reading the model.
     Entry(Option<&'a str>, &'a SavedReading),
 }
 
-/// Returns a document with the paths that its files have in the archive; those of missing files stay.
+/// Returns a document with the paths of its files in the archive. Paths of missing files are kept.
 pub(super) fn rewritten(
     named: &NamedDocument,
     name: &str,
@@ -61,7 +61,7 @@ pub(super) fn rewritten(
         let preview = document.preview.get_or_insert_with(Preview::default);
         preview.mesh = mesh;
         if let ShownModel::Entry(_, reading) = model {
-            // The model finds its files in the archive where it says.
+            // The model finds its files in the archive at the paths that it names.
             reading.put_into(preview, None);
         }
     }
@@ -76,7 +76,7 @@ pub(super) fn rewritten(
     }
 }
 
-/// Path to an entry, for the document of this name: as it is written, if that leads there.
+/// Returns the path to an entry, for the document of this name: the written path, if it leads to the entry.
 fn path_to(target: &str, name: &str, written: &str) -> String {
     if entry_of(name, written).as_deref() == Some(target) {
         return written.to_owned();
@@ -87,7 +87,7 @@ fn path_to(target: &str, name: &str, written: &str) -> String {
     path.unwrap_or_else(|_| target.to_owned())
 }
 
-/// Name of the entry that a path in the document of this name leads to; none outside of the archive.
+/// Returns the name of the entry to which a path in the document of this name leads; `None` if it leads out of the archive.
 pub(super) fn entry_of(name: &str, written: &str) -> Option<String> {
     let root = Path::new(ROOT);
     let base = PathBase::of_file(&root.join(name));

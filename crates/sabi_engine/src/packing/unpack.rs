@@ -48,7 +48,7 @@ pub fn unpack_graph(archive: &Path, folder: &Path, progress: &dyn Progress) -> R
     })?;
     let manifest = Manifest::read(&bytes).map_err(refused)?;
     for name in std::iter::once(&manifest.graph).chain(&manifest.model) {
-        // Names of entries are safe; any other text is not.
+        // Names of entries are safe, but other texts need not be.
         if !unpacked.names().contains(name) {
             return Err(refused(format!("it names '{name}', which is not in it")));
         }

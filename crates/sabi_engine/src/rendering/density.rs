@@ -1,4 +1,4 @@
-//! Size of the maps that a picture needs: about a texel for each of its pixels.
+//! Size of the maps that a picture needs: about one texel for each of its pixels.
 
 use glam::{DVec2, UVec2, Vec2};
 use sabi_surface::model::Mesh;
@@ -7,19 +7,19 @@ use sabi_view::{Camera, Placement, aspect_of};
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Sizes that are chosen, texels along a side: powers of two.
+/// Range of sizes that are chosen, in texels along a side; they are powers of two.
 const CHOSEN: [u32; 2] = [256, 4096];
 /// Largest maps, texels along a side.
 const LARGEST: u32 = 8192;
-/// Share of the visible pixels that have a texel of their own, at least.
+/// Minimum share of the visible pixels that have a texel of their own.
 const SERVED: f64 = 0.8;
-/// Texels for a pixel, along a side, that are about one: maps of twice the size for a few texels more are not worth it.
+/// Texels per pixel along a side that count as one: maps of twice the size would not be worth the few additional texels.
 const ABOUT_ONE: f64 = 0.9;
-/// Texels for a pixel, along a side, below which a picture is visibly soft.
+/// Texels per pixel along a side below which a picture is visibly soft.
 const SOFT: f64 = 0.5;
 
-/// Texels along a side of the maps with which [`SERVED`] of the pixels that show the model have a texel each; `None` where
-/// none show it. `cameras` are those of all frames; the nearest counts. What hides behind other parts counts as seen.
+/// Returns the texels along a side of the maps with which [`SERVED`] of the pixels that show the model have one texel each; `None` if no
+/// pixel shows it. `cameras` are those of all frames; the nearest one counts. Parts that are hidden behind other parts count as visible.
 pub(super) fn texels_for_pixels(mesh: &Mesh, cameras: &[Camera], size: [u32; 2]) -> Option<f64> {
     let needed = cameras.iter().filter_map(|camera| texels_for(mesh, camera, size));
     needed.max_by(f64::total_cmp)
@@ -33,7 +33,7 @@ fn texels_for(mesh: &Mesh, camera: &Camera, size: [u32; 2]) -> Option<f64> {
         let position = *mesh.positions.get(vertex as usize)?;
         camera.project(placement.view_from_model(position), aspect)
     };
-    // Pixels of each triangle that is seen from the front, and the texels along a side that give it one each.
+    // For each triangle that is seen from the front: its pixels, and the texels along a side with which each pixel has one.
     let mut seen: Vec<(f64, f64)> = Vec::new();
     for corners in &mesh.triangles {
         let [Some(a), Some(b), Some(c)] = corners.map(pixel_of) else {
@@ -43,7 +43,7 @@ fn texels_for(mesh: &Mesh, camera: &Camera, size: [u32; 2]) -> Option<f64> {
             let values = [a[axis], b[axis], c[axis]];
             values.iter().all(|value| *value < 0.0) || values.iter().all(|value| *value > 1.0)
         };
-        // Counter-clockwise corners run clockwise in a picture whose rows go down.
+        // Counter-clockwise corners are clockwise in a picture whose rows go down.
         let pixels = -area([a * size, b * size, c * size]);
         let uvs = corners.map(|vertex| mesh.uvs.get(vertex as usize).copied().map(Vec2::from));
         let [Some(a), Some(b), Some(c)] = uvs else {
@@ -69,8 +69,8 @@ fn area([a, b, c]: [Vec2; 3]) -> f64 {
     (b - a).perp_dot(c - a) * 0.5
 }
 
-/// Size of the maps for a picture that needs so many texels along a side: the power of two with about a texel for a pixel, within
-/// limits; the smallest for a picture that does not show the model.
+/// Returns the size of the maps for a picture that needs this many texels along a side: the power of two with about one
+/// texel per pixel, within limits; the smallest size for a picture that does not show the model.
 pub(super) fn chosen_size(needed: Option<f64>) -> u32 {
     let [least, most] = CHOSEN;
     let mut size = least;
@@ -80,17 +80,17 @@ pub(super) fn chosen_size(needed: Option<f64>) -> u32 {
     size
 }
 
-/// A picture that shows fewer than half a texel for a pixel.
+/// Result for a picture that shows fewer than half a texel per pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Softness {
     /// Width of a texel, pixels.
     pub texel_pixels: f64,
-    /// Texels along a side of maps that would be sharp; none where no maps are large enough.
+    /// Texels along a side of maps that would be sharp; `None` if no maps are large enough.
     pub enough: Option<u32>,
 }
 
 impl Softness {
-    /// Returns how soft a view of a model is with maps of a size; none where it is not.
+    /// Returns how soft a view of a model is with maps of a size; `None` if it is not soft.
     pub fn of_view(mesh: &Mesh, camera: &Camera, pixels: [u32; 2], size: u32) -> Option<Softness> {
         Softness::of(size, texels_for_pixels(mesh, std::slice::from_ref(camera), pixels))
     }
@@ -108,7 +108,7 @@ impl Softness {
     }
 }
 
-/// Warns where a picture shows fewer than half a texel for a pixel.
+/// Returns a warning if a picture shows fewer than half a texel per pixel.
 pub(super) fn softness(size: u32, needed: Option<f64>) -> Option<Warning> {
     let Softness { texel_pixels, enough } = Softness::of(size, needed)?;
     let soft = format!("the picture is soft: a texel of its maps of {size} × {size} is {texel_pixels:.1} pixels wide");
@@ -128,13 +128,13 @@ mod tests {
 
     use super::*;
 
-    /// A square of the whole sheet that faces the front, and one that faces away.
+    /// Returns a square of the whole sheet that faces the front, and one that faces away.
     fn squares() -> Mesh {
         let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
         Mesh {
             positions: [square, square].concat(),
-            // The one behind has a hundredth of the sheet.
+            // The square at the back uses a hundredth of the sheet.
             uvs: [uvs, uvs.map(|uv| uv.map(|value| value * 0.1))].concat(),
             triangles: vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]],
             ..Mesh::default()
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_model_that_is_not_shown_needs_none() {
+    fn a_model_that_is_not_visible_needs_no_texels() {
         let mesh = squares();
         let away = Camera {
             target: Vec3::new(9.0, 0.0, 0.0),
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn fewer_than_half_a_texel_for_a_pixel_is_told() {
+    fn fewer_than_half_a_texel_per_pixel_gives_a_warning() {
         assert_eq!(softness(512, None), None);
         assert_eq!(softness(512, Some(1024.0)), None);
         let said = |size: u32, needed: f64| softness(size, Some(needed)).map(|warning| warning.to_string());

@@ -12,7 +12,7 @@ use crate::evaluating::looks::ModelLooks;
 /// Triangle limit of a displaced copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Triangles {
-    /// Limit that fits the adapter: 2 million, or 500 000 on a software driver.
+    /// Limit that suits the adapter: 2 million, or 500 000 for a software driver.
     Fitting,
     /// Given limit.
     AtMost(usize),
@@ -28,7 +28,7 @@ impl Triangles {
     }
 }
 
-/// Makes a finer copy of the model, displaced by the heights of each material's look.
+/// Creates a finer copy of the model, displaced by the heights of each material's look.
 pub(crate) fn displaced_model(
     evaluator: &mut Evaluator,
     shown: &ModelLooks,
@@ -42,13 +42,13 @@ pub(crate) fn displaced_model(
         .map(|look| heights_of(evaluator, look, model_from_working))
         .collect::<Result<_, _>>()?;
     let options = DisplaceOptions {
-        // A map has no detail narrower than two texels.
+        // A map has no detail that is narrower than two texels.
         edge_length: 2.0 * texel_length(&model.mesh, atlas),
         triangle_budget: triangles.budget(evaluator.gpu().summary().kind),
     };
     let height = |chart: u32, texel: [f32; 2]| match plane_of(chart, atlas, shown, &heights) {
         Some(plane) => plane.at(chart, texel),
-        // Without a height the surface stays in place, and its neighbors meet it there.
+        // Without a height the surface is not moved, and its neighbors connect to it.
         None => Some(0.0),
     };
     let copy = displaced(&model.mesh, atlas, &options, height);
@@ -75,7 +75,7 @@ fn plane_of<'h>(
     Some(HeightPlane::new(atlas, heights))
 }
 
-/// Reads back the heights of a look, model units, page by page and row by row; none without heights.
+/// Reads back the heights of a look in model units, page by page and row by row; empty without heights.
 fn heights_of(
     evaluator: &Evaluator,
     look: &MaterialLook,

@@ -8,8 +8,8 @@ use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 
-/// Flattens the graph and finds the target of a node in it: the node itself, or the origin of a group instance's or reroute's
-/// result.
+/// Flattens the graph and finds the target of a node in it: the node itself, or the node from which the result of a group
+/// instance or reroute comes.
 pub(crate) fn graph_and_target(
     open: &OpenGraph,
     kinds: &Kinds,

@@ -1,4 +1,4 @@
-//! Pictures that take their places together.
+//! Pictures that are put in their places together.
 
 use std::ffi::OsString;
 use std::io::ErrorKind;
@@ -12,7 +12,7 @@ use crate::error::EngineError;
 /// Pictures of one folder, under temporary names until all are written.
 pub(crate) struct PictureFiles {
     staged: StagedSet,
-    /// Names of pictures that are still to be written, the next one last.
+    /// Names of pictures that have yet to be written, the next one last.
     names: Vec<OsString>,
 }
 

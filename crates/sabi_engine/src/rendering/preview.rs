@@ -29,13 +29,13 @@ pub struct PreviewRequest {
     pub node: String,
     /// Output file: `.png` for a picture, `.exr` for exact values.
     pub output: PathBuf,
-    /// Material whose texture set is shown; the first one if none.
+    /// Material whose texture set is shown; `None` for the first one.
     pub material: Option<String>,
 }
 
 /// Writes a preview of a graph file and returns warnings.
 pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<Warning>, EngineError> {
-    // A name that cannot be written is reported before anything is read.
+    // An output name with an unsupported extension is reported before anything is read.
     is_exact(request)?;
     let trusted = request.evaluator.trusted_with(&request.graph);
     let (open, kinds) = OpenGraph::open_with_kinds(request.graph.clone(), trusted, progress)?;
@@ -86,7 +86,7 @@ pub fn preview_graph(
     Ok(evaluator.warnings().to_vec())
 }
 
-/// Returns true if the exact values are written.
+/// Returns true if exact values are written.
 fn is_exact(request: &PreviewRequest) -> Result<bool, EngineError> {
     let output = &request.output;
     match output.extension().and_then(|ending| ending.to_str()) {

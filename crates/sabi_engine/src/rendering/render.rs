@@ -35,7 +35,7 @@ const MOST_FRAMES: u32 = 9999;
 pub struct RenderRequest {
     /// Graph file.
     pub graph: PathBuf,
-    /// Model, overrides, fit and adapter. The size of its maps counts only where it is given.
+    /// Model, overrides, fit and adapter. The size of its maps is used only if `has_given_size` is true.
     pub evaluator: EvaluatorOptions,
     /// True if the maps have the size of the evaluator's options; otherwise one that fits the picture is chosen.
     pub has_given_size: bool,
@@ -51,8 +51,8 @@ pub struct RenderRequest {
     pub environment_strength: f32,
     /// Viewpoint of the camera.
     pub camera: Viewpoint,
-    /// Point that the camera looks at in place of the middle of what it sees, from the middle of the model's box in shares of
-    /// its largest side.
+    /// Point at which the camera looks instead of the middle of what it sees, relative to the middle of the model's box, in
+    /// shares of its largest side.
     pub target: Option<[f32; 3]>,
     /// True if the projection is orthographic.
     pub is_orthographic: bool,
@@ -64,7 +64,7 @@ pub struct RenderRequest {
     pub transform: ViewTransform,
     /// Exposure, stops.
     pub exposure: f32,
-    /// Share of the light above white that spreads around it, 0 to 1; in an `.exr` none does.
+    /// Share of the light above white that is spread around it, 0 to 1. Not used for an `.exr`.
     pub bloom: f32,
     /// True if the ground below the model shows its shade.
     pub has_ground: bool,
@@ -74,11 +74,11 @@ pub struct RenderRequest {
     pub lines: Vec<Lines>,
     /// True if heights are ray-marched, with occlusion and shadows.
     pub has_relief: bool,
-    /// Triangle limit of a displaced copy that is drawn in place of the model; its heights are not ray-marched.
+    /// Triangle limit of a displaced copy that is drawn instead of the model. In this case heights are not ray-marched.
     pub displace: Option<Triangles>,
     /// Samples per pixel.
     pub samples: u32,
-    /// Number of frames of a turntable; none for one picture.
+    /// Number of frames of a turntable; `None` for one picture.
     pub turntable: Option<u32>,
     /// Part of the scene that rotates on the turntable.
     pub turns: Turns,
@@ -105,7 +105,7 @@ pub struct Rendered {
 
 /// Renders pictures of a graph file. No file is replaced before all are complete.
 pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Rendered, EngineError> {
-    // Names that cannot be written, and views that do not exist, are reported before anything is read.
+    // Unsupported file names and unknown views are reported before anything is read.
     file_names(request)?;
     view_of(&request.view)?;
     let trusted = request.evaluator.trusted_with(&request.graph);
@@ -242,7 +242,7 @@ fn draw(
     let gpu = evaluator.gpu();
     let renderer = Renderer::new(gpu)?;
     let mut canvas = Canvas::new(gpu, request.size)?;
-    let frames = request.turntable.unwrap_or(1); // A single picture without a turntable.
+    let frames = request.turntable.unwrap_or(1); // Without a turntable, there is a single picture.
     let has_light = request.output.extension().is_some_and(|ending| ending == "exr");
     for frame in 0..frames {
         stop_if_canceled(progress)?;
@@ -284,7 +284,7 @@ fn draw(
     Ok(())
 }
 
-/// The cameras for which maps have to suffice: the only one, or one on each side of a turntable.
+/// Returns the cameras that determine the size of the maps: the only one, or one on each side of a turntable.
 fn cameras_of(request: &RenderRequest, mesh: &Mesh) -> Vec<Camera> {
     let around: &[f32] = match request.turns {
         Turns::Camera if request.turntable.is_some() => &[0.0, 90.0, 180.0, 270.0],

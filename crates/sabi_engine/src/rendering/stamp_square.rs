@@ -1,4 +1,4 @@
-//! A node's result on an even square, as a picture for brushes.
+//! A node's result on a flat square, as a picture for brushes.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ const NAME: &str = "square";
 pub struct StampSquare {
     /// PNG file: gray for masks, sRGB for colors and for the base color of materials.
     pub png: Vec<u8>,
-    /// True for a mask, whose light parts are to be stamped.
+    /// True for a mask, whose light parts should be stamped.
     pub is_mask: bool,
 }
 
@@ -75,7 +75,7 @@ pub fn stamp_square(
     })
 }
 
-/// A square that faces +z and fills its texture.
+/// Returns a square that faces +z and fills its texture.
 fn square() -> Model {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let mesh = Mesh {

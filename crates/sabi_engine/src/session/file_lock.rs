@@ -1,4 +1,4 @@
-//! Lock of a session's file, which tells other windows that it is open here.
+//! Lock of a session's file, which shows other windows that it is open here.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,8 @@ use sabi_files::{FileLock, LockError, behind_links, is_locked};
 
 use super::Session;
 
-/// Mark of a file as open, removed when it is dropped. A killed program leaves the hidden file, which marks nothing.
+/// Mark that a file is open. It is removed when it is dropped. If the program is killed, the hidden file remains, but it
+/// has no effect without a lock.
 #[derive(Debug, Default)]
 pub(super) struct FileMark {
     lock: Option<FileLock>,
@@ -21,13 +22,13 @@ impl Drop for FileMark {
     }
 }
 
-/// Returns whether a graph file is open for editing in some window, this program's own ones included. A program that has ended
-/// counts no more, however it ended.
+/// Returns true if a graph file is open for editing in any window, including this program's own windows. Windows of
+/// programs that have ended do not count.
 pub fn is_open_in_a_window(graph: &Path) -> bool {
     lock_of(graph).is_some_and(|lock| is_locked(&lock))
 }
 
-/// Hidden file beside a graph that is locked while the graph is open.
+/// Returns the hidden file beside a graph that is locked while the graph is open.
 fn lock_of(graph: &Path) -> Option<PathBuf> {
     let graph = behind_links(graph);
     let mut name = OsString::from(".");
@@ -48,28 +49,28 @@ impl Session {
         match FileLock::acquire(&lock) {
             Ok(lock) => self.mark.lock = Some(lock),
             Err(LockError::InUse { .. }) => return false,
-            // In a folder that cannot be written to, and on a share without locks, nothing tells windows apart.
+            // In a folder that cannot be written to, and on a share without locks, windows cannot see each other.
             Err(LockError::Unavailable(_)) => {}
         }
         true
     }
 
-    /// Marks another file, which has become that of the session.
+    /// Marks another file, which has become the session's file.
     pub(super) fn claim_other_file(&mut self) {
         let was_marked = self.mark.lock.is_some();
         self.mark = FileMark::default();
         if was_marked {
-            // In use elsewhere: whoever saves over it was asked before.
+            // If another window has the file, the user has already been asked about replacing it.
             self.claim_file();
         }
     }
 
-    /// Refuses to save to the own file from now on, or allows it.
+    /// Sets whether saving to the session's file is refused.
     pub fn set_read_only(&mut self, is_read_only: bool) {
         self.is_read_only = is_read_only;
     }
 
-    /// Returns whether saving to the own file is refused.
+    /// Returns true if saving to the session's file is refused.
     pub fn is_read_only(&self) -> bool {
         self.is_read_only
     }

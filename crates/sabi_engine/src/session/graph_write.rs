@@ -1,4 +1,4 @@
-//! Writing of graph files, with backups of what was there.
+//! Writing of graph files, with backups of their earlier contents.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -11,16 +11,16 @@ use super::known_contents::KnownContents;
 use crate::error::{EngineError, ErrorKind};
 use crate::remedy::Remedy;
 
-/// Largest file that is kept as a backup when a graph takes its place.
+/// Maximum size of a file that is kept as a backup when a graph replaces it.
 const LARGEST_BACKUP_BYTES: u64 = 1 << 30;
 
-/// Content of a file that a save replaces, with its permissions and the time at which it was written.
+/// Content of a file that a save replaces, with its permissions and modification time.
 struct Earlier {
     bytes: Vec<u8>,
     metadata: Option<fs::Metadata>,
 }
 
-/// Manner in which a graph file is written.
+/// Options for writing a graph file.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GraphWrite<'a> {
     pub(super) disk: &'a Disk,
@@ -31,8 +31,8 @@ pub(super) struct GraphWrite<'a> {
 }
 
 impl GraphWrite<'_> {
-    /// Writes a graph file durably. The file behind a symbolic link is written. What was there becomes the first backup, the
-    /// first one the second, and so on; a backup that is the same already stays.
+    /// Writes a graph file durably. If the path is a symbolic link, its target is written. The earlier content becomes the first backup,
+    /// the first backup becomes the second, and so on. A backup that has the right content already is not written.
     pub(super) fn write(self, path: &Path, text: &str) -> Result<(), EngineError> {
         let path = &behind_links(path);
         refuse_write_protected(path)?;
@@ -52,27 +52,28 @@ impl GraphWrite<'_> {
         written().map(drop).map_err(|error| not_saved(path, error))
     }
 
-    /// Content of the file that is replaced; none where there is no file.
+    /// Returns the content of the file that is replaced; `None` if there is no file.
     fn replaced(self, path: &Path) -> Result<Option<Earlier>, EngineError> {
         match earlier(path) {
             Ok(before) => match self.replaceable {
                 Some(known) if !known.contains(&before.bytes) => Err(written_by_another(path)),
                 _ => Ok(Some(before)),
             },
-            // A folder in the way is refused when the file takes its place.
+            // A folder with this name is refused when the file is put in its place.
             Err(Unread::Missing | Unread::Folder) => Ok(None),
             Err(unread) => Err(not_kept(path, &unread)),
         }
     }
 
-    /// Stages the backups: the oldest first, so that a process which ends in between leaves each of them once at least.
+    /// Writes the backups under temporary names, the oldest first, so that each content exists at least once even if the
+    /// process ends in between.
     fn stage_backups(self, staged: &mut StagedSet, path: &Path, before: Earlier) -> Result<(), StagedError> {
         let mut moved = Some(before);
         let mut backups: Vec<(OsString, Earlier)> = Vec::new();
         for number in 1..=self.backups {
             let Some(content) = moved.take() else { break };
             let backup = backup_of(path, number);
-            // A backup that cannot be read makes room like one that is missing.
+            // A backup that cannot be read is treated like a missing one.
             let there = earlier(&backup).ok();
             if there.as_ref().is_some_and(|there| there.bytes == content.bytes) {
                 break;
@@ -87,7 +88,7 @@ impl GraphWrite<'_> {
     }
 }
 
-/// Path of a backup of a graph file: `.bak` behind its whole name for the latest, `.bak2` for the one before, and so on.
+/// Returns the path of a backup of a graph file: its whole name with `.bak` for the latest, `.bak2` for the one before, and so on.
 pub(super) fn backup_of(path: &Path, number: usize) -> PathBuf {
     // The path of a graph names a file.
     let mut name = path.file_name().unwrap_or_default().to_owned();
@@ -113,7 +114,7 @@ fn refuse_write_protected(path: &Path) -> Result<(), EngineError> {
     Ok(())
 }
 
-/// Error of a disk that refuses a graph: it names the graph, and not the temporary file that could not be written.
+/// Returns the error for a disk that refuses a graph. It names the graph instead of the temporary file that could not be written.
 pub(super) fn not_saved(path: &Path, error: StagedError) -> EngineError {
     // The disk or the folder refuses: a file that is write-protected was refused before.
     let (reason, is_full, elsewhere) = match &error {

@@ -1,18 +1,18 @@
-//! Contents of a session's file that a save may replace without a question, known by their hashes.
+//! Contents of a session's file that a save may replace without asking, identified by their hashes.
 
 use blake3::Hash;
 
 /// Hashes of contents of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KnownContents {
-    /// Read or written by this session.
+    /// Contents that this session read or wrote.
     own: Vec<Hash>,
-    /// Seen, and not taken: written by another program.
+    /// Content written by another program that may be replaced although it was not read.
     accepted: Option<Hash>,
 }
 
 impl KnownContents {
-    /// Contents that were read from the file, or written to it.
+    /// Creates the set from contents that were read from the file or written to it.
     pub(super) fn of(own: &[&[u8]]) -> KnownContents {
         KnownContents {
             own: own.iter().map(|bytes| blake3::hash(bytes)).collect(),
@@ -20,10 +20,10 @@ impl KnownContents {
         }
     }
 
-    /// Contents of which only a stored hash is left.
+    /// Creates the set from the stored hash of a content.
     pub(super) fn of_stored(hash: &str) -> KnownContents {
         KnownContents {
-            // A damaged hash is that of no content.
+            // A damaged hash matches no content.
             own: Hash::from_hex(hash).into_iter().collect(),
             accepted: None,
         }
@@ -37,22 +37,22 @@ impl KnownContents {
         }
     }
 
-    /// Adds a content that another program has written and that may be replaced.
+    /// Adds a content of another program that may be replaced.
     pub(super) fn accept(&mut self, bytes: &[u8]) {
         self.accepted = Some(blake3::hash(bytes));
     }
 
-    /// Returns whether this content was read or written by this session.
+    /// Returns true if this session read or wrote this content.
     pub(super) fn is_own(&self, bytes: &[u8]) -> bool {
         self.own.contains(&blake3::hash(bytes))
     }
 
-    /// Returns whether this content may be replaced.
+    /// Returns true if this content may be replaced.
     pub(super) fn contains(&self, bytes: &[u8]) -> bool {
         self.is_own(bytes) || self.accepted == Some(blake3::hash(bytes))
     }
 
-    /// Hash to store of the content that was read or written last.
+    /// Returns the hash to store: that of the content that was read or written last.
     pub(super) fn stored(&self) -> Option<String> {
         self.own.last().map(|hash| hash.to_hex().to_string())
     }

@@ -1,4 +1,4 @@
-//! Paths in a graph that is saved to another folder: they are rewritten to lead to the same files.
+//! Rewriting of paths when a graph is saved to another folder, so that they lead to the same files.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,7 +15,7 @@ pub(super) struct PathRewrite {
     to: PathBase,
     /// Treatment of absolute paths.
     absolute: AbsolutePaths,
-    /// Parameters that hold paths of files, by kind. Nodes in WGSL name no files.
+    /// Parameters that hold paths of files, by kind. Nodes in WGSL have no such parameters.
     files: BTreeMap<String, Vec<String>>,
 }
 
@@ -27,13 +27,13 @@ pub fn relocate_paths(document: &Document, from: &Path, to: &Path) -> Document {
     }
 }
 
-/// Returns a graph whose paths are absolute; relative ones start from `folder`.
+/// Returns a graph whose paths are absolute. Relative paths start from `folder`.
 pub fn with_absolute_paths(document: &Document, folder: &Path) -> Document {
     let base = canonical_base(folder);
     document_with_paths(document, &|path| or_unchanged(base.rewrite_absolute(path), path))
 }
 
-/// Returns a graph with the paths that `moved` gives for those of its model, pictures and group files.
+/// Returns a graph with the paths that `moved` returns for those of its model, pictures and group files.
 pub fn document_with_paths(document: &Document, moved: &dyn Fn(&str) -> String) -> Document {
     let files = PathRewrite::files();
     let is_file = |kind: &str, param: &str| is_file(&files, kind, param);
@@ -44,8 +44,8 @@ pub fn document_with_paths(document: &Document, moved: &dyn Fn(&str) -> String) 
 }
 
 impl PathRewrite {
-    /// Creates the move between two folders; `None` where both are the same, unless the graph gets its first file there:
-    /// before that it had no folder that relative paths could start from.
+    /// Creates the move between two folders; `None` if both are the same, unless the graph is saved for the first time:
+    /// before that, there was no folder from which relative paths could start.
     pub(super) fn between(from: &Path, to: &Path, is_first: bool) -> Option<PathRewrite> {
         let [from, to] = [from, to].map(canonical_base);
         if from == to && !is_first {
@@ -86,13 +86,13 @@ fn is_file(files: &BTreeMap<String, Vec<String>>, kind: &str, param: &str) -> bo
     files.is_some_and(|files| files.iter().any(|known| known == param))
 }
 
-/// Returns the base of a folder, in canonical form where the folder exists.
+/// Returns the base of a folder, in canonical form if the folder exists.
 fn canonical_base(folder: &Path) -> PathBase {
     let whole = canonical(folder).unwrap_or_else(|_| absolute(folder));
     PathBase::of_folder(without_detours(&whole))
 }
 
-/// Returns a rewritten path; one that would contain a name that is not Unicode cannot be written, so it stays, and its node
+/// Returns a rewritten path. A path with a name that is not Unicode cannot be written, so it is not changed, and its node
 /// reports the missing file.
 fn or_unchanged(rewritten: Result<String, NotText>, written: &str) -> String {
     rewritten.unwrap_or_else(|_| written.to_owned())

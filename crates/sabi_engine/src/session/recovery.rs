@@ -1,4 +1,4 @@
-//! Recovery files: copies of unsaved work, for the case that the program ends abnormally.
+//! Recovery files: copies of unsaved work, in case the program ends abnormally.
 
 mod work;
 mod writing;
@@ -28,7 +28,7 @@ static SESSIONS: AtomicU64 = AtomicU64::new(0);
 /// File extension of recovery files.
 const ENDING: &str = "recovery";
 
-/// File for the unsaved work of a session. A lock file beside it marks it as in use while the session lives.
+/// File for the unsaved work of a session. A lock file beside it marks it as in use while the session exists.
 #[derive(Debug)]
 pub struct Recovery {
     path: PathBuf,
@@ -44,10 +44,10 @@ pub struct Recovery {
     writing: Option<Writing>,
 }
 
-/// State of a copy of unsaved work, which is written on a thread of its own.
+/// State of a copy of unsaved work, which is written on a separate thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keeping {
-    /// All unsaved work is in it, or nothing is to be kept.
+    /// All unsaved work is in the copy, or there is nothing to copy.
     Done,
     /// It is being written.
     Begun,
@@ -55,14 +55,13 @@ pub enum Keeping {
     Postponed,
 }
 
-/// Most bytes of a recovery file: a graph, and drafts of nodes.
+/// Maximum size of a recovery file, which has a graph and drafts of nodes, in bytes.
 const MOST_BYTES: u64 = 2 * SIZE_LIMIT_BYTES;
 
-/// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
-/// program are left out, see [`recoveries_in_use`]. A file that cannot be read is listed with its error. Files that were not
-/// complete yet are removed.
+/// Finds the recovery files in a folder from sessions that did not end normally, newest first. Files in use by a running program are left
+/// out; see [`recoveries_in_use`]. A file that cannot be read is listed with its error. Incomplete files are removed.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
-    // A file that was being written when a program ended is in no list.
+    // A file that was being written when a program ended is not listed.
     sweep(folder);
     let mut found: Vec<(SystemTime, PathBuf)> = recovery_files(folder)
         .filter(|(_, path)| !is_locked(&lock_of(path)))
@@ -75,16 +74,16 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
         .collect()
 }
 
-/// Finds the recovery files in a folder that running programs use. A program that is killed uses its own until the system has
+/// Finds the recovery files in a folder that running programs use. A killed program uses its file until the system has
 /// ended it, which may take a moment.
 pub fn recoveries_in_use(folder: &Path) -> Vec<PathBuf> {
     let in_use = recovery_files(folder).filter(|(_, path)| is_locked(&lock_of(path)));
     in_use.map(|(_, path)| path).collect()
 }
 
-/// Recovery files of a folder, with the times at which they were written.
+/// Returns the recovery files of a folder, with their modification times.
 fn recovery_files(folder: &Path) -> impl Iterator<Item = (SystemTime, PathBuf)> {
-    // A folder that cannot be read has none.
+    // If a folder cannot be read, there are none.
     let entries = fs::read_dir(folder).into_iter().flatten();
     entries.filter_map(|entry| {
         let path = entry.ok()?.path();
@@ -100,11 +99,11 @@ fn lock_of(path: &Path) -> PathBuf {
 }
 
 impl Recovery {
-    /// Creates the recovery file of a new session in a folder; it is written with the first unsaved work.
+    /// Creates the recovery file of a new session in a folder. It is written with the first unsaved work.
     pub(super) fn new(folder: &Path, file: Option<&Path>) -> Recovery {
         let number = SESSIONS.fetch_add(1, Ordering::Relaxed);
-        // Process numbers are reused; times are not.
-        // A clock before 1970 counts as 1970; the other parts of the name still tell files apart.
+        // Process numbers are reused, but times are not. A clock before 1970 counts as 1970; the other parts of the name
+        // still distinguish files.
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let name = format!("{}-{}-{number}.{ENDING}", std::process::id(), now.as_millis());
         Recovery {
@@ -118,13 +117,13 @@ impl Recovery {
         }
     }
 
-    /// Reads a recovery file; none while a running program uses it, and where there is none any more.
+    /// Reads a recovery file; `None` if a running program uses it, or if it no longer exists.
     pub fn of_file(path: &Path) -> Option<Recovery> {
         let is_free = path.is_file() && !is_locked(&lock_of(path));
         is_free.then(|| Recovery::read_from(path.to_owned()))
     }
 
-    /// Reads a recovery file; one that cannot be read has a fault.
+    /// Reads a recovery file. If it cannot be read, the result has a fault.
     fn read_from(path: PathBuf) -> Recovery {
         let mut recovery = Recovery {
             path,
@@ -142,7 +141,7 @@ impl Recovery {
         recovery
     }
 
-    /// Writes to this disk from now on.
+    /// Makes it write to this disk from now on.
     pub(super) fn turn_to_disk(&mut self, disk: &Disk) {
         self.disk = disk.clone();
     }
@@ -152,7 +151,7 @@ impl Recovery {
         self.fault.as_ref()
     }
 
-    /// Drafts of node files that were not saved.
+    /// Returns the drafts of node files that were not saved.
     pub fn drafts(&self) -> &[NodeDraft] {
         self.kept.as_ref().map_or(&[], |kept| &kept.drafts)
     }
@@ -162,23 +161,23 @@ impl Recovery {
         &self.path
     }
 
-    /// The graph's own file; none where it was never saved.
+    /// Returns the graph's own file; `None` if it was never saved.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
     }
 
-    /// Returns the graph, to show what would be recovered; `None` where its own file holds it, or it cannot be read.
+    /// Returns the graph, for showing what would be recovered; `None` if the graph is in its own file, or if it cannot be read.
     pub fn document(&self) -> Option<Document> {
         Document::from_json(self.kept.as_ref()?.graph.as_ref()?).ok()
     }
 
-    /// Returns the size of the graph in bytes, as its file would have it.
+    /// Returns the size in bytes of the graph's text.
     pub fn graph_bytes(&self) -> Option<u64> {
         let text = self.kept.as_ref()?.graph.as_ref()?;
         Some(text.len() as u64)
     }
 
-    /// Returns whether the graph's own file has another content than when the copy was written.
+    /// Returns true if the content of the graph's own file has changed since the copy was written.
     pub fn is_file_changed(&self) -> bool {
         let now = self
             .file
@@ -217,8 +216,8 @@ impl Recovery {
         UnsavedWork::read(&text).map_err(damaged)
     }
 
-    /// Contents of the graph's own file that a save may replace: that which it had when the copy was written. A copy without a
-    /// hash is of an earlier version, for which `now` counts, the content that it has now.
+    /// Returns the contents of the graph's own file that a save may replace: the content at the time of the copy. A copy by
+    /// an earlier version has no hash; for it, `now`, the present content, is used.
     pub(super) fn known_contents(&self, now: Option<&[u8]>) -> KnownContents {
         match (self.kept.as_ref().and_then(|kept| kept.file_hash.as_deref()), now) {
             (Some(hash), _) => KnownContents::of_stored(hash),
@@ -227,13 +226,13 @@ impl Recovery {
         }
     }
 
-    /// Returns whether strokes lie beside the recovery file.
+    /// Returns true if there are strokes beside the recovery file.
     pub(super) fn has_strokes(&self) -> bool {
         paint_folder(&self.path).is_dir()
     }
 
-    /// Writes a graph's text and drafts of node files durably, unless they were the last that were written; the graph is `None`
-    /// where its own file holds it. Returns whether it wrote.
+    /// Writes a graph's text and drafts of node files durably, unless they were written last. The graph is `None` if it is
+    /// in its own file. Returns true if it wrote.
     pub(super) fn keep(
         &mut self,
         graph: Option<&str>,
@@ -256,7 +255,7 @@ impl Recovery {
         Ok(true)
     }
 
-    /// Begins to write as [`Recovery::keep`] does, on a thread of its own.
+    /// Starts to write like [`Recovery::keep`], on a separate thread.
     pub(super) fn keep_meanwhile(
         &mut self,
         graph: Option<String>,
@@ -301,11 +300,11 @@ impl Recovery {
 
     /// Removes the recovery file and its lock.
     pub fn forget(&mut self) {
-        // A copy that could not be written has left nothing.
+        // If the copy could not be written, there is nothing to remove.
         let was_writing = self.writing.is_some();
         let _ = self.finish_writing();
         if self.kept.take().is_some() || self.fault.take().is_some() || was_writing {
-            // A file that is gone already needs no removal.
+            // The file may already be missing, so errors are ignored.
             let _ = self.disk.remove(&self.path);
         }
         forget_strokes(&self.disk, &self.path);
@@ -314,7 +313,7 @@ impl Recovery {
         }
     }
 
-    /// Marks the file as in use; returns whether no other session has marked it.
+    /// Marks the file as in use. Returns false if another session has marked it.
     pub(super) fn acquire(&mut self) -> bool {
         if self.lock.is_some() {
             return true;
@@ -322,7 +321,7 @@ impl Recovery {
         match FileLock::acquire(&lock_of(&self.path)) {
             Ok(lock) => self.lock = Some(lock),
             Err(LockError::InUse { .. }) => return false,
-            // Some network shares have no locks; work on them is still recovered, only not told apart from work in use.
+            // Some network shares have no locks. Work on them can still be recovered, but it is not distinguished from work in use.
             Err(LockError::Unavailable(_)) => {}
         }
         true

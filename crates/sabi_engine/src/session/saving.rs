@@ -1,4 +1,4 @@
-//! Saving of a session: to its file, which is looked at first, and to its recovery file.
+//! Saving of a session: to its file, which is checked first, and to its recovery file.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -18,12 +18,12 @@ use crate::remedy::Remedy;
 type Moved = Option<(PathRewrite, Document)>;
 
 impl Session {
-    /// Keeps this many backups of a file that a save replaces.
+    /// Sets the number of backups of a replaced file that are kept.
     pub fn set_backups(&mut self, backups: usize) {
         self.backups = backups;
     }
 
-    /// Compares the file with what was last read from it or written to it. While the file is gone, everything is unsaved.
+    /// Compares the file with the content that was last read from it or written to it. While the file is missing, everything is unsaved.
     pub fn check_file(&mut self) -> FileState {
         let Some(file) = &self.file else {
             return FileState::Same;
@@ -34,7 +34,7 @@ impl Session {
                 FileState::Same
             }
             Ok(bytes) if self.known.contains(&bytes) => FileState::Same,
-            // What is too large or no ordinary file was not written by this session.
+            // A file that is too large or not an ordinary file was not written by this session.
             Ok(_) | Err(Unread::TooLarge(_) | Unread::NotPlain | Unread::Folder) => FileState::Another,
             Err(_) => {
                 self.is_apart = true;
@@ -43,8 +43,8 @@ impl Session {
         }
     }
 
-    /// Keeps the current document although its file holds another text; it is unsaved until the next save, which replaces that
-    /// text, but none that is written later.
+    /// Keeps the current document although its file has another text. The document is unsaved until the next save, which
+    /// may replace that text, but no text that is written later.
     pub fn keep_document(&mut self) {
         self.is_apart = true;
         if let Some(Ok(bytes)) = self.file.as_ref().map(|file| read_plain(file, SIZE_LIMIT_BYTES)) {
@@ -121,7 +121,7 @@ impl Session {
             return Err(EngineError::new(ErrorKind::CannotWrite, why).with_remedies([Remedy::SaveUnderOtherName]));
         };
         self.disk.write_whole(&copy, &theirs)?;
-        // A change since then is asked about again.
+        // If the file changes again after this, the user is asked again.
         self.known.accept(&theirs);
         self.save().map(|()| Some(copy))
     }
@@ -147,7 +147,7 @@ impl Session {
             Some((_, document)) => document.to_json(),
             None => self.text().to_owned(),
         };
-        // The graph is saved also where its strokes cannot be: they stay in memory, and are tried again.
+        // The graph is saved even if its strokes cannot be. They stay in memory and are tried again.
         let strokes = self.save_strokes(path);
         let write = GraphWrite {
             disk: &self.disk,
@@ -156,7 +156,7 @@ impl Session {
         };
         let written = write.write(path, &text);
         if self.file.as_deref() == Some(path) {
-            // Also after an error: the file may be in place, only not durably.
+            // Also after an error, since the file may have been replaced, only not durably.
             self.known.add(text.as_bytes());
         }
         written?;
@@ -168,7 +168,7 @@ impl Session {
         strokes
     }
 
-    /// The document with paths for the folder of another file, if that changes them.
+    /// Returns the document with paths for the folder of another file, if that changes them.
     fn moved_to(&self, path: &Path) -> Moved {
         let rewrite = PathRewrite::between(
             self.open.folder(),
@@ -181,7 +181,7 @@ impl Session {
         })
     }
 
-    /// Turns to a file that was written. Only then, so that a failed save changes nothing.
+    /// Makes a written file the session's file. This is done after writing, so that a failed save changes nothing.
     fn take_file(&mut self, path: &Path, text: String, moved: Moved) {
         if let Some((rewrite, document)) = moved {
             rewrite.relocate(|relocation| self.history.relocate(&self.open.document, relocation));
@@ -205,7 +205,7 @@ impl Session {
         self.is_apart = false;
     }
 
-    /// Removes the recovery file, since the file has everything.
+    /// Removes the recovery file, since the session's file has everything.
     fn forget_recovery(&mut self) {
         self.has_unsaved_strokes = false;
         if let Some(recovery) = &mut self.recovery {
@@ -214,12 +214,12 @@ impl Session {
         }
     }
 
-    /// Keeps the recovery file, since strokes are not beside the file.
+    /// Keeps the recovery file, since strokes could not be stored beside the session's file.
     fn keep_strokes_in_recovery(&mut self) {
         self.has_unsaved_strokes = true;
         if let Some(recovery) = &mut self.recovery {
             recovery.set_file(self.file.as_deref());
-            // The error that is told is that of the strokes; the next autosave tries again.
+            // The error about the strokes is the one that is reported. The next autosave tries again.
             let _ = recovery.keep(Some(&self.saved), &[], self.known.stored());
         }
         self.store_strokes_in_recovery();
@@ -238,7 +238,7 @@ impl Session {
             return Ok(false);
         };
         let kept = recovery.keep(graph.as_deref(), drafts, self.known.stored())?;
-        // After a redo, strokes may be those of no file.
+        // After a redo, strokes may not be in any file.
         if graph.is_some() {
             self.keep_all_strokes()?;
         }
@@ -265,7 +265,7 @@ impl Session {
         Ok(keeping)
     }
 
-    /// Text of the graph if it is not saved; `None` where nothing is unsaved at all, and no recovery file stays then.
+    /// Returns the text of the graph if it is not saved; `None` if nothing is unsaved, in which case the recovery file is removed.
     fn work_to_keep(&mut self, drafts: &[NodeDraft]) -> Option<Option<String>> {
         let is_dirty = self.has_unsaved_text();
         if !is_dirty && drafts.is_empty() {

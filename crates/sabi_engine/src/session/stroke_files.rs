@@ -1,5 +1,5 @@
-//! Strokes of the paint nodes of a session: they are stored as soon as they are painted, beside the graph, or beside the recovery
-//! file of a graph that has no file yet.
+//! Strokes of the paint nodes of a session. They are stored as soon as they are painted, beside the graph, or beside the
+//! recovery file if the graph has no file yet.
 
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,7 @@ fn versions_of(document: &Document) -> String {
 }
 
 impl Session {
-    /// File that the strokes lie beside: that of the graph, or its recovery file; none for a graph that has neither.
+    /// Returns the file beside which strokes are stored: that of the graph, or its recovery file; `None` if the graph has neither.
     pub fn stroke_place(&self) -> Option<PathBuf> {
         let recovery = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
         self.file.clone().or(recovery)
@@ -81,13 +81,13 @@ impl Session {
         }
     }
 
-    /// Stores the strokes of all paint nodes beside the recovery file. Returns whether they are there.
+    /// Stores the strokes of all paint nodes beside the recovery file. Returns true if they are stored there.
     pub(super) fn store_strokes_in_recovery(&self) -> bool {
         let place = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
         place.is_some_and(|place| self.store_strokes(&place).is_ok())
     }
 
-    /// Stores the strokes of all paint nodes beside the file that the graph is saved to.
+    /// Stores the strokes of all paint nodes beside the file to which the graph is saved.
     pub(super) fn save_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
         if graph != self.open.path {
             // Strokes of other models, and of nodes that were not evaluated, are not in memory yet.
@@ -102,7 +102,7 @@ impl Session {
         stored.map_err(|why| EngineError::new(ErrorKind::CannotWrite, why))
     }
 
-    /// Takes the strokes that lie beside the recovery file.
+    /// Reads the strokes beside the recovery file.
     pub(super) fn read_recovered_strokes(&self) {
         if let Some(recovery) = &self.recovery {
             self.open.strokes.read_beside(recovery.path());
@@ -122,14 +122,14 @@ pub(super) fn forget_strokes(disk: &Disk, recovery: &std::path::Path) {
     remove_files(disk, &folder, is_stroke_file);
 }
 
-/// Removes files of a folder, and the folder if nothing else is in it.
+/// Removes files of a folder, and the folder if it is empty then.
 fn remove_files(disk: &Disk, folder: &Path, is_meant: impl Fn(&Path) -> bool) {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
     };
     for file in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         if is_meant(&file) {
-            // What cannot be removed stays; nothing names it any more.
+            // Files that cannot be removed stay; nothing refers to them.
             let _ = disk.remove(&file);
         }
     }

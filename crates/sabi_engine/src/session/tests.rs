@@ -1,4 +1,4 @@
-//! Sessions on files, and what is left of them.
+//! Sessions with files, and recovery of their work.
 
 mod brush_pictures;
 mod faults;
@@ -139,7 +139,7 @@ fn what_was_not_saved_comes_back_after_the_program_ended() {
     assert!(!session.keep(&[]).unwrap(), "nothing changed since");
     let text = session.text().to_owned();
     assert!(recoveries(&kept).is_empty(), "its program still runs");
-    // As another program finds it when this one was killed.
+    // This is the state that another program finds when this program is killed.
     drop(session);
     let mut left = fs::read_dir(&kept).unwrap().map(|entry| entry.unwrap().path());
     let left = left.find(|path| path.extension().is_some_and(|ending| ending == "recovery"));
@@ -280,7 +280,7 @@ fn image(id: &str, file: &str) -> Edit {
     }
 }
 
-/// The picture that a node names, as a place on the disk.
+/// Returns the picture that a node names, as a path on the disk.
 fn picture(session: &Session, id: &str) -> PathBuf {
     let path = session.document().graph.node(id).unwrap().params["file"]
         .as_text()

@@ -5,7 +5,7 @@ use sabi_files::TrustedPaths;
 use super::Session;
 
 impl Session {
-    /// Lets the graph open what it names below these paths, too.
+    /// Allows the graph to open the files that it names below these paths, too.
     pub fn trust(&mut self, trusted: &TrustedPaths) {
         let before = self.open.trusted.clone();
         self.open.trusted = before.clone().with(trusted);

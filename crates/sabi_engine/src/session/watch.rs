@@ -1,7 +1,7 @@
 //! Watcher of the files that a session depends on.
 //!
-//! The system reports events in folders. Where it does not, as for network shares, polling every few seconds finds changes. In
-//! both cases a file has changed if its length or time differs, or if an event named it.
+//! The system reports events in folders. If it does not, for example on network shares, polling every few seconds finds
+//! changes. In both cases a file counts as changed if its length or time differs, or if an event named it.
 
 mod folders;
 mod snapshot;
@@ -26,16 +26,16 @@ const SETTLE_LIMIT: Duration = Duration::from_millis(300);
 /// Interval of polling without events.
 const POLL_INTERVAL: Duration = Duration::from_secs(2);
 
-/// Files that a session depends on. They need not exist: a file that appears is a change, too.
+/// Files on which a session depends. They need not exist, since the appearance of a file is also a change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Watched {
     /// File of the graph.
     pub graph: Option<PathBuf>,
     /// Folders of node files.
     pub nodes: Vec<PathBuf>,
-    /// Files of the model. A folder stands for its list of entries.
+    /// Files of the model. A folder represents its list of entries.
     pub model: Vec<PathBuf>,
-    /// Other files: pictures and group files that the graph names, and the library. A folder stands for its list of entries.
+    /// Other files: pictures and group files that the graph names, and the library. A folder represents its list of entries.
     pub files: Vec<PathBuf>,
 }
 
@@ -98,7 +98,7 @@ impl Watcher {
             watched: Watched::default(),
             snapshot: Snapshot::default(),
         };
-        // The thread is not joined at the end: a share that does not answer would keep the window from closing.
+        // The thread is not joined at the end, since a network share that does not answer would keep the window from closing.
         let thread = std::thread::Builder::new().name("sabi watch".to_owned());
         let started = thread.spawn(move || thread_state.work());
         started.map_err(|error| {
@@ -123,7 +123,7 @@ impl Watcher {
         locked(&self.shared).waiting == 0
     }
 
-    /// Takes the changes since the last call.
+    /// Returns and removes the changes since the last call.
     pub fn changes(&self) -> Changes {
         std::mem::take(&mut locked(&self.shared).changes)
     }
@@ -186,7 +186,7 @@ impl WatchThread {
             return;
         }
         if !was_reported {
-            // Found by polling: a watched folder may have been replaced by another one, which has to be watched again.
+            // Polling found the changes. A watched folder may have been replaced by another folder, which has to be watched again.
             self.folders.disarm();
         }
         self.folders.arm(&self.watched);
@@ -212,7 +212,7 @@ impl WatchThread {
 struct Pending {
     reported: BTreeSet<PathBuf>,
     watched: Option<Watched>,
-    /// Number of messages that replace the watched files.
+    /// Number of messages that replace the list of watched files.
     watch_calls: usize,
     has_ended: bool,
 }
@@ -231,8 +231,8 @@ impl Pending {
     }
 }
 
-/// Collects messages until none has arrived for the time of a `pause`: an editor saves in several steps. The wait has a limit,
-/// since a folder may be written to all the time; later messages are another change.
+/// Collects messages until none has arrived for the time of a `pause`, since an editor saves in several steps. The wait has
+/// a limit, since a folder may be written to all the time; later messages count as another change.
 fn settle(messages: &Receiver<Message>, pending: &mut Pending, pause: Duration, limit: Duration) {
     let started = Instant::now();
     while !pending.has_ended

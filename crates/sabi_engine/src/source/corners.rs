@@ -1,4 +1,4 @@
-//! Values of the vertices of triangles as tables on the device: they change evenly over a triangle.
+//! Values at the vertices of triangles, as tables on the device. They change linearly over a triangle.
 
 use rayon::prelude::*;
 use sabi_gpu::{COORDINATE_ROWS, COORDINATE_ROWS_WITH_TANGENTS, DeviceTable, GpuError, SourceCanvas};
@@ -6,8 +6,8 @@ use sabi_surface::model::TextureUvs;
 
 use super::texels::SourceSurface;
 
-/// Change of the weights of the second and of the third corner of a triangle over one texel along u and along v; 0 for a triangle
-/// without area.
+/// Returns the change of the weights of the second and of the third corner of a triangle per texel along u and along v; 0
+/// for a triangle without area.
 pub(super) fn weight_changes(surface: &SourceSurface<'_>, triangle: usize) -> [[f64; 2]; 2] {
     let uvs = &surface.model.mesh.uvs;
     let size = f64::from(surface.atlas.size);
@@ -24,7 +24,7 @@ pub(super) fn weight_changes(surface: &SourceSurface<'_>, triangle: usize) -> [[
 /// Texture coordinates of a set on the atlas.
 #[derive(Clone, Copy)]
 pub(super) struct Coordinates<'a> {
-    /// The set; none where it is that of the atlas.
+    /// The set; `None` if it is that of the atlas.
     pub(super) other: Option<&'a TextureUvs>,
     /// True for a triangle with coordinates of the set.
     pub(super) covers: &'a (dyn Fn(usize) -> bool + Sync),

@@ -1,8 +1,8 @@
-//! Colors of the parts of a model, as programs select parts by.
+//! Colors of the parts of a model, by which other programs select parts.
 
 use sabi_color::linear_from_srgb8;
 
-/// Step of the hue from group to group: 2³² by the golden ratio, so that hues of any number of groups are far apart.
+/// Step of the hue from group to group: 2³² divided by the golden ratio, so that the hues of any number of groups differ clearly.
 const GOLDEN_STEP: u32 = 2_654_435_769;
 
 /// Returns the color of a group by its number.
@@ -10,10 +10,10 @@ pub(super) fn numbered_color(number: u32) -> [f32; 3] {
     id_color(number.wrapping_mul(GOLDEN_STEP))
 }
 
-/// Color of a group: its hue is a share of 2³² of the color circle. An exact code of 8 bits.
+/// Returns the color of a group. Its hue is a share of 2³² of the color circle. The color is an exact code of 8 bits.
 pub(super) fn id_color(hue: u32) -> [f32; 3] {
     let around = f64::from(hue) / 4_294_967_296.0 * 6.0;
-    // Three sawteeth, a third of the circle apart. Neighboring hues get other depths.
+    // Three sawtooth functions, offset by a third of the circle. Neighboring hues have different depths.
     let depth = 1.0 - f64::from(hue >> 8 & 3) * 0.12;
     let code = |shift: f64| {
         let tooth = ((around + shift).rem_euclid(6.0) - 3.0).abs() - 1.0;

@@ -80,7 +80,7 @@ fn outputs() -> Vec<SourcePort> {
     ]
 }
 
-/// Output of the kind, which decides the use of a picture's values for an output.
+/// Output of the kind. It determines how a picture's values are used.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Output {
     Color,
@@ -104,10 +104,10 @@ impl Output {
         }
     }
 
-    /// Number of what is shown, see `shaders/source/image.wgsl`.
+    /// Returns the number of the shown value; see `shaders/source/image.wgsl`.
     fn number(self) -> u32 {
         match self {
-            // The kernel of slopes shows nothing else.
+            // The kernel for slopes does not use this number.
             Output::Color | Output::Slope => 0,
             Output::Mask => 1,
             Output::Alpha => 2,
@@ -115,7 +115,7 @@ impl Output {
         }
     }
 
-    /// Returns whether values are decoded from sRGB.
+    /// Returns true if values are decoded from sRGB.
     fn is_srgb(self, choice: usize, picture: &Picture) -> bool {
         match (choice, self) {
             (_, Output::Alpha | Output::Slope) | (2, _) => false,
@@ -147,7 +147,7 @@ pub(super) fn draw(
     let choice = step.values.index("color_space").map_err(unread)?;
     let reading = Reading {
         is_srgb: of.is_srgb(choice, &open.picture),
-        // Channels and slopes are values as the file stores them.
+        // Channels and slopes are values as stored in the file.
         by_alpha: of == Output::Color && step.values.index("alpha_is").map_err(unread)? == 0,
     };
     let picture = surface.picture_tables.table(canvas, open, reading)?;

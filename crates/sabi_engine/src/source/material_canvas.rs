@@ -21,12 +21,12 @@ pub(super) struct MaterialCanvas<'a> {
     pub(super) surface: &'a SourceSurface<'a>,
     /// Number of the material.
     pub(super) material: u32,
-    /// Tiles with triangles of it; none for all.
+    /// Tiles with triangles of the material; `None` for all.
     pub(super) tiles: Option<&'a TileSet>,
     pub(super) coordinates: &'a mut CoordinateTables,
     /// Bound where there is no table.
     pub(super) unused: &'a DeviceTable,
-    /// Warnings about what cannot be shown.
+    /// Warnings about textures that cannot be shown.
     pub(super) warnings: &'a mut Vec<String>,
 }
 
@@ -92,7 +92,7 @@ impl MaterialCanvas<'_> {
             material: self.material,
             factor,
             turn: [cos, sin],
-            // Without a texture the kernel reads none.
+            // Without a texture the kernel does not read it.
             used: used.map_or(TextureConstants::default(), |(texture, bound)| bound.constants(texture)),
         };
         let coordinates = bound.as_ref().and_then(|bound| bound.coordinates.as_ref());
@@ -112,7 +112,7 @@ impl MaterialCanvas<'_> {
         })
     }
 
-    /// Uploads a texture, and the coordinates of its UV set where no other texture did.
+    /// Uploads a texture, and the coordinates of its UV set if they have not been uploaded yet.
     fn bound(&mut self, texture: &Texture<'_>) -> Result<BoundTexture, GpuError> {
         let picture = PictureTable::upload(self.canvas, &texture.levels)?;
         let why = picture.why_smaller(&format!("the picture {}", texture.name));

@@ -5,18 +5,17 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use sabi_image::{Picture, Pixels, linear_from_srgb};
 
-/// Way in which the values of a picture are read.
+/// Options for reading the values of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Reading {
-    /// True where sRGB is decoded in all channels but alpha.
+    /// True if sRGB is decoded in all channels except alpha.
     pub(crate) is_srgb: bool,
-    /// True where a color counts in averages as much as it is opaque, as colors beside holes do; false where alpha is another value
-    /// among others.
+    /// True if colors are weighted by alpha in averages, as is right for colors next to holes; false if alpha is an independent value.
     pub(crate) by_alpha: bool,
 }
 
 impl Reading {
-    /// All ways, each at the place of its number.
+    /// All combinations, each at the index of its number.
     pub(super) const ALL: [Reading; 4] = [
         Reading::of(false, false),
         Reading::of(true, false),
@@ -34,8 +33,8 @@ impl Reading {
     }
 }
 
-/// Picture with copies of half, a quarter… its size, whose pixels are exact area averages. All values are linear, and colors are
-/// never multiplied by alpha.
+/// Picture with copies of half, a quarter… its size, whose pixels are exact area averages. All values are linear, and
+/// colors are never premultiplied by alpha.
 #[derive(Clone)]
 pub(crate) struct MipChain {
     picture: Arc<Picture>,
@@ -52,7 +51,7 @@ struct Level {
 }
 
 impl MipChain {
-    /// The chain of a picture without any smaller copy.
+    /// Creates the chain of a picture without any smaller copies.
     pub(crate) fn new(picture: Arc<Picture>, reading: Reading) -> MipChain {
         let is_srgb = reading.is_srgb;
         let linear = |code: usize| {
@@ -68,7 +67,7 @@ impl MipChain {
         }
     }
 
-    /// Builds the levels that are missing, down to the first one with at most `least` pixels along both sides. Returns the chain
+    /// Builds the missing levels, down to the first one with at most `least` pixels along both sides. Returns the chain
     /// down to that level.
     pub(crate) fn down_to(&mut self, least: u32) -> MipChain {
         let is_small = |chain: &MipChain, level: usize| chain.size(level).iter().all(|side| *side <= least.max(1));
@@ -82,7 +81,7 @@ impl MipChain {
         chain
     }
 
-    /// Returns whether another chain shows the same picture in the same way.
+    /// Returns true if another chain shows the same picture with the same options.
     pub(super) fn is_same(&self, other: &MipChain) -> bool {
         Arc::ptr_eq(&self.picture, &other.picture) && self.reading == other.reading && self.last() == other.last()
     }
@@ -97,7 +96,7 @@ impl MipChain {
         usize::from(self.picture.channels)
     }
 
-    /// Returns the way in which the values of the picture are read.
+    /// Returns the options for reading the values of the picture.
     pub(super) fn reading(&self) -> Reading {
         self.reading
     }
@@ -121,7 +120,7 @@ impl MipChain {
         }
     }
 
-    /// Returns the linear RGBA of a pixel; gray is repeated, a missing alpha is 1.
+    /// Returns the linear RGBA of a pixel. Gray is repeated, and a missing alpha is 1.
     pub(crate) fn pixel(&self, level: usize, x: usize, y: usize) -> [f32; 4] {
         let across = self.size(level)[0] as usize;
         if let Some(at) = level.checked_sub(1) {
@@ -160,7 +159,7 @@ impl MipChain {
         }
     }
 
-    /// Computes a level from one of exactly twice its size, which is the usual case and much faster.
+    /// Computes a level from one of exactly twice its size. This is the usual case, and much faster.
     fn half_of_even_size(&self, level: usize, size: [u32; 2]) -> Level {
         let [width, height] = size.map(|side| side as usize);
         let mut pixels = vec![[0.0; 4]; width * height];
@@ -186,7 +185,7 @@ impl MipChain {
         }
     }
 
-    /// Computes a level from a larger one, by the share of each of its pixels.
+    /// Computes a level from a larger one, using the covered share of each of its pixels.
     fn half_of_any_size(&self, level: usize, size: [u32; 2]) -> Level {
         let from = self.size(level);
         let columns: Vec<Coverage> = (0..size[0]).map(|at| Coverage::new(at, size[0], from[0])).collect();
@@ -208,8 +207,8 @@ impl MipChain {
     }
 }
 
-/// Mean of pixels with their shares of the area, which add up to 1. By alpha, a color counts as much as it is opaque; where all
-/// pixels are clear, colors count alike.
+/// Returns the mean of pixels with their shares of the area, which add up to 1. With `by_alpha`, colors are weighted by
+/// alpha; if all pixels are transparent, colors are weighted equally.
 fn mean(pixels: impl IntoIterator<Item = ([f32; 4], f32)>, by_alpha: bool) -> [f32; 4] {
     let mut sum = [0.0_f32; 4];
     let mut opaque = [0.0_f32; 3];
@@ -249,7 +248,7 @@ impl Coverage {
         Coverage {
             first: first as usize,
             weights: std::array::from_fn(|part| {
-                // Rounding must not reach for a pixel behind the last one.
+                // Rounding must not lead to a pixel after the last one.
                 if first + (part as f64) < f64::from(from) {
                     weight(part) as f32
                 } else {
@@ -275,7 +274,7 @@ mod tests {
 
     #[test]
     fn clear_pixels_give_no_color_to_averages_of_opaque_ones() {
-        // Red beside clear black, and clear white over clear blue.
+        // Red next to transparent black, and transparent white above transparent blue.
         let pixels = [
             [1.0, 0.0, 0.0, 1.0],
             [0.0; 4],
@@ -296,7 +295,7 @@ mod tests {
             assert_eq!(levels.pixel(1, 0, 0), [1.0, 0.0, 0.0, 0.5]);
             assert_eq!(levels.pixel(1, second.0, second.1), [0.5, 0.5, 1.0, 0.0]);
             assert_eq!(levels.pixel(2, 0, 0), last);
-            // Of three pixels, none of which has a half of the area.
+            // Each of the pixels averages three pixels, none of which has half of the area.
             let odd = Arc::new(Picture {
                 width: 3,
                 height: 1,
@@ -306,7 +305,7 @@ mod tests {
             });
             let color = MipChain::new(odd, Reading::of(false, true)).down_to(1).pixel(1, 0, 0);
             assert_eq!(color[..3], [1.0, 0.0, 0.0]);
-            // Nothing is weighed where alpha is a value among others.
+            // Colors are not weighted if alpha is an independent value.
             let plain = MipChain::new(picture, PLAIN).down_to(1);
             assert_eq!(plain.pixel(1, 0, 0), [0.5, 0.0, 0.0, 0.5]);
         }

@@ -1,4 +1,4 @@
-//! Node kinds that are written in Rust, one file each: sources and outputs.
+//! Node kinds that are implemented in Rust, one file each: sources and outputs.
 
 mod corners;
 mod id_color;
@@ -54,7 +54,7 @@ pub(crate) use texels::SourceSurface;
 /// Source or output kinds by id.
 pub(crate) type SourceKinds = BTreeMap<String, SourceKind>;
 
-/// Returns the source kinds by id. The content of those that show the model is set once it is loaded.
+/// Returns the source kinds by id. The properties of those that show the model are set once it is loaded.
 pub(crate) fn kinds() -> SourceKinds {
     by_id([
         image::kind(),
@@ -65,7 +65,7 @@ pub(crate) fn kinds() -> SourceKinds {
     ])
 }
 
-/// Returns the kinds that show the model, with the content of this one.
+/// Returns the kinds that show the model, with the properties of this one.
 pub(crate) fn kinds_for(model: &Model) -> [SourceKind; 3] {
     [
         model::kind_for(model),
@@ -118,12 +118,12 @@ pub(crate) struct Sources<'a> {
     kept_results: Option<&'a ProgramCache>,
     /// Cancels the decoding of pictures.
     progress: &'a dyn Progress,
-    /// Warnings about what cannot be shown.
+    /// Warnings about things that cannot be shown.
     pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> Sources<'a> {
-    /// Creates sources; files are opened on first use.
+    /// Creates sources. Files are opened on first use.
     pub(crate) fn new(
         surface: SourceSurface<'a>,
         files: Files<'a>,
@@ -144,7 +144,7 @@ impl<'a> Sources<'a> {
 }
 
 impl Files<'_> {
-    /// The file that a node is in: the graph, or a group file.
+    /// Returns the file that contains a node: the graph, or a group file.
     fn file_of(&self, node: &FlatNode) -> PathBuf {
         match &node.file {
             Some(group) => self.base.resolve(group),
@@ -162,12 +162,12 @@ impl Files<'_> {
     }
 }
 
-/// Sentence of a node whose source cannot read one of its parameters.
+/// Returns a sentence about a node whose source cannot read one of its parameters.
 fn unread(step: &SourceStep, error: &NoSuchValue) -> String {
     format!("node '{}' ({}): {error}", step.id, step.kind)
 }
 
-/// The error of a run with a sentence about one of its nodes.
+/// Returns the error of a run with a sentence about one of its nodes.
 fn of_node(step: &SourceStep, reason: String) -> GpuError {
     GpuError::Node {
         node: step.id.clone(),
@@ -175,7 +175,7 @@ fn of_node(step: &SourceStep, reason: String) -> GpuError {
     }
 }
 
-/// The error of a node whose source cannot read one of its parameters.
+/// Returns the error of a node whose source cannot read one of its parameters.
 fn unreadable(step: &SourceStep, error: &NoSuchValue) -> GpuError {
     of_node(step, unread(step, error))
 }

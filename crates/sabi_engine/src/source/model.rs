@@ -21,7 +21,7 @@ use super::texels::SourceSurface;
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/model";
 
-/// Declares the kind; without a model its material sets color and surface only.
+/// Declares the kind. Without a model, its material sets only color and surface.
 pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
@@ -53,7 +53,7 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// Colors whose alpha, if there is one, means nothing.
+/// Colors whose alpha, if there is one, has no meaning.
 const COLORS: Reading = Reading {
     is_srgb: true,
     by_alpha: false,
@@ -144,7 +144,7 @@ impl MaterialTextures<'_> {
     }
 }
 
-/// Declares the kind for a model: the channels that its material sets, and a hash of its textures and factors.
+/// Declares the kind for a model: with the channels that its material sets, and a hash of its textures and factors.
 pub(crate) fn kind_for(model: &Model) -> SourceKind {
     let mut kind = kind();
     let mut hash = blake3::Hasher::new();
@@ -181,7 +181,7 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     kind
 }
 
-/// Lists the triangles without a UV set that others have, in ascending order.
+/// Lists the triangles without a UV set that other triangles have, in ascending order.
 fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
     let of_set = model.mesh.missing_uvs.iter().filter(|missing| missing.set == set);
     of_set.map(|missing| missing.triangles.clone()).collect()
@@ -233,7 +233,7 @@ fn open_materials<'a>(
         texture.missing = missing;
         Some(texture)
     };
-    // Colors of clear pixels are seen like any other where a material ignores alpha.
+    // If a material ignores alpha, colors of transparent pixels are visible like others.
     let opaque = |material: &ModelMaterial| Reading {
         by_alpha: !material.ignores_alpha,
         ..COLORS
@@ -257,9 +257,9 @@ fn open_materials<'a>(
 /// Provider of the model's textures on the atlas.
 #[derive(Default)]
 pub(crate) struct ModelSource<'a> {
-    /// Textures, opened on first use, since cached results need none.
+    /// Textures. They are opened on first use, since cached results need none.
     materials: Option<Vec<MaterialTextures<'a>>>,
-    /// Tiles with triangles of each material; empty where there is one only.
+    /// Tiles with triangles of each material; `None` if there is only one.
     tiles: Option<Vec<TileSet>>,
     coordinates: CoordinateTables,
 }

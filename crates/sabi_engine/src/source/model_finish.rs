@@ -1,4 +1,4 @@
-//! What few materials of a model have: clear coat, anisotropy, sheen, light below the surface.
+//! Channels that few materials of a model have: clear coat, anisotropy, sheen, and scattering below the surface.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use sabi_surface::model::{Model, ModelFinish, TextureRef};
 
 use super::model_textures::{Product, Texture};
 
-/// Opens a texture, told what it shows, and whether it is sRGB.
+/// Opens a texture, given its purpose and whether it is sRGB.
 pub(super) type OpenTexture<'o, 'a> = dyn FnMut(&Option<TextureRef>, &str, bool) -> Option<Texture<'a>> + 'o;
 
 /// Textures of the finish of one material.
@@ -23,7 +23,7 @@ pub(super) struct FinishTextures<'a> {
     transmission: Option<Texture<'a>>,
 }
 
-/// Channels that the materials of a model have besides the usual ones.
+/// Returns the channels of the model's materials in addition to the usual ones.
 pub(super) fn channels(model: &Model) -> BTreeSet<Channel> {
     let finishes = model.materials.iter().map(|material| &material.finish);
     let of = |finish: &ModelFinish| {
@@ -63,7 +63,7 @@ impl<'a> FinishTextures<'a> {
         [share, roughness, Product::constant(0.0), Product::constant(1.0)]
     }
 
-    /// The texture of the direction of fine scratches, its strength and its rotation, radians.
+    /// Returns the texture for the direction of fine scratches, their strength and their rotation in radians.
     pub(super) fn anisotropy(&self) -> (Option<&Texture<'_>>, f32, f32) {
         let factor = self.finish.anisotropy.factor;
         (self.anisotropy.as_ref(), factor, self.finish.anisotropy_rotation)

@@ -1,4 +1,4 @@
-//! Pictures of a model's materials: each content is decoded once, and only as many as fit into memory.
+//! Pictures of a model's materials. Each content is decoded once, and only as many as fit into memory.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -9,10 +9,10 @@ use sabi_surface::model::{Model, ModelImage, ModelMaterial};
 
 use super::pictures::{OpenPicture, Pictures, memory_of};
 
-/// Pictures of a model by their numbers, or sentences about why they cannot be shown.
+/// Pictures of a model by their numbers, or sentences with the reason why they cannot be shown.
 pub(super) type ModelPictures = BTreeMap<usize, Result<Arc<OpenPicture>, String>>;
 
-/// Content of a picture that materials use, with the pictures of the model that have it.
+/// Content of a picture that materials use, with the numbers of the model's pictures that have it.
 struct Content<'m> {
     hash: [u8; 32],
     name: &'m str,
@@ -20,8 +20,8 @@ struct Content<'m> {
     images: Vec<usize>,
 }
 
-/// Opens the pictures that the materials use, by as many threads as there are. Pictures that would take more than `memory_bytes`
-/// together are left out, later ones first.
+/// Opens the pictures that the materials use, on all threads. Pictures that would take more than `memory_bytes` together
+/// are left out, later ones first.
 pub(super) fn open_pictures(model: &Model, pictures: &Pictures, memory_bytes: u64) -> ModelPictures {
     let (contents, mut opened) = contents(model);
     let mut left = memory_bytes;
@@ -76,9 +76,10 @@ fn contents(model: &Model) -> (Vec<Content<'_>>, ModelPictures) {
     (contents, unread)
 }
 
-/// Takes the memory of a picture from what is left; the error is a sentence. Damaged ones are told when they are decoded.
+/// Subtracts the memory of a picture from the remaining memory. The error is a sentence. Damaged pictures are reported when
+/// they are decoded.
 fn reserve(content: &Content<'_>, left: &mut u64, all: u64) -> Result<(), String> {
-    // A picture of color and of values has copies of both kinds; few are.
+    // A picture that is used both for color and for values has copies of both kinds, but few pictures are.
     let Ok(needed) = memory_of(content.name, content.bytes, 1) else {
         return Ok(());
     };

@@ -1,4 +1,4 @@
-//! Textures of a model's materials, and the channels that a plane takes of them.
+//! Textures of a model's materials, and their channels in a plane.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ pub(super) struct Texture<'a> {
     pub(super) transform: [[f32; 3]; 2],
     /// Number of its UV set in the file.
     pub(super) uv_set: u32,
-    /// UV set of the texture; none where it is the set of the atlas.
+    /// UV set of the texture; `None` if it is the set of the atlas.
     pub(super) other: Option<&'a TextureUvs>,
     /// Triangles without that set, in ascending order.
     pub(super) missing: Vec<Range<u32>>,
@@ -35,7 +35,7 @@ impl<'a> Texture<'a> {
     ) -> Texture<'a> {
         let transform = texture.transform.map(|row| row.map(f64::from));
         let [u, v] = [0, 1].map(|axis: usize| transform[0][axis].hypot(transform[1][axis]));
-        // A texture in the layout of the atlas is never sampled at a level coarser than its texels.
+        // A texture in the layout of the atlas is never sampled at a level that is coarser than the atlas's texels.
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
         Texture {
             name,
@@ -55,22 +55,22 @@ impl<'a> Texture<'a> {
         last.is_none_or(|range| range.end as usize <= triangle)
     }
 
-    /// Returns whether its coordinates are those of the atlas, on all triangles.
+    /// Returns true if its coordinates are those of the atlas on all triangles.
     pub(super) fn is_laid_out_by_the_atlas(&self) -> bool {
         self.other.is_none() && self.missing.is_empty()
     }
 
-    /// Returns whether another texture has the same values everywhere, as where a picture holds several channels.
+    /// Returns true if another texture has the same values everywhere, for example if a picture holds several channels.
     fn is_same(&self, other: &Texture<'_>) -> bool {
         self.levels.is_same(&other.levels)
             && (self.wrap, self.transform, self.uv_set) == (other.wrap, other.transform, other.uv_set)
     }
 }
 
-/// Channel of a texture; 1 without one.
+/// Channel of a texture; `None` means the value 1.
 pub(super) type TextureChannel<'t> = Option<(&'t Texture<'t>, u32)>;
 
-/// Component of a plane: a product of channels and a factor, and what is added to it.
+/// Component of a plane: a product of channels and a factor, plus an addend.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Product<'t> {
     pub(super) channels: [TextureChannel<'t>; 2],
@@ -106,7 +106,7 @@ impl<'t> Product<'t> {
     }
 }
 
-/// Textures that some components are made of, each once, in the order of their first use.
+/// Returns the textures of some components without repeats, in the order of their first use.
 pub(super) fn textures_of<'t>(products: &[Product<'t>]) -> Vec<&'t Texture<'t>> {
     let mut found: Vec<&Texture<'_>> = Vec::new();
     for (texture, _) in products.iter().flat_map(|product| product.channels).flatten() {

@@ -1,11 +1,11 @@
-//! Outputs that are exported as maps of their own, beside the materials.
+//! Outputs that are exported as separate maps, in addition to the materials.
 
 use sabi_export::{Channel, OutputKind};
 use sabi_graph::{FlatNode, Value};
 
 use super::{output_color, output_mask, output_vector};
 
-/// Returns the channel that a node exports; none for nodes of other kinds.
+/// Returns the channel that a node exports; `None` for nodes of other kinds.
 pub(crate) fn map_output(node: &FlatNode) -> Option<Channel> {
     let (kind, default) = match node.kind.as_str() {
         output_mask::NAME => (OutputKind::Mask, "mask"),

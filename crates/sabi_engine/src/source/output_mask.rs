@@ -1,4 +1,4 @@
-//! `output/mask`: one more exported map.
+//! `output/mask`: an additional exported map.
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::Param;

@@ -1,4 +1,4 @@
-//! `output/material`: what is exported and shown.
+//! `output/material`: the material that is exported and shown.
 
 use sabi_graph::{FlatNode, PortType, Value};
 use sabi_nodes::kind::Param;
@@ -30,7 +30,7 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// Priority with which an output serves a material; the lesser wins.
+/// Priority with which an output serves a material. The lesser one is preferred.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Claim {
     /// The output lists the material.
@@ -39,13 +39,13 @@ pub(crate) enum Claim {
     All,
 }
 
-/// Returns the priority with which an output serves the material with these names; none where it does not serve it.
+/// Returns the priority with which an output serves the material with these names; `None` if it does not serve it.
 pub(crate) fn claim(node: &FlatNode, names: &[&str]) -> Option<Claim> {
     let Some(Value::Text(text)) = node.params.get("materials") else {
         return Some(Claim::All);
     };
     let listed = || text.split(',').map(str::trim);
-    // The name of a material may contain a comma.
+    // Checked as a whole first, since the name of a material may contain a comma.
     if names.contains(&text.trim()) || listed().any(|name| names.contains(&name)) {
         return Some(Claim::Listed);
     }

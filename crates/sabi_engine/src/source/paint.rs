@@ -1,4 +1,4 @@
-//! `source/paint`: what an artist painted on the surface.
+//! `source/paint`: strokes that an artist painted on the surface.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,12 +18,12 @@ use super::texels::SourceSurface;
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/paint";
 
-/// Kind and parameter that are left out of a graph whose strokes are not to be seen.
+/// Returns the kind and the parameter to remove from a graph whose strokes should not be visible.
 pub fn without_paint() -> (String, String) {
     (NAME.to_owned(), "strokes".to_owned())
 }
 
-/// Place of each input among those of the kind.
+/// Index of each input among those of the kind.
 const BASE: usize = 0;
 const FROM: usize = 1;
 
@@ -78,7 +78,7 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// Hash of what a paint node has on a model, for the keys of its results; none for other nodes.
+/// Returns a hash of the strokes of a paint node on a model, for the keys of its results; `None` for other nodes.
 pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Option<[u8; 32]> {
     if node.kind != NAME || node.muted {
         return None;
@@ -100,7 +100,7 @@ pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Opti
     Some(*hash.finalize().as_bytes())
 }
 
-/// Paint of a node, as its results show it.
+/// Paint of a node, in the form of its results.
 pub(crate) struct PaintedNode<'a> {
     surface: &'a SourceSurface<'a>,
     output: &'a str,
@@ -110,7 +110,7 @@ pub(crate) struct PaintedNode<'a> {
 }
 
 impl<'a> PaintedNode<'a> {
-    /// The paint of a node for a result. `graph` is the file that the node is in. Adds a warning where strokes are missing.
+    /// Returns the paint of a node for a result. `graph` is the file that contains the node. Adds a warning if strokes are missing.
     pub(crate) fn of(
         surface: &'a SourceSurface<'a>,
         strokes: &Strokes,
@@ -176,19 +176,19 @@ impl<'a> PaintedNode<'a> {
     }
 }
 
-/// Returns true if a node differs from the same node before in its strokes alone, none of which copy from another node.
+/// Returns true if a node differs from its earlier state only in its strokes, none of which copies from another node.
 pub(crate) fn is_plainly_painted_on(before: &SourceStep, now: &SourceStep) -> bool {
     let is_connected = now.reads.get(FROM).is_some_and(Option::is_some);
     is_painted_on(before, now) && !is_connected
 }
 
-/// Returns true if a node differs from the same node before in its strokes alone.
+/// Returns true if a node differs from its earlier state only in its strokes.
 fn is_painted_on(before: &SourceStep, now: &SourceStep) -> bool {
     let empty = |step: &SourceStep| step.values.number("empty").ok();
     now.kind == NAME && before.kind == NAME && empty(before) == empty(now)
 }
 
-/// Tiles in which the paint of a node differs from that of the same node before; none where that is not known.
+/// Returns the tiles in which the paint of a node differs from its earlier state; `None` if that is not known.
 pub(crate) fn changed_tiles(
     surface: &SourceSurface<'_>,
     strokes: &Strokes,
@@ -228,7 +228,7 @@ fn layers_of(output: &str) -> Layers {
     }
 }
 
-/// The canvas of a node; none where nothing is painted on this model.
+/// Returns the canvas of a node; `None` if nothing is painted on this model.
 fn canvas(
     surface: &SourceSurface<'_>,
     strokes: &Strokes,
@@ -280,7 +280,7 @@ fn canvas(
     Some(painted.canvas)
 }
 
-/// Reason that a node without strokes of its model is empty, as the end of a sentence.
+/// Returns the reason why a node without strokes for this model is empty, as the end of a sentence.
 fn why_empty(found: &Found, graph: &Path, model: &str) -> String {
     if let Found::OtherModels(others) = found {
         return format!("is empty on '{model}': it was painted on {}", others.join(", "));

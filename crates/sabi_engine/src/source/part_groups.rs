@@ -10,18 +10,18 @@ use sabi_plan::pcg;
 use super::id_color::{id_color, numbered_color};
 use super::texels::SourceSurface;
 
-/// Maximum of names that a warning lists.
+/// Maximum number of names that a warning lists.
 const LISTED: usize = 12;
 
 /// Groups of the model's triangles.
 pub(super) struct Groups {
     /// Noun for a group in sentences.
     noun: &'static str,
-    /// Owners of the numbers that are grouped.
+    /// Kind of things that are grouped by their numbers.
     pub(super) by: PartRows,
-    /// Group of each part, where parts are grouped by their names; else each is a group of its own.
+    /// Group of each part, if parts are grouped by their names; otherwise each part is a group.
     of_part: Option<Vec<u32>>,
-    /// Names of each group; empty where groups have numbers only.
+    /// Names of each group; empty if groups have only numbers.
     names: Vec<Vec<String>>,
     /// Random number of each group.
     pub(super) random: Vec<u32>,
@@ -91,7 +91,7 @@ impl Groups {
         numbers(surface, self.by).iter().map(group_of).collect()
     }
 
-    /// The rows that the device reads: those of each group, for all that is grouped.
+    /// Returns the rows that the device reads: the rows of its group for each grouped thing.
     pub(super) fn rows<const N: usize>(&self, of_group: impl Fn(usize) -> [[f32; 4]; N]) -> Vec<[u32; 4]> {
         let bits = |row: [f32; 4]| row.map(f32::to_bits);
         let groups: Vec<usize> = match &self.of_part {
@@ -105,7 +105,7 @@ impl Groups {
     pub(super) fn colors(&self) -> Vec<[f32; 3]> {
         let numbers = 0..self.count() as u32;
         match self.noun {
-            // Those of names depend on the names alone.
+            // Colors by name depend only on the names.
             "name" => self.random.iter().map(|bits| id_color(*bits)).collect(),
             _ => numbers.map(numbered_color).collect(),
         }
@@ -115,7 +115,7 @@ impl Groups {
         self.random.len()
     }
 
-    /// Returns the picked groups, and the words of `pick` that match none.
+    /// Returns the picked groups, and the words of `pick` that match no group.
     pub(super) fn picked<'p>(&self, pick: &'p str) -> (Vec<bool>, Vec<&'p str>) {
         let whole = pick.trim();
         if whole.is_empty() {
@@ -131,7 +131,7 @@ impl Groups {
         (picked, unknown)
     }
 
-    /// Marks the groups of a name, a prefix or a number; returns whether there are any.
+    /// Marks the groups of a name, a prefix or a number. Returns true if there are any.
     fn mark(&self, word: &str, picked: &mut [bool]) -> bool {
         if word == "*" {
             picked.fill(true);
@@ -185,7 +185,7 @@ impl Groups {
     }
 }
 
-/// The number of each triangle in a division of the model.
+/// Returns the number of each triangle in a division of the model.
 fn numbers<'s>(surface: &SourceSurface<'s>, by: PartRows) -> Cow<'s, [u32]> {
     let mesh = &surface.model.mesh;
     match by {

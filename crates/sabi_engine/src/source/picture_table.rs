@@ -11,7 +11,7 @@ use sabi_surface::model::Wrap;
 use super::mip_chain::{MipChain, Reading};
 use super::pictures::OpenPicture;
 
-/// Most bytes of the tables that are kept from run to run; a single larger one is kept alone.
+/// Size limit of the tables that are kept from run to run. A single larger table is kept alone.
 const KEPT_BYTES: u64 = 1 << 30;
 
 /// Row of a table, as bit patterns.
@@ -23,9 +23,9 @@ pub(super) struct PictureTable {
     pub(super) storage: PictureStorage,
     /// Number of the smallest copy.
     last: u32,
-    /// True where colors count as much as they are opaque.
+    /// True if colors are weighted by alpha.
     by_alpha: bool,
-    /// Number of sizes, from the largest on, that the device has no room for.
+    /// Number of levels, starting with the largest, that do not fit on the device.
     left_out: usize,
     bytes: u64,
 }
@@ -49,7 +49,7 @@ impl PictureTable {
         })
     }
 
-    /// Sentence about a picture whose largest level the device has no room for; none where all of it is read.
+    /// Returns a sentence about a picture whose largest level does not fit on the device; `None` if it fits.
     pub(super) fn why_smaller(&self, picture: &str) -> Option<String> {
         let share = 0.5_f64.powi(self.left_out as i32);
         let why = || format!("{picture} is larger than the graphics device takes, and is read at {share} of its size");
@@ -70,7 +70,7 @@ impl PictureTable {
     }
 }
 
-/// Tables that are kept, so that a picture whose projection is changed is not uploaded each time.
+/// Tables that are kept, so that a picture is not uploaded again each time its projection changes.
 #[derive(Default)]
 pub(crate) struct PictureTables {
     /// The most recently used last.
@@ -123,7 +123,7 @@ impl PictureTables {
     }
 }
 
-/// Storage of the picture itself. Halves hold colors of 8 bits to an eighth of a step.
+/// Returns the storage of the picture itself. Halves store colors of 8 bits with an error of up to an eighth of a step.
 fn storage_of(levels: &MipChain) -> PictureStorage {
     match (levels.pixels(), levels.reading().is_srgb) {
         (Pixels::U8(_), true) => PictureStorage::Halves,
@@ -161,7 +161,7 @@ fn rows_of(levels: &MipChain, storage: PictureStorage, level: usize) -> usize {
     (width * height).div_ceil(pixels_of_row(of_level(storage, level)))
 }
 
-/// The largest level of a picture that a table with all smaller ones has room for.
+/// Returns the largest level of a picture that fits into a table together with all smaller ones.
 fn first_that_fits(levels: &MipChain, storage: PictureStorage, most_rows: usize) -> usize {
     let needed = |first: usize| {
         let rows = (first..=levels.last()).map(|level| rows_of(levels, storage, level));
@@ -171,7 +171,7 @@ fn first_that_fits(levels: &MipChain, storage: PictureStorage, most_rows: usize)
     fits.unwrap_or(levels.last())
 }
 
-/// Rows of a table: heads of all levels, then the pixels of each.
+/// Returns the rows of a table: heads of all levels, then the pixels of each.
 fn rows(levels: &MipChain, storage: PictureStorage, first: usize) -> Vec<Row> {
     let mut rows: Vec<Row> = vec![[0; 4]; COPY_ROWS as usize];
     for level in first..=levels.last() {
@@ -208,7 +208,7 @@ fn row(levels: &MipChain, storage: PictureStorage, level: usize, at: usize) -> R
     }
 }
 
-/// Codes of a pixel: gray is repeated, a missing alpha is full, and beyond the last pixel there is nothing.
+/// Returns the codes of a pixel. Gray is repeated, a missing alpha is full, and after the last pixel all codes are 0.
 fn rgba<C: Copy + Default>(codes: &[C], channels: usize, pixel: usize, full: C) -> [C; 4] {
     match codes.get(pixel * channels..(pixel + 1) * channels) {
         Some([gray]) => [*gray, *gray, *gray, full],

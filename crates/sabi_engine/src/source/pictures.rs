@@ -1,5 +1,4 @@
-//! Pictures that nodes and models name: identified by the content of their files, decoded on first use, and shared by all that
-//! show them.
+//! Pictures that nodes and models name. They are identified by the content of their files, decoded on first use, and shared by all users.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -16,14 +15,14 @@ use sabi_plan::{FileContents, FileFault, FileFaultKind};
 use super::SourceKinds;
 use super::mip_chain::{MipChain, Reading};
 
-/// Files of pictures larger than this are not read.
+/// Maximum size of picture files. Larger ones are not read.
 pub(crate) const SIZE_LIMIT_BYTES: u64 = 1 << 30;
-/// Size limit of the decoded pictures that are kept; a single larger one is kept alone.
+/// Size limit of the decoded pictures that are kept. A single larger picture is kept alone.
 const CACHE_LIMIT_BYTES: u64 = 2 << 30;
-/// Bytes of a pixel of the smaller copies of a picture, which are a third of its pixels together.
+/// Bytes of a pixel of the smaller copies of a picture. Together, the copies have a third of its pixels.
 const COPY_PIXEL_BYTES: u64 = 16;
-/// Bytes of a pixel on its way to the device: half floats with their smaller copies, in a buffer, and in the texture where the driver
-/// keeps it in the memory of the process.
+/// Bytes of a pixel during the upload: half floats including the smaller copies, in a buffer, and again in the texture if
+/// the driver keeps textures in the memory of the process.
 const UPLOAD_PIXEL_BYTES: u64 = 16;
 
 /// Reason why a picture is unavailable, as a sentence, and its kind.
@@ -40,9 +39,9 @@ struct PictureCache {
     limit_bytes: u64,
     /// Files by path, as they were when last read.
     known: BTreeMap<PathBuf, KnownFile>,
-    /// Pictures by the key of what they show, the most recently used last.
+    /// Pictures by key. The one used last is at the end.
     decoded: Vec<([u8; 32], Arc<OpenPicture>)>,
-    /// Pictures that are not kept here and that something may still show.
+    /// Pictures that are not kept here but may still be in use.
     others: BTreeMap<[u8; 32], Weak<OpenPicture>>,
 }
 
@@ -66,7 +65,7 @@ fn stamp(path: &Path) -> Option<Stamp> {
     Some((metadata.len(), metadata.modified().ok()?))
 }
 
-/// Picture that is shown of a file.
+/// Picture that is shown from a file.
 #[derive(Clone, Copy)]
 struct Shown<'a> {
     /// Hash of the file's bytes.
@@ -76,7 +75,7 @@ struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    /// Key of the picture: the content alone for the default layer.
+    /// Returns the key of the picture. For the default layer it is the content alone.
     fn key(self) -> [u8; 32] {
         if self.layer.is_empty() {
             return self.content;
@@ -136,11 +135,11 @@ pub(crate) struct OpenPicture {
     pub(crate) picture: Arc<Picture>,
     /// True if it holds infinite or undefined numbers.
     pub(crate) has_non_numbers: bool,
-    /// Layers of the file it is from, the shown one first where none was asked for; none but in OpenEXR files.
+    /// Layers of its file, the default one first; empty for files other than OpenEXR.
     pub(crate) layers: Vec<String>,
     /// True if a pixel is not opaque.
     is_transparent: bool,
-    /// Mip chains, as far down as they were needed, by the number of the way in which values are read.
+    /// Mip chains, as far down as they were needed, by the number of the reading options.
     levels: [Mutex<MipChain>; 4],
 }
 
@@ -169,7 +168,7 @@ impl OpenPicture {
         own as u64 + levels.sum::<u64>()
     }
 
-    /// Returns the way in which the picture is read for a wish: where all is opaque, nothing is weighed by alpha.
+    /// Returns the options with which the picture is read. If it is opaque everywhere, colors are not weighted by alpha.
     pub(crate) fn reading(&self, wish: Reading) -> Reading {
         Reading {
             by_alpha: wish.by_alpha && self.is_transparent,
@@ -177,8 +176,8 @@ impl OpenPicture {
         }
     }
 
-    /// Returns the mip chain of the picture, down to the first level with at most `least` pixels along both sides. Levels are built
-    /// once, by many threads: not to be called from a parallel task, which might wait for itself.
+    /// Returns the mip chain of the picture, down to the first level with at most `least` pixels along both sides. Levels
+    /// are built once, by many threads. Must not be called from a parallel task, which might wait for itself.
     pub(crate) fn levels(&self, wish: Reading, least: u32) -> MipChain {
         locked(&self.levels[self.reading(wish).number()]).down_to(least)
     }
@@ -203,7 +202,7 @@ fn is_transparent(picture: &Picture) -> bool {
 }
 
 impl Pictures {
-    /// Keeps decoded pictures of at most so many bytes from now on, and never more than a session does.
+    /// Limits the decoded pictures that are kept to so many bytes, and never to more than a session's limit.
     pub(crate) fn keep_at_most(&self, bytes: u64) {
         let mut cache = self.lock();
         let limit_bytes = bytes.min(CACHE_LIMIT_BYTES);
@@ -248,7 +247,7 @@ impl Pictures {
     /// Returns the hash of the file at a path, which is read again if its length or time has changed. `written` is the
     /// path as the graph stores it, for messages.
     pub(crate) fn content(&self, path: &Path, written: &str) -> Result<[u8; 32], Fault> {
-        // Read before the content, so that a file that is saved meanwhile counts as changed the next time.
+        // The stamp is read before the content, so that a file that is saved in the meantime counts as changed the next time.
         let stamp = stamp(path);
         if let Some(known) = self.lock().known.get(path)
             && known.stamp == stamp
@@ -353,7 +352,7 @@ impl Pictures {
         self.lock().decoded.len()
     }
 
-    /// Drops all pictures; they are read again on their next use.
+    /// Drops all pictures. They are read again on their next use.
     pub(crate) fn clear(&self) {
         let mut cache = self.lock();
         let limit_bytes = cache.limit_bytes;
@@ -363,7 +362,7 @@ impl Pictures {
         };
     }
 
-    /// Has these files read again on their next use, for changes that neither length nor time shows.
+    /// Makes these files be read again on their next use, for changes that do not change the length or the time.
     pub(crate) fn look_again(&self, files: &BTreeSet<PathBuf>) {
         self.lock().known.retain(|file, _| !files.contains(file));
     }
@@ -426,7 +425,7 @@ pub(crate) fn refused(
     named.collect()
 }
 
-/// Returns the base of the paths in a node, which start from the file that defines it. `base` is the graph's.
+/// Returns the base of the paths in a node, which start from the file that defines the node. `base` is the graph's.
 pub(crate) fn base_of(base: &PathBase, node: &FlatNode) -> PathBase {
     node.file
         .as_ref()
@@ -446,19 +445,19 @@ pub(crate) fn allowed_path(
     let base = base_of(base, node);
     match trusted.check(&base, path) {
         Err(Unread::Refused(refusal)) => Err(refusal_fault(&refusal)),
-        // Everything else is told when it is read.
+        // Other problems are reported when the file is read.
         _ => Ok(base.resolve(path)),
     }
 }
 
-/// Returns the parameter with which a node names a file, and the path; empty where no file was chosen.
+/// Returns the parameter with which a node names a file, and the path; the path is empty if no file was chosen.
 pub(crate) fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Option<(&'n str, &'n str)> {
     let params = &sources.get(&node.kind)?.params;
     let param = params.iter().find(|param| param.ty.role == Role::File)?;
     match node.params.get(&param.name) {
         Some(Value::Text(path)) => Some((param.name.as_str(), path.as_str())),
         None => Some((param.name.as_str(), "")),
-        // The planner reports it with the other values of a wrong type.
+        // The planner reports values of a wrong type.
         Some(_) => None,
     }
 }
@@ -466,7 +465,7 @@ pub(crate) fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Op
 /// Parameter of `source/image` that names a layer.
 const LAYER: &str = "layer";
 
-/// Name of the layer that a node shows; empty for the default one.
+/// Returns the name of the layer that a node shows; empty for the default one.
 fn named_layer(node: &FlatNode) -> &str {
     match node.params.get(LAYER) {
         Some(Value::Text(layer)) => layer,

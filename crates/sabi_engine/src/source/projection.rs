@@ -1,13 +1,13 @@
-//! Projection of a picture onto a surface, as `source/image` asks for it: by texture coordinates, triplanar, or as a decal.
+//! Projection of a picture onto a surface, with the parameters of `source/image`: by texture coordinates, triplanar, or as a decal.
 
 use glam::Vec3;
 use sabi_gpu::{ProjectionConstants, ProjectionWay};
 use sabi_plan::{NoSuchValue, SourceValues};
 
-/// Projection of a picture, with what the kernel is made for.
+/// Projection of a picture, and the properties for which the kernel is specialized.
 pub(super) struct Projection {
     pub(super) way: ProjectionWay,
-    /// True for a file with several pictures, of which one is seen.
+    /// True for a file with several pictures, of which one is used.
     pub(super) has_cells: bool,
     pub(super) constants: ProjectionConstants,
 }
@@ -54,7 +54,7 @@ impl Projection {
     }
 }
 
-/// Directions in model space to the right and the top of a decal, and that it faces; unit vectors.
+/// Returns the directions in model space to the right and to the top of a decal, and the direction that it faces, as unit vectors.
 fn directions(values: &SourceValues) -> Result<[Vec3; 3], NoSuchValue> {
     let vector = |name: &str| Ok::<_, NoSuchValue>(Vec3::from(values.numbers::<3>(name)?));
     let toward = vector("toward")?.try_normalize().unwrap_or(Vec3::Z); // A vector without length has no direction.

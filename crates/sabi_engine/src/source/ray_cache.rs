@@ -4,8 +4,8 @@ use std::path::Path;
 
 use sabi_files::{Cache, CacheKind};
 
-/// Stored results of rays, four bytes a texel and more. The version changes whenever rays start or are traced differently:
-/// keys contain nodes, kernels and adapters, but not the code between them.
+/// Cache of ray results, four or more bytes per texel. The version changes whenever rays start or are cast differently,
+/// since keys contain nodes, kernels and adapters, but not the code between them.
 const KIND: CacheKind = CacheKind {
     prefix: "rays",
     version: 2,
@@ -34,7 +34,7 @@ impl RayCache {
         self.cache.as_ref()?.read(key)
     }
 
-    /// Stores results; returns a warning where that fails.
+    /// Stores results. Returns a warning if that fails.
     pub(crate) fn keep(&self, key: &[u8; 32], results: &[u8]) -> Option<String> {
         let cache = self.cache.as_ref()?;
         let error = cache.write(key, results).err()?;

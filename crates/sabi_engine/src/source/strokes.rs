@@ -1,4 +1,4 @@
-//! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
+//! Strokes of paint nodes. They are read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
 mod beside;
 mod changed;
@@ -40,9 +40,9 @@ const CANVAS_LIMIT_BYTES: usize = 1 << 30;
 #[derive(Clone, Default)]
 pub struct Strokes {
     state: Arc<Mutex<State>>,
-    /// Apart from the rest, since painting takes long and a window asks for the rest meanwhile.
+    /// Locked separately, since painting takes long and a window needs the rest in the meantime.
     canvases: Arc<Mutex<Canvases>>,
-    /// Canvases that nodes had last, the latest at the end.
+    /// Canvases that nodes used last, the latest at the end.
     latest: Arc<Mutex<VecDeque<LatestCanvas>>>,
 }
 
@@ -52,13 +52,13 @@ struct State {
     /// Paths outside of the graph's folder from which links in the folder of strokes may be read.
     trusted: TrustedPaths,
     book: StrokeBook,
-    /// Model that each version was painted on: the name of its file without the ending.
+    /// Model on which each version was painted: the name of its file without the extension.
     models: BTreeMap<Version, String>,
-    /// Stroke files that were looked for, whether they exist or not.
+    /// Stroke files that were searched, whether they exist or not.
     files: BTreeMap<PathBuf, StrokeFile>,
-    /// Versions of what is drawn, and the one before them: replaced while the stroke grows.
+    /// Versions of the unfinished stroke, and the version before them. They are replaced while the stroke grows.
     drawn: Option<(Version, Vec<Version>)>,
-    /// Versions that were drawn and are not named any more.
+    /// Versions of unfinished strokes to which nothing refers any more.
     retired: Retired,
     /// Pictures of brushes that are in memory.
     pictures: BTreeMap<PictureName, KeptPicture>,
@@ -72,15 +72,15 @@ type Stamp = (u64, SystemTime);
 /// A stroke file as it was last read or written.
 #[derive(Clone, Debug, Default)]
 struct StrokeFile {
-    /// Model that its header names; none where it was not read.
+    /// Model in its header; `None` if the header was not read.
     model: Option<String>,
-    /// Versions that it holds the last step of.
+    /// Versions whose last step is in the file.
     stored: BTreeSet<Version>,
-    /// Of a damaged file, the version of its last whole record.
+    /// For a damaged file, the version of its last complete record.
     whole: Option<Version>,
-    /// Length and time of the file then; none if there was none.
+    /// Length and time of the file at that time; `None` if there was none.
     stamp: Option<Stamp>,
-    /// Why it is not used, or only in part, as a sentence. It is not written to then.
+    /// Reason, as a sentence, why it is not used or only partly used. In this case it is not written to.
     fault: Option<String>,
 }
 
@@ -90,21 +90,21 @@ impl fmt::Debug for Strokes {
     }
 }
 
-/// What a paint node has on a model.
+/// Strokes of a paint node on a model.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Found {
     /// Nothing was painted.
     Nothing,
     /// The strokes of this version.
     Strokes(Version),
-    /// Strokes on other models alone; their names.
+    /// There are strokes only on other models; their names.
     OtherModels(Vec<String>),
     /// Strokes that are not in the folder.
     Missing,
 }
 
 impl Found {
-    /// Version of the strokes; none where nothing is painted on the model.
+    /// Returns the version of the strokes; `None` if nothing is painted on the model.
     pub(crate) fn version(&self) -> Option<Version> {
         match self {
             Found::Strokes(version) => Some(*version),
@@ -131,39 +131,39 @@ fn stamp(path: &Path) -> Option<Stamp> {
     Some((metadata.len(), metadata.modified().ok()?))
 }
 
-/// Versions that a paint node names, one for each model.
+/// Returns the versions that a paint node names, one for each model.
 fn versions_of(written: &str) -> impl Iterator<Item = Version> {
     written.split_whitespace().filter_map(|word| word.parse().ok())
 }
 
-/// Base of the files that a graph with this folder of strokes finds.
+/// Returns the base of the files that a graph with this folder of strokes finds.
 fn base_of(folder: &Path) -> PathBase {
     PathBase::of_file(folder)
 }
 
 impl Strokes {
-    /// Strokes of a graph that may open what lies below these paths.
+    /// Creates the strokes of a graph that may open files below these paths.
     pub(crate) fn trusting(trusted: &TrustedPaths) -> Strokes {
         let strokes = Strokes::default();
         strokes.trust(trusted);
         strokes
     }
 
-    /// Lets links in the folder of strokes lead below these paths, too.
+    /// Allows links in the folder of strokes to lead below these paths, too.
     pub(crate) fn trust(&self, trusted: &TrustedPaths) {
         let mut state = self.lock();
         state.trusted = std::mem::take(&mut state.trusted).with(trusted);
-        // A refused file is looked at again.
+        // Refused files are checked again.
         state.files.retain(|_, file| file.fault.is_none());
         state.bad_pictures.clear();
     }
 
-    /// The version that counts of those that a node names; none where it names none.
+    /// Returns the version that is used of those that a node names; `None` if it names none.
     pub(crate) fn first_version(written: &str) -> Option<Version> {
         versions_of(written).next()
     }
 
-    /// What a node with these versions has on a model; files of the folder are read on first use.
+    /// Returns the strokes on a model of a node with these versions. Files of the folder are read on first use.
     pub(crate) fn find(&self, graph: &Path, model: &str, written: &str) -> Found {
         if written.trim().is_empty() {
             return Found::Nothing;
@@ -186,7 +186,7 @@ impl Strokes {
         }
     }
 
-    /// Keeps the strokes of a version for an evaluation that begins, whatever the brush does meanwhile.
+    /// Keeps the strokes of a version for an evaluation that begins, even if the stroke is continued in the meantime.
     pub(crate) fn keep_for_evaluation(&self, version: Version, model: &str) {
         let mut state = self.lock();
         if let Some(list) = state.list(version) {
@@ -202,22 +202,23 @@ impl Strokes {
         of_folder.filter_map(|(_, file)| file.fault.clone()).collect()
     }
 
-    /// The strokes that a node with these versions has on a model; none where nothing is painted there.
+    /// Returns the strokes on a model of a node with these versions; `None` if nothing is painted there.
     pub fn on_model(&self, graph: &Path, model: &str, written: &str) -> Option<Arc<StrokeList>> {
         let version = self.find(graph, model, written).version()?;
         self.lock().book.list(version)
     }
 
-    /// Versions of a paint node after a step on a model: that of this model replaced, those of others kept.
+    /// Returns the versions of a paint node after a step on a model. The version of this model is replaced, and those of
+    /// other models are kept.
     pub fn after(&self, graph: &Path, model: &str, written: &str, step: &Step) -> String {
         self.after_steps(graph, model, written, std::slice::from_ref(step))
     }
 
-    /// Versions of a paint node after steps on a model, one after another, as [`Strokes::after`] does.
+    /// Returns the versions of a paint node after several steps on a model, like [`Strokes::after`].
     pub fn after_steps(&self, graph: &Path, model: &str, written: &str, steps: &[Step]) -> String {
         let before = self.find(graph, model, written).version().unwrap_or(Version::EMPTY);
         let mut state = self.lock();
-        // Parts that were drawn before from there are replaced; once a stroke is kept, nothing is.
+        // Earlier versions of the unfinished stroke with the same start are replaced. A finished stroke is not.
         if let Some((from, parts)) = state.drawn.take()
             && from == before
         {
@@ -238,7 +239,7 @@ impl Strokes {
         }
         let version = parts.last().copied().unwrap_or(before);
         state.drawn = Some((before, parts));
-        // The first version of a model counts, so that one whose file comes back later does not hide this one.
+        // The first version of a model is used, so that one whose file comes back later does not hide it.
         let of_others = versions_of(written).filter(|other| {
             let is_own = state.models.get(other).is_some_and(|other| other == model);
             *other != before && !is_own
@@ -248,10 +249,10 @@ impl Strokes {
         all.collect::<Vec<String>>().join(" ")
     }
 
-    /// Keeps the stroke that was drawn: the next one is another.
+    /// Finishes the stroke that is drawn. The next one is a new stroke.
     pub fn settle(&self) {
         self.lock().drawn = None;
-        // While they are being painted they are locked; then the next stroke replaces the growth of this one.
+        // The canvases are locked while they are painted. In this case the state of this stroke is replaced by the next stroke.
         if let Ok(mut canvases) = self.canvases.try_lock() {
             canvases.end_strokes();
         }
@@ -265,7 +266,7 @@ impl Strokes {
         let folder = paint_folder(graph);
         let mut state = self.lock();
         state.drawn = None;
-        // One that cannot be stored does not keep the others from it.
+        // If a version cannot be stored, the others are still stored.
         let faults: Vec<String> = versions_of(written)
             .filter_map(|version| state.store(&folder, version).err())
             .collect();
@@ -288,9 +289,9 @@ impl Strokes {
         list.is_some_and(|list| list.strokes.iter().any(copies))
     }
 
-    /// The canvas of a version that a node has, with at least these layers; none if the version is not known, or the work was canceled.
-    /// Strokes whose picture is not beside the graph leave nothing, nor do those that copy the result that is connected to the node, if
-    /// there is none.
+    /// Returns the canvas of a version of a node, with at least these layers; `None` if the version is not known, or if the
+    /// work was canceled. Strokes have no effect if their picture is not beside the graph, or if they copy the result
+    /// connected to the node and nothing is connected.
     pub(crate) fn painted(
         &self,
         surface: &SourceSurface<'_>,
@@ -303,7 +304,7 @@ impl Strokes {
         let list = self.lock().list(version)?;
         let found = self.pictures_of(graph, &list);
         let from = from.filter(|_| list.strokes.iter().any(copies));
-        // A canvas that lacks pictures or copies another result is another one.
+        // A canvas with missing pictures, or with another copied result, has another key.
         let mut hash = blake3::Hasher::new();
         hash.update(&surface.key);
         for name in &found.missing {
@@ -345,7 +346,7 @@ impl Strokes {
         Some(painted)
     }
 
-    /// Reads all strokes beside a graph: those of a recovery file have another place than the graph.
+    /// Reads all strokes beside a graph. Those of a recovery file are in another place than those of the graph.
     pub(crate) fn read_beside(&self, graph: &Path) {
         self.lock().read_folder(&paint_folder(graph));
         self.read_pictures(graph);
@@ -374,7 +375,7 @@ fn color_of(result: &PlaneData, texel: usize) -> [f32; 3] {
 }
 
 impl State {
-    /// Model that a version was painted on; none for one that is not known any more.
+    /// Returns the model on which a version was painted; `None` if the version is no longer known.
     fn model_of(&self, version: Version) -> Option<&str> {
         let named = self.models.get(&version).filter(|_| self.book.knows(version));
         named
@@ -382,12 +383,12 @@ impl State {
             .or_else(|| self.retired.list(version).map(|(_, model)| model))
     }
 
-    /// Reads a file in a folder of strokes or below it. Links lead as far as the graph may read.
+    /// Reads a file in a folder of strokes or below it. Links may lead only where the graph may read.
     fn read_below(&self, folder: &Path, file: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
         self.trusted.read_at(&base_of(folder), file, limit)
     }
 
-    /// Strokes of a version, also of one that nothing names any more, if an evaluation began with it.
+    /// Returns the strokes of a version. The version may be one to which nothing refers any more, if an evaluation began with it.
     fn list(&mut self, version: Version) -> Option<Arc<StrokeList>> {
         let named = self.book.list(version);
         named.or_else(|| self.retired.list(version).map(|(list, _)| Arc::clone(list)))

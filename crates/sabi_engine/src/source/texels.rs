@@ -1,4 +1,4 @@
-//! Surface as sources see it, and conversion of their values to the texels of a plane.
+//! Surface in the form that sources use, and conversion of their values to the texels of a plane.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -20,11 +20,11 @@ use crate::phases::Progress;
 /// Texels per parallel task.
 const CHUNK: usize = 4096;
 
-/// Times that tiles are parted into groups that lie far from each other.
+/// Number of times that tiles are divided into groups that are far from each other.
 const SPLITS: u32 = 3;
-/// Tiles of which all texels are looked at.
+/// Number of tiles up to which all texels are examined.
 const FEW_TILES: u32 = 512;
-/// Gap that parts them, as a share of the largest side of the box around them.
+/// Minimum gap at which they are divided, as a share of the largest side of the box around them.
 const WIDE_GAP: f64 = 0.15;
 
 /// Surface that sources fill.
@@ -46,7 +46,7 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) key: [u8; 32],
     /// Factor from model units to working units.
     pub(crate) working_from_model: f64,
-    /// Tiles whose texels are filled; none for all.
+    /// Tiles whose texels are filled; `None` for all.
     pub(crate) tiles: Option<&'a TileSet>,
     /// Receiver of the progress, which can cancel the work.
     pub(crate) progress: &'a dyn Progress,
@@ -61,7 +61,7 @@ struct SurfacePoint {
 }
 
 impl SourceSurface<'_> {
-    /// Returns the surface point of a texel; beyond the seam for a ghost, none for an empty texel.
+    /// Returns the surface point of a texel. For a ghost it is beyond the seam; `None` for an empty texel.
     fn point(&self, index: usize) -> Option<SurfacePoint> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let (triangle, texel) = match self.atlas.owners[index] {
@@ -81,14 +81,14 @@ impl SourceSurface<'_> {
     /// Returns the position of a point, in working units.
     fn position(&self, point: &SurfacePoint) -> DVec3 {
         let geometry = &self.tables.geometry[6 * point.triangle..];
-        // The fourth column of the first two rows holds the texel of the first.
+        // The fourth column of the first two rows holds the texel of the first corner.
         let step: [f64; 2] = std::array::from_fn(|axis| point.texel[axis] - f64::from(geometry[axis][3]));
         let [start, along_u, along_v] = [0, 1, 2].map(|row: usize| xyz(&geometry[row]));
         start + along_u * step[0] + along_v * step[1]
     }
 
-    /// Returns the steps of one texel of the atlas in space, in working units. On ghosts, whose point lies on another chart, those
-    /// of the chart that reads them.
+    /// Returns the steps of one texel of the atlas in space, in working units. The point of a ghost is on another chart;
+    /// for ghosts, the steps are those of the chart that reads them.
     fn atlas_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         let sides = [1, 2].map(|row: usize| xyz(&geometry[row]));
@@ -105,7 +105,7 @@ impl SourceSurface<'_> {
         }
     }
 
-    /// Tiles with triangles of each material, those under ghosts among them; none where there is one material only.
+    /// Returns the tiles with triangles of each material, including those under ghosts; empty if there is only one material.
     pub(crate) fn tiles_of_materials(&self) -> Vec<TileSet> {
         let of_triangle = &self.model.mesh.triangle_material;
         let count = of_triangle.iter().max().map_or(0, |last| *last as usize + 1);
@@ -130,18 +130,18 @@ impl SourceSurface<'_> {
         tiles.into_iter().map(TileSet::new).collect()
     }
 
-    /// Fills the texels of a plane in its storage format, ghosts included, by their index; empty texels and those of other tiles
-    /// are zero.
+    /// Fills the texels of a plane in its storage format, including ghosts, by their index. Empty texels and those of other
+    /// tiles are zero.
     pub(crate) fn indexed_texels(&self, plane: Plane, value: impl Fn(usize) -> [f32; 4] + Sync) -> Vec<u8> {
         self.fill(plane, |index| (self.atlas.owners[index] != EMPTY).then(|| value(index)))
     }
 
-    /// Corners of boxes around all texels of some tiles, in working units: tiles that lie far from the others in space have boxes of
-    /// their own. Half a texel beyond its middle belongs to each texel.
+    /// Returns corners of boxes around all texels of some tiles, in working units. Tiles that are far from the others in
+    /// space have separate boxes. Half a texel around its middle belongs to each texel.
     pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Vec<[DVec3; 2]> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let side = TILE as usize;
-        // Of many tiles, every third texel stands for those beside it, too.
+        // If there are many tiles, only every third texel is examined, and the boxes are enlarged accordingly.
         let (step, reach) = if tiles.count() > FEW_TILES { (3, 2.0) } else { (1, 0.5) };
         let of_tile = |place: [u32; 3]| {
             let [column, row, page] = place.map(|at| at as usize);
@@ -197,7 +197,7 @@ impl SourceSurface<'_> {
         let mut bytes = vec![0_u8; self.atlas.owners.len() * size];
         let side = TILE as usize;
         bytes.par_chunks_mut(CHUNK * size).enumerate().for_each(|(at, texels)| {
-            // The texels of a row of a tile lie one after the other.
+            // The texels in a row of a tile are consecutive.
             for (row, texels) in texels.chunks_mut(side * size).enumerate() {
                 let first = at * CHUNK + row * side;
                 if self.tiles.is_some_and(|tiles| !tiles.contains(self.tile_of(first))) {
@@ -224,7 +224,7 @@ fn around([low, high]: [DVec3; 2], [less, more]: [DVec3; 2]) -> [DVec3; 2] {
     [low.min(less), high.max(more)]
 }
 
-/// Adds the boxes around groups of boxes, which are parted where the largest gap between them is, as long as it is wide.
+/// Adds the boxes around groups of boxes. Groups are divided at the largest gap between them if it is wide enough.
 fn split(mut boxes: Vec<[DVec3; 2]>, splits: u32, apart: &mut Vec<[DVec3; 2]>) {
     let Some(all) = boxes.iter().copied().reduce(around) else {
         return;

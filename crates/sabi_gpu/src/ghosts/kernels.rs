@@ -20,14 +20,14 @@ pub(super) enum FillDispatch {
     Scatter,
     /// Computes values and writes them to the texture.
     InPlace,
-    /// As [`FillDispatch::InPlace`], with values of coupled ghosts read from the buffer.
+    /// Like [`FillDispatch::InPlace`], but reads the values of coupled ghosts from the buffer.
     Settle,
 }
 
 impl FillDispatch {
-    /// Dispatches of a round over textures of a format. R32 float is the only format that every adapter can read and write
-    /// in one dispatch, which saves the buffer for rounds that read no texel they write; of two rounds that do, the first
-    /// stays in the buffer.
+    /// Returns the dispatches of a round over textures of a format. R32 float is the only format that every adapter can
+    /// read and write in one dispatch. This saves the buffer for rounds that read no texel that they write. If two rounds
+    /// do read such texels, the first leaves its values in the buffer.
     pub(super) fn of_round(round: FillRound, format: Format) -> &'static [FillDispatch] {
         match (format, round) {
             (Format::R32Float, FillRound::Plain | FillRound::Owned) => &[FillDispatch::InPlace],
@@ -37,7 +37,7 @@ impl FillDispatch {
         }
     }
 
-    /// Bindings besides the surface.
+    /// Returns the entries of the bindings besides the surface.
     fn entries(self, format: Format) -> Vec<wgpu::BindGroupLayoutEntry> {
         let rest = match self {
             FillDispatch::Gather => vec![texture_entry(1), write_entry(2)],

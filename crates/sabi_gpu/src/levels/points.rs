@@ -1,7 +1,7 @@
 //! Points spread over the surface as a level that kernels run on, and kernels that move planes to it and back.
 //!
-//! Points lie side by side in a texture, in no order. What flows between them is in the table that holds the links of ghosts
-//! on a level of texels; see `shaders/lib/surface.wgsl`, which reads it.
+//! Points lie side by side in a texture, in no order. The table that holds the links of ghosts on a level of texels holds
+//! the flow between points here; see `shaders/lib/surface.wgsl`, which reads it.
 
 use std::sync::OnceLock;
 
@@ -27,9 +27,9 @@ use crate::uploads::{storage_buffer, table_texture, texel_texture};
 /// Points on the device.
 pub struct PointSurface {
     pub(crate) surface: GpuSurface,
-    /// Number of the level of texels that their cells are made of.
+    /// Number of the level of texels that the cells of the points consist of.
     cells_level: u32,
-    /// Texels of the finest level along a side of one of that level.
+    /// Texels of the finest level along a side of one texel of that level.
     factor: u32,
     /// Triangles on that level.
     cell_frames: wgpu::TextureView,
@@ -41,7 +41,7 @@ pub struct PointSurface {
     around: wgpu::TextureView,
 }
 
-/// Level of texels that the cells of points are made of.
+/// Level of texels that the cells of points consist of.
 #[derive(Clone, Copy)]
 pub struct CellLevel<'l> {
     /// Its number.
@@ -53,7 +53,7 @@ pub struct CellLevel<'l> {
 }
 
 impl PointSurface {
-    /// Uploads points that were spread over a level of texels. `working_from_model` scales their places.
+    /// Uploads points that were spread over a level of texels. `working_from_model` scales their positions.
     pub fn upload(
         gpu: &Gpu,
         points: &SurfacePoints,
@@ -138,14 +138,14 @@ fn surface_of_points(
     })
 }
 
-/// Size of the texture of so many points: nearly square, of whole tiles.
+/// Returns the size of the texture of `count` points: nearly square, and a multiple of the tile size.
 fn extent(count: usize) -> Extent {
     let width = ((count as f64).sqrt().ceil() as u32).next_multiple_of(TILE).max(TILE);
     let height = (count as u32).div_ceil(width).next_multiple_of(TILE).max(TILE);
     [width, height, 1]
 }
 
-/// Rows of the points as kernels read those of triangles: each point is a plane as large as the spacing.
+/// Returns the rows of the points in the form in which kernels read those of triangles: each point is a plane as wide as the spacing.
 fn point_tables(points: &SurfacePoints, level: CellLevel<'_>, width: u32, working_from_model: f64) -> SurfaceTables {
     let mut tables = SurfaceTables {
         pieces: level.tables.pieces.clone(),
@@ -167,7 +167,7 @@ fn point_rows(
     level: CellLevel<'_>,
     [spacing, working_from_model]: [f32; 2],
 ) -> ([[f32; 4]; GEOMETRY_ROWS], [[f32; 4]; FRAME_ROWS]) {
-    // The texel in the middle of a cell is owned: part, piece, material and tangent are those of its triangle.
+    // The texel in the middle of a cell is owned, so the point has the part, piece, material and tangent of its triangle.
     let triangle = level.atlas.owners[point.texel as usize] as usize;
     let geometry = &level.tables.geometry[triangle * GEOMETRY_ROWS..][..GEOMETRY_ROWS];
     let frames = &level.tables.frames[triangle * FRAME_ROWS..][..FRAME_ROWS];
@@ -201,7 +201,8 @@ fn point_rows(
     (rows, frame_rows)
 }
 
-/// A table of lists: a row for each, which `head` makes of its first row of entries and their number, then the rows of entries.
+/// Returns a table of lists. Each list has a first row, which `head` builds from the index of its first entry and the
+/// number of its entries. The rows of all entries follow.
 fn rows_of<T, const N: usize>(
     lists: &Lists<T>,
     head: impl Fn(usize, u32, u32) -> [u32; 4],
@@ -241,7 +242,7 @@ fn cell_rows(points: &SurfacePoints) -> Vec<[u32; 4]> {
 
 /// Rows of `around` in `shaders/surface/from_points.wgsl`.
 fn around_rows(points: &SurfacePoints, working_from_model: f64) -> Vec<[u32; 4]> {
-    // Each list ends with a point that does not exist.
+    // Each list ends with a number that is not a point.
     let ended = Lists {
         starts: points
             .around
@@ -267,7 +268,7 @@ fn around_rows(points: &SurfacePoints, working_from_model: f64) -> Vec<[u32; 4]>
     )
 }
 
-/// The point of each texel of an atlas: of owned ones their own, of ghosts that of the texel that they read.
+/// Returns the point of each texel of an atlas. A ghost has the point of the texel that it reads.
 fn labels(points: &SurfacePoints, atlas: &Atlas) -> Vec<u32> {
     let [width, height] = atlas.page_size;
     let of_ghost = |ghost: u32| {
@@ -288,7 +289,7 @@ fn labels(points: &SurfacePoints, atlas: &Atlas) -> Vec<u32> {
 }
 
 impl Gpu {
-    /// Brings a plane from the texels of the cells to their points.
+    /// Moves a plane from the texels of the cells to their points.
     pub(crate) fn gather_to_points(
         &self,
         points: &PointSurface,
@@ -306,7 +307,7 @@ impl Gpu {
         Ok(())
     }
 
-    /// Brings a plane from points to the finest texels, and fills the linked texels there.
+    /// Moves a plane from points to the finest texels, and fills the linked texels there.
     pub(crate) fn spread_from_points(
         &self,
         surfaces: Surfaces<'_>,

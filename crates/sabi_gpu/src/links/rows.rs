@@ -8,7 +8,7 @@ pub(crate) const GHOST_ROWS: usize = 4;
 
 wgsl_struct! {
     "atlas" GhostLink:
-    /// First three rows of a ghost: the point over the seam that it continues.
+    /// First three rows of a ghost: the point beyond the seam that continues its chart.
     pub(crate) struct GhostLinkRow {
         target_texel: [f32; 2],
         triangle: u32,
@@ -23,7 +23,7 @@ wgsl_struct! {
 
 wgsl_struct! {
     "atlas" GhostRead:
-    /// Last row of a ghost: the place that it takes stored values from.
+    /// Last row of a ghost: the place from which it takes stored values.
     pub(crate) struct GhostReadRow {
         texel: [f32; 2],
         page: u32,
@@ -60,14 +60,14 @@ impl LinkRow {
         }
     }
 
-    /// The rows as they are uploaded.
+    /// Returns the rows in the form in which they are uploaded.
     pub(super) fn rows(&self) -> [[u32; 4]; GHOST_ROWS] {
         let [a, b, c]: [[u32; 4]; 3] = bytemuck::cast(self.link);
         [a, b, c, bytemuck::cast(self.read)]
     }
 }
 
-/// A step of at most two texels each way, as `fill_coupled.wgsl` reads it.
+/// Packs a step of at most two texels in each direction, as `fill_coupled.wgsl` reads it.
 fn packed_step([x, y]: [i32; 2]) -> u32 {
     (x + 2) as u32 | ((y + 2) as u32) << 3
 }
@@ -84,7 +84,7 @@ fn anchor(atlas: &Atlas, ghost: &Ghost) -> u32 {
         })
     };
     let nearest = steps.filter(is_owned).min_by_key(|[x, y]| x * x + y * y);
-    // A chart too thin to own a texel near its ghost: the ghost keeps its own value.
+    // The chart is too thin to own a texel near its ghost, so the ghost keeps its own value.
     packed_step(nearest.unwrap_or([0, 0]))
 }
 
@@ -135,7 +135,7 @@ pub(super) fn coupled_slots(
 ) -> [u32; 4] {
     [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| {
         match atlas.owner((corner & 0xffff) + x, (corner >> 16) + y, pages & 0xffff) {
-            // Plain ghosts have no slot: they are filled before.
+            // Plain ghosts have no slot, since they are filled earlier.
             Owner::Ghost(ghost) => slots[ghost as usize].unwrap_or(EMPTY),
             Owner::Triangle(_) | Owner::Empty => EMPTY,
         }

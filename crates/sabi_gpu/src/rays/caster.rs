@@ -1,4 +1,4 @@
-//! Ray casters: the processor on all its cores, or a kernel on the device. Tests hold each against the other.
+//! Ray casters: the processor with all its cores, or a kernel on the device. Tests compare their results.
 
 use std::fmt;
 use std::str::FromStr;
@@ -16,8 +16,8 @@ use crate::tiles::Slices;
 /// Ray caster to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CasterChoice {
-    /// The kernel on a graphics card. The processor on a software adapter, whose kernels run on the same cores and are
-    /// slower, and for a hierarchy that does not fit the device.
+    /// The kernel on a graphics card. The processor for a software adapter, whose kernels run on the same cores and are
+    /// slower, and for a hierarchy that does not fit on the device.
     #[default]
     Auto,
     /// A kernel on the device.
@@ -55,8 +55,7 @@ pub(crate) enum Caster<'a> {
     Device(DeviceCaster<'a>),
 }
 
-/// Returns true if a choice selects the device; [`CasterChoice::Auto`] may still fall back to the processor for a large
-/// scene.
+/// Returns true if a choice selects the device. [`CasterChoice::Auto`] may still use the processor for a large scene.
 pub(crate) fn casts_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
     match choice {
         CasterChoice::Cpu => false,
@@ -65,7 +64,7 @@ pub(crate) fn casts_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
     }
 }
 
-/// Makes the chosen caster for a scene.
+/// Creates the chosen caster for a scene.
 pub(crate) fn caster<'s>(
     gpu: &Gpu,
     choice: CasterChoice,
@@ -84,7 +83,7 @@ pub(crate) fn caster<'s>(
 }
 
 impl Caster<'_> {
-    /// Begins to cast the rays in a buffer.
+    /// Starts to cast the rays in a buffer.
     pub(super) fn begin(
         &mut self,
         gpu: &Gpu,
@@ -103,7 +102,7 @@ impl Caster<'_> {
     pub(super) fn finish(&mut self, gpu: &Gpu, set: &RayBufferSet, rays: usize, finds: Finds) -> Result<(), GpuError> {
         match self {
             Caster::Processor(caster) => caster.finish(gpu, set, rays, finds),
-            // Submissions run in order.
+            // The device runs submissions in order, so there is nothing to wait for.
             Caster::Device(_) => Ok(()),
         }
     }

@@ -1,4 +1,4 @@
-//! Ray caster that is a kernel on the device.
+//! Ray caster that runs as a kernel on the device.
 
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ wgsl_struct! {
     }
 }
 
-/// Ray caster that is a kernel on the device.
+/// Ray caster that runs as a kernel on the device.
 pub(crate) struct DeviceCaster<'a> {
     hierarchy: &'a DeviceHierarchy,
     working_from_model: f64,

@@ -15,7 +15,7 @@ pub struct RayScene<'a> {
     pub bvh: &'a Bvh,
     /// Factor from model units to working units.
     pub working_from_model: f64,
-    /// Hierarchy on the device, uploaded when a caster there is first used.
+    /// Hierarchy on the device. It is uploaded when a caster on the device is first used.
     pub on_device: &'a OnceLock<DeviceHierarchy>,
 }
 
@@ -28,7 +28,7 @@ pub struct DeviceHierarchy {
     pub(super) scale: f32,
 }
 
-/// Levels of the deepest hierarchy: `STACK` in `shaders/surface/cast.wgsl` holds one node per level.
+/// Maximum number of levels of a hierarchy: `STACK` in `shaders/surface/cast.wgsl` holds one node per level.
 pub(crate) const MAX_DEPTH: usize = 24;
 
 impl DeviceHierarchy {

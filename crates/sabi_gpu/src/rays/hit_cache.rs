@@ -1,4 +1,4 @@
-//! Cached hits of the longest rays that a knob allows: shorter rays of the same origin and direction need no casting.
+//! Cached hits of the longest rays that a knob allows. Shorter rays with the same origin and direction need not be cast.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use crate::error::GpuError;
 /// Origin of ray hits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hits {
-    /// Rays cast in this run, as long as the parameters say.
+    /// Rays are cast in this run with the length that the parameters give.
     #[default]
     Cast,
-    /// While a knob is moved: hits of rays as long as the knob allows, cast once and kept in the result cache, from which
-    /// hits of shorter rays follow. Results differ from those of [`Hits::Cast`] by rounding, so they are not cached. Without
-    /// a cache, or where it has no room, rays are cast.
+    /// For use while a knob is moved: rays are cast once with the largest length that the knob allows. Their hits are kept
+    /// in the result cache, and hits of shorter rays are derived from them. Results differ from those of [`Hits::Cast`] by
+    /// rounding, so they are not cached. Without a cache, or if it has no room, rays are cast as usual.
     Cached,
 }
 
@@ -52,7 +52,7 @@ impl HitCache {
         self.rays.values().map(|rays| rays.bytes).sum()
     }
 
-    /// Returns true if the hits of `rays` rays for each texel of `tiles` tiles fit the budget.
+    /// Returns true if the hits of `rays` rays for each texel of `tiles` tiles fit into the budget.
     pub(crate) fn fits(&self, tiles: usize, rays: u32) -> bool {
         bytes_of(tiles, rays) <= self.budget_bytes
     }
@@ -62,7 +62,7 @@ impl HitCache {
         self.rays.contains_key(key)
     }
 
-    /// Cached hits of a key; empty where there are none.
+    /// Returns the cached hits of a key; empty if there are none.
     pub(crate) fn get(&mut self, key: &[u8; 32]) -> &[CachedHits] {
         self.uses += 1;
         match self.rays.get_mut(key) {

@@ -66,13 +66,13 @@ impl HitRow {
 pub(crate) struct CastRays {
     /// Rays of a tile.
     pub(crate) of_tile: usize,
-    /// Turn of a triangle, radians, below which hits on it count for nothing and need not be found.
+    /// Rotation of a triangle's normal, in radians: hits on triangles that turn less count for nothing and need not be found.
     pub(crate) least_turn: Option<f32>,
 }
 
-/// Most rays of one slice, which bounds its memory and its time.
+/// Maximum number of rays of one slice. It limits the memory and the time of a slice.
 const MAX_SLICE_RAYS: usize = 1 << 18;
-/// Rays of the first slice, while the speed of the caster is unknown.
+/// Number of rays of the first slice, while the speed of the caster is unknown.
 const FIRST_RAYS: usize = 1 << 16;
 /// Texels of a tile.
 const TILE_TEXELS: usize = (TILE * TILE) as usize;
@@ -94,7 +94,7 @@ struct Slice {
     set: usize,
 }
 
-/// Two sets of buffers in alternation: the rays of one slice are written while those of the slice before are cast.
+/// Two sets of buffers, used alternately: the rays of one slice are written while those of the previous slice are cast.
 pub(crate) struct RayBuffers<'a> {
     gpu: &'a Gpu,
     rays: &'a StepRays,
@@ -174,7 +174,7 @@ impl<'a> RayBuffers<'a> {
         })
     }
 
-    /// Casts rays of the longest reach, whose parameters `longest` binds, and returns their nearest hits.
+    /// Casts rays of the longest reach, with the parameters that `longest` binds, and returns their nearest hits.
     pub(crate) fn cast_longest(
         &self,
         pass: &RayPass<'_>,
@@ -190,7 +190,7 @@ impl<'a> RayBuffers<'a> {
         Ok(slices)
     }
 
-    /// Evaluates rays by cached hits of longer rays.
+    /// Evaluates rays with cached hits of longer rays.
     pub(crate) fn evaluate_cached(&self, pass: &RayPass<'_>, cached: &[CachedHits]) -> Result<(), GpuError> {
         for (at, cached) in cached.iter().enumerate() {
             if (pass.is_canceled)() {
@@ -209,7 +209,7 @@ impl<'a> RayBuffers<'a> {
         Ok(())
     }
 
-    /// Writes and casts rays slice by slice; `then` is called once later submissions can read the hits of a slice.
+    /// Writes and casts rays slice by slice. `then` is called for each slice once later submissions can read its hits.
     fn cast_slices(
         &self,
         pass: &RayPass<'_>,
@@ -228,7 +228,7 @@ impl<'a> RayBuffers<'a> {
             }
             Ok::<_, GpuError>((first < end).then_some(slice))
         };
-        // The time that the node takes for each ray is not known.
+        // The time that the node takes for each ray is unknown at first.
         let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles.min(pass.first_tiles));
         let mut ahead = begin(caster, [0, 0], length)?;
         while let Some(slice) = ahead {
@@ -241,7 +241,7 @@ impl<'a> RayBuffers<'a> {
             caster.finish(self.gpu, set, self.rows(slice), finds)?;
             then(slice, set)?;
             if caster.is_on_device() {
-                // Slices must not pile up on a queue that a window shares.
+                // If a window shares the queue, slices must not pile up in it.
                 self.gpu.wait_with(Patience::for_slice(pass.is_canceled))?;
             }
             length = self.length_after(slice, started.elapsed(), pass.slices.target());
@@ -254,7 +254,7 @@ impl<'a> RayBuffers<'a> {
         (slice.end - slice.first) * self.of_tile()
     }
 
-    /// Facts about the rays for a caster.
+    /// Returns the facts about the rays that a caster needs.
     pub(crate) fn cast_rays(&self, least_turn: Option<f32>) -> CastRays {
         CastRays {
             of_tile: self.of_tile(),
@@ -267,11 +267,11 @@ impl<'a> RayBuffers<'a> {
         TILE_TEXELS * self.rays.count as usize
     }
 
-    /// Tiles of the next slice, by how long the last one took.
+    /// Returns the number of tiles of the next slice, given the time that the last one took.
     fn length_after(&self, slice: Slice, taken: Duration, target: Duration) -> usize {
         let tiles = (slice.end - slice.first) as f64;
         let scale = target.as_secs_f64() / taken.as_secs_f64().max(1e-5);
-        // At most twice the last one, since two slices are in flight.
+        // Limits the growth, since two slices are processed at the same time.
         ((tiles * scale.min(2.0)) as usize).clamp(1, self.tiles)
     }
 }

@@ -14,7 +14,7 @@ use crate::readback::Mapping;
 
 /// Rays that a thread casts at a time.
 const RAYS_PER_TASK: usize = 1024;
-/// Ray caster on the processor. It reads rays in the mapped buffer, since copies of hundreds of megabytes would take time.
+/// Ray caster on the processor. It reads the rays in the mapped buffer, since copying hundreds of megabytes would take long.
 pub(crate) struct ProcessorCaster<'a> {
     scene: RayScene<'a>,
     /// Pending mappings of slices, oldest first.

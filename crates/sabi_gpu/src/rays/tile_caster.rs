@@ -1,4 +1,4 @@
-//! Ray caster of one tile on the processor: it looks around each place once for all its rays.
+//! Ray caster of one tile on the processor. It searches around each place once for all rays of the place.
 
 use sabi_nodes::kind::Finds;
 use sabi_surface::bvh::Bvh;
@@ -7,12 +7,12 @@ use sabi_surface::near::{Known, NearTriangles, PlaceRay, Surroundings};
 use super::hierarchy::RayScene;
 use super::{HitRow, RayRow, TILE_TEXELS};
 
-/// Most triangles near a tile that are looked at before its rays are cast, in all and for each ray of a place: with more,
-/// looking takes as long as casting.
+/// Maximum number of triangles near a tile that are examined before its rays are cast, in total and for each ray of a
+/// place. With more triangles, examining them takes as long as casting.
 const MOST_NEAR: usize = 512;
 const NEAR_PER_RAY: usize = 24;
 
-/// Caster of the rays of one tile after the other; keeps its memory between them.
+/// Caster of rays, one tile at a time. It keeps its memory from tile to tile.
 #[derive(Default)]
 pub(super) struct TileCaster {
     near: NearTriangles,
@@ -80,7 +80,7 @@ impl TileCaster {
     }
 }
 
-/// The rays that have a start and a length, model units.
+/// Returns the rays that have a start and a length, in model units.
 fn shot(rows: &[RayRow], scale: f32) -> impl Iterator<Item = PlaceRay> + Clone {
     let some = rows
         .iter()

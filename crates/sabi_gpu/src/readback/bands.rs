@@ -1,4 +1,4 @@
-//! Readback in bands of whole rows, which are looked at where they are mapped.
+//! Readback in bands of whole rows, which are passed on while they are mapped.
 
 use std::ops::Range;
 
@@ -22,12 +22,12 @@ pub struct BandData<'a> {
     bytes: &'a [u8],
 }
 
-/// Halves that are turned into floats at once.
+/// Number of halves that are converted at once.
 const HALVES: usize = 64;
 
 impl BandData<'_> {
-    /// Fills in the components of neighboring texels, counted from the first of the band row by row; those that the format does not
-    /// have are 0.
+    /// Copies the components of consecutive texels, counted row by row from the first texel of the band. Components that
+    /// the format does not have are 0.
     pub fn copy_texels(&self, texels: Range<usize>, out: &mut [[f32; 4]]) {
         let texel_bytes = self.format.texel_bytes() as usize;
         let width = self.row.used as usize / texel_bytes;
@@ -43,7 +43,7 @@ impl BandData<'_> {
     }
 }
 
-/// Turns stored texels into floats.
+/// Converts stored texels to floats.
 fn copy(bytes: &[u8], format: Format, out: &mut [[f32; 4]]) {
     match format {
         Format::R32Float => {
@@ -70,9 +70,9 @@ fn copy(bytes: &[u8], format: Format, out: &mut [[f32; 4]]) {
 }
 
 impl Gpu {
-    /// Reads a slot of a run in bands of whole rows, those with texels of a range alone: `visit` gets the texels of each band,
-    /// counted page by page and row by row, and their data. The device copies one band while another is looked at; no more than
-    /// two are in memory.
+    /// Reads a slot of a run in bands of whole rows. Bands without texels of `range` are left out. `visit` receives the
+    /// texels of each band, counted page by page and row by row, and their data. The device copies one band while another
+    /// is processed; no more than two are in memory.
     pub fn read_in_bands(
         &self,
         surface: &GpuSurface,
@@ -106,12 +106,12 @@ impl Gpu {
             }
         }
         copied.map_or(Ok(()), look)?;
-        // The next ones may come before the device would free them.
+        // Frees the memory now, since the next buffers may be created before the device would free these.
         staging.iter().for_each(wgpu::Buffer::destroy);
         Ok(())
     }
 
-    /// Reads rows of a texture, which `look` gets.
+    /// Reads rows of a texture and passes them to `look`.
     pub(crate) fn read_rows(
         &self,
         texture: &wgpu::Texture,
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn texels_are_copied_across_the_padding_of_rows() {
-        // Two rows of three texels, with two bytes behind each.
+        // Two rows of three texels, each with two bytes of padding.
         let values = [0.5, -1.0, 2.0, 3.0, 4.0, -0.25_f32];
         let mut bytes = Vec::new();
         for row in values.chunks(3) {
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn halves_become_the_floats_that_they_are() {
+    fn halves_are_converted_to_floats_exactly() {
         let values: Vec<f32> = (0..4 * 50).map(|at| (at as f32 - 99.0) / 8.0).collect();
         let halves = values.iter().flat_map(|value| f16::from_f32(*value).to_le_bytes());
         let bytes: Vec<u8> = halves.collect();

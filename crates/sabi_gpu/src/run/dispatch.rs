@@ -34,8 +34,8 @@ pub(super) fn texels_of(tiles: u32) -> u64 {
 }
 
 impl Runner<'_> {
-    /// Runs a kernel once over all tiles and fills ghosts. Returns the time that the kernel takes without the ghosts, where it is
-    /// known: not for rays and for kernels without tiles.
+    /// Runs a kernel once over all tiles and fills ghosts. Returns the time that the kernel takes without the ghosts, if it
+    /// is known. It is not known for rays and for kernels without tiles.
     pub(super) fn dispatch(
         &mut self,
         step: &KernelStep,
@@ -87,7 +87,7 @@ impl Runner<'_> {
         Ok(taken)
     }
 
-    /// Time at which the device is done with all work; none where times are not measured.
+    /// Waits for all work and returns the time; `None` if times are not measured.
     fn measured_time(&self) -> Result<Option<Instant>, GpuError> {
         if !self.options.times_ghosts {
             return Ok(None);
@@ -96,7 +96,7 @@ impl Runner<'_> {
         Ok(Some(Instant::now()))
     }
 
-    /// Textures of the slots of a kernel, with one-texel textures for unused ones.
+    /// Returns the textures of the slots of a kernel, with one-texel textures for unused planes.
     fn bound(
         &mut self,
         compiled: &CompiledKernel,
@@ -126,7 +126,7 @@ impl Runner<'_> {
         Ok(bound)
     }
 
-    /// Runs a kernel over no tile if it never ran, so that the driver compiles it.
+    /// Runs a kernel over no tiles if it has never run, so that the driver compiles it.
     pub(super) fn warm(
         &mut self,
         compiled: &CompiledKernel,
@@ -134,7 +134,7 @@ impl Runner<'_> {
         group: &wgpu::BindGroup,
     ) -> Result<(), GpuError> {
         if !compiled.is_warm.load(Ordering::Relaxed) {
-            // Earlier submissions do not belong to the time of compiling.
+            // Work that was submitted earlier must not count in the time of compiling.
             self.wait()?;
             let warming = Instant::now();
             slices.warm(&compiled.pipeline, group, self.options.is_canceled)?;

@@ -1,4 +1,4 @@
-//! Results that are kept for later runs: those that would take long to compute again.
+//! Results that are kept for later runs, since computing them again would take long.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
@@ -15,8 +15,8 @@ use crate::result_key::ResultKey;
 use crate::run_options::RunOptions;
 use crate::source_fill::SourceFill;
 
-/// Bytes of a result that is kept from twice the time of computing of a small one: with the default time, a disk that reads and
-/// writes 250 MB in a second takes as long for them.
+/// Result size in bytes at which the computing time needed for keeping a result is twice that for a small one. With the
+/// default time, a disk that reads and writes 250 MB per second needs that time for so many bytes.
 const DOUBLING_BYTES: f64 = 62.5e6;
 
 /// Results that are kept for later runs.
@@ -24,9 +24,9 @@ pub(super) struct KeptResults {
     keys: BTreeMap<SlotRef, ResultKey>,
     /// Slots whose results an earlier run kept.
     slots: BTreeSet<SlotRef>,
-    /// Nodes of which such results were read.
+    /// Nodes whose kept results were read.
     nodes: BTreeSet<String>,
-    /// Time of computing the value of a slot from what is kept.
+    /// Time to compute the value of a slot from the kept results.
     times: BTreeMap<SlotRef, Duration>,
 }
 
@@ -59,7 +59,7 @@ impl Gpu {
             .collect()
     }
 
-    /// Key of a result for later runs: its content, and everything that may round differently.
+    /// Returns the key of a result for later runs: a hash of its content key and of everything that may change rounding.
     fn key_of_kept(&self, result: &ResultKey, options: &RunOptions<'_>) -> [u8; 32] {
         let adapter = self.summary();
         let mut hash = blake3::Hasher::new_derive_key("sabi kept results");
@@ -79,7 +79,7 @@ impl Gpu {
 }
 
 impl Runner<'_> {
-    /// Reads the results of slots that an earlier run kept and that no step has computed.
+    /// Reads the kept results of slots that no step of this run has computed.
     pub(super) fn load_kept(&mut self, slots: &[SlotRef], sources: &mut dyn SourceFill) -> Result<(), GpuError> {
         for slot in slots {
             let Some(kept) = &self.kept else { continue };
@@ -102,7 +102,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Nodes of the step that writes a slot; the last one of a step makes its result.
+    /// Returns the nodes of the step that writes a slot. The last node of a step computes its result.
     fn nodes_of(&self, slot: SlotRef) -> Option<String> {
         let step = self.plan.steps.iter().find(|step| writes(step).contains(&slot))?;
         match step {
@@ -113,7 +113,7 @@ impl Runner<'_> {
         }
     }
 
-    /// Keeps the results of a step that ran, where computing them again would take long.
+    /// Keeps the results of a step that has run, if computing them again would take long.
     pub(super) fn keep_results(&mut self, step: &Step, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
         let Some(kept) = &mut self.kept else {
             return Ok(());
@@ -121,7 +121,7 @@ impl Runner<'_> {
         let own = self.report.steps.last().map_or(Duration::ZERO, |time| time.run);
         let before = reads(step).into_iter().filter_map(|slot| kept.times.get(&slot));
         let time = own + before.sum::<Duration>();
-        // Results of rays have a cache of their own, which also serves while a graph is edited.
+        // Results of rays have a cache of their own, which is also used while a graph is edited.
         let is_of_rays = matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
         for slot in writes(step) {
             kept.times.insert(slot, if is_of_rays { Duration::ZERO } else { time });

@@ -11,7 +11,7 @@ use crate::rays::{Hits, RayBuffers, RayPass, RayScene, caster, casts_on_device};
 use crate::source_fill::SourceFill;
 use crate::tiles::Slices;
 
-/// Scene that rays are cast into; it is made when the first rays are.
+/// Returns the scene for rays. It is built when the first rays are cast.
 fn scene(sources: &mut dyn SourceFill) -> Result<RayScene<'_>, GpuError> {
     sources.scene().map_err(GpuError::Scene)
 }
@@ -58,7 +58,7 @@ impl Runner<'_> {
         match self.hit_cache.as_deref_mut().zip(key_of_hits) {
             Some((hit_cache, key)) if hit_cache.fits(slices.tile_count() as usize, rays.count) => {
                 if !hit_cache.contains(&key) {
-                    // They are kept for other angles, too.
+                    // The hits are also used for other angles, so none is left out.
                     let mut caster = caster(gpu, choice, scene(sources)?, buffers.cast_rays(None))?;
                     hit_cache.insert(key, buffers.cast_longest(&pass, &groups(rays.reach), &mut caster)?);
                 }
@@ -76,7 +76,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Key of the hits of rays, which are cached by slices of the tiles that a step computes.
+    /// Returns the key of the hits of rays. Hits are cached in slices of the tiles that a step computes, so the tiles are part of it.
     fn key_of_hits(&self, key: [u8; 32]) -> [u8; 32] {
         let Some(tiles) = self.coverages.key(self.at) else {
             return key;
@@ -86,8 +86,8 @@ impl Runner<'_> {
         *hash.finalize().as_bytes()
     }
 
-    /// Key of what a step stores on disk: content keys of the results that are made of it, the kernel text, and everything that
-    /// may round differently.
+    /// Returns the key under which a step stores its results on disk: content keys of the results, the kernel text, and
+    /// everything that may change rounding.
     fn disk_key(
         &self,
         step: &KernelStep,
@@ -117,7 +117,7 @@ impl Runner<'_> {
         *hash.finalize().as_bytes()
     }
 
-    /// Uploads results from disk; `false` if their size is another.
+    /// Uploads results from disk. Returns false if their size does not match.
     fn upload_results(&self, level: Level, bound: &BoundTextures, found: &[u8]) -> Result<bool, GpuError> {
         let surface = self.surfaces.at(level)?;
         let texels = surface.texels();
@@ -134,7 +134,7 @@ impl Runner<'_> {
         Ok(true)
     }
 
-    /// Results of a kernel, read back to be kept on disk.
+    /// Reads back the results of a kernel, to store them on disk.
     fn read_results(&self, level: Level, bound: &BoundTextures) -> Result<Vec<u8>, GpuError> {
         let extent = self.surfaces.at(level)?.extent;
         let mut bytes = Vec::new();

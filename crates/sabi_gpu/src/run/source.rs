@@ -38,7 +38,7 @@ impl Runner<'_> {
                     options: self.options,
                 };
                 if sources.draw(&canvas, step, output, *plane)? {
-                    // The memory of its uploads is given back before the next plane.
+                    // Releases the memory of the uploads before the next plane is computed.
                     self.wait()?;
                     continue;
                 }
@@ -66,7 +66,7 @@ impl Runner<'_> {
                 }
                 self.upload(&texture, format, self.surfaces.finest.extent, &bytes);
                 drop(bytes);
-                // The driver holds a copy until the upload is done, which must end before the next plane is made.
+                // The driver holds a copy until the upload is done, so the upload has to end before the next plane is computed.
                 self.gpu.queue.submit([]);
                 self.wait()?;
             }
@@ -74,7 +74,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Ends the run once it is canceled: a source that was stopped gives a plane that is of no use.
+    /// Ends the run if it is canceled: the plane of a stopped source is incomplete.
     fn stop_if_canceled(&self) -> Result<(), GpuError> {
         match (self.options.is_canceled)() {
             true => Err(GpuError::Canceled),
@@ -82,7 +82,7 @@ impl Runner<'_> {
         }
     }
 
-    /// Textures of the connected inputs of a source.
+    /// Returns the textures of the connected inputs of a source.
     fn connected(&mut self, step: &SourceStep) -> Result<Vec<Option<wgpu::Texture>>, GpuError> {
         let slots = step.reads.iter();
         slots
@@ -90,7 +90,7 @@ impl Runner<'_> {
             .collect()
     }
 
-    /// Reads back the connected inputs of a source that works on the processor.
+    /// Reads back the connected inputs of a source that is computed on the processor.
     fn read_inputs(
         &self,
         step: &SourceStep,

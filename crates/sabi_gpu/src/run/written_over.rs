@@ -1,7 +1,8 @@
-//! Kernels of points that write their results over what they read for the last time.
+//! Kernels of points that write their results over inputs that they are the last to read.
 //!
-//! A texture cannot be read and written in one dispatch. Such a kernel writes a band of rows into textures of its own, which are
-//! copied into place before the next band is computed: a texel of a result depends on the same texel of what is read alone.
+//! A texture cannot be read and written in one dispatch. Therefore such a kernel writes a band of rows to separate
+//! textures, which are copied into place before the next band is computed. This is possible since a texel of a result
+//! depends only on the same texel of the inputs.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -28,7 +29,7 @@ struct Filled {
 }
 
 impl Runner<'_> {
-    /// Read slots whose textures the written ones of a kernel take; none where that saves little.
+    /// Returns the read slots whose textures the written slots of a kernel take over; empty if that saves little.
     pub(super) fn slots_written_over(&self, step: &KernelStep) -> BTreeMap<SlotRef, SlotRef> {
         let dead = self.dead_after.get(&self.at).filter(|_| self.part.is_none());
         let over = dead.map(|dead| written_over(self.plan, step, dead));
@@ -85,14 +86,14 @@ impl Runner<'_> {
         Ok(sum)
     }
 
-    /// Bytes of a row of all that a kernel writes.
+    /// Returns the number of bytes of a row of everything that a kernel writes.
     fn bytes_of_row(&self, step: &KernelStep, surface: &GpuSurface) -> u64 {
         let written = step.writes.iter().flatten();
         let texel_bytes = |slot: &SlotRef| self.plan.slots[*slot].format.texel_bytes();
         u64::from(surface.extent[0]) * written.map(texel_bytes).sum::<u64>()
     }
 
-    /// Views of what a kernel reads and of the bands that it writes, and the textures that are filled from these.
+    /// Returns views of the textures that a kernel reads and of the bands that it writes, and the textures to which the bands are copied.
     fn filled(
         &mut self,
         step: &KernelStep,
@@ -114,7 +115,7 @@ impl Runner<'_> {
         Ok((views, filled))
     }
 
-    /// Copies what was written of a band into place.
+    /// Copies a written band into place.
     fn copy_band(&self, filled: &[Filled], band: &LayerRows) {
         let descriptor = wgpu::CommandEncoderDescriptor::default();
         let mut encoder = self.gpu.device.create_command_encoder(&descriptor);

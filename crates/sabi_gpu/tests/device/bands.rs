@@ -6,7 +6,7 @@ use sabi_gpu::BandData;
 
 use super::*;
 
-/// Two bands of numbers: a band has 16 MiB.
+/// Side of a plane of numbers that takes two bands; a band has 16 MiB.
 const TEXELS: u32 = 2300;
 
 /// All texels of a band.
@@ -17,7 +17,7 @@ fn texels_of(band: &Range<usize>, data: &BandData<'_>) -> Vec<[f32; 4]> {
 }
 
 #[test]
-fn bands_have_the_texels_of_the_whole_and_none_is_larger_than_its_limit() {
+fn bands_have_all_texels_and_none_is_larger_than_its_limit() {
     let bench = Bench::new(TEXELS);
     let plan = bench.plan(CHAIN, FUSED);
     let mut run = bench.run(&plan, &options(), None).unwrap();
@@ -75,7 +75,7 @@ fn bands_without_a_texel_of_the_range_are_not_read() {
 }
 
 #[test]
-fn a_result_that_is_freed_is_counted_no_more() {
+fn a_freed_result_no_longer_counts_as_memory_of_the_run() {
     let bench = Bench::new(64);
     let plan = bench.plan(CHAIN, FUSED);
     let mut run = bench.run(&plan, &options(), None).unwrap();

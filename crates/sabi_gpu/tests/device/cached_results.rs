@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::*;
 
 #[test]
-fn a_slider_runs_its_node_and_what_hangs_below_it() {
+fn a_slider_runs_only_its_node_and_the_nodes_that_depend_on_it() {
     let bench = Bench::new(64);
     let mut cache = ResultCache::new(DEFAULT_BUDGET_BYTES);
     let mut names = |nodes: &str| {
@@ -29,7 +29,7 @@ fn a_slider_runs_its_node_and_what_hangs_below_it() {
 }
 
 #[test]
-fn a_full_cache_drops_what_was_used_longest_ago() {
+fn a_full_cache_drops_the_least_recently_used_result() {
     let bench = Bench::new(64);
     let one_result = bench.surface.texels() * 4;
     let mut cache = ResultCache::new(2 * one_result);
@@ -40,7 +40,7 @@ fn a_full_cache_drops_what_was_used_longest_ago() {
 }
 
 #[test]
-fn steps_that_ended_before_a_run_was_stopped_are_not_made_again() {
+fn steps_that_ended_before_a_run_was_stopped_do_not_run_again() {
     let bench = Bench::new(64);
     let mut cache = ResultCache::new(DEFAULT_BUDGET_BYTES);
     let plan = bench.plan(CHAIN, Mode::Interactive);
@@ -59,7 +59,7 @@ fn steps_that_ended_before_a_run_was_stopped_are_not_made_again() {
     assert_eq!(bench.bytes(&plan, &run), bench.bytes(&plan, &fresh));
 }
 
-/// Result of the chain made by a source, which gives this many masks at once.
+/// Returns the plan of a chain that starts at a source which returns this many masks at once.
 fn plan_of_masks(bench: &Bench, masks: usize) -> Plan {
     let mut plan = bench.plan(CHAIN, Mode::Interactive);
     let slot = plan.slots[plan.results[0].slots[0]];
@@ -80,7 +80,7 @@ fn plan_of_masks(bench: &Bench, masks: usize) -> Plan {
 }
 
 #[test]
-fn a_texture_that_was_given_out_is_never_written_again() {
+fn a_texture_that_was_returned_to_the_caller_is_never_written_again() {
     let bench = Bench::new(64);
     let mut cache = ResultCache::new(DEFAULT_BUDGET_BYTES);
     let mut first_mask = |masks: usize| {
@@ -98,7 +98,7 @@ fn a_texture_that_was_given_out_is_never_written_again() {
     assert_eq!(made, 1);
     let (known, made) = first_mask(1);
     assert_eq!((&known, made), (&first, 0));
-    // The second mask is not cached, so the source has to give both.
+    // The second mask is not cached, so the source has to return both.
     let (again, made) = first_mask(2);
     assert_eq!(made, 2);
     assert_ne!(again, first);

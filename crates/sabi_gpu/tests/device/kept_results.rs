@@ -55,7 +55,7 @@ fn run(bench: &Bench, plan: &Plan, store: &mut Store, keeps_from: Duration) -> R
         .unwrap()
 }
 
-/// A chain of three passes whose last one has a knob.
+/// Returns the plan of a chain of three passes, of which the last has a knob.
 fn chain(bench: &Bench, low: f32) -> Plan {
     let nodes = format!(
         r#"
@@ -72,7 +72,7 @@ fn passes(run: &Run) -> Vec<&str> {
 }
 
 #[test]
-fn what_hangs_on_a_change_is_computed_and_the_rest_is_read() {
+fn steps_that_depend_on_a_change_are_computed_and_others_are_read() {
     let bench = Bench::new(128);
     let mut store = Store::default();
     let first = run(&bench, &chain(&bench, 0.0), &mut store, Duration::ZERO);
@@ -90,7 +90,7 @@ fn what_hangs_on_a_change_is_computed_and_the_rest_is_read() {
 }
 
 #[test]
-fn what_is_computed_soon_is_not_kept() {
+fn a_result_that_is_computed_quickly_is_not_kept() {
     let bench = Bench::new(64);
     let mut store = Store::default();
     run(&bench, &chain(&bench, 0.0), &mut store, Duration::from_secs(3600));

@@ -1,4 +1,4 @@
-//! Runs that compute the shown tiles alone.
+//! Runs that compute only the shown tiles.
 
 use super::*;
 use sabi_gpu::ShownTiles;
@@ -6,7 +6,7 @@ use sabi_gpu::ShownTiles;
 const TEXELS: u32 = 128;
 /// A tile in the middle of the square.
 const TILE: [u32; 3] = [7, 6, 0];
-/// Texels of it and the eight tiles around it.
+/// Number of texels of this tile and the eight tiles around it.
 const NINE_TILES: u64 = 9 * 64;
 
 fn atlas() -> Atlas {
@@ -21,7 +21,7 @@ fn all(bench: &Bench) -> u64 {
     u64::from(bench.surface.tile_count()) * 64
 }
 
-/// A chain whose last node reads a survey, or whatever this kind reads of the clouds.
+/// Returns a chain whose last node reads a survey, or the result of this kind over the clouds.
 fn chain_over(kind: &str) -> String {
     format!(
         r#""clouds": {{ "kind": "noise/simplex" }},
@@ -31,7 +31,7 @@ fn chain_over(kind: &str) -> String {
 }
 
 #[test]
-fn passes_over_texels_compute_the_shown_tiles_and_those_around_them() {
+fn passes_over_texels_compute_only_the_shown_tiles_and_those_around_them() {
     let bench = Bench::new(TEXELS);
     let plan = bench.plan(CHAIN, Mode::Bake { fuse: false });
     let shown = shown();
@@ -53,7 +53,7 @@ fn passes_over_texels_compute_the_shown_tiles_and_those_around_them() {
 }
 
 #[test]
-fn what_a_filter_or_a_survey_reads_is_computed_everywhere() {
+fn inputs_of_a_filter_or_a_survey_are_computed_everywhere() {
     let bench = Bench::new(TEXELS);
     let shown = shown();
     let some = RunOptions {
@@ -64,14 +64,14 @@ fn what_a_filter_or_a_survey_reads_is_computed_everywhere() {
         let plan = bench.plan(&chain_over(kind), Mode::Bake { fuse: false });
         let [alone, whole] = [&some, &options()].map(|options| bench.run(&plan, options, None).unwrap());
         let spared = whole.report.texels - alone.report.texels;
-        // The filter fills ghosts, so all of it is computed. What is behind it or the survey is, the rest of the chain is not.
+        // The filter fills ghosts, so all of it is computed. Passes after the filter or the survey are computed only where shown.
         let spared_passes = if kind == "filter/smooth" { 1 } else { 2 };
         assert_eq!(spared, spared_passes * (all(&bench) - NINE_TILES), "{kind}");
     }
 }
 
 #[test]
-fn results_of_some_tiles_are_not_taken_for_those_of_all() {
+fn results_of_some_tiles_are_not_reused_as_results_of_all_tiles() {
     let bench = Bench::new(TEXELS);
     let plan = bench.plan(CHAIN, Mode::Interactive);
     let shown = shown();

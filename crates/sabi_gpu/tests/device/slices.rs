@@ -6,7 +6,7 @@ use sabi_nodes::SourceFile;
 
 use super::*;
 
-/// A node that takes the sine of a place this often.
+/// Returns a node that computes the sine of a place this many times.
 fn sines(rounds: u32) -> SourceFile {
     SourceFile {
         path: PathBuf::from("own/sines.wgsl"),
@@ -18,7 +18,7 @@ fn sines(rounds: u32) -> SourceFile {
     }
 }
 
-/// Time between two looks at whether a run is canceled.
+/// Returns how often a run asks whether it is canceled.
 fn times_asked(rounds: u32) -> usize {
     let mut bench = Bench::new(64);
     bench.library.replace(sines(rounds)).unwrap();
@@ -37,7 +37,7 @@ fn times_asked(rounds: u32) -> usize {
 
 #[test]
 fn a_kernel_that_may_take_long_begins_with_one_tile_and_is_stopped_between_its_slices() {
-    // A run asks before a step and before its kernel, and then before each slice: one tile, at most eight, and the rest.
+    // A run asks before a step, before its kernel, and before each slice: of one tile, of at most eight, and of the rest.
     let asked = times_asked(20_000);
     assert!(asked >= 5, "{asked}");
 }

@@ -1,4 +1,4 @@
-//! Strokes that change paint that is there: smear, blur, sharpen, and clone.
+//! Strokes that change existing paint: smear, blur, sharpen, and clone.
 
 use glam::{DQuat, DVec2, DVec3};
 use sabi_surface::patch::{Site, walk};
@@ -16,13 +16,13 @@ use crate::site::{passed, relocate_points};
 use crate::stroke::{Action, Stroke, StrokePoint};
 use crate::supplies::InputColors;
 
-/// Most cells along a side of the plane around a stamp.
+/// Maximum number of cells along a side of the plane around a stamp.
 const SIDE_LIMIT: f64 = 256.0;
-/// Most cells where the values are blurred anyway.
+/// Maximum number of cells if the values are blurred anyway.
 const BLURRED_SIDE_LIMIT: f64 = 64.0;
-/// Width of the bell curve by which a stamp blurs, as a share of the radius.
+/// Standard deviation of the blur of a stamp, as a share of the radius.
 const BLUR: f64 = 0.12;
-/// Farthest that a stamp smears at once, as a share of the radius.
+/// Largest distance by which one stamp smears, as a share of the radius.
 const SMEAR_LIMIT: f64 = 0.5;
 
 /// A texel under a stamp.
@@ -37,12 +37,12 @@ struct Touched {
 #[derive(Clone, Copy)]
 struct Change<'a> {
     action: Action,
-    /// The result that it copies; none for a change of the paint itself.
+    /// Node result that it copies; `None` if it changes the paint itself.
     input: Option<&'a InputColors<'a>>,
 }
 
 impl Change<'_> {
-    /// Values of a texel of what is changed or copied.
+    /// Reads the values of a texel of the paint or of the result that is copied.
     fn read(&self, canvas: &Canvas, texel: usize, values: &mut [f32]) {
         match self.input {
             Some(input) => canvas.values_of_color(input(texel), values),
@@ -51,16 +51,16 @@ impl Change<'_> {
     }
 }
 
-/// Place that a stamp copies from.
+/// Place from which a stamp copies.
 #[derive(Clone, Copy)]
 struct Source {
     site: Site,
-    /// Turns directions at the first stamp to those at the source.
+    /// Rotates directions at the first stamp to directions at the source.
     turn: DQuat,
 }
 
-/// Least and greatest value of each channel under a stamp: nothing becomes more than what is there, however often it is sharpened.
-/// Paint that is smeared or copied from outside of the stamp has its own range.
+/// Returns the lowest and the highest value of each channel under a stamp. Sharpening, however often it is repeated, stays
+/// within them. Paint that is smeared or copied from outside of the stamp has its own range.
 fn ranges_of(canvas: &Canvas, touched: &[Touched], action: Action) -> Vec<[f32; 2]> {
     let mut ranges = vec![[f32::NEG_INFINITY, f32::INFINITY]; canvas.channel_count()];
     if action != Action::Sharpen {
@@ -78,7 +78,7 @@ fn ranges_of(canvas: &Canvas, touched: &[Touched], action: Action) -> Vec<[f32; 
 }
 
 impl Painter<'_> {
-    /// Changes what is on a canvas along a stroke; returns how many of its places the model does not have any more.
+    /// Changes existing paint along a stroke. Returns the number of its points that the model no longer has.
     pub(super) fn adjust(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
         let (points, lost) = passed(self.surface, stroke);
         let kept = Kept {
@@ -96,7 +96,7 @@ impl Painter<'_> {
         let input = self.supplies.input.filter(|_| stroke.copies_input());
         let is_whole = source.is_some() == stroke.source.is_some() && input.is_some() == stroke.copies_input();
         if !is_whole || (stroke.action == Action::Clone && source.is_none() && input.is_none()) {
-            return lost; // It copies what is not there.
+            return lost; // The source of the copy does not exist.
         }
         let change = Change {
             action: stroke.action,
@@ -134,10 +134,10 @@ impl Painter<'_> {
             let way = before.as_ref().map_or(DVec3::ZERO, |before| {
                 stamp.point.site.position - before.point.site.position
             });
-            // Nothing is pulled over a gap.
+            // Paint is not pulled across a gap.
             let pulled = if stamp.point.is_joined { way.length() } else { 0.0 };
             if let Some(from) = &mut from {
-                // A jump of the brush is one of the source, too.
+                // If the brush jumps, the source jumps as well.
                 let target = from.site.position + from.turn * way;
                 from.site = walk(self.surface.connected(), from.site, target);
             }
@@ -161,7 +161,7 @@ impl Painter<'_> {
             from: stamp.point.site,
             to: None,
             ahead,
-            // Blurred and smeared paint comes from farther away.
+            // Blurring and smearing read paint from a larger area.
             radius: 1.5 * used.reach() * radius,
             reaches_pieces: used.brush.reaches_pieces,
         };
@@ -193,7 +193,8 @@ impl Painter<'_> {
         }
     }
 
-    /// Values that come to a stamp, around its middle; none where they are those at each texel itself, which need no grid.
+    /// Returns the new values for a stamp, on a grid around its middle; `None` if each texel uses the values at its own
+    /// place, which needs no grid.
     fn values_for(
         &mut self,
         canvas: &Canvas,
@@ -224,7 +225,7 @@ impl Painter<'_> {
         }
     }
 
-    /// Texels under a stamp on the patch that was laid last, with its strength there.
+    /// Returns the texels under a stamp on the patch that was laid last, with the strength of the stamp there.
     fn touched(&mut self, stamp: &StampPlace, radius: f64, used: &UsedBrush) -> Vec<Touched> {
         let mut touched = Vec::new();
         self.for_stamped(stamp, radius, used, |texel, plane, strength| {
@@ -233,7 +234,7 @@ impl Painter<'_> {
         touched
     }
 
-    /// Values of what a change copies or changes, on the patch that was laid last.
+    /// Returns the values that a change copies or changes, on the patch that was laid last.
     fn grid(&self, canvas: &Canvas, change: Change<'_>, reach: f64, radius: f64, side_limit: f64) -> Grid {
         let mut width = f64::INFINITY;
         let mut values = vec![0.0; canvas.channel_count()];
@@ -244,7 +245,7 @@ impl Painter<'_> {
                 texels.push((texel, plane));
             });
         }
-        // Cells as wide as texels; the least texel of a stretched chart does not count more than the limit.
+        // Cells are as wide as texels. The limit keeps a stretched chart with very small texels from needing many cells.
         let side = (2.0 * reach / width.max(1e-6 * radius)).clamp(4.0, side_limit);
         let mut grid = Grid::new(reach, side as usize, values.len());
         for (texel, plane) in texels {
@@ -254,7 +255,7 @@ impl Painter<'_> {
         grid
     }
 
-    /// Calls `visit` for the texels of a triangle within `reach`, without ghosts, with their places and widths.
+    /// Calls `visit` for the texels of a triangle within `reach`, without ghosts, with their positions and widths.
     fn for_own_texels(&self, laid: &LaidTriangle, reach: f64, mut visit: impl FnMut(usize, DVec2, f64)) {
         let within = [DVec2::splat(-reach), DVec2::splat(reach)];
         for_texels(self.texels(), &laid.placed, within, |texel, at| {

@@ -22,12 +22,12 @@ pub(super) struct Filler<'a> {
     strengths: &'a mut Strengths,
     sight: &'a mut Sight,
     used: &'a UsedBrush,
-    /// Surface under the first place of the stroke.
+    /// Normal of the surface at the first point of the stroke.
     normal: DVec3,
 }
 
 impl Filler<'_> {
-    /// Fills a texel to a strength. Without its place, nothing is looked at that limits the brush.
+    /// Fills a texel with a strength. Without its position, the limits of the brush are not applied.
     pub(super) fn add(&mut self, texel: usize, strength: f64, at: Option<&At>) {
         let count = self.strengths.texel_count();
         let left = match at.filter(|_| strength > 0.0) {
@@ -46,9 +46,9 @@ impl Filler<'_> {
 }
 
 impl<'a> Painter<'a> {
-    /// Prepares to fill an area around the places of a stroke.
+    /// Prepares to fill an area around the points of a stroke.
     pub(super) fn filler<'b>(&'b mut self, points: &[StrokePoint], used: &'b UsedBrush) -> Filler<'b> {
-        let normal = points.first().map_or(DVec3::Y, |first| self.normal_under(first.site)); // None fill nothing.
+        let normal = points.first().map_or(DVec3::Y, |first| self.normal_under(first.site)); // Without points nothing is filled.
         Filler {
             texels: SurfaceTexels {
                 surface: self.surface,
@@ -62,7 +62,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Fills the area that places touch.
+    /// Fills the area that the points touch.
     pub(super) fn fill(&mut self, points: &[StrokePoint], area: Area, used: &UsedBrush) {
         let (surface, atlas) = (self.surface, self.atlas);
         let filled = triangles(surface, atlas, points, area, used.brush.side_degrees);
@@ -79,7 +79,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Fills some texels around the places of a stroke.
+    /// Fills some texels around the points of a stroke.
     pub(super) fn fill_texels(&mut self, points: &[StrokePoint], texels: &[usize], used: &UsedBrush) {
         let all = vec![true; self.surface.triangle_count()];
         let mut filler = self.filler(points, used);
@@ -97,7 +97,7 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Strength along a way straight through space: 1 before its start and 0 behind its end; 1 everywhere for a single place.
+/// Strength along a straight line through space: 1 before its start and 0 behind its end; 1 everywhere for a single point.
 struct Gradient {
     start: DVec3,
     way: DVec3,
@@ -105,7 +105,7 @@ struct Gradient {
 
 impl Gradient {
     fn new(points: &[StrokePoint]) -> Gradient {
-        let position = |point: Option<&StrokePoint>| point.map_or(DVec3::ZERO, |point| point.site.position); // None fill nothing.
+        let position = |point: Option<&StrokePoint>| point.map_or(DVec3::ZERO, |point| point.site.position); // Without points nothing is filled.
         let start = position(points.first());
         Gradient {
             way: position(points.last()) - start,
@@ -122,11 +122,11 @@ impl Gradient {
     }
 }
 
-/// Calls `visit` for all texels of some triangles, ghosts that show them included, with their places.
+/// Calls `visit` for all texels of some triangles, including ghosts that show them, with their positions.
 fn for_places(texels: SurfaceTexels<'_>, filled: &[bool], mut visit: impl FnMut(usize, &At)) {
     let surface = texels.surface;
     for triangle in 0..surface.triangle_count() as u32 {
-        // Any plane will do, since places in space are asked for.
+        // Only positions in space are needed, so any plane may be used.
         let [a, b, c] = surface.connected().corners(triangle);
         let (x, height) = ((b - a).length(), (b - a).cross(c - a).length());
         if height <= 0.0 || !filled[triangle as usize] {
@@ -145,7 +145,7 @@ fn for_places(texels: SurfaceTexels<'_>, filled: &[bool], mut visit: impl FnMut(
     }
 }
 
-/// Calls `fill` for all texels of some triangles, ghosts that show them included.
+/// Calls `fill` for all texels of some triangles, including ghosts that show them.
 fn for_texels_of(atlas: &Atlas, filled: &[bool], mut fill: impl FnMut(usize)) {
     for (texel, &owner) in atlas.owners.iter().enumerate() {
         if owner == EMPTY {
@@ -161,7 +161,8 @@ fn for_texels_of(atlas: &Atlas, filled: &[bool], mut fill: impl FnMut(usize)) {
     }
 }
 
-/// True for each triangle of the area that places touch. The way, its inside and single stamps are no such areas.
+/// Returns, for each triangle, true if it belongs to the area that the points touch. Must not be called for the way, its
+/// inside, and single stamps.
 fn triangles(
     surface: &PaintSurface<'_>,
     atlas: &Atlas,
@@ -201,7 +202,7 @@ fn triangles(
     }
 }
 
-/// Triangles that are reached over edges between triangles whose normals have at least this cosine.
+/// Returns the triangles that are reached across edges between triangles whose normals have at least this cosine.
 fn side(surface: &PaintSurface<'_>, touched: impl Iterator<Item = u32>, least_cosine: f64) -> Vec<bool> {
     let connected = surface.connected();
     let mut is_reached = vec![false; surface.triangle_count()];

@@ -1,15 +1,15 @@
-//! Values of a canvas in the plane of a patch, on a square grid.
+//! Values of a canvas on a square grid in the plane of a patch.
 
 use glam::DVec2;
 
-/// Least share of a texel that a cell has to have for its value to count.
+/// Minimum weight with which the value of a cell is used, in texels.
 const LEAST_WEIGHT: f32 = 1e-3;
 
-/// Values in the plane around a place, as sums with weights: cells without surface have no weight.
+/// Values in the plane around a place, as weighted sums. Cells without surface have no weight.
 pub(super) struct Grid {
     /// Cells along a side.
     side: usize,
-    /// Width of a cell, model units.
+    /// Width of a cell in model units.
     cell: f64,
     /// Distance of the borders from the middle.
     reach: f64,
@@ -30,7 +30,7 @@ impl Grid {
         }
     }
 
-    /// The four cells around a place, with their shares.
+    /// Returns the four cells around a place, with their shares.
     fn around(&self, place: DVec2) -> impl Iterator<Item = (usize, f32)> + use<> {
         let side = self.side as f64;
         let at = (place + self.reach) / self.cell - 0.5;
@@ -60,7 +60,7 @@ impl Grid {
         }
     }
 
-    /// Writes the values at a place to `values`; false where there is no surface.
+    /// Writes the values at a place to `values`. Returns false if there is no surface.
     pub(super) fn read(&self, place: DVec2, values: &mut [f32]) -> bool {
         let mut weight = 0.0;
         values.fill(0.0);
@@ -76,7 +76,7 @@ impl Grid {
         weight > LEAST_WEIGHT
     }
 
-    /// The grid with every value a mean of those around it, by a bell curve of this width, model units.
+    /// Returns the grid blurred with a Gaussian of this width in model units.
     pub(super) fn blurred(&self, width: f64) -> Grid {
         let sigma = (width / self.cell).max(1e-6);
         let taps = (3.0 * sigma).ceil().min(self.side as f64) as isize;
@@ -95,7 +95,8 @@ impl Grid {
     }
 }
 
-/// Rows as weighted sums of their neighbors, with rows and columns exchanged, so that twice is both ways.
+/// Returns the weighted sums of each cell's neighbors in its row, with rows and columns exchanged, so that applying it
+/// twice blurs both directions.
 fn blurred_rows(plane: &[f32], side: usize, bell: &[f32]) -> Vec<f32> {
     let taps = bell.len() / 2;
     let mut blurred = vec![0.0; plane.len()];

@@ -1,4 +1,5 @@
-//! Pieces of strokes along their way. While a stroke is drawn, only the pieces that a further place changes are laid again.
+//! Strokes that are painted piece by piece along their way. While a stroke is drawn, only the pieces that a new point
+//! changes are painted again.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,25 +12,25 @@ use crate::site::passed;
 use crate::stroke::{Area, Stroke};
 use crate::way::WayPoint;
 
-/// Places behind a piece that it depends on: where its line goes on, and how that bends there.
+/// Number of points behind a piece on which it depends: they determine how its line continues and bends.
 const AHEAD: usize = 2;
 
-/// A stroke as it was laid last, for the same stroke with further places.
+/// State of a stroke that was painted last, for painting the same stroke with further points.
 pub struct Growth {
     stroke: Arc<Stroke>,
     kept: Kept,
-    /// Ends of the parts of its line, or its stamps.
+    /// Points between the parts of its line, or its stamps.
     places: Vec<WayPoint>,
-    /// Number of pieces that are laid in `strengths`.
+    /// Number of pieces that are included in `strengths`.
     settled: usize,
     strengths: SavedStrengths,
-    /// Places that were seen from the eye of the artist, by texel.
+    /// Visibility of places from the eye of the artist, by texel.
     seen: Vec<(u32, f32)>,
 }
 
-/// Pieces of a stroke, laid one after another.
+/// Pieces of a stroke, painted one after another.
 enum Pieces {
-    /// Parts of a line between places.
+    /// Parts of a line between points.
     Line(Vec<WayPoint>),
     Stamps(Vec<StampPlace>),
 }
@@ -59,17 +60,17 @@ impl Pieces {
 }
 
 impl Growth {
-    /// Number of pieces that are not laid again when the stroke goes on.
+    /// Returns the number of pieces that are not painted again when the stroke continues.
     pub fn settled(&self) -> usize {
         self.settled
     }
 
-    /// Bytes of memory that it takes.
+    /// Returns the number of bytes of memory that it uses.
     pub(crate) fn bytes(&self) -> usize {
         self.strengths.bytes() + size_of_val(self.places.as_slice()) + size_of_val(self.seen.as_slice())
     }
 
-    /// Returns true if a stroke may be this one with further places.
+    /// Returns true if a stroke may be the stored one with further points.
     fn may_be(&self, stroke: &Stroke, kept: Kept) -> bool {
         let own = &self.stroke;
         let draws_alike = (&own.brush, own.action, own.eye, &own.stencil)
@@ -77,14 +78,15 @@ impl Growth {
         draws_alike && self.kept == kept
     }
 
-    /// Number of first places that are the same.
+    /// Returns the number of equal points at the start.
     fn common(&self, places: &[WayPoint]) -> usize {
         let pairs = self.places.iter().zip(places);
         pairs.take_while(|(own, other)| own == other).count()
     }
 }
 
-/// Returns true for strokes that go on piece by piece, without copies whose pieces would lie in between.
+/// Returns true for strokes that can be continued piece by piece. Those with copies cannot, since the pieces of the copies
+/// would come in between.
 pub(crate) fn can_grow(stroke: &Stroke) -> bool {
     let symmetry = stroke.brush.bounded().symmetry;
     let has_copies = symmetry.mirrors.contains(&true) || symmetry.turns > 1;
@@ -92,8 +94,8 @@ pub(crate) fn can_grow(stroke: &Stroke) -> bool {
 }
 
 impl Painter<'_> {
-    /// Paint of a stroke that can grow, to the bit as [`Painter::lay`] gives it. `growth` is what this kept of a stroke on the same atlas; it
-    /// is taken up if that is the same stroke with fewer places, and kept for the next ones.
+    /// Paints a stroke that can grow, with the same bits as [`Painter::lay`]. `growth` is the state from an earlier call on
+    /// the same atlas. It is used if it belongs to the same stroke with fewer points, and updated for the next call.
     pub fn lay_growing(
         &mut self,
         stroke: &Arc<Stroke>,

@@ -1,4 +1,4 @@
-//! Share of a stroke that is left at a texel, within the limits of its brush and behind its stencil.
+//! Share of a stroke that remains at a texel after the limits of its brush and its stencil.
 
 use glam::DVec3;
 
@@ -8,25 +8,25 @@ use super::used_brush::{UsedBrush, UsedStencil};
 use crate::picture::Ends;
 use crate::surface::PaintSurface;
 
-/// Share and color that are left of a stroke at a texel.
+/// Share and color of a stroke that remain at a texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Left {
     /// Share of the strength, 0 to 1.
     pub(super) share: f64,
-    /// Linear color, where the stencil gives one.
+    /// Linear color, if the stencil provides one.
     pub(super) color: Option<[f32; 3]>,
 }
 
 impl Left {
-    /// Everything, in the color of the brush.
+    /// The full strength, in the color of the brush.
     pub(super) const ALL: Left = Left {
         share: 1.0,
         color: None,
     };
 }
 
-/// Share and color of a stroke at a texel. `normal` is that of the surface under the middle of the stamp, `count` the number of texels of
-/// the atlas.
+/// Returns the share and color of a stroke at a texel. `normal` is that of the surface under the middle of the stamp,
+/// `count` the number of texels of the atlas.
 pub(super) fn left_of(
     surface: &PaintSurface<'_>,
     sight: &mut Sight,
@@ -52,7 +52,8 @@ pub(super) fn left_of(
 }
 
 impl UsedStencil {
-    /// Share and color that the stencil leaves at a texel of a surface with this normal: nothing beside the picture.
+    /// Returns the share and color that the stencil leaves at a texel of a surface with this normal. Outside of its picture
+    /// the share is 0.
     fn left_at(&self, at: &At, normal: DVec3) -> Left {
         let Some(behind) = self.stencil.behind(at.position) else {
             return Left {

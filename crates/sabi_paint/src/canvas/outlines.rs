@@ -1,4 +1,4 @@
-//! The area inside of an outline, as the artist saw it.
+//! The area inside of an outline, as seen by the artist.
 
 use glam::{DVec2, DVec3};
 use sabi_surface::patch::{PlacedTriangle, axes};
@@ -7,26 +7,26 @@ use super::texels::{At, SurfaceTexels, for_texels};
 use crate::limits::Eye;
 use crate::stroke::StrokePoint;
 
-/// Depth before and behind the outline that is filled, as a share of its width.
+/// Depth in front of and behind the outline that is filled, as a share of its width.
 const DEPTH: f64 = 0.25;
-/// Most corners of an outline; of longer ones, some are left out.
+/// Maximum number of corners of an outline. Of longer outlines, only every n-th corner is used.
 const MOST_CORNERS: usize = 1024;
-/// Least share of the distance to the outline at which a place still lies before the eye.
+/// Minimum distance in front of the eye, as a share of the distance to the outline.
 const LEAST_DEPTH: f64 = 1e-3;
 
-/// An outline in the plane at right angles to the view.
+/// An outline in the plane perpendicular to the view.
 struct Outline {
     view: View,
     corners: Vec<DVec2>,
     low: DVec2,
     high: DVec2,
-    /// Depths that are filled, along the view.
+    /// Range of depths along the view that is filled.
     depths: [f64; 2],
 }
 
 /// The view onto a plane.
 struct View {
-    /// Place of the eye; none without perspective.
+    /// Position of the eye; `None` without perspective.
     eye: Option<DVec3>,
     /// Direction of the view.
     ahead: DVec3,
@@ -44,7 +44,7 @@ impl View {
         let (eye, ahead) = match eye {
             Some(Eye::Place(place)) => (Some(vector(place)), middle - vector(place)),
             Some(Eye::Toward(direction)) => (None, -vector(direction)),
-            // The flat view shows no side of the model: the outline is seen straight from above.
+            // In the 2D view no side of the model is in front, so the outline is seen straight from above.
             None => (None, -normal),
         };
         let ahead = ahead.try_normalize()?;
@@ -61,10 +61,10 @@ impl View {
     }
 
     fn depth_of(&self, place: DVec3) -> f64 {
-        (place - self.eye.unwrap_or(DVec3::ZERO)).dot(self.ahead) // Without perspective, from the origin.
+        (place - self.eye.unwrap_or(DVec3::ZERO)).dot(self.ahead) // Without perspective, depths are measured from the origin.
     }
 
-    /// A place in the plane; none behind the eye.
+    /// Projects a place onto the plane; `None` if it is behind the eye.
     fn seen(&self, place: DVec3) -> Option<DVec2> {
         let Some(eye) = self.eye else {
             return Some(DVec2::new(place.dot(self.x), place.dot(self.y)));
@@ -74,7 +74,7 @@ impl View {
         (depth > LEAST_DEPTH * self.depth).then(|| DVec2::new(way.dot(self.x), way.dot(self.y)))
     }
 
-    /// Returns true for a surface that faces the eye.
+    /// Returns true if a surface faces the eye.
     fn faces(&self, place: DVec3, normal: DVec3) -> bool {
         let way = self.eye.map_or(-self.ahead, |eye| eye - place);
         normal.dot(way) > 0.0
@@ -82,13 +82,13 @@ impl View {
 }
 
 impl Outline {
-    /// None where the points enclose nothing.
+    /// Returns `None` if the points enclose no area.
     fn new(points: &[StrokePoint], eye: Option<Eye>) -> Option<Outline> {
         if points.len() < 3 {
             return None;
         }
         let view = View::new(points, eye)?;
-        // Every texel is held against every corner.
+        // The number of corners is limited, since every texel is compared with every corner.
         let step = points.len().div_ceil(MOST_CORNERS);
         let corners = points.iter().step_by(step);
         let corners: Vec<DVec2> = corners.filter_map(|point| view.seen(point.site.position)).collect();
@@ -108,7 +108,7 @@ impl Outline {
         })
     }
 
-    /// Share of a texel of this width that lies inside, 0 to 1.
+    /// Returns the share of a texel of this width that is inside, 0 to 1.
     fn cover(&self, place: DVec2, width: f64) -> f64 {
         let margin = DVec2::splat(width);
         if place.cmplt(self.low - margin).any() || place.cmpgt(self.high + margin).any() {
@@ -131,8 +131,8 @@ impl Outline {
     }
 }
 
-/// Calls `fill` for all texels inside of the outline through some places, as it is seen from an eye, with their strength there: on
-/// what faces the eye and lies not much before or behind the outline.
+/// Calls `fill` for all texels inside of the outline through some points, as seen from an eye, with their strength. Only
+/// surfaces that face the eye and are not far in front of or behind the outline are filled.
 pub(super) fn for_outline(
     texels: SurfaceTexels<'_>,
     points: &[StrokePoint],
@@ -155,7 +155,7 @@ pub(super) fn for_outline(
         if is_beside {
             continue;
         }
-        // Only places in space are asked for, so the plane may be any.
+        // Only positions in space are needed, so any plane may be used.
         let placed = PlacedTriangle {
             triangle,
             corners: [a, b, c],

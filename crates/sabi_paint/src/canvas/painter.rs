@@ -1,4 +1,4 @@
-//! Lays strokes on a canvas.
+//! Painting of strokes on a canvas.
 
 use std::sync::Arc;
 
@@ -23,10 +23,10 @@ use crate::supplies::Supplies;
 use crate::surface::PaintSurface;
 use crate::way::{WayPoint, way_of};
 
-/// Longest part of a way, as a share of the brush's radius: a part is a straight line on the unfolded surface.
+/// Maximum length of a part of a way, as a share of the brush's radius. A part is a straight line on the unfolded surface.
 const PART: f64 = 0.5;
 
-/// Lays strokes on canvases of one atlas.
+/// Paints strokes on canvases of one atlas.
 pub struct Painter<'a> {
     pub(super) surface: &'a PaintSurface<'a>,
     pub(super) atlas: &'a Atlas,
@@ -38,7 +38,7 @@ pub struct Painter<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// Prepares for an atlas of a surface.
+    /// Creates a painter for an atlas of a surface.
     pub fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas, supplies: Supplies<'a>) -> Painter<'a> {
         Painter {
             ghosts: ghosts_of_triangles(atlas),
@@ -51,8 +51,8 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Lays a stroke on a canvas as strong as it is outside of its group, and returns how many of its places the model does not have any
-    /// more.
+    /// Paints a stroke on a canvas with its own strength, ignoring the opacity of its group. Returns the number of its
+    /// points that the model no longer has.
     pub fn paint(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
         if stroke.changes_paint() {
             return self.adjust(canvas, stroke);
@@ -65,7 +65,7 @@ impl<'a> Painter<'a> {
         laid.lost
     }
 
-    /// Paint of a stroke that does not depend on the paint below, with its directions if they are kept.
+    /// Returns the paint of a stroke that does not depend on existing paint. With `keeps_direction`, it includes directions.
     pub fn lay(&mut self, stroke: &Stroke, keeps_direction: bool) -> LaidStroke {
         let (points, lost) = passed(self.surface, stroke);
         let mut kept = Kept {
@@ -83,7 +83,7 @@ impl<'a> Painter<'a> {
         self.laid(stroke, kept, lost)
     }
 
-    /// Ends a stroke, and gives what it leaves.
+    /// Ends a stroke, and returns its paint.
     pub(super) fn laid(&mut self, stroke: &Stroke, kept: Kept, lost: usize) -> LaidStroke {
         let mut laid = self.strengths.take(kept, lost);
         if let Some(input) = self.supplies.input.filter(|_| stroke.copies_in_place()) {
@@ -92,14 +92,15 @@ impl<'a> Painter<'a> {
         laid
     }
 
-    /// Makes ready for a stroke of which this is kept.
+    /// Prepares for a stroke for which these values are kept.
     pub(super) fn begin(&mut self, kept: Kept) {
         self.strengths.prepare(kept);
         self.strengths.forget_grains();
         self.sight.clear();
     }
 
-    /// The brush of a stroke; none if the stroke leaves nothing, since it is hidden, or lacks its picture or what it copies.
+    /// Returns the brush of a stroke; `None` if the stroke leaves nothing, since it is hidden, or since its picture or the
+    /// result that it copies is missing.
     pub(super) fn used(&self, stroke: &Stroke, kept: Kept) -> Option<UsedBrush> {
         let brush = stroke.brush.bounded();
         let picture = match &brush.picture {
@@ -121,7 +122,7 @@ impl<'a> Painter<'a> {
             return None;
         }
         let kept = Kept {
-            // Areas are filled with the color of the brush, since no picture is stamped there.
+            // Areas are filled with the color of the brush, since no picture is stamped on them.
             colors: is_colored
                 || (matches!(picture, Some((_, PicturePart::Colors)))
                     || (stroke.area == Area::Way && brush.jitter.changes_color()))
@@ -138,7 +139,7 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// A stroke with its copies on other sides of the model.
+    /// Returns a stroke and its copies on other sides of the model.
     pub(super) fn with_copies(
         &self,
         points: Vec<StrokePoint>,
@@ -174,7 +175,7 @@ impl<'a> Painter<'a> {
         self.draw_way(way, used);
     }
 
-    /// Fills the areas around the places of a stroke that are painted as they are; returns how many of them are lost.
+    /// Fills the areas around the points of a stroke that have similar paint. Returns the number of points that the model no longer has.
     fn fill_similar(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
         let (points, lost) = passed(self.surface, stroke);
         let mut kept = Kept {
@@ -195,7 +196,7 @@ impl<'a> Painter<'a> {
         lost
     }
 
-    /// Fills what lies inside of the way of a stroke.
+    /// Fills the area inside of the way of a stroke.
     fn draw_inside(&mut self, stroke: &LocatedStroke, used: &UsedBrush) {
         let mut filler = self.filler(&stroke.points, used);
         for_outline(filler.texels, &stroke.points, stroke.eye, |texel, cover, at| {
@@ -217,7 +218,7 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Unit direction in model space from one place to another; zero for one place.
+/// Returns the unit direction in model space from one point to another; zero if they are the same.
 pub(super) fn direction(from: &WayPoint, to: &WayPoint) -> DVec3 {
     (to.site.position - from.site.position).normalize_or_zero()
 }

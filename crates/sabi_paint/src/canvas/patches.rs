@@ -1,4 +1,4 @@
-//! The surface around a stamp, laid into a plane.
+//! The surface around a stamp, unfolded into a plane.
 
 use std::collections::BTreeMap;
 
@@ -9,24 +9,23 @@ use sabi_surface::patch::{PlacedTriangle, Site, Unfolder, axes};
 use super::texels::texel_width;
 use crate::surface::PaintSurface;
 
-/// Least cosine between the surface under the brush and another piece that it reaches.
+/// Minimum cosine between the normal of the surface under the brush and that of another piece that it paints.
 const LEAST_FACING: f64 = 0.5;
 
-/// Least cosine between the normal that a stamp is thrown along and a triangle that it lands on, about 75°.
+/// Minimum cosine between the direction in which a stamp is projected and the normal of a triangle that it paints, about 75°.
 const LEAST_THROWN: f64 = 0.25;
 
-/// A triangle in the plane of a patch, or beside it.
+/// A triangle in the plane of a patch, or next to it.
 #[derive(Clone, Copy)]
 pub(super) struct LaidTriangle {
     pub(super) placed: PlacedTriangle,
-    /// Its height over the plane.
+    /// Its height above the plane.
     pub(super) rise: f64,
-    /// True on another piece than that under the brush, which is laid beside it: its places may be farther away in space than in the
-    /// plane.
+    /// True if it belongs to another piece than the one under the brush. Its points may be farther away in space than in the plane.
     pub(super) is_other: bool,
 }
 
-/// Lays patches of a surface; keeps its memory between them.
+/// Unfolds patches of a surface. Keeps its memory from patch to patch.
 pub(super) struct Patches<'a> {
     surface: &'a PaintSurface<'a>,
     atlas: &'a Atlas,
@@ -37,21 +36,21 @@ pub(super) struct Patches<'a> {
     pub(super) laid: Vec<LaidTriangle>,
 }
 
-/// What is to be laid.
+/// Description of the patch to unfold.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) from: Site,
     pub(super) to: Option<Site>,
-    /// Direction of the x axis of the plane, as seen along the surface.
+    /// Direction of the x axis of the plane on the surface.
     pub(super) ahead: DVec3,
     pub(super) radius: f64,
-    /// True if other pieces nearby are laid, too.
+    /// True if other pieces nearby are included.
     pub(super) reaches_pieces: bool,
 }
 
-/// The plane of a patch: where the way ends in it, and what a stamp can reach there.
+/// The plane of a patch: the end of the way in it, and the area that a stamp can reach.
 pub(super) struct Plane {
-    /// The end; the start is the origin. The origin too where the surface does not lead to it.
+    /// The end of the way; its start is the origin. Also the origin if the surface does not lead to the end.
     pub(super) end: DVec2,
     pub(super) reach: f64,
 }
@@ -68,13 +67,13 @@ impl<'a> Patches<'a> {
         }
     }
 
-    /// Lays the surface around a way from one site to another, or around a single one.
+    /// Unfolds the surface around a way from one site to another, or around a single site.
     pub(super) fn lay(&mut self, wanted: Wanted) -> Plane {
         let connected = self.surface.connected();
         let Wanted { from, ahead, .. } = wanted;
         let chord = wanted.to.map_or(0.0, |to| from.position.distance(to.position));
         self.unfolder.unfold(connected, from, ahead, 0.0, &mut self.patch);
-        // Half a texel more than the radius, for the border of a hard brush.
+        // Adds half a texel to the radius, for the border of a hard brush.
         let mesh = self.surface.mesh();
         let texel = self
             .patch
@@ -103,8 +102,8 @@ impl<'a> Patches<'a> {
         }
     }
 
-    /// Throws the surface around a site straight along a normal onto the plane at right angles to it: what faces the normal and lies
-    /// no farther before or behind the plane than the radius. Only the site's own piece, unless others are reached.
+    /// Projects the surface around a site along a normal onto the plane perpendicular to it. Includes triangles that face the normal and
+    /// are not farther from the plane than the radius. Includes only the site's own piece, unless other pieces are wanted.
     pub(super) fn project(&mut self, wanted: Wanted, normal: DVec3) -> Plane {
         let connected = self.surface.connected();
         let index = self.surface.index();
@@ -123,7 +122,7 @@ impl<'a> Patches<'a> {
             let heights = offsets.map(|offset| offset.dot(normal));
             let nearest = heights[0].min(heights[1]).min(heights[2]).max(0.0);
             let farthest = heights[0].max(heights[1]).max(heights[2]).min(0.0);
-            // The height over the plane that is nearest to it: 0 for a triangle that crosses it.
+            // This is the height above the plane that is nearest to it: 0 for a triangle that crosses the plane.
             let rise = nearest + farthest;
             if rise.abs() < wanted.radius {
                 let corners = offsets.map(|offset| DVec2::new(offset.dot(x), offset.dot(y)));
@@ -141,9 +140,9 @@ impl<'a> Patches<'a> {
         }
     }
 
-    /// Lays other pieces near a site into the plane, so that a stroke goes on over the joint of two boards: each from its nearest
-    /// place on, turned to lie flat, as high over the plane as that place. Pieces that face away there, such as the other side of
-    /// a wall, stay clean.
+    /// Adds other pieces near a site to the plane, so that a stroke continues over the joint of two boards. Each piece is
+    /// unfolded from its nearest place on, rotated to be flat, at the height of that place above the plane. Pieces that
+    /// face away there, for example the other side of a wall, are not added.
     fn lay_other_pieces(&mut self, site: Site, ahead: DVec3, reach: f64) {
         let index = self.surface.index();
         if index.piece_count < 2 {
@@ -176,7 +175,7 @@ impl<'a> Patches<'a> {
             });
             self.patch.clear();
             let from = PlacedTriangle { triangle, corners };
-            // Its rim comes last: over it the piece would come back below itself, and its front to a wrong place.
+            // The rim of a piece is unfolded last. Unfolding across the rim first would put the front of the piece in a wrong place.
             let faces = |triangle: u32| connected.normal(triangle).dot(normal) >= LEAST_FACING;
             self.unfolder.grow(connected, from, reach, &mut self.patch, faces);
             let rise = offset.dot(normal);

@@ -1,4 +1,4 @@
-//! Ribbons: stamps laid end to end along a way and bent with it.
+//! Ribbons: stamps in a row along a way, bent with it.
 
 use std::collections::BTreeMap;
 
@@ -18,42 +18,42 @@ use crate::surface::PaintSurface;
 use crate::tips::{Spot, Stamp};
 use crate::way::WayPoint;
 
-/// A run of a way without gaps, as the ribbon along it is measured.
+/// A part of a way without gaps, as used by the ribbon along it.
 struct Run<'a> {
     points: &'a [WayPoint],
-    /// Way to each point, model units.
+    /// Length of the way up to each point in model units.
     passed: Vec<f64>,
-    /// Length of a stamp along the way, model units: a whole number of them fills the run.
+    /// Length of a stamp along the way in model units. The run has a whole number of stamps.
     stamp: f64,
-    /// True if the run leads back to its start.
+    /// True if the run returns to its start.
     is_closed: bool,
-    /// Number of the stroke for random differences.
+    /// Seed of the stroke for random differences.
     seed: u32,
 }
 
-/// A texel beside a part of the way.
+/// A texel next to a part of the way.
 struct Beside {
     texel: u32,
     part: u32,
-    /// Distance from the way, model units, which is thought to go on beyond its ends.
+    /// Distance from the way in model units. For this distance, the way is extended beyond its ends.
     distance: f64,
     /// Distance from the way itself.
     rank: f64,
-    /// Way to the nearest place of it, model units.
+    /// Length of the way up to its place nearest to the texel, in model units.
     along: f64,
-    /// Distance to the left of it, model units; below 0 to the right.
+    /// Distance to the left of the way in model units; negative to the right.
     across: f64,
     /// Triangle, and the weights of its second and third corner.
     triangle: u32,
     weights: [f32; 2],
-    /// Width of the texel, model units.
+    /// Width of the texel in model units.
     width: f64,
 }
 
-/// Texels that are found before those of them are left out that are nearer to another part: bounds the memory of wide ribbons.
+/// Number of texels that are found before those that are nearer to another part are removed. This limits the memory of wide ribbons.
 const FOUND_LIMIT: usize = 1 << 22;
 
-/// Leaves of each texel the part of the way that it is nearest to: the first of equally near ones.
+/// Keeps only the entry with the part of the way that is nearest to each texel; of equally near parts, the first.
 fn keep_nearest(all: &mut Vec<Beside>) {
     all.sort_unstable_by(|a, b| {
         let by_distance = a.rank.total_cmp(&b.rank);
@@ -85,7 +85,7 @@ impl<'a> Run<'a> {
         self.passed[self.passed.len() - 1]
     }
 
-    /// Sines of the turns of the way before and behind a part; 1 for sharper ones than a right angle.
+    /// Returns the sines of the angles between a part and the parts before and after it; 1 for angles of more than 90°.
     fn bends(&self, part: usize) -> [f64; 2] {
         let last = self.points.len() - 2;
         let way = |part: usize| direction(&self.points[part], &self.points[part + 1]);
@@ -104,7 +104,7 @@ impl<'a> Run<'a> {
         ]
     }
 
-    /// Share of a texel that lies between the ends of the ribbon, which are cut straight.
+    /// Returns the share of a texel between the ends of the ribbon, which are cut straight.
     fn inside(&self, beside: &Beside) -> f64 {
         if self.is_closed {
             return 1.0;
@@ -113,7 +113,7 @@ impl<'a> Run<'a> {
         (inside / beside.width + 0.5).clamp(0.0, 1.0)
     }
 
-    /// The pen at the place of the way that a texel is nearest to.
+    /// Returns the pose of the pen at the place of the way that is nearest to a texel.
     fn pose(&self, beside: &Beside) -> Pose {
         let part = beside.part as usize;
         let [from, to] = [part, part + 1].map(|index| (self.passed[index], self.points[index].pose));
@@ -184,7 +184,7 @@ impl Painter<'_> {
         }
     }
 
-    /// Finds the texels beside a part of the way, no farther from it than the brush is wide.
+    /// Finds the texels next to a part of the way whose distance from it is not larger than the radius.
     fn find_beside(&mut self, run: &Run<'_>, part: usize, used: &UsedBrush, found: &mut Vec<Beside>) {
         let (from, to) = (&run.points[part], &run.points[part + 1]);
         let length = run.passed[part + 1] - run.passed[part];
@@ -199,13 +199,13 @@ impl Painter<'_> {
             radius,
             reaches_pieces: used.brush.reaches_pieces,
         });
-        // Over a joint, from one board to the next, the way goes straight ahead in the plane.
+        // If the part crosses a joint, for example from one board to the next, it is a straight line in the plane.
         let end = if plane.end == DVec2::ZERO {
             DVec2::new(length, 0.0)
         } else {
             plane.end
         };
-        // Beyond a bend the texels of its outer side are nearest to the bend itself.
+        // At a bend, the texels on the outer side are nearest to the bend itself, so the part extends beyond its ends.
         let [before, behind] = run.bends(part).map(|bend| bend * radius + 2.0 * (plane.reach - radius));
         let within = [
             end.min(DVec2::ZERO) - DVec2::new(before, plane.reach),
@@ -237,14 +237,14 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Place of a texel beside the part.
+    /// Returns the position of a texel relative to the part.
     fn beside(&self, texel: u32, at: &At, laid: &LaidTriangle) -> Beside {
         let Part { run, number, end, .. } = *self;
         let (is_first, is_last) = (number == 0, number + 2 == run.points.len());
         let square = end.length_squared();
         let share = at.plane.dot(end) / square;
         let side = end.perp_dot(at.plane);
-        // The way is thought to go on beyond its ends, where nothing is drawn, so that they are straight.
+        // The first and the last part are extended beyond the ends of the way, where nothing is drawn, so that the ends are straight.
         let is_beyond = !run.is_closed && ((is_first && share < 0.0) || (is_last && share > 1.0));
         let ahead = (share - share.clamp(0.0, 1.0)) * square.sqrt();
         let (share, distance) = if is_beyond {
@@ -274,7 +274,7 @@ impl Part<'_> {
     }
 }
 
-/// Place of a texel.
+/// Returns the position of a texel.
 fn at_of(surface: &PaintSurface<'_>, beside: &Beside) -> At {
     let weights = DVec2::from(beside.weights.map(f64::from));
     let [first, second, third] = surface.connected().corners(beside.triangle);
@@ -287,7 +287,7 @@ fn at_of(surface: &PaintSurface<'_>, beside: &Beside) -> At {
     }
 }
 
-/// Stamp of a ribbon at a texel on a surface with this normal.
+/// Returns the stamp of a ribbon at a texel on a surface with this normal.
 fn drawn(
     run: &Run<'_>,
     beside: &Beside,

@@ -1,4 +1,4 @@
-//! How strong a brush is at a place around it.
+//! Strength of a brush at a place around it.
 
 use glam::{DMat2, DVec2, DVec3};
 
@@ -8,19 +8,19 @@ use crate::picture::{Ends, Stamped};
 pub(super) use crate::tips::random;
 use crate::tips::{Spot, Stamp, Tip};
 
-/// Least width of a border, as a share of the radius: nothing that is painted by hand is sharper.
+/// Minimum width of a border, as a share of the radius: paint by hand is not sharper.
 pub(super) const LEAST_TEXEL: f64 = 0.008;
 
-/// A place that is asked for.
+/// A place whose strength is wanted.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
-    /// In the plane of the patch, from the start of the way.
+    /// Position in the plane of the patch, relative to the start of the way.
     pub(super) plane: DVec2,
-    /// Height over the plane.
+    /// Height above the plane.
     pub(super) rise: f64,
-    /// Distance in space from the middle of the stamp, or from the line, where that in the plane may be less; else 0.
+    /// Distance in space from the middle of the stamp or from the line, if the distance in the plane may be smaller; otherwise 0.
     pub(super) apart: f64,
-    /// In space, model units.
+    /// Position in space in model units.
     pub(super) position: DVec3,
     /// Grain of the model for the tip.
     pub(super) grain: f64,
@@ -30,9 +30,9 @@ pub(super) struct Place {
     pub(super) texel: f64,
 }
 
-/// A round brush on its way from one place to the next, or a stamp of any brush.
+/// A round brush on its way from one point to the next, or a stamp of any brush.
 pub(super) enum Shape {
-    /// The way of a round brush.
+    /// A round brush on its way.
     Capsule {
         /// End in the plane; the start is the origin.
         end: DVec2,
@@ -47,14 +47,14 @@ pub(super) enum Shape {
         radius: f64,
         strength: f64,
         hardness: f64,
-        /// Turns a way from the middle so that x lies along the tip.
+        /// Rotates an offset from the middle so that x is along the tip.
         tip_from_plane: DMat2,
         stamp: Stamp,
     },
 }
 
 impl Shape {
-    /// The greatest strength anywhere.
+    /// Returns the greatest strength anywhere.
     pub(super) fn most(&self) -> f64 {
         match self {
             Shape::Capsule { strengths, .. } => strengths[0].max(strengths[1]),
@@ -62,7 +62,7 @@ impl Shape {
         }
     }
 
-    /// Strength and color at a place.
+    /// Returns strength and color at a place.
     pub(super) fn drawn(&self, place: &Place, used: &UsedBrush) -> Stamped {
         if let (
             Shape::Stamp {
@@ -90,7 +90,7 @@ impl Shape {
         }
     }
 
-    /// Strength at a place, 0 to 1.
+    /// Returns the strength at a place, 0 to 1.
     fn strength(&self, place: &Place, brush: &Brush) -> f64 {
         match self {
             Shape::Capsule {
@@ -138,14 +138,14 @@ impl Shape {
     }
 }
 
-/// Distance of a place from its square in the plane and its height over it. Square roots are the same on every machine, unlike
-/// `hypot`.
+/// Returns the distance, given the square of the distance in the plane and the height above the plane. Square roots give
+/// the same bits on every machine, unlike `hypot`.
 fn beside(square: f64, rise: f64) -> f64 {
     (square + rise * rise).sqrt()
 }
 
-/// Strength by the distance from the middle. A border that is harder than texels can show becomes one texel wide, and a brush that
-/// is thinner than a texel becomes faint.
+/// Returns the strength at a distance from the middle. A border that is sharper than texels can show becomes one texel
+/// wide, and a brush that is thinner than a texel becomes faint.
 pub(super) fn faded(distance: f64, radius: f64, texel: f64, brush: &Brush, hardness: f64) -> f64 {
     let band = (1.0 - hardness) * radius;
     let fall = if band >= texel {
@@ -165,9 +165,9 @@ pub(super) fn faded(distance: f64, radius: f64, texel: f64, brush: &Brush, hardn
     }
 }
 
-/// Grain of the model for the tip of a brush, at a place with texels of this width; 0 for tips without one.
+/// Returns the grain of the model for the tip of a brush, at a place with texels of this width; 0 for tips without grain.
 pub(super) fn grain_at(brush: &Brush, position: DVec3, width: f64) -> f64 {
     let radius = f64::from(brush.radius);
     let of = |grain: fn(DVec3, f64) -> f64| grain(position / radius, (width / radius).max(LEAST_TEXEL));
-    brush.tip.grain().map_or(0.0, of) // Asked for by no other tip.
+    brush.tip.grain().map_or(0.0, of) // Other tips do not use the grain.
 }

@@ -1,4 +1,4 @@
-//! Places that an artist saw while a stroke was drawn.
+//! Visibility of places for the artist while a stroke was drawn.
 
 use glam::DVec3;
 
@@ -6,24 +6,24 @@ use super::texels::At;
 use crate::limits::{Eye, Limits};
 use crate::surface::PaintSurface;
 
-/// Cosines between the surface and the ray to the eye, between which places nearly edge-on fade.
+/// Range of cosines between the surface normal and the ray to the eye in which places that are seen nearly edge-on fade.
 const EDGE_ON: [f64; 2] = [0.05, 0.25];
-/// Least cosine between the surface and the ray to the eye of a place that is seen at all, from before or from behind.
+/// Minimum cosine between the surface normal and the ray to the eye at which a place is visible, from the front or from the back.
 const LEAST_SEEN: f64 = 0.02;
-/// Widths of a texel that a ray starts above the surface, so that it does not meet the triangle that it leaves.
+/// Height above the surface at which a ray starts, in texel widths, so that it does not hit the triangle that it leaves.
 const LIFT: f64 = 1.0;
 
-/// Sight of the places under a stroke; keeps what it found until the next stroke.
+/// Visibility of the places under a stroke. Results are kept until the next stroke.
 #[derive(Default)]
 pub(super) struct Sight {
-    /// Share of the strength that each texel gets, less than 0 where it was not asked for; empty until the first stroke with
-    /// such a limit.
+    /// Share of the strength that each texel receives; negative if it has not been computed. Empty until the first stroke
+    /// with such a limit.
     shares: Vec<f32>,
-    /// Texels that were asked for.
+    /// Texels whose share has been computed.
     known: Vec<u32>,
 }
 
-/// Eye of a stroke with the limits that need it.
+/// Eye of a stroke, with the limits that depend on it.
 #[derive(Clone, Copy)]
 pub(super) struct Watched {
     pub(super) eye: Eye,
@@ -31,7 +31,7 @@ pub(super) struct Watched {
 }
 
 impl Watched {
-    /// None where nothing depends on the eye. A stroke that was drawn without one, such as in the 2D view, reaches everything.
+    /// Returns `None` if no limit depends on the eye. A stroke without an eye, which was drawn in the 2D view, paints everything.
     pub(super) fn of(eye: Option<Eye>, limits: Limits) -> Option<Watched> {
         let eye = eye.filter(|eye| eye.is_finite() && (limits.front_only || limits.seen_only))?;
         Some(Watched { eye, limits })
@@ -39,20 +39,20 @@ impl Watched {
 }
 
 impl Sight {
-    /// Forgets what it found, since the eye is another.
+    /// Forgets all results, since the eye has changed.
     pub(super) fn clear(&mut self) {
         for texel in self.known.drain(..) {
             self.shares[texel as usize] = -1.0;
         }
     }
 
-    /// Shares found so far, by texel.
+    /// Returns the shares computed so far, by texel.
     pub(super) fn saved(&self) -> Vec<(u32, f32)> {
         let known = self.known.iter();
         known.map(|texel| (*texel, self.shares[*texel as usize])).collect()
     }
 
-    /// Takes up what another one found in an atlas of as many texels.
+    /// Restores shares that were saved, for an atlas of this many texels.
     pub(super) fn restore(&mut self, saved: &[(u32, f32)], texels: usize) {
         if self.shares.is_empty() && !saved.is_empty() {
             self.shares = vec![-1.0; texels];
@@ -63,7 +63,7 @@ impl Sight {
         }
     }
 
-    /// Share of the strength that a texel gets, 0 to 1.
+    /// Returns the share of the strength that a texel receives, 0 to 1.
     pub(super) fn share(
         &mut self,
         surface: &PaintSurface<'_>,

@@ -1,4 +1,4 @@
-//! The area around a place that is painted about as much.
+//! The area around a place with about the same amount of paint.
 
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 
@@ -6,8 +6,8 @@ use super::Canvas;
 use crate::stroke::StrokePoint;
 use crate::surface::PaintSurface;
 
-/// Texels of the connected area around some places whose cover differs from theirs by no more than a tolerance, ghosts that show
-/// them included. It goes on over seams through ghosts.
+/// Returns the texels of the connected area around some points whose cover differs from theirs by at most a tolerance,
+/// including ghosts that show them. Ghosts continue the area across seams.
 pub(super) fn similar_texels(
     surface: &PaintSurface<'_>,
     atlas: &Atlas,
@@ -37,7 +37,7 @@ pub(super) fn similar_texels(
                 if !is_filled[next] && (cover(next) - wanted).abs() <= tolerance {
                     open.push(next);
                 }
-                // The texels of its border, too: no fringe is left before the paint that it ends at.
+                // The texels at its border are filled as well, so that no gap is left before the paint at which the area ends.
                 is_filled[next] = true;
             }
         }
@@ -46,7 +46,7 @@ pub(super) fn similar_texels(
     (0..atlas.owners.len()).filter(shows_filled).collect()
 }
 
-/// The texel that a texel shows: itself, or the one beyond a seam for a ghost; none for an empty one.
+/// Returns the texel whose value a texel shows: itself, or for a ghost the texel beyond a seam; `None` for an empty one.
 fn shown_by(atlas: &Atlas, texel: usize) -> Option<usize> {
     let owner = *atlas.owners.get(texel)?;
     if owner == EMPTY {
@@ -61,14 +61,14 @@ fn shown_by(atlas: &Atlas, texel: usize) -> Option<usize> {
     target.filter(|target| atlas.owners[*target] & GHOST_BIT == 0)
 }
 
-/// Index of the texel that a place of a page lies in.
+/// Returns the index of the texel that contains a position on a page.
 fn texel_of(atlas: &Atlas, page: u32, [x, y]: [f64; 2]) -> Option<usize> {
     let [columns, rows] = atlas.page_size.map(|side| side as usize);
     let is_inside = x >= 0.0 && y >= 0.0 && x < columns as f64 && y < rows as f64;
     is_inside.then(|| (page as usize * rows + y as usize) * columns + x as usize)
 }
 
-/// The texel that shows a place of the surface.
+/// Returns the texel that shows a place of the surface.
 fn texel_at(surface: &PaintSurface<'_>, atlas: &Atlas, point: &StrokePoint) -> Option<usize> {
     let triangle = point.site.triangle;
     let chart = &atlas.charts[*atlas.triangle_chart.get(triangle as usize)? as usize];

@@ -18,30 +18,30 @@ use crate::stroke::{Area, StrokePoint};
 use crate::surface::rightward;
 use crate::way::{WayPoint, spaced};
 
-/// Sine of the slope, about 2°, from which on a surface has a direction down.
+/// Sine of the slope from which on a surface has a downward direction, about 2°.
 const LEAST_SLOPE: f64 = 0.035;
-/// Sine of the lean of a pen, about 2°, from which on it has a direction.
+/// Sine of the angle from which on a leaning pen has a direction, about 2°.
 const LEAST_LEAN: f64 = 0.035;
 
-/// Way in which a shape adds to the strength of a stroke.
+/// Way in which a shape is added to the strength of a stroke.
 #[derive(Clone, Copy)]
 struct Laying {
     /// Share of its strength that a stamp adds.
     flow: f64,
-    /// True if stamps that lie on each other add up until they cover; else they rise to the strongest of them.
+    /// True if overlapping stamps add up until they cover fully; otherwise the strength is that of the strongest stamp.
     builds_up: bool,
     /// Direction of the stroke.
     direction: DVec3,
-    /// Linear color of the stamp where it differs from the brush's.
+    /// Linear color of the stamp, if it differs from the brush's color.
     color: Option<[f32; 3]>,
-    /// Surface under the middle of the stamp.
+    /// Normal of the surface under the middle of the stamp.
     normal: DVec3,
-    /// Ends of the line in space; for a stamp its middle twice.
+    /// Ends of the line in space; for a stamp, its middle twice.
     ends: [DVec3; 2],
 }
 
 impl Laying {
-    /// Distance in space of a place of another piece from the line; 0 on the same piece.
+    /// Returns the distance in space of a place of another piece from the line; 0 on the same piece.
     fn apart(&self, is_other: bool, place: DVec3) -> f64 {
         if is_other {
             distance_to_line(place, self.ends)
@@ -51,7 +51,7 @@ impl Laying {
     }
 }
 
-/// Distance of a place in space from a line between two others.
+/// Returns the distance of a point from a line segment in space.
 pub(super) fn distance_to_line(place: DVec3, [from, to]: [DVec3; 2]) -> f64 {
     let way = to - from;
     let share = (place - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
@@ -59,8 +59,8 @@ pub(super) fn distance_to_line(place: DVec3, [from, to]: [DVec3; 2]) -> f64 {
 }
 
 impl Painter<'_> {
-    /// Draws the parts of a way from some places on as one line without beads: the strength of a texel is that of the nearest place of
-    /// the way.
+    /// Draws the parts of a way from some points on as one line without visible stamps: the strength of a texel is that of
+    /// the nearest place of the way.
     pub(super) fn draw_line(&mut self, way: &[WayPoint], parts: Range<usize>, used: &UsedBrush) {
         let brush = &used.brush;
         for (index, point) in way.iter().enumerate().take(parts.end).skip(parts.start) {
@@ -104,7 +104,7 @@ impl Painter<'_> {
         }
     }
 
-    /// Draws a range of the stamps of a stroke, which build up.
+    /// Draws a range of the stamps of a stroke, whose strengths add up.
     pub(super) fn draw_stamps(&mut self, stamps: &[StampPlace], range: Range<usize>, used: &UsedBrush) {
         let brush = &used.brush;
         let seed = stroke_seed(stamps.first().map(|first| first.point).as_slice());
@@ -150,7 +150,7 @@ impl Painter<'_> {
         }
     }
 
-    /// Draws a single stamp at the first of some places, upright on the model but for the angle of the brush.
+    /// Draws a single stamp at the first of some points, upright on the model except for the angle of the brush.
     pub(super) fn draw_single(&mut self, points: &[StrokePoint], area: Area, used: &UsedBrush) {
         let Some(point) = points.first() else { return };
         let normal = self.normal_under(point.site);
@@ -189,8 +189,8 @@ impl Painter<'_> {
         self.stamp(&shape, [-reach, reach], used, laying);
     }
 
-    /// Calls `visit` for the texels under a stamp without random differences on the patch that was laid last, with their places in
-    /// its plane and the strength there.
+    /// Calls `visit` for the texels under a stamp without random differences, on the patch that was laid last, with their
+    /// positions in its plane and the strength there.
     pub(super) fn for_stamped(
         &mut self,
         stamp: &StampPlace,
@@ -227,7 +227,7 @@ impl Painter<'_> {
         });
     }
 
-    /// Calls `visit` for all texels on the patch that was laid last that a shape adds to, with their places in its plane.
+    /// Calls `visit` for all texels, on the patch that was laid last, to which a shape adds strength, with their positions in its plane.
     fn for_drawn(
         &mut self,
         shape: &Shape,
@@ -252,7 +252,7 @@ impl Painter<'_> {
         for laid in &patches.laid {
             let normal = surface.connected().normal(laid.placed.triangle);
             for_texels(texels, &laid.placed, within, |texel, at| {
-                // Places in the middle of a line lie under many of its parts.
+                // Places in the middle of a line are covered by many of its parts, so those with the full strength are skipped.
                 if !laying.builds_up && strengths.at(texel) >= most {
                     return;
                 }
@@ -283,13 +283,14 @@ impl Painter<'_> {
         }
     }
 
-    /// Place in space of one in the plane around a site.
+    /// Returns the position in space of a point in the plane around a site.
     fn in_space(&self, site: Site, ahead: DVec3, place: DVec2) -> DVec3 {
         let (x, y) = axes(self.surface.connected().normal(site.triangle), ahead);
         site.position + place.x * x + place.y * y
     }
 
-    /// Direction of the x axis of a stamp. A single one, which has no direction, lies to the right as seen from outside.
+    /// Returns the direction of the x axis of a stamp. For a single stamp, which has no direction, it is to the right as
+    /// seen from outside.
     pub(super) fn ahead(&self, stamp: &StampPlace, turn: Turn) -> DVec3 {
         let normal = self.surface.connected().normal(stamp.point.site.triangle);
         let is_level = 1.0 - normal.y * normal.y < LEAST_SLOPE * LEAST_SLOPE;
@@ -302,13 +303,13 @@ impl Painter<'_> {
         }
     }
 
-    /// Unit shading normal at a site; that of the triangle where there is none.
+    /// Returns the unit shading normal at a site, or the normal of the triangle if there is no shading normal.
     pub(super) fn normal_under(&self, site: Site) -> DVec3 {
         self.surface.smooth_normal_at(site)
     }
 }
 
-/// Grain of the model at a texel for the tip of a brush; 0 for one without.
+/// Returns the grain of the model at a texel for the tip of a brush; 0 for a tip without grain.
 fn grain_of(strengths: &mut Strengths, texel: usize, at: &At, used: &UsedBrush) -> f64 {
     if used.picture.is_some() || used.brush.tip.grain().is_none() {
         return 0.0;
@@ -316,15 +317,15 @@ fn grain_of(strengths: &mut Strengths, texel: usize, at: &At, used: &UsedBrush) 
     strengths.grain(texel, || grain_at(&used.brush, at.position, at.width))
 }
 
-/// A stamp on its way.
+/// A stamp of a way.
 pub(super) struct StampPlace {
     pub(super) point: WayPoint,
     /// Direction of the stroke.
     pub(super) direction: DVec3,
 }
 
-/// How far the part of a line from a place on paints before its start and behind its end, in radii. Where the line goes on, the part
-/// beside it paints there, but for the outer side of a bend, which is nearest to the bend itself.
+/// Returns how far the part of a line after a point paints before its start and behind its end, in radii. Where the line
+/// continues, the adjacent part paints there, except on the outer side of a bend, which is nearest to the bend itself.
 fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
     let next = |index: usize| way.get(index + 1).filter(|next| next.is_joined);
     let Some(to) = next(index) else { return [2.0; 2] };
@@ -333,7 +334,7 @@ fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
         let cosine = direction(from, to).dot(own).clamp(0.0, 1.0);
         (1.0 - cosine * cosine).sqrt()
     };
-    // A brush whose size changes reaches beyond the part beside it.
+    // If the size of the brush changes, a part reaches beyond the adjacent part.
     let is_even = |others: [&WayPoint; 2]| {
         let pose = &way[index].pose;
         let presses_alike = |other: &Pose| !brush.pressure.change_lines() || other.pressure == pose.pressure;
@@ -357,7 +358,7 @@ fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
     ]
 }
 
-/// The stamps along a way.
+/// Returns the stamps along a way.
 pub(super) fn stamps_of(way: &[WayPoint], used: &UsedBrush) -> Vec<StampPlace> {
     let spacing = f64::from(used.brush.spacing);
     let stamps = spaced(way, |pose| spacing * used.brush.radius_at(pose));
@@ -376,17 +377,18 @@ pub(super) fn stamps_of(way: &[WayPoint], used: &UsedBrush) -> Vec<StampPlace> {
     placed.collect()
 }
 
-/// Turn of the tip under a pen, degrees; the other way round in a mirror.
+/// Returns the rotation of the tip for a pose of the pen in degrees, reversed in a mirror.
 fn turned(used: &UsedBrush, pose: &Pose) -> f64 {
     mirrored(used, used.brush.turn_at(pose))
 }
 
-/// A turn, the other way round in a mirror.
+/// Returns an angle, reversed in a mirror.
 fn mirrored(used: &UsedBrush, turn: f64) -> f64 {
     if used.is_mirrored { -turn } else { turn }
 }
 
-/// Number of a stroke for random differences, from its first place: the same while it is drawn and whenever it is drawn again.
+/// Returns the seed of a stroke for random differences. It is computed from the first point, so that it is the same while
+/// the stroke is drawn and whenever it is painted again.
 pub(super) fn stroke_seed(way: &[WayPoint]) -> u32 {
     way.first().map_or(0, |first| {
         let [x, y, z] = first.site.position.as_vec3().to_array().map(f32::to_bits);

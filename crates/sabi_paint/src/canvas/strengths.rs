@@ -1,4 +1,4 @@
-//! Paint of one stroke, before it lies on a canvas.
+//! Paint of one stroke, before it is put on a canvas.
 
 use sabi_color::luminance;
 
@@ -6,25 +6,25 @@ use super::{Canvas, Laid};
 use crate::stroke::{Action, Stroke};
 use crate::supplies::{InputColors, bounded};
 
-/// Strength of a stroke at each texel while it is drawn, and what else it leaves there.
+/// Strength of a stroke at each texel while it is painted, and its other values.
 pub(super) struct Strengths {
-    /// 0 where the stroke does not touch, and everywhere between strokes.
+    /// Strength of each texel; 0 where the stroke does not touch, and everywhere between strokes.
     texels: Vec<f32>,
-    /// Texels that the stroke touches, each once.
+    /// Texels that the stroke touches, without repeats.
     touched: Vec<u32>,
     /// Direction of the stroke at each texel that it touches; empty until directions are kept.
     directions: Vec<[f32; 3]>,
-    /// Color times strength at each texel that it touches; empty until a picture gives colors.
+    /// Color times strength at each texel that it touches; empty until a picture provides colors.
     colors: Vec<[f32; 3]>,
-    /// Grain of the model for the tip at each texel, no number where it was not asked for; empty until a tip has one.
+    /// Grain of the model for the tip at each texel; NaN if it has not been computed. Empty until a tip uses it.
     grains: Vec<f32>,
     /// Texels whose grain is known.
     grained: Vec<u32>,
 }
 
-/// State of a stroke while it is drawn, to go on from there.
+/// State of a stroke while it is painted, for continuing it later.
 pub(super) struct SavedStrengths {
-    /// Texels with the strength there, in the order in which they were touched.
+    /// Texels with their strength, in the order in which they were touched.
     texels: Vec<(u32, f32)>,
     directions: Vec<[f32; 3]>,
     colors: Vec<[f32; 3]>,
@@ -32,7 +32,7 @@ pub(super) struct SavedStrengths {
 }
 
 impl SavedStrengths {
-    /// Bytes of memory that it takes.
+    /// Returns the number of bytes of memory that it uses.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.texels.as_slice())
             + size_of_val(self.directions.as_slice())
@@ -41,30 +41,30 @@ impl SavedStrengths {
     }
 }
 
-/// Values of a stroke that are kept besides its strength.
+/// Values of a stroke that are kept in addition to its strength.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Kept {
     pub(super) directions: bool,
     pub(super) colors: bool,
 }
 
-/// Paint that a stamp adds at a texel.
+/// Paint that a stamp adds to a texel.
 #[derive(Clone, Copy)]
 pub(super) struct Added {
     /// 0 to 1.
     pub(super) strength: f64,
     /// Share of it that is added at once.
     pub(super) flow: f64,
-    /// True if it adds up with the stamps before until they cover; else they rise to the strongest of them.
+    /// True if it adds up with earlier stamps until they cover fully; otherwise the strength is that of the strongest stamp.
     pub(super) builds_up: bool,
-    /// Direction of the stroke, where directions are kept.
+    /// Direction of the stroke, if directions are kept.
     pub(super) direction: Option<[f32; 3]>,
-    /// Color of the stamp, where colors are kept.
+    /// Color of the stamp, if colors are kept.
     pub(super) color: Option<[f32; 3]>,
 }
 
 impl Added {
-    /// A strength that counts where it is the greatest.
+    /// Returns a strength that has an effect only if it is the greatest.
     pub(super) fn at_most(strength: f64) -> Added {
         Added {
             strength,
@@ -93,12 +93,12 @@ impl Strengths {
         self.texels.len()
     }
 
-    /// Strength of the stroke at a texel so far.
+    /// Returns the strength of the stroke at a texel so far.
     pub(super) fn at(&self, texel: usize) -> f32 {
         self.texels[texel]
     }
 
-    /// Grain at a texel: that of before in this stroke, or what the function gives.
+    /// Returns the grain at a texel. It is computed by the function if this stroke has not needed it before.
     pub(super) fn grain(&mut self, texel: usize, find: impl FnOnce() -> f64) -> f64 {
         if self.grains.is_empty() {
             self.grains = vec![f32::NAN; self.texels.len()];
@@ -110,14 +110,14 @@ impl Strengths {
         f64::from(self.grains[texel])
     }
 
-    /// Forgets the grains of the stroke before, whose brush was another.
+    /// Forgets the grains of the previous stroke, which had another brush.
     pub(super) fn forget_grains(&mut self) {
         for texel in self.grained.drain(..) {
             self.grains[texel as usize] = f32::NAN;
         }
     }
 
-    /// Makes room for what is kept.
+    /// Allocates memory for the values that are kept.
     pub(super) fn prepare(&mut self, kept: Kept) {
         let count = self.texels.len();
         if kept.directions && self.directions.is_empty() {
@@ -145,7 +145,7 @@ impl Strengths {
             self.directions[texel] = direction;
         }
         if let Some(color) = added.color {
-            // A stamp covers those before it, or adds the color of what it rises above them.
+            // A stamp covers earlier stamps, or adds its color in proportion to how far it exceeds them.
             let (share, left) = if added.builds_up {
                 let share = (added.flow * added.strength) as f32;
                 (share, 1.0 - share)
@@ -158,11 +158,11 @@ impl Strengths {
         if before == 0.0 {
             self.touched.push(texel as u32);
         }
-        // Touched only once, also where the strength is too small for a float.
+        // Ensures that the texel is recorded as touched, even if the strength is too small for a float.
         self.texels[texel] = (after as f32).max(f32::MIN_POSITIVE);
     }
 
-    /// State of the stroke so far.
+    /// Returns the state of the stroke so far.
     pub(super) fn saved(&self, kept: Kept) -> SavedStrengths {
         let of_touched = |is_kept: bool, values: &[[f32; 3]]| match is_kept {
             true => self.touched.iter().map(|texel| values[*texel as usize]).collect(),
@@ -180,7 +180,7 @@ impl Strengths {
         }
     }
 
-    /// Begins a stroke, for which this was prepared, with what another one had.
+    /// Starts a stroke from a saved state.
     pub(super) fn restore(&mut self, saved: &SavedStrengths) {
         for (texel, strength) in &saved.texels {
             self.touched.push(*texel);
@@ -199,7 +199,7 @@ impl Strengths {
         }
     }
 
-    /// Ends the stroke.
+    /// Ends the stroke and returns its paint.
     pub(super) fn take(&mut self, kept: Kept, lost: usize) -> LaidStroke {
         let mut laid = LaidStroke {
             texels: Vec::with_capacity(self.touched.len()),
@@ -212,7 +212,7 @@ impl Strengths {
             let strength = std::mem::take(&mut self.texels[texel as usize]);
             laid.texels.push((texel, strength));
             if kept.directions {
-                // Fills have no direction, and leave none to the next stroke.
+                // Fills have no directions, and the next stroke must not find any.
                 laid.directions
                     .push(std::mem::take(&mut self.directions[texel as usize]));
             }
@@ -225,34 +225,34 @@ impl Strengths {
     }
 }
 
-/// Paint of a stroke, before it lies on a canvas.
+/// Paint of a stroke, before it is put on a canvas.
 pub struct LaidStroke {
-    /// Texels with the strength of the stroke there.
+    /// Texels with the strength of the stroke.
     texels: Vec<(u32, f32)>,
-    /// Directions of the stroke there; empty where they are not kept.
+    /// Directions of the stroke at these texels; empty if they are not kept.
     directions: Vec<[f32; 3]>,
-    /// Colors there; empty where the stroke has the color of its brush.
+    /// Colors at these texels; empty if the stroke has the color of its brush.
     colors: Vec<[f32; 3]>,
-    /// True if the colors are copied, so that the mask gets their luminance; the height and the direction below stay.
+    /// True if the colors are copied. In this case the mask receives their luminance, and the existing height and direction are kept.
     is_copied: bool,
-    /// Places of the stroke that the model does not have any more.
+    /// Number of points of the stroke that the model no longer has.
     pub lost: usize,
 }
 
 impl LaidStroke {
-    /// Replaces its colors by those of a result.
+    /// Replaces its colors by those of a node result.
     pub(super) fn copy(&mut self, input: &InputColors<'_>) {
         let colors = self.texels.iter().map(|(texel, _)| bounded(input(*texel as usize)));
         self.colors = colors.collect();
         self.is_copied = true;
     }
 
-    /// Lays the stroke on a canvas.
+    /// Puts the stroke on a canvas.
     pub fn onto(&self, canvas: &mut Canvas, stroke: &Stroke) {
         let brush = stroke.brush.bounded();
         for (index, (texel, strength)) in self.texels.iter().enumerate() {
-            let direction = self.directions.get(index).copied().unwrap_or([0.0; 3]); // Not kept, and so not read.
-            let color = self.colors.get(index).copied().unwrap_or(brush.color); // As the brush has it.
+            let direction = self.directions.get(index).copied().unwrap_or([0.0; 3]); // The direction is zero if it is not kept, in which case it is not read.
+            let color = self.colors.get(index).copied().unwrap_or(brush.color); // Without a color of its own, the texel has the color of the brush.
             let paint = Laid {
                 strength: strength * brush.opacity,
                 value: if self.is_copied { luminance(color) } else { brush.value },

@@ -1,4 +1,4 @@
-//! Strokes on the project's own models, held against formulas.
+//! Strokes on the project's own models, compared with formulas.
 
 mod buckets;
 mod changes;
@@ -38,7 +38,7 @@ fn atlas_of(mesh: &Mesh, size: u32) -> Atlas {
     Atlas::build(mesh, &AtlasOptions::new(size)).unwrap()
 }
 
-/// Site where a ray from outside toward the middle of the model meets it.
+/// Returns the site at which a ray from outside toward the middle of the model hits it.
 fn site_seen_from(mesh: &Mesh, bvh: &Bvh, eye: DVec3, toward: DVec3) -> Option<Site> {
     let direction = (toward - eye).normalize();
     let hit = bvh.closest(eye.as_vec3().to_array(), direction.as_vec3().to_array(), 1e3)?;
@@ -48,7 +48,7 @@ fn site_seen_from(mesh: &Mesh, bvh: &Bvh, eye: DVec3, toward: DVec3) -> Option<S
     })
 }
 
-/// Distance of the farthest place of a model from the origin.
+/// Returns the largest distance of a point of a model from the origin.
 fn size_of(mesh: &Mesh) -> f64 {
     let distances = mesh.positions.iter().map(|at| DVec3::from(at.map(f64::from)).length());
     distances.fold(0.0, f64::max)
@@ -73,7 +73,7 @@ fn painted_with(
     canvas
 }
 
-/// Texel of the front of a plate ([`plates::plate`]) at a place between −1 and 1 to both sides.
+/// Returns the texel of the front of a plate ([`plates::plate`]) at a position between −1 and 1 along both sides.
 fn texel_of_plate(atlas: &Atlas, [x, y]: [f64; 2]) -> usize {
     let offset = atlas.charts[atlas.triangle_chart[0] as usize].texel_from_uv;
     let uv = [0.0625 + 0.1875 * (x + 1.0), 0.0625 + 0.1875 * (1.0 - y)];
@@ -81,12 +81,12 @@ fn texel_of_plate(atlas: &Atlas, [x, y]: [f64; 2]) -> usize {
     row * atlas.page_size[0] as usize + column
 }
 
-/// Places of a way over the front of a plate, straight from one place to another.
+/// Returns points of a straight way over the front of a plate from one position to another.
 fn way_on_plate(surface: &PaintSurface<'_>, from: [f64; 2], to: [f64; 2], events: usize) -> Vec<StrokePoint> {
     let point = |event: usize| {
         let share = event as f64 / (events.max(2) - 1) as f64;
         let [x, y] = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
-        // The diagonal from lower left to upper right parts the two triangles.
+        // The diagonal from lower left to upper right separates the two triangles.
         let triangle = u32::from(y > x);
         let height = f64::from(surface.mesh().positions[0][2]);
         let position = DVec3::new(x, y, height);
@@ -95,7 +95,7 @@ fn way_on_plate(surface: &PaintSurface<'_>, from: [f64; 2], to: [f64; 2], events
     (0..events).map(point).collect()
 }
 
-/// Covered area, model units squared: the sum over owned texels of their area times how much they are painted.
+/// Returns the covered area in square model units: the sum over owned texels of their area times their cover.
 fn covered_area(mesh: &Mesh, atlas: &Atlas, canvas: &Canvas) -> f64 {
     let mut area = 0.0;
     for (texel, owner) in atlas.owners.iter().enumerate() {
@@ -112,7 +112,7 @@ fn covered_area(mesh: &Mesh, atlas: &Atlas, canvas: &Canvas) -> f64 {
     area
 }
 
-/// A stroke over a model as a hand draws it: seen from one side, with that many events.
+/// Returns a stroke over a model as a hand draws it: seen from one side, with this many events.
 fn drawn(
     surface: &PaintSurface<'_>,
     bvh: &Bvh,
@@ -163,12 +163,12 @@ fn a_disk_on_a_ball_has_the_area_of_a_cap() {
 }
 
 #[test]
-fn thirty_events_a_second_leave_what_two_hundred_and_forty_do() {
+fn thirty_events_a_second_paint_the_same_as_two_hundred_and_forty() {
     let mesh = mesh_of("sphere");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
     let size = size_of(&mesh);
-    // An arc in one second over the front of the model.
+    // An arc over the front of the model, drawn in one second.
     let path = |t: f64| size * DVec3::new(0.25 * (2.0 * t - 1.0), 0.45 + 0.12 * (3.0 * t).sin(), 0.0);
     let brush = |flow: f32| Brush {
         radius: (0.08 * size) as f32,
@@ -233,7 +233,7 @@ fn a_ghost_shows_what_is_painted_on_the_other_side_of_its_seam() {
     for ghost in &atlas.ghosts {
         let [x, y, page] = ghost.texel.map(|number| number as usize);
         let own = canvas.texel((page * rows + y) * columns + x).cover;
-        // The texel that the point beyond the seam lies in.
+        // The texel that contains the point beyond the seam.
         let chart = &atlas.charts[atlas.triangle_chart[ghost.target_triangle as usize] as usize];
         let [target_x, target_y] = ghost.target_texel.map(|place| place.floor() as usize);
         let target = (chart.page as usize * rows + target_y) * columns + target_x;
@@ -244,12 +244,12 @@ fn a_ghost_shows_what_is_painted_on_the_other_side_of_its_seam() {
         compared += usize::from(own > 0.0);
         far += usize::from((own - canvas.texel(target).cover).abs() > 0.15);
     }
-    // Around the tip of a corner two ways are equally long, and the plane is cut along the one that was found later.
+    // Around the tip of a corner, two ways are equally long, and the plane is cut along the one that was found later.
     assert!(compared > 100 && 200 * far < compared, "{far} of {compared}");
 }
 
 #[test]
-fn erasing_takes_away_what_was_painted_and_hidden_strokes_leave_nothing() {
+fn erasing_removes_paint_and_hidden_strokes_leave_nothing() {
     let mesh = mesh_of("cube");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -280,7 +280,7 @@ fn opacity_limits_a_whole_stroke_and_flow_a_single_stamp() {
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
     let at = |t: f64| DVec3::new(0.4 * (2.0 * t - 1.0), 0.0, 0.0);
-    // Three times over the same place.
+    // Passes over the same place three times.
     let there_and_back = |t: f64| at((3.0 * t).min(2.0 - (3.0 * t).min(2.0)).abs());
     let points = drawn(&surface, &bvh, 90, DVec3::Z * 9.0, there_and_back);
     let most = |brush: Brush| {
@@ -302,7 +302,7 @@ fn opacity_limits_a_whole_stroke_and_flow_a_single_stamp() {
 }
 
 #[test]
-fn strokes_lie_where_they_were_after_the_triangles_are_numbered_anew() {
+fn strokes_keep_their_places_when_triangles_are_renumbered() {
     let mesh = mesh_of("crate");
     let (index, bvh) = (SurfaceIndex::new(&mesh), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -325,7 +325,7 @@ fn strokes_lie_where_they_were_after_the_triangles_are_numbered_anew() {
         covered_area(mesh, &atlas, &painted(surface, &atlas, std::slice::from_ref(&own)))
     });
     assert!((areas[0] / areas[1] - 1.0).abs() < 0.01, "{areas:?}");
-    // Moved a little, the places are found by nearness; moved far, they are lost.
+    // Points that are moved slightly are found again by nearness; points that are moved far are lost.
     let moved = |by: f32| {
         let mut moved = mesh.clone();
         moved.positions.iter_mut().for_each(|position| position[2] += by);

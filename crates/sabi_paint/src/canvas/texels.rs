@@ -8,11 +8,11 @@ use sabi_surface::patch::PlacedTriangle;
 
 use crate::surface::PaintSurface;
 
-/// Texels around a triangle's own corners that it may own: a texel's middle lies in its triangle but for rounding and thin
-/// charts.
+/// Margin in texels around a triangle's corners within which it may own texels. The middle of a texel is inside its
+/// triangle, except for rounding and thin charts.
 const MARGIN: f64 = 1.5;
 
-/// The ghosts that show each triangle.
+/// Returns the ghosts that show each triangle.
 pub(super) fn ghosts_of_triangles(atlas: &Atlas) -> Groups {
     Groups::new(atlas.triangle_chart.len(), |member| {
         for (index, ghost) in atlas.ghosts.iter().enumerate() {
@@ -25,15 +25,15 @@ pub(super) fn ghosts_of_triangles(atlas: &Atlas) -> Groups {
 struct PlaneFromTexel {
     /// A corner, in texels of the page.
     texel: DVec2,
-    /// Weights of the second and the third corner, from a step in texels.
+    /// Maps a step in texels to the weights of the second and the third corner.
     weights: DMat2,
-    /// The first corner in the plane, and the ways to the others.
+    /// The first corner in the plane, and the offsets of the other corners.
     place: DVec2,
     linear: DMat2,
 }
 
 impl PlaneFromTexel {
-    /// None for a triangle without area in the texture.
+    /// Returns `None` for a triangle without area in the texture.
     fn new(mesh: &Mesh, atlas: &Atlas, placed: &PlacedTriangle) -> Option<PlaneFromTexel> {
         let chart = &atlas.charts[atlas.triangle_chart[placed.triangle as usize] as usize];
         let size = f64::from(atlas.size);
@@ -52,7 +52,7 @@ impl PlaneFromTexel {
         })
     }
 
-    /// Weights of the second and the third corner at a place of the page.
+    /// Returns the weights of the second and the third corner at a position on the page.
     fn weights(&self, texel: DVec2) -> DVec2 {
         self.weights * (texel - self.texel)
     }
@@ -63,7 +63,7 @@ impl PlaneFromTexel {
         steps.x_axis.length().max(steps.y_axis.length())
     }
 
-    /// Texels that may lie within a box of the plane.
+    /// Returns the range of texels that may be within a box of the plane.
     fn texels_of(&self, low: DVec2, high: DVec2) -> [DVec2; 2] {
         let inverse = (self.linear * self.weights).inverse();
         if !inverse.is_finite() {
@@ -79,18 +79,18 @@ impl PlaneFromTexel {
     }
 }
 
-/// Width of the texels of a triangle, model units; zero for a triangle without area in the texture.
+/// Returns the width of the texels of a triangle in model units; zero for a triangle without area in the texture.
 pub(super) fn texel_width(mesh: &Mesh, atlas: &Atlas, placed: &PlacedTriangle) -> f64 {
     PlaneFromTexel::new(mesh, atlas, placed).map_or(0.0, |map| map.width())
 }
 
-/// Where a texel lies.
+/// Position of a texel.
 pub(super) struct At {
-    /// In the plane of the patch.
+    /// Position in the plane of the patch.
     pub(super) plane: DVec2,
-    /// In space, model units.
+    /// Position in space in model units.
     pub(super) position: DVec3,
-    /// Width of texels there, model units.
+    /// Width of texels there in model units.
     pub(super) width: f64,
     /// Triangle, and the weights of its second and third corner.
     pub(super) triangle: u32,
@@ -106,8 +106,8 @@ pub(super) struct SurfaceTexels<'a> {
     pub(super) ghosts: &'a Groups,
 }
 
-/// Calls `paint` for each texel that a placed triangle owns, and each ghost that shows it, within a box of the plane, with the
-/// index of the texel.
+/// Calls `paint` for each texel within a box of the plane that a placed triangle owns, and for each ghost that shows such a
+/// texel, with the index of the texel.
 pub(super) fn for_texels(
     texels: SurfaceTexels<'_>,
     placed: &PlacedTriangle,

@@ -1,4 +1,4 @@
-//! A brush as it is used on a stroke.
+//! Brushes with the pictures and stencils that a stroke uses.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub(super) struct UsedStencil {
 }
 
 impl UsedStencil {
-    /// The stencil before a copy of the stroke.
+    /// Returns the stencil for a copy of the stroke.
     pub(super) fn moved(&self, moved: &DAffine3) -> UsedStencil {
         UsedStencil {
             stencil: self.stencil.moved(moved),
@@ -29,27 +29,27 @@ impl UsedStencil {
     }
 }
 
-/// A brush as it is used on a stroke.
+/// A brush with everything that a stroke uses.
 #[derive(Clone)]
 pub(super) struct UsedBrush {
     pub(super) brush: Brush,
     /// Its picture, if it has one.
     pub(super) picture: Option<(Arc<StampPicture>, PicturePart)>,
-    /// The stencil that it paints through, before the stroke or its copy.
+    /// The stencil through which it paints, moved for a copy of the stroke.
     pub(super) stencil: Option<UsedStencil>,
     pub(super) watched: Option<Watched>,
-    /// True on a copy of the stroke in a mirror.
+    /// True for a mirrored copy of the stroke.
     pub(super) is_mirrored: bool,
     pub(super) kept: Kept,
 }
 
 impl UsedBrush {
-    /// True if a stroke is not the same at all places of an area that it fills.
+    /// Returns true if a stroke may have different strengths at the places of an area that it fills.
     pub(super) fn has_limits(&self) -> bool {
         self.stencil.is_some() || self.watched.is_some() || self.brush.limits.angle_degrees < 180.0
     }
 
-    /// The brush of a stroke on one of its copies.
+    /// Returns the brush for one of the copies of a stroke.
     pub(super) fn on(&self, copy: &LocatedStroke) -> UsedBrush {
         UsedBrush {
             watched: Watched::of(copy.eye, self.brush.limits),
@@ -59,18 +59,18 @@ impl UsedBrush {
         }
     }
 
-    /// True if its strokes are drawn as lines without single stamps.
+    /// Returns true if strokes are drawn as lines without separate stamps.
     pub(super) fn draws_line(&self) -> bool {
         let is_plain = self.brush.tip == Tip::Round && self.picture.is_none();
         is_plain && self.brush.flow >= 1.0 && self.brush.jitter == Default::default()
     }
 
-    /// True if stamps that lie on each other add up until they cover.
+    /// Returns true if overlapping stamps add up until they cover fully.
     pub(super) fn builds_up(&self) -> bool {
         self.picture.is_some() || self.brush.tip.builds_up()
     }
 
-    /// Half of the width and of the height of a stamp, in radii.
+    /// Returns half of the width and of the height of a stamp in radii.
     pub(super) fn half_sides(&self) -> glam::DVec2 {
         match &self.picture {
             Some((picture, _)) => picture.half_sides(),
@@ -78,7 +78,7 @@ impl UsedBrush {
         }
     }
 
-    /// Farthest that a stamp reaches, in radii.
+    /// Returns the largest distance from its middle that a stamp covers, in radii.
     pub(super) fn reach(&self) -> f64 {
         match self.picture {
             Some(_) => self.half_sides().length(),

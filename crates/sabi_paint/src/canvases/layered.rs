@@ -1,7 +1,7 @@
-//! Strokes put onto a canvas one after another, with faint groups as layers.
+//! Strokes that are put on a canvas one after another, with faint groups as layers.
 //!
-//! Strokes of one group that lie on each other make one layer: they are laid in full, and the group's opacity then says how much of what
-//! they changed together is seen. So strokes of a faint group that cross are no stronger where they cross.
+//! Consecutive strokes of one group form a layer. They are painted with full strength, and the opacity of the group is
+//! applied to all their changes together. Therefore crossing strokes of a faint group are not stronger where they cross.
 
 use std::sync::Arc;
 
@@ -11,21 +11,21 @@ use crate::stroke::Stroke;
 /// A canvas to which strokes are added.
 #[derive(Clone)]
 pub(super) struct Layered {
-    /// Paint of all strokes, those of the open layer in full.
+    /// Paint of all strokes, with the open layer at full strength.
     pub(super) full: Canvas,
-    /// Layer of the topmost strokes; none if they are in no faint group.
+    /// Layer of the topmost strokes; `None` if they are not in a faint group.
     open: Option<OpenLayer>,
 }
 
-/// A layer that further strokes may belong to.
+/// Layer to which further strokes may be added.
 #[derive(Clone)]
 struct OpenLayer {
     layer: Layer,
-    /// The canvas below its strokes.
+    /// Canvas below its strokes.
     below: Canvas,
 }
 
-/// The layer of a stroke.
+/// Layer of a stroke.
 #[derive(Clone, Copy, PartialEq)]
 struct Layer {
     /// Number of the group.
@@ -35,7 +35,7 @@ struct Layer {
 }
 
 impl Layer {
-    /// That of a stroke; none where its group is as strong as its strokes.
+    /// Returns the layer of a stroke; `None` if its group has the full opacity.
     fn of(stroke: &Stroke) -> Option<Layer> {
         let group = stroke.group.as_ref()?;
         let opacity = group.bounded().opacity;
@@ -54,7 +54,7 @@ impl Layered {
         }
     }
 
-    /// Goes on with the layer of a stroke: ends the open one if it is another.
+    /// Opens the layer of a stroke. An open layer is ended if it is a different one.
     pub(super) fn go_on_with(&mut self, stroke: &Stroke) {
         let layer = Layer::of(stroke);
         if self.open.as_ref().map(|open| open.layer) == layer {
@@ -67,8 +67,8 @@ impl Layered {
         });
     }
 
-    /// The canvas with the open layer as faint as its group is. Tiles are taken from an earlier one with what was shown of it, where they
-    /// are the same.
+    /// Returns the canvas with the open layer faded by the opacity of its group. `before` is an earlier canvas and the
+    /// result for it; tiles that have not changed are taken from that result.
     pub(super) fn shown(&self, before: Option<(&Layered, &Canvas)>) -> Canvas {
         let Some(open) = &self.open else {
             return self.full.clone();
@@ -80,13 +80,13 @@ impl Layered {
         self.full.faded(&open.below, open.layer.opacity, known)
     }
 
-    /// All canvases that it consists of.
+    /// Returns all canvases of which it consists.
     pub(super) fn canvases(&self) -> impl Iterator<Item = &Canvas> {
         std::iter::once(&self.full).chain(self.open.as_ref().map(|open| &open.below))
     }
 }
 
-/// Returns true if two strokes are of the same layer, or of none.
+/// Returns true if two strokes have the same layer, or both have none.
 pub(super) fn share_layer(one: &Arc<Stroke>, other: &Arc<Stroke>) -> bool {
     Layer::of(one) == Layer::of(other)
 }

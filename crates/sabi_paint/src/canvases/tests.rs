@@ -1,4 +1,4 @@
-//! Kept canvases are what painting everything anew gives.
+//! Kept canvases give the same result as painting everything from the beginning.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -20,13 +20,13 @@ const ALL: Layers = Layers {
     height: true,
     direction: true,
 };
-/// Little more than two canvases, so that most are forgotten.
+/// Slightly more than two canvases, so that most are forgotten.
 const BUDGET: usize = 60 << 10;
-/// Most strokes of a list.
+/// Maximum number of strokes of a list.
 const MOST: usize = 12;
 const OPERATIONS: u32 = 10_000;
 
-/// Numbers of one operation, the same every time.
+/// Random numbers of one operation, the same each time.
 struct Dice {
     operation: u32,
     asked: i32,
@@ -108,7 +108,7 @@ fn stroke(surface: &PaintSurface<'_>, dice: &mut Dice) -> Stroke {
     }
 }
 
-/// A step from a list to another one.
+/// Returns a step from a list to another list.
 fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step {
     if list.strokes.is_empty() || (list.strokes.len() < MOST && dice.below(3) > 0) {
         return Step::Add(Arc::new(stroke(surface, dice)));
@@ -196,7 +196,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
             }
             2 if at + 1 < history.len() => at += 1,
             3 if dice.below(12) == 0 && history[at] != Version::EMPTY => {
-                // The steps to the last one lead over all of them.
+                // The steps to the last version lead through all versions.
                 let last = history[history.len() - 1];
                 file::store(&Disk::default(), &file, "square", &book, last, &mut stored).unwrap();
                 (book, canvases) = (StrokeBook::default(), Canvases::default());
@@ -230,7 +230,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
 }
 
 #[test]
-fn strokes_end_wherever_they_are_stopped_and_nothing_of_them_is_kept() {
+fn painting_can_be_stopped_anywhere_and_keeps_nothing() {
     let mesh = square();
     let (index, atlas) = (
         SurfaceIndex::new(&mesh),
@@ -295,7 +295,7 @@ fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
             .map(|(_, bytes)| bytes)
             .sum::<usize>()
     };
-    // Several canvases, each up to three while a faint group is open.
+    // Several canvases, each of which consists of up to three while a faint group is open.
     let budget = 4 << 20;
     for number in 0..200 {
         list.strokes.push(Arc::new(Stroke {
@@ -325,7 +325,8 @@ fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
     );
 }
 
-/// Covered share in the middle of the square under fills of all of it, each with its action and the opacity of its brush, in one group.
+/// Returns the cover in the middle of the square after fills of the whole square in one group, each with its action and the
+/// opacity of its brush.
 fn cover_under(fills: &[(Action, f32)], group: &StrokeGroup) -> f32 {
     let mesh = square();
     let (index, atlas) = (
@@ -365,7 +366,7 @@ fn cover_under(fills: &[(Action, f32)], group: &StrokeGroup) -> f32 {
 }
 
 #[test]
-fn a_group_is_a_layer_whose_opacity_counts_once_for_all_its_strokes() {
+fn the_opacity_of_a_group_is_applied_once_to_all_its_strokes_together() {
     use Action::{Erase, Paint};
     let of = |opacity: f32, is_hidden: bool| StrokeGroup {
         number: 1,

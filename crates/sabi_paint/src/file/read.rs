@@ -12,11 +12,11 @@ use crate::version::Version;
 pub struct ReadStrokes {
     /// Name of the model that was painted on.
     pub model: String,
-    /// Versions whose steps were read, of which the file holds a record.
+    /// Versions whose steps were read from the file.
     pub versions: BTreeSet<Version>,
-    /// Version of the last whole record.
+    /// Version of the last complete record.
     pub last: Option<Version>,
-    /// Bytes that belong to no whole record: the file was cut off or damaged. It must not be written to then.
+    /// Number of bytes that belong to no complete record. If it is above 0, the file was truncated or damaged and must not be written to.
     pub damaged_bytes: usize,
 }
 
@@ -35,12 +35,12 @@ pub fn read(bytes: &[u8], book: &mut StrokeBook) -> Result<ReadStrokes, StrokeFi
     }
     let model = lines.find_map(|line| line.strip_prefix("model: "));
     let mut read = ReadStrokes {
-        // A header without the model leaves strokes that no model finds.
+        // Without the name of a model, the strokes belong to no model.
         model: model.unwrap_or_default().to_owned(),
         ..ReadStrokes::default()
     };
     let mut rest = &bytes[end + 2..];
-    // Bytes of records that turned out not to be whole: a file of forged ones is not read for ever.
+    // Number of bytes of records that turned out to be incomplete. It is limited, so that reading a forged file ends.
     let mut in_vain = 0;
     while !rest.is_empty() {
         let found = if in_vain > IN_VAIN_LIMIT {
@@ -50,7 +50,7 @@ pub fn read(bytes: &[u8], book: &mut StrokeBook) -> Result<ReadStrokes, StrokeFi
         };
         match found {
             Some((before, step, after, size)) => {
-                // A step of a kind that this version does not know keeps its bytes in the file, but leads nowhere.
+                // A step of an unknown kind keeps its bytes in the file, but leads to no version.
                 match decode_step(step, after) {
                     Some(decoded) => {
                         book.insert(after, before, decoded, step.into());
@@ -71,11 +71,11 @@ pub fn read(bytes: &[u8], book: &mut StrokeBook) -> Result<ReadStrokes, StrokeFi
     Ok(read)
 }
 
-/// Most bytes of records that turn out not to be whole, before the rest of a file counts as damaged.
+/// Maximum number of bytes of incomplete records, after which the rest of a file counts as damaged.
 const IN_VAIN_LIMIT: usize = 1 << 30;
 
-/// The record at the start of bytes: version before, step, version after, and its size; none if it is not whole, whose bytes are added
-/// to `in_vain`.
+/// Returns the record at the start of some bytes: version before, step, version after, and size. `None` if it is not
+/// complete; in this case its bytes are added to `in_vain`.
 fn record<'b>(bytes: &'b [u8], in_vain: &mut usize) -> Option<(Version, &'b [u8], Version, usize)> {
     let rest = bytes.strip_prefix(MARKER)?;
     let (length, rest) = rest.split_first_chunk::<4>()?;

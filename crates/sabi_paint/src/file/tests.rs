@@ -56,7 +56,7 @@ fn stroke(points: usize) -> Stroke {
     }
 }
 
-/// A book of three versions: a stroke, a second one, and the first one gone.
+/// Returns a book of three versions: with one stroke, with two strokes, and without the first stroke.
 fn book() -> (StrokeBook, [Version; 3]) {
     let mut book = StrokeBook::default();
     let first = book.push(Version::EMPTY, &Step::Add(Arc::new(stroke(3))));
@@ -70,7 +70,7 @@ fn stored() -> (Vec<u8>, [Version; 3]) {
     let file = folder.path().join("crate.strokes");
     let (book, versions) = book();
     let mut known = BTreeSet::new();
-    // One after another, so that the later ones are appended.
+    // Stored one after another, so that the later versions are appended.
     for version in versions {
         store(&Disk::default(), &file, "crate", &book, version, &mut known).unwrap();
     }
@@ -78,7 +78,7 @@ fn stored() -> (Vec<u8>, [Version; 3]) {
 }
 
 #[test]
-fn strokes_come_back_as_they_were_stored() {
+fn strokes_that_are_stored_and_read_are_the_same() {
     let (bytes, versions) = stored();
     assert!(bytes.starts_with(b"sabi paint 1\nmodel: crate\n\n"));
     let (mut written, _) = book();
@@ -100,7 +100,7 @@ fn strokes_come_back_as_they_were_stored() {
 }
 
 #[test]
-fn strokes_whose_brushes_lack_newer_values_are_stored_elsewhere_under_the_same_name() {
+fn strokes_of_brushes_without_newer_values_are_stored_under_the_same_name() {
     let (mut bytes, text) = (
         super::header("crate").into_bytes(),
         br#"{"add":{"brush":{"radius":0.5}}}"#,
@@ -117,7 +117,7 @@ fn strokes_whose_brushes_lack_newer_values_are_stored_elsewhere_under_the_same_n
     assert_eq!(std::fs::read(&file).unwrap(), bytes);
 }
 
-/// The stroke of a pen that leans at some of its places.
+/// Returns the stroke of a pen that leans at some of its points.
 fn leaning_stroke() -> Stroke {
     let mut stroke = stroke(13);
     for (index, point) in stroke.points.iter_mut().enumerate() {
@@ -128,7 +128,7 @@ fn leaning_stroke() -> Stroke {
 }
 
 #[test]
-fn a_step_without_a_leaning_pen_has_the_bytes_of_before_there_was_one() {
+fn a_step_without_a_leaning_pen_has_the_same_bytes_as_before() {
     let plain = Stroke {
         brush: Brush::default(),
         ..Stroke::new(Brush::default(), stroke(2).points)
@@ -144,7 +144,7 @@ fn a_step_without_a_leaning_pen_has_the_bytes_of_before_there_was_one() {
 }
 
 #[test]
-fn the_lean_of_the_pen_comes_back_from_a_file_and_from_a_text() {
+fn the_lean_of_the_pen_is_stored_in_files_and_texts() {
     let written = Arc::new(leaning_stroke());
     let mut book = StrokeBook::default();
     let version = book.push(Version::EMPTY, &Step::Add(Arc::clone(&written)));
@@ -169,7 +169,7 @@ fn the_lean_of_the_pen_comes_back_from_a_file_and_from_a_text() {
 }
 
 #[test]
-fn a_step_with_shafts_is_read_whole_or_not_and_never_as_points_alone() {
+fn a_step_with_shafts_is_read_completely_or_not_at_all() {
     for count in 1..40 {
         let mut leaning = leaning_stroke();
         leaning.source = None;
@@ -188,7 +188,7 @@ fn a_step_with_shafts_is_read_whole_or_not_and_never_as_points_alone() {
 }
 
 #[test]
-fn a_stroke_that_is_laid_elsewhere_keeps_all_but_its_places() {
+fn a_stroke_that_is_moved_changes_only_its_points() {
     let (mut book, [first, ..]) = book();
     let points = stroke(2).points;
     let moved = book.push(
@@ -222,7 +222,7 @@ fn a_stroke_is_the_same_in_memory_in_every_version_that_has_it() {
 }
 
 #[test]
-fn a_damaged_file_loses_only_what_is_damaged() {
+fn a_damaged_file_loses_only_its_damaged_parts() {
     let (bytes, versions) = stored();
     let mut cut = bytes.clone();
     cut.truncate(bytes.len() - 3);
@@ -230,7 +230,8 @@ fn a_damaged_file_loses_only_what_is_damaged() {
     let whole = read(&cut, &mut book).unwrap();
     assert_eq!(whole.versions.len(), 2);
     assert!(whole.damaged_bytes > 0 && book.list(versions[1]).is_some() && book.list(versions[2]).is_none());
-    // A byte in the middle of the second record: the first and the third are whole, but the third builds on the second.
+    // A byte in the middle of the second record is changed. The first and the third record are complete, but the third
+    // builds on the second.
     let second = bytes
         .windows(4)
         .enumerate()
@@ -244,7 +245,7 @@ fn a_damaged_file_loses_only_what_is_damaged() {
     let damaged = read(&flipped, &mut book).unwrap();
     assert_eq!(damaged.versions.len(), 2);
     assert_eq!(damaged.last, Some(versions[2]));
-    // The second stroke is lost, and what comes after it is not.
+    // The second stroke is lost, but not the later ones.
     assert_eq!(book.list(versions[0]).unwrap().strokes.len(), 1);
     assert_eq!(book.list(versions[2]).unwrap().strokes.len(), 0);
 }
@@ -285,7 +286,7 @@ fn a_version_whose_steps_are_unknown_is_not_stored() {
 }
 
 #[test]
-fn numbers_that_are_none_become_those_of_the_usual_brush() {
+fn nan_is_replaced_by_the_numbers_of_the_usual_brush() {
     let mut odd = stroke(1);
     odd.brush.radius = f32::NAN;
     odd.brush.opacity = f32::INFINITY;
@@ -298,7 +299,7 @@ fn numbers_that_are_none_become_those_of_the_usual_brush() {
 }
 
 #[test]
-fn a_stroke_that_no_file_could_hold_changes_nothing() {
+fn a_stroke_that_no_file_could_store_changes_nothing() {
     let mut book = StrokeBook::default();
     let first = book.push(Version::EMPTY, &Step::Add(Arc::new(stroke(3))));
     let huge = Arc::new(stroke((1 << 20) + 1));

@@ -10,19 +10,19 @@ use super::fit::{bend_between, simplified};
 use super::{Bend, Path, knot_at};
 use crate::surface::PaintSurface;
 
-/// Least angle between the triangles at a hard edge, as a cosine: 30°.
+/// Minimum angle between the triangles at a hard edge, as a cosine: 30°.
 const HARD_COSINE: f64 = 0.866_025_403_784_438_6;
-/// Largest turn over which a path goes on where several edges meet, as a cosine: 45°.
+/// Largest change of direction with which a path continues if several edges meet, as a cosine: 45°.
 const STRAIGHT_COSINE: f64 = 0.707;
-/// Distance of the path from the edges, as a share of its extent.
+/// Maximum distance of the path from the edges, as a share of its extent.
 const TOLERANCE: f64 = 0.002;
-/// Most edges of a path.
+/// Maximum number of edges of a path.
 const EDGES_LIMIT: usize = 100_000;
 
 /// Kind of edge that a path follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EdgeKind {
-    /// Bends by more than 30°, and borders of the surface.
+    /// Edges at which the surface bends by more than 30°, and borders of the surface.
     #[default]
     Hard,
     /// Seams of the texture.
@@ -39,7 +39,7 @@ impl EdgeKind {
         (EdgeKind::Material, "Materials"),
     ];
 
-    /// Returns true if a half-edge is one of these.
+    /// Returns true if a half-edge is of this kind.
     fn contains(self, surface: &PaintSurface<'_>, half_edge: u32) -> bool {
         let connected = surface.connected();
         let mesh = surface.mesh();
@@ -63,7 +63,7 @@ impl EdgeKind {
 /// Edges of a kind by the welded vertices at their ends.
 struct EdgeNet<'a> {
     surface: &'a PaintSurface<'a>,
-    /// Half-edges that leave or reach each vertex, one of each pair.
+    /// For each vertex, the half-edges that start or end there, one of each pair.
     at_vertex: BTreeMap<u32, Vec<u32>>,
 }
 
@@ -86,21 +86,21 @@ impl<'a> EdgeNet<'a> {
         net
     }
 
-    /// Welded vertices at the ends of a half-edge.
+    /// Returns the welded vertices at the ends of a half-edge.
     fn ends(&self, half_edge: u32) -> [u32; 2] {
         let corners = &self.surface.connected().topology.corners;
         let triangle = half_edge - half_edge % 3;
         [half_edge, triangle + (half_edge + 1) % 3].map(|corner| corners[corner as usize])
     }
 
-    /// Places of the ends of a half-edge, in the order of [`EdgeNet::ends`].
+    /// Returns the positions of the ends of a half-edge, in the order of [`EdgeNet::ends`].
     fn places(&self, half_edge: u32) -> [DVec3; 2] {
         let corners = self.surface.connected().corners(half_edge / 3);
         let first = half_edge as usize % 3;
         [corners[first], corners[(first + 1) % 3]]
     }
 
-    /// The edge nearest to a place, within a distance.
+    /// Returns the edge nearest to a position, within a distance.
     fn nearest(&self, from: DVec3, reach: f64) -> Option<u32> {
         let distance = |half_edge: u32| {
             let [a, b] = self.places(half_edge);
@@ -114,7 +114,8 @@ impl<'a> EdgeNet<'a> {
         (near.0 <= reach).then_some(near.1)
     }
 
-    /// The edge that goes on from another one at a vertex: the only one, or the straightest of several that is nearly straight.
+    /// Returns the edge that continues another edge at a vertex: the only other edge, or the straightest of several if it
+    /// is nearly straight.
     fn next(&self, from: u32, vertex: u32) -> Option<u32> {
         let others: Vec<u32> = self
             .at_vertex
@@ -134,7 +135,7 @@ impl<'a> EdgeNet<'a> {
         (best.0 >= STRAIGHT_COSINE).then_some(best.1)
     }
 
-    /// Unit direction of an edge toward a vertex, or away from it.
+    /// Returns the unit direction of an edge toward a vertex, or away from it.
     fn way(&self, edge: u32, vertex: u32, is_away: bool) -> DVec3 {
         let [a, b] = self.places(edge);
         let leaves = self.ends(edge)[0] == vertex;
@@ -142,7 +143,7 @@ impl<'a> EdgeNet<'a> {
         way.normalize_or_zero()
     }
 
-    /// Edges that follow one another behind an edge whose end is a vertex, and whether they lead back to it.
+    /// Returns the edges that continue an edge at one of its vertices, and whether they lead back to the edge.
     fn chain(&self, first: u32, mut vertex: u32) -> (Vec<u32>, bool) {
         let mut edges = vec![first];
         let mut passed = BTreeSet::from([first]);
@@ -162,7 +163,8 @@ impl<'a> EdgeNet<'a> {
 }
 
 impl Path {
-    /// The path along the edges of a kind next to a place, as far as they go on: none where there is none within `reach`, model units.
+    /// Returns the path along the edges of a kind near a position, as far as they continue; `None` if no such edge is
+    /// within `reach`, in model units.
     pub fn along_edges(surface: &PaintSurface<'_>, kind: EdgeKind, from: DVec3, reach: f64) -> Option<Path> {
         let net = EdgeNet::new(surface, kind);
         let first = net.nearest(from, reach)?;
@@ -200,14 +202,14 @@ impl Path {
     }
 }
 
-/// Sites at the vertices along edges that follow one another.
+/// Returns sites at the vertices along consecutive edges.
 fn sites_along(net: &EdgeNet<'_>, edges: &[u32]) -> Vec<Site> {
     let mut sites = Vec::new();
     let mut vertex = None;
     for (index, edge) in edges.iter().enumerate() {
         let ends = net.ends(*edge);
         let places = net.places(*edge);
-        // The first edge begins at the end that the second one does not have.
+        // The first edge starts at the vertex that the second edge does not have.
         let is_turned = match vertex {
             Some(vertex) => ends[1] == vertex,
             None => edges

@@ -1,25 +1,25 @@
-//! Paths from ways that were drawn by hand.
+//! Conversion of hand-drawn ways to paths.
 
 use glam::DVec3;
 
 use super::{Bend, Knot, Path};
 use crate::stroke::{Area, Stroke};
 
-/// Least turn at a knot that is a corner, as a cosine: 50°.
+/// Minimum change of direction at a knot that becomes a corner, as a cosine: 50°.
 const CORNER_COSINE: f64 = 0.643;
-/// Distance of a fitted path from the drawn way, in radii of the brush.
+/// Maximum distance of a fitted path from the drawn way, in radii of the brush.
 const TOLERANCE: f64 = 0.25;
 
 impl Path {
-    /// Returns true if [`Path::of_stroke`] gives a path.
+    /// Returns true if [`Path::of_stroke`] returns a path.
     pub fn follows(stroke: &Stroke) -> bool {
         let has_way = matches!(stroke.area, Area::Way | Area::Ribbon | Area::Inside);
         let is_one_run = !stroke.points.iter().skip(1).any(|point| point.starts);
         has_way && is_one_run && stroke.points.len() >= 2
     }
 
-    /// A path along the way of a stroke, with as few knots as follow it closely. None for strokes without a way, and for those of several
-    /// runs, which no single path follows.
+    /// Returns a path along the way of a stroke, with as few knots as possible. `None` for strokes without a way, and for
+    /// strokes of several runs, since one path cannot follow them.
     pub fn of_stroke(stroke: &Stroke) -> Option<Path> {
         if !Path::follows(stroke) {
             return None;
@@ -37,8 +37,9 @@ impl Path {
     }
 }
 
-/// Indices of the places that a line through needs, to stay within a distance of all of them (Douglas and Peucker, "Algorithms for
-/// the reduction of the number of points required to represent a digitized line", 1973). The first and the last are among them.
+/// Returns the indices of the points that a polyline needs in order to stay within a distance of all points (Douglas and
+/// Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line", 1973). The first
+/// and the last point are included.
 pub(super) fn simplified(places: &[DVec3], tolerance: f64) -> Vec<usize> {
     let mut is_kept = vec![false; places.len()];
     let mut open = Vec::new();
@@ -67,7 +68,7 @@ pub(super) fn simplified(places: &[DVec3], tolerance: f64) -> Vec<usize> {
     (0..places.len()).filter(|index| is_kept[*index]).collect()
 }
 
-/// Bend at a place between two others: a corner where the way turns sharply.
+/// Returns the bend at a point between two others: a corner if the direction changes sharply.
 pub(super) fn bend_between(before: DVec3, at: DVec3, behind: DVec3) -> Bend {
     let cosine = (at - before).normalize_or_zero().dot((behind - at).normalize_or_zero());
     if cosine < CORNER_COSINE {

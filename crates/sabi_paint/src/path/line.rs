@@ -5,11 +5,11 @@ use sabi_surface::patch::{PlacedTriangle, Site, Unfolder};
 
 use crate::surface::PaintSurface;
 
-/// Farthest that the surface around a line is unfolded, as a share of the straight distance between its ends.
+/// Maximum distance to which the surface around a line is unfolded, as a share of the straight distance between its ends.
 const REACH: f64 = 3.0;
 
-/// Sites on the straight line over the surface from one site to another, without its ends, no farther than `step` from each other,
-/// model units: straight once the surface around it is laid into a plane. None where the surface does not lead there directly.
+/// Returns sites on the straight line over the surface from one site to another, without its ends. Their distances are at most `step`, in
+/// model units. The line is straight on the unfolded surface. `None` if the surface does not connect the two directly.
 pub(super) fn line_between(surface: &PaintSurface<'_>, from: Site, to: Site, step: f64) -> Option<Vec<Site>> {
     let connected = surface.connected();
     let way = to.position - from.position;
@@ -33,7 +33,7 @@ pub(super) fn line_between(surface: &PaintSurface<'_>, from: Site, to: Site, ste
     (1..parts).map(site).collect()
 }
 
-/// Weights of the second and the third corner of a triangle in the plane at a place in it; none elsewhere.
+/// Returns the weights of the second and the third corner of a triangle in the plane at a position inside it; `None` outside of it.
 fn weights_in(placed: &PlacedTriangle, place: DVec2) -> Option<DVec2> {
     let [a, b, c] = placed.corners;
     let (ab, ac, way) = (b - a, c - a, place - a);

@@ -1,4 +1,4 @@
-//! Paths on plates, held against formulas.
+//! Paths on plates, compared with formulas.
 
 use glam::DVec3;
 use sabi_surface::model::Mesh;
@@ -7,7 +7,7 @@ use sabi_surface::patch::Site;
 use super::*;
 use crate::{Area, Brush, SurfaceIndex};
 
-/// A box of side 2 around the origin, each side two triangles with corners of its own.
+/// Returns a box of side 2 around the origin. Each side has two triangles with corners of their own.
 fn cube() -> Mesh {
     let mut mesh = Mesh::default();
     let axes = [
@@ -34,7 +34,7 @@ fn cube() -> Mesh {
     mesh
 }
 
-/// Place on the side of the box that faces +z.
+/// Returns a point on the side of the box that faces +z.
 fn on_front(surface: &PaintSurface<'_>, x: f64, y: f64) -> StrokePoint {
     let triangle = u32::from(y > x);
     let position = DVec3::new(x, y, 1.0);
@@ -73,7 +73,7 @@ fn the_lean_of_a_pen_changes_along_a_path_from_knot_to_knot() {
 }
 
 #[test]
-fn a_path_is_the_same_after_it_was_kept_as_the_places_of_a_stroke() {
+fn a_path_stored_as_the_points_of_a_stroke_is_the_same() {
     with(&cube(), |surface| {
         let at = |x, y| on_front(surface, x, y);
         let path = through(
@@ -109,7 +109,7 @@ fn handles_bend_a_path_as_a_bezier_curve_does() {
         let path = through(vec![(a, Bend::Handles([a, b])), (d, Bend::Handles([c, d]))], false);
         let way = path.way(surface, 0.05);
         let middle = way[way.len() / 2].site.position;
-        // (a + 3 b + 3 c + d) / 8
+        // The middle of a Bézier curve is (a + 3 b + 3 c + d) / 8.
         assert!(middle.distance(DVec3::new(0.0, 0.325, 1.0)) < 0.03, "{middle}");
         assert!(
             way.windows(2)
@@ -119,7 +119,7 @@ fn handles_bend_a_path_as_a_bezier_curve_does() {
 }
 
 #[test]
-fn a_path_goes_around_a_corner_of_the_model_without_a_gap() {
+fn a_path_continues_around_a_corner_of_the_model_without_a_gap() {
     with(&cube(), |surface| {
         let beyond = surface.point(
             Site {
@@ -147,7 +147,7 @@ fn a_path_goes_around_a_corner_of_the_model_without_a_gap() {
 }
 
 #[test]
-fn the_edge_of_a_box_ends_at_its_corners_and_a_seam_is_no_material_border() {
+fn an_edge_path_on_a_box_ends_at_corners_and_a_seam_is_no_material_border() {
     with(&cube(), |surface| {
         let near = DVec3::new(0.2, 0.98, 1.0);
         let edge = Path::along_edges(surface, EdgeKind::Hard, near, 0.1).unwrap();
@@ -184,7 +184,7 @@ fn the_border_of_a_material_leads_around_it() {
 }
 
 #[test]
-fn a_stroke_becomes_a_path_of_few_knots_that_stays_near_it() {
+fn a_stroke_becomes_a_path_of_few_knots_near_it() {
     with(&cube(), |surface| {
         let points: Vec<StrokePoint> = (0..60)
             .map(|index| {
@@ -233,7 +233,7 @@ fn a_stroke_of_several_runs_and_one_of_too_many_knots_are_no_paths() {
 }
 
 #[test]
-fn knots_that_are_lost_leave_the_others() {
+fn other_knots_are_kept_if_some_are_lost() {
     with(&cube(), |surface| {
         let at = |x, y| on_front(surface, x, y);
         let path = through(

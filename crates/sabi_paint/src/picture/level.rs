@@ -5,7 +5,7 @@ use sabi_image::{Picture, srgb_from_linear};
 
 use super::{Ends, PicturePart};
 
-/// Channels of a pixel: linear red, green and blue times alpha, alpha, and lightness as the file has it, times alpha.
+/// Channels of a pixel: linear red, green and blue times alpha, alpha, and encoded lightness times alpha.
 type Pixel = [u16; 5];
 
 /// A picture at one size.
@@ -21,7 +21,7 @@ pub(super) struct Level {
 fn pixel([red, green, blue, alpha]: [f32; 4], is_coded: bool) -> Pixel {
     let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
     let coded = |channel: f32| if is_coded { srgb_from_linear(channel) } else { channel };
-    // Rec. 709 luma of the values as the file has them.
+    // Rec. 709 luma of the encoded values.
     let light = 0.2126 * coded(red) + 0.7152 * coded(green) + 0.0722 * coded(blue);
     [red, green, blue, 1.0, light].map(|channel| {
         let channel = if channel.is_finite() {
@@ -34,7 +34,7 @@ fn pixel([red, green, blue, alpha]: [f32; 4], is_coded: bool) -> Pixel {
 }
 
 impl Level {
-    /// A decoded picture at its full size. `is_coded` is true for colors that are coded as sRGB.
+    /// Converts a decoded picture at its full size. `is_coded` is true for colors that are encoded as sRGB.
     pub(super) fn new(picture: &Picture, is_coded: bool) -> Level {
         let linear = picture.linear_rgba(is_coded).rgba;
         Level {
@@ -43,7 +43,7 @@ impl Level {
         }
     }
 
-    /// The picture at half the size: means of four pixels, or of two where only one row or column is left.
+    /// Returns the picture at half the size. Pixels are means of four pixels, or of two if only one row or column is left.
     pub(super) fn halved(&self) -> Level {
         let size = self.size.map(|side| (side / 2).max(1));
         let pixels = (0..size[0] * size[1]).map(|index| {
@@ -62,7 +62,7 @@ impl Level {
         }
     }
 
-    /// The channels at a place, mixed from four pixels; the border goes on outside.
+    /// Returns the channels at a position, interpolated from four pixels. Outside, the pixels of the border are used.
     pub(super) fn at(&self, place: DVec2, ends: Ends) -> [f64; 5] {
         let [width, height] = self.size.map(|side| side as f64);
         let at = 0.5 * (DVec2::new(place.x, -place.y) + 1.0) * DVec2::new(width, height) - 0.5;

@@ -4,22 +4,22 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Longest ending of a picture's file.
+/// Maximum length of the extension of a picture's file.
 const ENDING_LIMIT: usize = 8;
 
-/// Name of a picture: a hash of its file and the ending of the file, such as `0123456789abcdef.png`. It is a plain file name.
+/// Name of a picture: a hash of its file and the extension of the file, for example `0123456789abcdef.png`. It is a plain file name.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct PictureName(String);
 
-/// A text is no name of a picture.
+/// Error of a text that is not the name of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a picture of a brush has 16 hexadecimal digits, a dot and the ending of its file")]
 pub struct NoPictureName;
 
 impl PictureName {
-    /// Name of a picture with these bytes; `ending` is that of its file, without the dot. None if it has characters that no
-    /// ending has.
+    /// Returns the name of a picture with these bytes. `ending` is the extension of its file without the dot. `None` if it
+    /// has characters that are not allowed.
     pub fn of(bytes: &[u8], ending: &str) -> Option<PictureName> {
         let hash = blake3::hash(bytes);
         let digits: String = hash.as_bytes()[..8].iter().map(|byte| format!("{byte:02x}")).collect();
@@ -31,9 +31,9 @@ impl PictureName {
         &self.0
     }
 
-    /// Returns true if these bytes are the picture's.
+    /// Returns true if the picture has these bytes.
     pub fn is_of(&self, bytes: &[u8]) -> bool {
-        let ending = self.0.split_once('.').map_or("", |(_, ending)| ending); // Every name has one.
+        let ending = self.0.split_once('.').map_or("", |(_, ending)| ending); // Every name has an extension.
         PictureName::of(bytes, ending).as_ref() == Some(self)
     }
 }

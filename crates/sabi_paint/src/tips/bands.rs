@@ -1,4 +1,4 @@
-//! Bands: a weld, stitches, a rope, and rivets. As ribbons they go on without a break from each stamp to the next.
+//! Bands: a weld, stitches, a rope, and rivets. As ribbons they continue without a gap from each stamp to the next.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::noise::{Dice, noise_2};
 use super::spot::Spot;
 
-/// Ripples of a weld, and strands of a rope, along a stamp: whole numbers, so that the next stamp goes on with them.
+/// Ripples of a weld and strands of a rope along a stamp. They are whole numbers, so that the next stamp continues them.
 const RIPPLES: f64 = 3.0;
 const STRANDS: f64 = 2.0;
 /// Half of the width of a weld, and of a rope.
@@ -23,14 +23,14 @@ fn round(across: f64, half: f64) -> f64 {
     (1.0 - (across / half).powi(2)).max(0.0).sqrt()
 }
 
-/// Weld: a bead of ripples that were laid one over another.
+/// Weld: a bead of overlapping ripples.
 pub(super) fn weld(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
     let mut dice = Dice::new(seeds);
     let offset = dice.offset();
     let lean = dice.between(-0.5, 0.5);
     move |spot| {
         let q = spot.q;
-        // Nothing at the ends, so that the next stamp goes on.
+        // This is 0 at the ends, so that the next stamp continues.
         let own = 1.0 - q.x * q.x;
         let rough = noise_2(4.0 * q + offset, 1) - 0.5;
         let half = WELD * (1.0 + 0.3 * own * rough);
@@ -38,7 +38,7 @@ pub(super) fn weld(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
         let bow = 0.55 * across * across + 0.12 * own * (lean + rough);
         let phase = 0.5 * RIPPLES * (q.x + 1.0) + bow;
         let ripple = phase - phase.floor();
-        // Steep where a ripple lies on the one before, and softer away from it.
+        // Steep where a ripple overlaps the previous one, and flatter on the other side.
         let shape = (8.0 * ripple).min(1.0) * (1.0 - 0.75 * ripple);
         let grain = 0.3 * own * (noise_2(13.0 * q + offset, 2) - 0.5) * spot.shown(0.08);
         let height = round(q.y, half) * (0.62 + 0.38 * shape + grain);

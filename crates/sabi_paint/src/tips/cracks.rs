@@ -9,7 +9,7 @@ use super::spot::Spot;
 const PARTS: usize = 150;
 /// Cells of dried paint along a radius.
 const CELLS: f64 = 3.3;
-/// Places of a cell's middle within it, along each axis.
+/// Minimum distance of a cell's middle from its borders, along each axis.
 const LEAST: f64 = 0.14;
 const MOST: f64 = 0.86;
 
@@ -28,7 +28,7 @@ struct Branch {
     parts: Vec<Part>,
 }
 
-/// Start of a branch that is still to grow.
+/// Start of a branch that has not grown yet.
 struct Bud {
     at: DVec2,
     angle: f64,
@@ -44,7 +44,7 @@ fn branch(bud: &Bud, dice: &mut Dice, buds: &mut Vec<Bud>) -> Branch {
     let mut parts = Vec::new();
     while grown < bud.length && at.length() < 0.93 {
         let step = dice.between(0.035, 0.1);
-        // Jagged, yet on its way.
+        // Jagged, but in the same general direction.
         let kink = angle + dice.between(-0.75, 0.75) * dice.unit().sqrt();
         angle += 0.25 * (bud.angle - angle) + dice.between(-0.22, 0.22);
         let way = step * toward(kink);
@@ -124,8 +124,8 @@ pub(super) fn cracks(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
     }
 }
 
-/// The 27 cells around a place, those that lie nearest first: along each axis 0 for the cell of the place, 1 for the one that is
-/// nearer to it, and 2 for the one on the other side.
+/// Returns the 27 cells around a place, the nearest first. Along each axis, 0 means the cell of the place, 1 its nearer
+/// neighbor, and 2 the neighbor on the other side.
 fn neighbors() -> [[usize; 3]; 27] {
     let mut all: [[usize; 3]; 27] = std::array::from_fn(|index| [index % 3, index / 3 % 3, index / 9]);
     all.sort_by_key(|sides| sides.iter().map(|side| side * side).sum::<usize>());
@@ -141,7 +141,7 @@ pub(super) fn crackle() -> impl Fn(&Spot) -> f64 {
         let cells = turned(place) + 0.2 * rough;
         let home = cells.floor();
         let mut near = [(f64::INFINITY, DVec3::ZERO, 0.0); 2];
-        // Squares of the least distances to the middles of cells, and the steps to these cells, along each axis.
+        // For each axis: squares of the smallest distances to the middles of cells, and the steps to these cells.
         let sides = (cells - home).to_array().map(|t| {
             let (before, after) = (t + 1.0 - MOST, 1.0 - t + LEAST);
             let sides = [(before * before, -1.0), (after * after, 1.0)];
@@ -172,7 +172,7 @@ pub(super) fn crackle() -> impl Fn(&Spot) -> f64 {
         let slant = wall.dot(turned(spot.normal));
         let flat = (wall.length_squared() - slant * slant).sqrt().max(1e-9);
         let distance = 0.5 * (second.0 - first.0) / flat / CELLS;
-        // The same number on both sides of a crack: wide ones, fine ones, and some that have not opened yet.
+        // The same number on both sides of a crack. Cracks are wide, fine, or not open yet.
         let own = (first.2 + second.2).fract();
         let open = (spot.fall * 1.7 - 0.8 * own).clamp(0.0, 1.0);
         let half = (0.007 + 0.02 * (1.0 - own) * (0.4 + 1.2 * (rough + 0.5))) * open;

@@ -14,11 +14,11 @@ const STREAKS: usize = 18;
 /// Width over which touching drops flow together.
 const MELT: f64 = 0.07;
 
-/// A drop, longer where it flew along the surface.
+/// A drop, elongated if it moved along the surface.
 struct Drop {
     from: DVec2,
     way: DVec2,
-    /// 1 over the square of the length of the way.
+    /// 1 divided by the squared length of the way.
     scale: f64,
     radius: f64,
 }
@@ -80,12 +80,12 @@ pub(super) fn splatter(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
                 most = most.max(spot.disk(off.sqrt(), radius));
             }
         }
-        // Drops stay dense nearly to the border.
+        // Drops are dense nearly up to the border.
         most * (4.0 * spot.fall).min(1.0)
     }
 }
 
-/// Smaller of two distances, rounded where they are alike, so that shapes flow together (Quilez, "Smooth minimum").
+/// Returns the smaller of two distances, smoothed where they are similar, so that shapes merge (Quilez, "Smooth minimum").
 fn melted(a: f64, b: f64) -> f64 {
     let h = (MELT - (a - b).abs()).max(0.0) / MELT;
     a.min(b) - 0.25 * MELT * h * h
@@ -143,7 +143,7 @@ pub(super) fn drips(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
             let half = run.half * (0.75 + 1.1 * (1.0 - 4.0 * t).max(0.0));
             distance = melted(distance, DVec2::new(q.x - x, y).length() - half);
             let below = q.x - run.end;
-            // The drop is drawn out upward.
+            // The drop is elongated upward.
             let below = if below < 0.0 { 0.55 * below } else { below };
             distance = melted(distance, DVec2::new(below, y).length() - run.drop);
             if y.abs() < 2.0 * run.drop {
@@ -191,7 +191,7 @@ pub(super) fn leaks(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
                 continue;
             }
             let own = streak.half * (t / 0.3).min(1.0).sqrt() * (0.6 + 0.4 * t);
-            // As wide as a texel at least, and fainter instead.
+            // At least as wide as a texel, and fainter instead.
             let half = own.max(0.8 * spot.texel);
             if y > half {
                 continue;
@@ -200,7 +200,7 @@ pub(super) fn leaks(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
             let faded = (1.0 - t) * (1.0 - 0.4 * t) * (t / 0.06).min(1.0);
             clear *= 1.0 - (streak.strength * profile * faded).min(0.97);
         }
-        // Rows of several widths, so that none shows as a lattice.
+        // Rows of several widths, so that no regular lattice is visible.
         let rows = |wide: f64, seed: u32| {
             let place = DVec2::new(0.9 + 0.02 * wide, wide) * (q + DVec2::new(0.0, sway));
             (stretched_noise(place + offset, seed) - 0.5) * spot.shown(1.0 / wide)
@@ -208,7 +208,7 @@ pub(super) fn leaks(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
         let streaky = 0.5 + 0.36 * rows(15.0, 2) + 0.36 * rows(37.0, 3) + 0.28 * rows(83.0, 4);
         let grit = noise_2(30.0 * q + offset, 5) - 0.5;
         let wet = 1.0 - clear;
-        // Thin water breaks up into threads; dense water does not.
+        // Thin water divides into threads; dense water does not.
         let threads = smooth_step(streaky + 0.08 * grit * spot.shown(0.033), 0.56 - 0.42 * wet, 0.2);
         (wet * (0.25 + 0.95 * threads)).min(1.0) * spot.fall
     }

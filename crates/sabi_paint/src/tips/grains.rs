@@ -12,13 +12,13 @@ const PORES: [(f64, f64); 3] = [(3.4, 0.42), (6.7, 0.46), (14.0, 0.4)];
 /// Dots of spray along a radius, fine ones last, and how many of them there are in the middle.
 const DOTS: [(f64, f64); 3] = [(9.0, 0.35), (17.0, 0.8), (27.0, 0.9)];
 
-/// Chalk: it catches on the grain of the surface.
+/// Chalk, whose strength depends on the grain of the surface.
 pub(super) fn chalk() -> impl Fn(&Spot) -> f64 {
     |spot| spot.crumbled(spot.grain, [0.45, 0.85], 0.045, 0.3 * GRAIN)
 }
 
-/// Grain of the surface that chalk catches on; it stays where it is on the model. The place and the width of a texel are shares of the
-/// radius of the brush.
+/// Returns the grain of the surface for chalk, which keeps its place on the model. The position and the width of a texel
+/// are in radii of the brush.
 pub(super) fn chalk_grain(model: DVec3, texel: f64) -> f64 {
     let place = model / GRAIN;
     let fine = (noise_3(6.9 * place, 3) - 0.5) * shown(0.15 * GRAIN, texel);
@@ -62,13 +62,13 @@ pub(super) fn spray(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
                 if z > share || cells.distance_squared(middle) > 0.25 {
                     continue;
                 }
-                // Stays inside of the border, whatever the hardness.
+                // Keeps the dot inside of the border, whatever the hardness.
                 let left = 1.0 - middle.length() / (0.97 * scale);
                 let is_there = z < share * left * (2.0 - left).max(0.0) * left.max(0.0).sqrt();
                 if !is_there {
                     continue;
                 }
-                // The rest of the third number is random, too.
+                // The remainder of the third number is random, too.
                 let size = z / (share * left);
                 let radius = (0.1 + 0.28 * size * size) / scale;
                 most = most.max(spot.disk(cells.distance(middle) / scale, radius));

@@ -20,8 +20,8 @@ const SCUFFS: [(f64, f64, f64); 5] = [
 /// Hairs in a stamp of lint, and the straight parts of each.
 const LINT: [usize; 2] = [7, 16];
 
-/// Mean over a texel of what the hairs leave at a place across them, given in hairs: that of the hair there, and of the next one
-/// where the texel reaches over to it.
+/// Returns the mean over a texel of the strength of hairs at a position across them, given in hairs: that of the hair
+/// there, and of the next one if the texel overlaps it.
 fn over_hairs(across: f64, texel: f64, hair: impl Fn(i32) -> f64) -> f64 {
     let (cell, half) = (across.floor(), 0.5 * texel.clamp(1e-6, 1.0));
     let own = across - cell;
@@ -44,11 +44,11 @@ pub(super) fn bristles([stroke, _]: [u32; 2]) -> impl Fn(&Spot) -> f64 {
         let round = 1.0 - (2.0 * (across - across.floor()) - 1.0).powi(2);
         let inked = over_hairs(across, HAIRS * spot.texel, |index| {
             let hair = random(stroke, [index, 7, 0]);
-            // Hairs lift off and touch again along the way.
+            // Hairs lift off and touch the surface again along the way.
             let touch = noise_3(spot.model / 0.6 + 9.0 * hair, 3);
             smooth_step(hair + 0.5 * touch, 0.55, 0.2)
         });
-        // Gaps between hairs that texels cannot show become their mean.
+        // If gaps between hairs are too small for the texels, their mean is used.
         let gaps = spot.shown(1.0 / HAIRS);
         let round = std::f64::consts::FRAC_PI_4 + gaps * (round.max(0.0).sqrt() - std::f64::consts::FRAC_PI_4);
         spot.fall * round * inked
@@ -102,7 +102,7 @@ pub(super) fn scuffs(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
                 continue;
             }
             let half = (0.09 + 0.27 * wide * wide) * taper.sqrt() / rows;
-            // Rows that texels cannot show become their mean.
+            // If rows are too small for the texels, their mean is used.
             let mean = 2.0 * half * rows;
             let line = mean + spot.shown(1.0 / rows) * (spot.line((across - row - 0.5).abs() / rows, half) - mean);
             most = most.max(line * (0.55 + 0.6 * (worn - wide)).min(1.0) * (0.45 + 0.55 * taper));
@@ -119,7 +119,7 @@ struct Hair {
     reach: f64,
     half: f64,
     strength: f64,
-    /// 1 over the square of the length of a part.
+    /// 1 divided by the squared length of a part.
     scale: f64,
     places: [DVec2; LINT[1] + 1],
 }
@@ -137,7 +137,7 @@ fn hair(dice: &mut Dice) -> Hair {
         at += length / LINT[1] as f64 * toward(angle);
         here
     });
-    // One that reaches over the border is drawn together.
+    // A hair that extends beyond the border is made smaller.
     while places.iter().any(|place| place.length() > 0.95) {
         places = places.map(|place| from + 0.9 * (place - from));
     }

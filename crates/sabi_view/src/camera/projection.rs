@@ -4,7 +4,7 @@ use glam::{Mat4, Vec2, Vec3};
 
 use super::{Camera, Lens, clamped_aspect};
 
-/// Radius of the scene around the origin: half the diagonal of the model's box is at most 0.87, and relief may stand out of it.
+/// Radius of the scene around the origin. Half the diagonal of the model's box is at most 0.87, and relief may rise above it.
 const SCENE_RADIUS: f64 = 2.0;
 
 /// A half-line in view space.
@@ -26,8 +26,8 @@ impl Camera {
         matrix
     }
 
-    /// Projection of eye space with reversed depth: 1 at the near plane and 0 at the far one. The planes enclose the scene;
-    /// inside of it the near plane is at a thousandth of the distance to the target.
+    /// Returns the projection of eye space with reversed depth: 1 at the near plane and 0 at the far plane. The planes
+    /// enclose the scene. If the eye is inside the scene, the near plane is at a thousandth of the distance to the target.
     pub fn clip_from_eye(&self, aspect: f32) -> Mat4 {
         let camera = self.clamped();
         let aspect = clamped_aspect(aspect);
@@ -57,12 +57,12 @@ impl Camera {
         Mat4::from_cols_array_2d(&columns)
     }
 
-    /// Projection of view space: [`Camera::clip_from_eye`] after [`Camera::eye_from_view`].
+    /// Returns the projection of view space: [`Camera::clip_from_eye`] after [`Camera::eye_from_view`].
     pub fn clip_from_view(&self, aspect: f32) -> Mat4 {
         self.clip_from_eye(aspect) * self.eye_from_view()
     }
 
-    /// Returns the ray through a point of the viewport. Through an orthographic lens it starts in front of the whole scene,
+    /// Returns the ray through a point of the viewport. With an orthographic lens it starts in front of the whole scene,
     /// since such a lens also shows what is behind the eye.
     pub fn ray(&self, pointer: Vec2, aspect: f32) -> Ray {
         let camera = self.clamped();
@@ -88,7 +88,7 @@ impl Camera {
         (clip.w > 0.0 && pointer.is_finite()).then_some(pointer)
     }
 
-    /// Distances from the eye forward to the near and the far plane; through an orthographic lens they may be negative.
+    /// Returns the distances from the eye forward to the near and the far plane. With an orthographic lens they may be negative.
     fn depths(&self) -> [f32; 2] {
         let middle = self.eye_f64().dot(self.axes().z_axis);
         let [near, far] = [middle - SCENE_RADIUS, middle + SCENE_RADIUS];

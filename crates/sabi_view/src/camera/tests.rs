@@ -1,4 +1,4 @@
-//! Tests of points that stay under the pointer, of framing, and that all results are finite.
+//! Tests: points stay under the pointer, points are framed, and all results are finite.
 
 use proptest::prelude::*;
 
@@ -30,7 +30,7 @@ fn project(camera: &Camera, point: Vec3) -> Vec2 {
     camera.project(point, aspect_of(VIEWPORT)).unwrap()
 }
 
-/// A point that lies under the pointer, some way along its ray.
+/// Returns a point under the pointer, at a distance along its ray.
 fn under(camera: &Camera, pointer: Vec2, way: f32) -> Vec3 {
     let ray = camera.ray(pointer, aspect_of(VIEWPORT));
     ray.origin + ray.direction * way
@@ -41,7 +41,7 @@ fn near(a: Vec2, b: Vec2) -> bool {
 }
 
 #[test]
-fn the_named_views_look_along_the_axes_at_the_sides_they_are_named_for() {
+fn each_named_view_looks_along_an_axis_at_the_side_of_its_name() {
     let toward = |name: &str| Camera::seen_from(name.parse().unwrap(), &corners(), 1.0);
     for (name, forward, right) in [
         ("front", Vec3::NEG_Z, Vec3::X),
@@ -79,7 +79,7 @@ fn the_point_under_the_pointer_is_on_its_ray() {
 }
 
 #[test]
-fn what_was_under_the_pointer_stays_there_when_panning() {
+fn a_point_under_the_pointer_stays_there_when_panning() {
     let (from, drag) = (Vec2::new(0.3, 0.6), Vec2::new(70.0, -45.0));
     for mut camera in lenses() {
         let held = under(&camera, from, 1.1);
@@ -92,7 +92,7 @@ fn what_was_under_the_pointer_stays_there_when_panning() {
 }
 
 #[test]
-fn what_is_under_the_pointer_stays_there_when_zooming() {
+fn a_point_under_the_pointer_stays_there_when_zooming() {
     let pointer = Vec2::new(0.8, 0.3);
     for camera in lenses() {
         let plane = camera.target.dot(camera.forward());
@@ -114,7 +114,7 @@ fn what_is_under_the_pointer_stays_there_when_zooming() {
 }
 
 #[test]
-fn dragging_right_turns_the_near_side_to_the_right_and_never_tips_over() {
+fn dragging_right_turns_the_near_side_to_the_right_and_pitch_stays_limited() {
     for mut camera in lenses() {
         let near_side = camera.target - camera.forward() * 0.2;
         let before = project(&camera, near_side);
@@ -130,7 +130,7 @@ fn dragging_right_turns_the_near_side_to_the_right_and_never_tips_over() {
 }
 
 #[test]
-fn a_turntable_comes_back_to_where_it_began() {
+fn a_turntable_returns_to_its_start() {
     let mut camera = lenses()[0];
     let begin = camera;
     for _ in 0..8 {
@@ -163,7 +163,7 @@ fn framed_points_are_all_in_the_picture_and_fill_it() {
                 let filled = ((high - low) / shares).max_element();
                 assert!((filled - 1.0).abs() < 1e-3, "{name} {lens:?} {aspect}: {filled}");
                 let middle = (low + high) * 0.5;
-                // The side that has room is in the middle at the distance at which it would fill the picture.
+                // The side with room is in the middle, at the distance at which it would fill the picture.
                 assert!(
                     (middle - 0.5).abs().max_element() < 0.05,
                     "{name} {lens:?} {aspect}: {middle}"
@@ -174,21 +174,21 @@ fn framed_points_are_all_in_the_picture_and_fill_it() {
 }
 
 #[test]
-fn points_in_one_place_keep_the_distance() {
+fn framing_points_in_one_place_keeps_the_distance() {
     let mut camera = lenses()[0];
     camera.frame(&[Vec3::ONE; 3], 1.0);
     assert_eq!((camera.target, camera.distance), (Vec3::ONE, 1.7));
 }
 
 #[test]
-fn a_lens_is_changed_without_a_change_of_size_at_the_target() {
+fn changing_the_lens_keeps_the_size_at_the_target() {
     let [perspective, orthographic] = lenses();
     let beside = perspective.target + perspective.right() * 0.2 + perspective.up() * 0.1;
     assert!(near(project(&perspective, beside), project(&orthographic, beside)));
 }
 
 #[test]
-fn a_focal_length_is_changed_without_a_change_of_size_at_the_target() {
+fn changing_the_focal_length_keeps_the_size_at_the_target() {
     let mut camera = lenses()[0];
     camera.set_focal_length(70.0);
     assert!((camera.focal_length_mm() - 70.0).abs() < 1e-3);
@@ -215,7 +215,7 @@ fn focus_keeps_the_direction_or_looks_straight_at_a_surface() {
 }
 
 #[test]
-fn what_is_near_has_the_greater_depth_and_all_of_the_model_is_between_the_planes() {
+fn nearer_points_have_greater_depth_and_the_whole_model_is_between_the_planes() {
     for camera in lenses() {
         for distance in [0.9, 1.7, 40.0] {
             let camera = Camera { distance, ..camera };
@@ -264,7 +264,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn no_input_makes_what_is_no_number(
+    fn no_input_leads_to_nan(
         target in any_place(),
         angles in any_pair(),
         distance in any_finite(),
@@ -306,7 +306,7 @@ proptest! {
 }
 
 #[test]
-fn viewports_without_area_and_numbers_that_are_none_change_nothing_for_the_worse() {
+fn viewports_without_area_and_nan_do_no_harm() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0] {
         let begin = lenses()[0];
         let mut camera = begin;

@@ -27,12 +27,12 @@ impl Viewpoint {
         ("top", Viewpoint::at(0.0, 90.0)),
         ("bottom", Viewpoint::at(0.0, -90.0)),
     ];
-    /// The side of +Z, which glTF calls the front.
+    /// The side of +Z, which is the front in glTF.
     pub const FRONT: Viewpoint = Viewpoint::NAMED[0].1;
-    /// From the right and a little above, the usual way to show a model.
+    /// From the right and slightly above, the usual way to show a model.
     pub const THREE_QUARTER: Viewpoint = Viewpoint::NAMED[1].1;
 
-    /// Viewpoint in a direction, at the distance that frames the model.
+    /// Returns the viewpoint in a direction, at the distance that frames the model.
     pub const fn at(yaw_degrees: f32, pitch_degrees: f32) -> Viewpoint {
         Viewpoint {
             yaw_degrees,
@@ -91,10 +91,10 @@ fn names() -> String {
     Viewpoint::NAMED.map(|(name, _)| name).join(", ")
 }
 
-/// Fault of a text that names no viewpoint, as a sentence.
+/// Error in a text that should be a viewpoint. Its display is a sentence.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ViewpointError {
-    /// Neither a name nor numbers.
+    /// The text is neither a name nor numbers.
     #[error(
         "{text:?} is no view of the model; use one of {}, or YAW,PITCH[,DISTANCE] in degrees and in multiples of the \
          distance that frames the model, as in 35,20 or 35,20,1.5",
@@ -104,23 +104,23 @@ pub enum ViewpointError {
         /// Text that was given.
         text: String,
     },
-    /// Text in the place of a number.
+    /// A part of the text should be a number.
     #[error("the {what} of the view {text:?} is {part:?}, which is no number; write it as in 35,20 or 35,20,1.5")]
     NoNumber {
         /// Text that was given.
         text: String,
         /// `yaw`, `pitch` or `distance`.
         what: &'static str,
-        /// Text in the place of the number.
+        /// The part that should be a number.
         part: String,
     },
-    /// A pitch beyond straight up or down.
+    /// The pitch is beyond straight up or down.
     #[error("a view with a pitch of {pitch} degrees was asked for, but it has to be between -90 and 90")]
     Pitch {
         /// Text that was given.
         pitch: String,
     },
-    /// A distance that is not above 0.
+    /// The distance is not above 0.
     #[error(
         "a view from {distance} times the distance that frames the model was asked for, but it has to be between 0.01 \
          and 100"
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_viewpoint_is_told_what_one_is() {
+    fn an_error_for_a_wrong_viewpoint_says_what_a_viewpoint_is() {
         assert_eq!(
             refused("sideways"),
             "\"sideways\" is no view of the model; use one of front, three-quarter, left, right, back, top, bottom, or \
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_beyond_what_a_camera_does_are_refused_with_the_range() {
+    fn numbers_out_of_range_are_refused_with_the_range() {
         assert_eq!(
             refused("0,120"),
             "a view with a pitch of 120 degrees was asked for, but it has to be between -90 and 90"

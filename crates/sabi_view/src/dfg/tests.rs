@@ -1,13 +1,13 @@
-//! The table against closed forms and a plain sum over half vectors.
+//! The table, compared with closed forms and with a plain sum over half vectors.
 
 use std::f64::consts::PI;
 use std::time::Instant;
 
 use super::{SIDE, disk_samples, integrate, integrate_sheen, table};
 
-/// The same integral over half vectors on a grid of 256 by 256 angles, with the distribution of normals as their weight;
-/// light and its weight follow from them (Walter et al. 2007, equations 20 and 38). The tangent of the first angle is that
-/// of the half vector over alpha.
+/// Computes the same integral over half vectors on a grid of 256 by 256 angles, weighted with the distribution of normals.
+/// Light and its weight follow from them (Walter et al. 2007, equations 20 and 38). The tangent of the first angle is that
+/// of the half vector divided by alpha.
 fn reference(n_v: f64, roughness: f64) -> [f64; 2] {
     let alpha = roughness * roughness;
     let smith = |cos: f64| 0.5 * ((1.0 + alpha * alpha * (1.0 / (cos * cos) - 1.0)).sqrt() - 1.0);
@@ -34,7 +34,7 @@ fn reference(n_v: f64, roughness: f64) -> [f64; 2] {
 }
 
 #[test]
-fn the_table_is_what_a_fine_sum_gives() {
+fn the_table_agrees_with_a_fine_sum() {
     let mut worst = [0.0f64; 2];
     for roughness in [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0] {
         for n_v in [0.004, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 0.99] {
@@ -52,9 +52,9 @@ fn the_table_is_what_a_fine_sum_gives() {
     println!("largest errors {worst:?}");
 }
 
-/// All of the light that a mirror of roughness 1 sends back in one bounce is 1 - mu ln((1 + mu) / mu).
+/// A mirror of roughness 1 reflects 1 - mu ln((1 + mu) / mu) of the light in one bounce.
 #[test]
-fn roughness_1_is_its_closed_form() {
+fn roughness_1_agrees_with_its_closed_form() {
     for n_v in [0.05, 0.2, 0.5, 0.8, 1.0f64] {
         let [scale, bias] = integrate(&disk_samples(), n_v, 1.0);
         let expected = 1.0 - n_v * ((1.0 + n_v) / n_v).ln();
@@ -64,7 +64,7 @@ fn roughness_1_is_its_closed_form() {
 }
 
 #[test]
-fn no_light_is_won() {
+fn no_more_light_is_reflected_than_arrives() {
     let started = Instant::now();
     let table = table();
     println!("the table took {:?}", started.elapsed());
@@ -78,8 +78,8 @@ fn no_light_is_won() {
     }
 }
 
-/// With what bounces more than once (Fdez-Agüera 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based
-/// Lighting), under light of 1 from all around.
+/// Returns the reflected light, including light that bounces more than once (Fdez-Agüera 2019, A Multiple-Scattering
+/// Microfacet Model for Real-Time Image-based Lighting), under light of 1 from all directions.
 fn furnace([scale, bias]: [f32; 2], f0: f32, albedo: f32) -> f32 {
     let once = f0 * scale + bias;
     let lost = 1.0 - scale - bias;
@@ -89,7 +89,7 @@ fn furnace([scale, bias]: [f32; 2], f0: f32, albedo: f32) -> f32 {
 }
 
 #[test]
-fn white_metal_and_white_plastic_vanish_in_a_white_furnace() {
+fn white_metal_and_white_plastic_are_invisible_in_a_white_furnace() {
     for entry in table() {
         let [scale, bias, _] = *entry;
         for (f0, albedo) in [(1.0, 0.0), (0.04, 1.0)] {
@@ -99,10 +99,10 @@ fn white_metal_and_white_plastic_vanish_in_a_white_furnace() {
     }
 }
 
-/// At roughness 1 the distribution is 3 sin / 2π; from straight above, light at an angle θ has its half vector at θ / 2, and the
-/// masking is 1 / 4.
+/// At roughness 1 the distribution is 3 sin / 2π. Seen from straight above, light at an angle θ has its half vector at θ /
+/// 2, and the masking is 1 / 4.
 #[test]
-fn a_sheen_seen_from_straight_above_is_its_plain_integral() {
+fn a_sheen_seen_from_straight_above_equals_its_integral() {
     let steps = 100_000;
     let middle = |step: i32| (f64::from(step) + 0.5) / f64::from(steps);
     let sum: f64 = (0..steps)

@@ -27,7 +27,7 @@ fn at_level(cube: &wgpu::Texture, level: u32) -> wgpu::TexelCopyTextureInfo<'_> 
     }
 }
 
-/// Uploads a cube map; an error where the bytes are not those of such a map.
+/// Uploads a cube map. Returns an error if the number of bytes does not match.
 pub(super) fn upload(gpu: &Gpu, side: u32, bytes: &[u8]) -> Result<wgpu::Texture, ViewError> {
     let expected: usize = (0..LEVELS).map(|level| level_bytes(side >> level)).sum();
     if bytes.len() != expected {

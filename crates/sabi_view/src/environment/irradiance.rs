@@ -7,14 +7,14 @@ use rayon::prelude::*;
 
 use super::panorama::Panorama;
 
-/// Basis functions of the coefficients of irradiance, at a direction of unit length: the spherical harmonics up to the
-/// second degree without their factors.
+/// Returns the basis functions of the coefficients of irradiance at a direction of unit length: the spherical harmonics up
+/// to the second degree without their factors.
 fn basis([x, y, z]: [f64; 3]) -> [f64; 9] {
     [1.0, x, y, z, x * y, y * z, z * x, 3.0 * y * y - 1.0, x * x - z * z]
 }
 
-/// Squares of the harmonics' factors, times what the cosine lobe leaves of each degree: pi, 2 pi / 3 and pi / 4 (Ramamoorthi
-/// and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps), divided by pi.
+/// Squares of the factors of the harmonics, times the factors of the cosine lobe for each degree: pi, 2 pi / 3 and pi / 4
+/// (Ramamoorthi and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps), divided by pi.
 const FACTORS: [f64; 9] = {
     let degree_1 = 3.0 / (4.0 * PI) * 2.0 / 3.0;
     let degree_2 = 15.0 / (4.0 * PI) / 4.0;
@@ -30,13 +30,13 @@ const FACTORS: [f64; 9] = {
         degree_2 / 4.0,
     ]
 };
-/// Degree of each of them.
+/// Degree of each basis function.
 const DEGREES: [i32; 9] = [0, 1, 1, 1, 2, 2, 2, 2, 2];
 
-/// Coefficients, a color each.
+/// Coefficients, each of which is a color.
 pub(super) type Coefficients = [DVec3; 9];
 
-/// Irradiance divided by pi, the radiance of a white diffuse surface, at a normal of unit length.
+/// Returns irradiance divided by pi, the radiance of a white diffuse surface, at a normal of unit length.
 pub(super) fn evaluate(coefficients: &Coefficients, normal: Vec3) -> DVec3 {
     let basis = basis(normal.to_array().map(f64::from));
     basis
@@ -46,15 +46,15 @@ pub(super) fn evaluate(coefficients: &Coefficients, normal: Vec3) -> DVec3 {
         .sum()
 }
 
-/// Irradiance of a panorama, nowhere negative. Strong light from one side makes the expansion ring: the far side would be
-/// negative. Then higher degrees are damped by the least amount that prevents it, after Sloan 2008, Stupid Spherical Harmonics
-/// Tricks: the square of the Laplacian is minimized along with the error. The mean stays.
+/// Returns the irradiance of a panorama, which is nowhere negative. With strong light from one side, the expansion alone would be negative
+/// on the far side. In that case higher degrees are damped by the smallest amount that prevents it, after Sloan 2008, Stupid Spherical
+/// Harmonics Tricks: the square of the Laplacian is minimized along with the error. The mean is not changed.
 pub(super) fn irradiance(panorama: &Panorama) -> Coefficients {
     let plain = projected(panorama);
     if lowest(&plain) >= 0.0 {
         return plain;
     }
-    // Ends, since degree 1 alone is negative only beyond twice the mean, which no light reaches.
+    // The loop ends, since degree 1 alone is negative only if its amplitude is more than twice the mean, which is impossible for light.
     let (mut low, mut high) = (0.0, 1.0);
     while lowest(&damped(&plain, high)) < 0.0 && high < 1e6 {
         (low, high) = (high, 2.0 * high);
@@ -79,7 +79,7 @@ fn damped(coefficients: &Coefficients, strength: f64) -> Coefficients {
     damped
 }
 
-/// The lowest value of any channel: the lowest of many directions, and from there downhill.
+/// Returns the lowest value of any channel: the lowest of many directions, refined by descent.
 fn lowest(coefficients: &Coefficients) -> f64 {
     const DIRECTIONS: u32 = 1024;
     let golden = PI * (3.0 - 5f64.sqrt());
@@ -118,9 +118,9 @@ fn lowest(coefficients: &Coefficients) -> f64 {
     downhill.fold(f64::INFINITY, f64::min)
 }
 
-/// Integrals over pixels are exact: both the harmonics and the area of the sphere are products of a function of the latitude
-/// and one of the longitude. Rows are added from the top, so that the sum does not
-/// depend on threads.
+/// Returns the coefficients of a panorama. Integrals over pixels are exact, since both the harmonics and the area of the
+/// sphere are products of a function of the latitude and one of the longitude. Rows are added from the top, so that the sum
+/// does not depend on threads.
 fn projected(panorama: &Panorama) -> Coefficients {
     let width = f64::from(panorama.width());
     let columns: Vec<[f64; 5]> = (0..panorama.width())
@@ -162,8 +162,8 @@ fn projected(panorama: &Panorama) -> Coefficients {
     total
 }
 
-/// Integrals of a row's light times the basis from the integrals along it: of 1, the sine and the cosine of the longitude,
-/// their product and the difference of their squares.
+/// Returns the integrals of a row's light times the basis. The arguments are the integrals along the row of 1, the sine and
+/// the cosine of the longitude, their product, and the difference of their squares.
 fn of_row([plain, sine, cosine, product, difference]: [DVec3; 5], north: f64, south: f64) -> Coefficients {
     let between = |integral: fn(f64) -> f64| integral(north) - integral(south);
     let level = between(f64::sin);
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn even_light_falls_evenly_on_everything() {
+    fn uniform_light_gives_uniform_irradiance() {
         for size in [[1, 1], [3, 2], [64, 32], [201, 77]] {
             let coefficients = irradiance(&panorama(size, |_| [1.0, 0.5, 40.0]));
             for normal in normals().step_by(50) {
@@ -217,9 +217,9 @@ mod tests {
         }
     }
 
-    /// A half of the sphere that shines lights a normal by the share (1 + cos) / 2, and the second degree has no part in it.
+    /// A hemisphere that shines gives a normal the share (1 + cos) / 2. The second degree contributes nothing.
     #[test]
-    fn light_from_one_half_is_what_its_closed_form_says() {
+    fn light_from_one_hemisphere_agrees_with_its_closed_form() {
         for axis in [Vec3::X, Vec3::NEG_Y, Vec3::Z] {
             let coefficients = irradiance(&panorama([256, 128], |to| [f32::from(to.dot(axis) > 0.0); 3]));
             for normal in normals().step_by(50) {
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_low_strong_sun_makes_no_darkness_below_none() {
+    fn a_low_strong_sun_gives_no_negative_irradiance() {
         let sun = Vec3::new(0.8, 0.1, -0.5).normalize();
         let sky = panorama([512, 256], |to| {
             let sun = if to.dot(sun) > 0.9995 { 20_000.0 } else { 0.0 };
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn soft_light_is_left_as_it_is() {
+    fn soft_light_is_not_damped() {
         let sky = panorama([64, 32], |to| {
             [1.0 + 0.5 * to.y, 1.0 + 0.3 * to.x * to.z, 1.0 + 0.2 * to.z]
         });

@@ -7,24 +7,24 @@ use rayon::prelude::*;
 
 use crate::error::ViewError;
 
-/// Largest side; larger panoramas are reduced, since no picture resolves more.
+/// Maximum length of a side. Larger panoramas are reduced, since no picture shows more detail.
 const MAX_SIDE: u32 = 8192;
-/// Largest radiance: the largest half float, to which brighter light is clamped.
+/// Largest radiance: the largest half float. Brighter light is clamped to it.
 pub(crate) const MAX_RADIANCE: f32 = 65504.0;
 
-/// Linear radiance from all directions, latitude by longitude as OpenEXR has it: the top row looks to +Y, the middle of
-/// the picture to +Z, a quarter of the way from the left to +X. A pixel stands for its center.
+/// Linear radiance from all directions, by latitude and longitude as in OpenEXR: the top row looks to +Y, the middle of the
+/// picture to +Z, and a quarter of the way from the left to +X. The value of a pixel is that at its center.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panorama {
     width: u32,
     height: u32,
-    /// Row by row from the top, each number from 0 to `MAX_RADIANCE`.
+    /// Pixels row by row from the top. Each number is from 0 to `MAX_RADIANCE`.
     rgb: Vec<[f32; 3]>,
 }
 
 impl Panorama {
-    /// A panorama of linear pixels, row by row from the top, whose alpha is ignored, and a sentence for each kind of value that
-    /// was replaced: negative numbers and NaN become 0, larger numbers than `MAX_RADIANCE` become that.
+    /// Creates a panorama from linear pixels, row by row from the top. Alpha is ignored. Negative numbers and NaN become 0, and numbers
+    /// larger than `MAX_RADIANCE` become `MAX_RADIANCE`. Also returns a sentence for each kind of value that was replaced.
     pub fn new(width: u32, height: u32, rgba: &[[f32; 4]]) -> Result<(Panorama, Vec<String>), ViewError> {
         let given = rgba.len() as u64;
         if given == 0 || given != u64::from(width) * u64::from(height) {
@@ -51,12 +51,12 @@ impl Panorama {
         Ok((panorama, remarks([width, height], dark, bright)))
     }
 
-    /// Pixels across.
+    /// Returns the width in pixels.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Pixels down.
+    /// Returns the height in pixels.
     pub fn height(&self) -> u32 {
         self.height
     }
@@ -66,7 +66,7 @@ impl Panorama {
         &self.rgb
     }
 
-    /// Direction of a point of the picture, unit length; `uv` is 0 to 1 from the left and from the top.
+    /// Returns the unit direction of a point of the picture. `uv` is 0 to 1 from the left and from the top.
     pub fn direction(uv: Vec2) -> Vec3 {
         let (longitude, latitude) = (PI * (1.0 - 2.0 * uv.x), PI * (0.5 - uv.y));
         let ([sin, cos], level) = ([longitude.sin(), longitude.cos()], latitude.cos());
@@ -79,10 +79,10 @@ impl Panorama {
         vec2(0.5 - direction.x.atan2(direction.z) / (2.0 * PI), 0.5 - latitude / PI)
     }
 
-    /// The panorama with fewer pixels, each of which is the mean over its solid angle, so that the total light stays.
+    /// Returns the panorama with fewer pixels. Each is the mean over its solid angle, so that the total light does not change.
     pub(crate) fn reduced(&self, [width, height]: [u32; 2]) -> Panorama {
         let columns = box_weights(self.width, width, |u| u);
-        // The part of the sphere above a latitude grows with the cosine of the angle from the top.
+        // The area of the sphere above a latitude grows with the cosine of the angle from the top.
         let rows = box_weights(self.height, height, |v| -(std::f64::consts::PI * v).cos());
         let line = |shares: &Vec<(usize, f32)>| {
             let mut sums = vec![Vec3::ZERO; self.width as usize];
@@ -103,7 +103,7 @@ impl Panorama {
     }
 }
 
-/// Replaced values and an unusual shape, as sentences.
+/// Returns sentences about replaced values and an unusual shape.
 fn remarks([width, height]: [u32; 2], dark: usize, bright: usize) -> Vec<String> {
     let pixels = |count: usize| match count {
         1 => "1 pixel of the environment is".to_owned(),
@@ -132,12 +132,12 @@ fn remarks([width, height]: [u32; 2], dark: usize, bright: usize) -> Vec<String>
     remarks
 }
 
-/// Weights of a box filter: for each of `target` equal parts of a line, the indices and weights of the `source` parts that it
-/// covers. Weights add up to 1. `measure` is the cumulative measure at a place from 0 to 1.
+/// Returns the weights of a box filter: for each of `target` equal parts of a line, the indices and weights of the `source`
+/// parts that it covers. Weights add up to 1. `measure` is the cumulative measure at a place from 0 to 1.
 fn box_weights(source: u32, target: u32, measure: impl Fn(f64) -> f64) -> Vec<Vec<(usize, f32)>> {
     let (source, target) = (u64::from(source), u64::from(target));
     let part = |at: u64| {
-        // In units of which a source part has `target` and a target part has `source`.
+        // In these units a source part has the length `target`, and a target part the length `source`.
         let (start, end) = (at * source, (at + 1) * source);
         let length = |low: u64, high: u64| {
             let place = |units: u64| units as f64 / (source * target) as f64;
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_lie_where_openexr_has_them() {
+    fn axes_are_those_of_openexr() {
         let axes = [
             (vec2(0.5, 0.5), Vec3::Z),
             (vec2(0.25, 0.5), Vec3::X),
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_light_is_mended_and_told() {
+    fn invalid_radiance_is_replaced_and_reported() {
         let mut pixels = vec![[0.5, 0.25, 1.0, 0.0]; 8];
         pixels[1] = [f32::NAN, 1.0, -2.0, 1.0];
         pixels[2] = [f32::INFINITY, 1e9, 3.0, 1.0];
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn any_size_goes_but_none() {
+    fn any_size_but_zero_is_allowed() {
         let (one, remarks) = Panorama::new(1, 1, &[[2.0; 4]]).unwrap();
         assert_eq!((one.rgb(), remarks.len()), (&[[2.0; 3]][..], 0));
         let (_, remarks) = Panorama::new(3, 3, &[[1.0; 4]; 9]).unwrap();
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn fewer_pixels_hold_the_same_light() {
+    fn a_reduced_panorama_has_the_same_light() {
         let (width, height) = (50, 23);
         let rgba: Vec<[f32; 4]> = (0..width * height)
             .map(|at| [(at as f32 * 0.37).fract() * 9.0, 1.0, (at % 7) as f32, 1.0])

@@ -12,8 +12,8 @@ use crate::shaders::ViewShader;
 
 /// Levels of roughness, see [`roughness_of`].
 pub(super) const LEVELS: u32 = 6;
-/// Directions of light for each level; none for the first, which is not filtered. Rougher levels have wider lobes and fewer
-/// texels.
+/// Number of light directions for each level; 0 for the first level, which is not filtered. Rougher levels have wider lobes
+/// and fewer texels.
 const DIRECTIONS: [u32; LEVELS as usize] = [0, 128, 512, 1024, 2048, 4096];
 /// Texels along a side of a workgroup.
 pub(crate) const GROUP: u32 = 8;
@@ -31,13 +31,14 @@ wgsl_struct! {
     }
 }
 
-/// Texels along a side of a face at roughness 0, as many as show what is in the panorama; it halves from level to level.
+/// Returns the number of texels along a side of a face at roughness 0, enough for the detail of the panorama. It halves
+/// from level to level.
 pub(super) fn face_side(panorama: &Panorama) -> u32 {
-    // A face is a quarter of the way around.
+    // A face covers a quarter of the way around.
     if panorama.width() > 512 { 256 } else { 128 }
 }
 
-/// A cube map of half floats with these levels, whose content is undefined.
+/// Creates a cube map of half floats with these levels. Its content is undefined.
 pub(super) fn cube(gpu: &Gpu, label: &str, side: u32, levels: u32) -> Result<wgpu::Texture, ViewError> {
     let cube = gpu.guarded("an environment", |device| {
         device.create_texture(&wgpu::TextureDescriptor {
@@ -61,7 +62,7 @@ pub(super) fn cube(gpu: &Gpu, label: &str, side: u32, levels: u32) -> Result<wgp
     Ok(cube)
 }
 
-/// The whole cube map, to be read by direction.
+/// Returns a view of the whole cube map, which is read by direction.
 pub(super) fn cube_view(cube: &wgpu::Texture) -> wgpu::TextureView {
     cube.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::Cube),
@@ -69,7 +70,7 @@ pub(super) fn cube_view(cube: &wgpu::Texture) -> wgpu::TextureView {
     })
 }
 
-/// One level of a cube map, as faces to be written or by direction to be read.
+/// Returns a view of one level of a cube map, either as faces that are written or as a cube that is read by direction.
 fn level_view(cube: &wgpu::Texture, level: u32, dimension: wgpu::TextureViewDimension) -> wgpu::TextureView {
     cube.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(dimension),
@@ -79,13 +80,14 @@ fn level_view(cube: &wgpu::Texture, level: u32, dimension: wgpu::TextureViewDime
     })
 }
 
-/// Perceptual roughness of a level, the square root of the width of GGX: `r` is what level `r (2 − r) (LEVELS − 1)` has, as
-/// `lighting.wgsl` reads it. Levels lie close where mirrors become dull, since what is between two is mixed from both.
+/// Returns the perceptual roughness of a level, the square root of the width of GGX. A roughness `r` belongs to level `r (2
+/// − r) (LEVELS − 1)`, as `lighting.wgsl` reads it. Levels are close to each other where mirrors become dull, since values
+/// between two levels are mixed from both.
 fn roughness_of(level: u32) -> f32 {
     1.0 - (1.0 - level as f32 / (LEVELS - 1) as f32).sqrt()
 }
 
-/// The prefiltered cube map of a panorama on the device.
+/// Creates the prefiltered cube map of a panorama on the device.
 pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Result<wgpu::Texture, ViewError> {
     use wgpu::TextureViewDimension::{Cube, D2, D2Array};
     let source = cube(gpu, "environment", side, side.ilog2() + 1)?;
@@ -96,7 +98,7 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
     let pass = CubePass {
         side,
         count: SAMPLES,
-        // Pixels of the panorama between two samples.
+        // Number of pixels of the panorama between two samples.
         lod: (pixels / (side * SAMPLES) as f32).log2().max(0.0),
         pad: 0,
     };
@@ -133,10 +135,10 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
     Ok(made)
 }
 
-/// Directions of light around +Z as GGX of this width mirrors them to one who looks along it, with the level of the source
-/// whose texels are as large as the part of the sphere that a direction stands for, and one more: such parts then overlap
-/// (Křivánek and Colbert 2008). They wind in a spiral by the golden angle, which leaves no gaps and shows no rows.
-/// `source_side` is that of a face of the source.
+/// Returns directions of light around +Z, distributed as GGX of this width reflects them to a viewer who looks along +Z.
+/// Each has the level of the source whose texels are as large as the part of the sphere that the direction represents, plus
+/// one, so that these parts overlap (Křivánek and Colbert 2008). The directions form a spiral with the golden angle, which
+/// leaves no gaps and shows no rows. `source_side` is the side of a face of the source.
 fn lobe(alpha: f32, count: u32, source_side: u32) -> Vec<Vec4> {
     let texel_sr = 4.0 * PI / (6 * source_side * source_side) as f32;
     let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
@@ -150,7 +152,7 @@ fn lobe(alpha: f32, count: u32, source_side: u32) -> Vec<Vec4> {
         let half = vec3(sin_half * around.cos(), sin_half * around.sin(), cos_half);
         let to: Vec3 = 2.0 * cos_half * half - Vec3::Z;
         let spread = cos_half * cos_half * (squared - 1.0) + 1.0;
-        // D / 4, as n·h and v·h are the same here.
+        // The density is D / 4, since n·h and v·h are equal here.
         let pdf = squared / (4.0 * PI * spread * spread);
         let lod = 0.5 * (1.0 / (count as f32 * pdf * texel_sr)).log2() + 1.0;
         to.extend(lod.clamp(0.0, source_side.ilog2() as f32))
@@ -274,7 +276,7 @@ impl<'g> CubeEncoder<'g> {
         to: &wgpu::TextureView,
         lobe: &[Vec4],
     ) -> Result<(), ViewError> {
-        // A binding is never empty.
+        // A binding must not be empty.
         let lobe = if lobe.is_empty() { &[Vec4::ZERO] } else { lobe };
         let uniform = self.buffer(bytemuck::bytes_of(&pass), wgpu::BufferUsages::UNIFORM)?;
         let flat: Vec<f32> = lobe.iter().flat_map(Vec4::to_array).collect();

@@ -1,4 +1,4 @@
-//! A displaced copy is drawn as the model is: where it stands, on the same charts, in the same materials, with the same lines.
+//! A displaced copy is drawn like the model: in the same place, on the same charts, with the same materials and the same lines.
 
 use std::path::Path;
 
@@ -18,7 +18,8 @@ fn asset(name: &str) -> (Model, Atlas) {
     (model, atlas)
 }
 
-/// Two arms on a back in one chart, with a hundredth of UV between them; in space one is bent forward and the other backward.
+/// Returns two arms on a back, in one chart. In UV a gap of a hundredth separates the arms; in space one is bent forward
+/// and the other backward.
 fn fork() -> Model {
     let columns = [0.0131, 0.4113, 0.4217, 0.8391];
     let rows = [0.017, 0.293, 0.571, 0.731, 0.919];
@@ -47,7 +48,7 @@ fn fork() -> Model {
     }
 }
 
-/// A copy cut into many triangles, raised by so many model units everywhere.
+/// Returns a copy that is cut into many triangles and raised everywhere by `height` model units.
 fn raised(model: &Model, atlas: &Atlas, height: f32) -> Displaced {
     let options = DisplaceOptions {
         edge_length: 0.0,
@@ -66,7 +67,7 @@ fn length(lines: &[Line]) -> f64 {
 }
 
 #[test]
-fn a_copy_that_nothing_raises_covers_each_material_as_the_model_does() {
+fn a_copy_that_is_not_raised_covers_each_material_like_the_model() {
     let (model, atlas) = asset("bench.glb");
     let placement = Placement::of(&model.mesh);
     let area_of_materials = |made: &DrawMesh| -> Vec<(u32, bool, f32)> {
@@ -95,7 +96,7 @@ fn a_copy_that_nothing_raises_covers_each_material_as_the_model_does() {
 }
 
 #[test]
-fn each_corner_of_a_copy_lies_on_the_chart_of_the_triangle_it_was_cut_from() {
+fn each_corner_of_a_copy_is_on_the_chart_of_its_original_triangle() {
     let (model, atlas) = asset("cube.glb");
     let copy = raised(&model, &atlas, 0.0);
     let made = DrawMesh::of_displaced(&copy, &model, &atlas, &Placement::of(&model.mesh));
@@ -111,7 +112,7 @@ fn each_corner_of_a_copy_lies_on_the_chart_of_the_triangle_it_was_cut_from() {
 }
 
 #[test]
-fn a_raised_copy_stands_out_of_the_place_of_the_model() {
+fn a_raised_copy_extends_beyond_the_model() {
     let (model, atlas) = asset("sphere.glb");
     let placement = Placement::of(&model.mesh);
     let height = (0.1 / placement.scale) as f32;
@@ -144,7 +145,7 @@ fn cuts_at_narrow_gaps_of_a_chart_are_no_seams() {
 }
 
 #[test]
-fn the_lines_of_a_copy_are_those_of_the_model_and_rise_with_it() {
+fn a_copy_has_the_lines_of_the_model_at_its_raised_edges() {
     let (model, atlas) = asset("cube.glb");
     let placement = Placement::of(&model.mesh);
     let [edges, seams] = lines(half_edges(&model.mesh, &atlas), &placement);

@@ -1,4 +1,4 @@
-//! A cube and a lone triangle, picked from all sides and at all sizes.
+//! A cube and a single triangle, picked from all sides and at all sizes.
 
 use std::path::Path;
 
@@ -39,7 +39,7 @@ fn corners() -> Vec<Vec3> {
         .collect()
 }
 
-/// The asset cube, its positions changed.
+/// Returns the cube of the assets with changed positions.
 fn cube(change: impl Fn(f32) -> f32) -> Stand {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/cube.glb");
     let mut mesh = load(&path, &LoadOptions::default()).unwrap().mesh;
@@ -106,7 +106,7 @@ fn texture_coordinates_and_texels_are_those_of_the_point_picked() {
 }
 
 #[test]
-fn the_same_is_picked_at_any_size_and_far_from_the_origin() {
+fn the_same_point_is_picked_at_any_size_and_far_from_the_origin() {
     let plain = cube(|value| value);
     let changed = [
         cube(|value| value * 1e-6),
@@ -127,7 +127,7 @@ fn the_same_is_picked_at_any_size_and_far_from_the_origin() {
                 for (number, stand) in changed.iter().enumerate() {
                     let picked = stand.pick(camera.ray(pointer, 1.0)).unwrap();
                     let apart = Vec2::from(picked.uv).distance(expected.uv.into());
-                    // At 1e6 the corners themselves are rounded to sixteenths.
+                    // At 1e6 the corners themselves are rounded to multiples of 1/16.
                     assert!(
                         apart < if number == 2 { 1e-4 } else { 1e-6 },
                         "{name} {number}: {apart}"
@@ -153,7 +153,7 @@ fn single() -> Stand {
 }
 
 #[test]
-fn the_back_of_a_surface_is_picked_as_its_front_is() {
+fn the_back_of_a_surface_is_picked_like_its_front() {
     let stand = single();
     let toward = |z: f32| Ray {
         origin: Vec3::new(-0.25, -0.25, z),
@@ -170,7 +170,7 @@ fn the_back_of_a_surface_is_picked_as_its_front_is() {
 }
 
 #[test]
-fn rays_that_miss_or_are_none_pick_nothing() {
+fn rays_that_miss_or_are_invalid_pick_nothing() {
     let stand = single();
     let ray = |origin, direction| stand.pick(Ray { origin, direction });
     assert_eq!(ray(Vec3::new(0.4, 0.4, 2.0), Vec3::NEG_Z), None);

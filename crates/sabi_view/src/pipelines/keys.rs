@@ -1,12 +1,12 @@
-//! Keys of pipelines: what each is for, and what specializes it.
+//! Keys of pipelines: the purpose of each, and the properties for which it is specialized.
 
 use super::switches::{RasterVariant, Switches};
 use crate::shaders::ViewShader;
 
-/// Key of a pipeline: its purpose and everything that specializes it.
+/// Key of a pipeline: its purpose and all properties for which it is specialized.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum PipelineKey {
-    /// Rasterizes the model: the visible place of each pixel.
+    /// Rasterizes the model: finds the visible point for each pixel.
     Raster {
         is_double_sided: bool,
         variant: RasterVariant,
@@ -14,24 +14,24 @@ pub(crate) enum PipelineKey {
     },
     /// Shades the pixels of the model.
     Shade(Shading, Switches),
-    /// The picture behind the model, with the shade on the ground.
+    /// Draws the picture behind the model, with the shade on the ground.
     Background(Backing),
     Lines,
-    /// Depth of the model from a light; with the maps of a material where that has clear places.
+    /// Depth of the model as seen from a light. If a material has transparent places, its maps are used.
     Shadow(Option<Switches>),
-    /// A step of spreading the light above white.
+    /// A step of the bloom, which spreads the light above white.
     Bloom(BloomStep),
-    /// Adds a sample to the sum of those before.
+    /// Adds a sample to the sum of the earlier samples.
     Accumulate(Development),
     /// Encodes the only sample.
     Encode(Development),
-    /// Encodes the only sample where the picture shows the model.
+    /// Encodes the only sample, for the pixels that show the model.
     EncodeModel(Development),
     /// Encodes the mean of the samples.
     EncodeMean,
 }
 
-/// Step of spreading the light above white: an entry point of `bloom.wgsl`.
+/// Step of the bloom, which spreads the light above white: an entry point of `bloom.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum BloomStep {
     /// Gathers the light above white.
@@ -54,7 +54,7 @@ impl BloomStep {
     }
 }
 
-/// Way from light to display colors: the overrides of `display.wgsl`.
+/// Conversion of light to display colors: the overrides of `display.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Development {
     /// `TRANSFORM`.
@@ -71,14 +71,14 @@ impl Transform {
     pub(crate) const STANDARD: Transform = Transform(0);
     pub(crate) const AGX: Transform = Transform(1);
     pub(crate) const ACES: Transform = Transform(2);
-    /// For pictures that are encoded already.
+    /// For pictures that are already encoded.
     pub(crate) const ENCODED: Transform = Transform(3);
     pub(crate) const NEUTRAL: Transform = Transform(4);
     pub(crate) const AGX_PUNCHY: Transform = Transform(5);
 }
 
 impl Development {
-    /// For light that is transformed already.
+    /// For light that is already transformed.
     pub(super) const DONE: Development = Development {
         transform: Transform::STANDARD,
         has_bloom: false,
@@ -104,7 +104,7 @@ impl Backdrop {
     pub(crate) const ENVIRONMENT: Backdrop = Backdrop(0);
     pub(crate) const BLURRED: Backdrop = Backdrop(1);
     pub(crate) const STUDIO: Backdrop = Backdrop(2);
-    /// Nothing but the shade on the ground.
+    /// Only the shade on the ground.
     pub(crate) const NOTHING: Backdrop = Backdrop(3);
 }
 

@@ -16,7 +16,7 @@ pub(crate) struct Layouts {
     pub(crate) panorama: wgpu::BindGroupLayout,
     /// One uniform buffer.
     pub(crate) uniform: wgpu::BindGroupLayout,
-    /// Two pictures to read between their texels.
+    /// Two textures that are read with interpolation.
     pub(crate) bloom: wgpu::BindGroupLayout,
     /// Light, the sum of earlier samples, and the bloom.
     pub(crate) display: wgpu::BindGroupLayout,
@@ -62,7 +62,7 @@ const UNFILTERABLE: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { f
 
 const SMOOTH: wgpu::SamplerBindingType = wgpu::SamplerBindingType::Filtering;
 
-/// The values and the maps of a material, as `maps.wgsl` has them.
+/// Returns the entries for the values and the maps of a material, as in `maps.wgsl`.
 fn material_entries() -> Vec<wgpu::BindGroupLayoutEntry> {
     let map = |binding| sampled(binding, UNFILTERABLE, wgpu::TextureViewDimension::D2Array);
     let maps = 1..=MAP_BITS.len() as u32;

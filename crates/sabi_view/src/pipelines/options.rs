@@ -2,11 +2,11 @@
 
 use crate::target::DEPTH_FORMAT;
 
-/// Options in which the pipelines differ.
+/// Options by which the pipelines differ.
 pub(super) struct PipelineOptions<'r> {
     pub(super) label: &'r str,
     pub(super) module: &'r wgpu::ShaderModule,
-    /// Entry points: of the vertex shader, and of the fragment shader where colors are written.
+    /// Entry points of the vertex shader and, if colors are written, of the fragment shader.
     pub(super) entries: (&'r str, Option<&'r str>),
     /// Values of the module's overrides.
     pub(super) switches: &'r [(&'r str, f64)],
@@ -17,7 +17,7 @@ pub(super) struct PipelineOptions<'r> {
     pub(super) depth: Option<wgpu::DepthStencilState>,
 }
 
-/// Depth and stencil tests; with `is_written` both buffers are written.
+/// Returns depth and stencil tests. With `is_written`, both buffers are written.
 pub(super) fn depth(
     compare: wgpu::CompareFunction,
     stencil: wgpu::CompareFunction,
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn attributes_begin_where_members_do() {
+    fn vertex_attributes_have_the_offsets_of_their_fields() {
         let attributes = |attributes: &[wgpu::VertexAttribute]| -> Vec<u64> {
             (0..)
                 .zip(attributes)

@@ -1,4 +1,4 @@
-//! Overrides that pipelines of the model are specialized by.
+//! Overrides for which pipelines of the model are specialized.
 
 use crate::scene::{MOST_LIGHTS, MaterialLook, Mode, NodeType, Scene, Shot};
 
@@ -14,13 +14,13 @@ pub(crate) const MAP_BITS: [(&str, u32); 9] = [
     ("SHEEN_MAP", 128),
     ("SUBSURFACE_MAP", 256),
 ];
-/// Bit of the colors.
+/// Bit of the color map.
 const COLORS: u32 = MAP_BITS[0].1;
 /// Values of `SHOWN_TYPE` other than that of a mask, which is 0.
 pub(crate) const SHOWN_COLOR: u32 = 1;
 pub(crate) const SHOWN_VECTOR: u32 = 2;
 
-/// Properties of a surface that decide which of its points a pixel shows.
+/// Properties of a surface on which it depends which of its points a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum RasterVariant {
     /// Opaque triangles.
@@ -49,7 +49,7 @@ impl Switches {
     pub(crate) fn of_raster(look: &MaterialLook, mode: Mode, variant: RasterVariant) -> Switches {
         let is_transparent = matches!(variant, RasterVariant::Transparent | RasterVariant::TransparentRelief);
         Switches {
-            // No other mode changes what the raster writes.
+            // Other modes do not change what the raster writes.
             mode: match mode {
                 Mode::Density | Mode::Shift => mode.number(),
                 _ => Mode::Material.number(),
@@ -93,13 +93,13 @@ impl Switches {
         }
     }
 
-    /// The values about lights by the names of their overrides.
+    /// Returns the values about lights, with the names of their overrides.
     pub(crate) fn of_lights(self) -> [(&'static str, f64); 2] {
         let [.., count, shadows, _] = self.named();
         [count, shadows]
     }
 
-    /// The values by the names of their overrides.
+    /// Returns the values with the names of their overrides.
     pub(crate) fn named(self) -> [(&'static str, f64); 6] {
         [
             ("MODE", self.mode),

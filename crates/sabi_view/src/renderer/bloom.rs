@@ -1,7 +1,7 @@
 //! Bloom: light above white that is spread over the picture before its view transform.
 //!
-//! It is found from the first sample of a picture and used for all, so that a still picture pays for it once. The levels
-//! depend on the picture's size, so that pictures of all sizes look alike.
+//! It is computed from the first sample of a picture and used for all samples, so that a still picture needs it only once.
+//! The levels depend on the picture's size, so that pictures of all sizes look alike.
 
 use sabi_gpu::Gpu;
 use sabi_gpu::wgsl_struct;
@@ -62,7 +62,7 @@ impl Renderer {
         }
         for (level, to) in mixed.iter().enumerate().rev() {
             let coarser = mixed.get(level + 1).unwrap_or(&gathered[level + 1]);
-            // All levels in the end have the same share of the light.
+            // With these factors, all levels have the same share of the light in the end.
             let left = (gathered.len() - level) as f32;
             let constants = constants((left - 1.0) / left);
             self.bloom_pass(gpu, encoder, BloomStep::Mix, [&gathered[level], coarser, to], constants)?;

@@ -37,7 +37,7 @@ pub(super) struct BoundRange {
     pub(super) indices: std::ops::Range<u32>,
     /// Number of their look.
     pub(super) look: usize,
-    /// Pipeline of their shadow, where light comes through.
+    /// Pipeline of their shadow, if their look has transparent places.
     pub(super) veiled_shadow: Option<wgpu::RenderPipeline>,
 }
 
@@ -58,7 +58,7 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// Returns true if light comes through some of the model.
+    /// Returns true if light passes through some of the model.
     pub(super) fn is_veiled(&self) -> bool {
         self.ranges.iter().any(|range| range.veiled_shadow.is_some())
     }
@@ -142,7 +142,7 @@ impl Renderer {
         })
     }
 
-    /// Triangles of the visible materials with their pipelines.
+    /// Returns the triangles of the visible materials with their pipelines.
     fn bound_ranges(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<Vec<BoundRange>, ViewError> {
         let ranges = scene.model.ranges.iter();
         let visible = ranges.filter_map(|range| Some((range, choice::look_of(range, scene)?)));

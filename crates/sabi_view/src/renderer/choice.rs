@@ -10,22 +10,22 @@ use crate::model::MaterialRange;
 use crate::pipelines::{Backdrop, Backing, BloomStep, PipelineKey, RasterVariant, Shading, Switches};
 use crate::scene::{Background, MaterialLook, Mode, Scene, Shot};
 
-/// Most looks in a picture: a stencil has eight bits, and 0 is none.
+/// Maximum number of looks in a picture: a stencil has eight bits, and 0 means no look.
 const MOST_LOOKS: usize = 255;
 
-/// Pipelines that a picture needs and that are not made yet.
+/// Pipelines that a picture needs and that have not been created yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissingPipelines(BTreeSet<PipelineKey>);
 
 impl Renderer {
-    /// Returns the pipelines to make before a picture is drawn, which takes longer than a frame of a window; `None` if
-    /// all exist. Includes the pipelines for pictures of one sample and of several.
+    /// Returns the pipelines that have to be created before a picture can be drawn; `None` if all exist. Creating them
+    /// takes longer than a frame of a window. Includes the pipelines for pictures of one sample and of several.
     pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<MissingPipelines> {
         let missing = self.pipelines.missing(needed(scene, shot));
         (!missing.is_empty()).then_some(MissingPipelines(missing))
     }
 
-    /// Compiles missing pipelines on any thread; pictures are drawn meanwhile.
+    /// Compiles missing pipelines. May be called on any thread while pictures are drawn.
     pub fn make(&self, gpu: &Gpu, missing: &MissingPipelines) -> Result<(), ViewError> {
         for key in &missing.0 {
             self.pipelines.get(gpu, *key)?;
@@ -57,12 +57,12 @@ fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
     needed
 }
 
-/// The looks of a scene, at most [`MOST_LOOKS`].
+/// Returns the looks of a scene, up to [`MOST_LOOKS`].
 pub(super) fn looks<'s>(scene: &Scene<'s>) -> &'s [MaterialLook] {
     &scene.looks[..scene.looks.len().min(MOST_LOOKS)]
 }
 
-/// Number and look of a range of triangles. Looks beyond the highest number share it.
+/// Returns number and look of a range of triangles. Looks beyond the highest number share that number.
 pub(super) fn look_of<'s>(range: &MaterialRange, scene: &Scene<'s>) -> Option<(usize, &'s MaterialLook)> {
     let index = *scene.look_of_material.get(range.material as usize)?;
     Some((index.min(MOST_LOOKS - 1), scene.looks.get(index)?))
@@ -115,13 +115,13 @@ pub(super) fn raster(range: &MaterialRange, look: &MaterialLook, shot: &Shot) ->
     }
 }
 
-/// Pipeline of the shadow of a look that has clear places; none where it throws a shadow everywhere.
+/// Returns the pipeline for the shadow of a look with transparent places; `None` if the look casts a shadow everywhere.
 pub(super) fn veiled_shadow(look: &MaterialLook, shot: &Shot) -> Option<PipelineKey> {
     let switches = || Switches::of_raster(look, shot.mode, RasterVariant::Transparent);
     shows_transparency(look, shot.mode).then(|| PipelineKey::Shadow(Some(switches())))
 }
 
-/// Returns true if surfaces behind a look show through its clear parts: only in modes that show a whole material.
+/// Returns true if surfaces behind a look are visible through its transparent places. This is so only in modes that show a whole material.
 fn shows_transparency(look: &MaterialLook, mode: Mode) -> bool {
     !look.is_opaque && matches!(mode, Mode::Material | Mode::Clay)
 }

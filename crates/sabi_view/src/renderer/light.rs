@@ -8,9 +8,9 @@ use crate::scene::{Scene, Shot};
 use crate::target::Target;
 
 impl Renderer {
-    /// Light of a shot of the lit material, the mean of all samples: linear, scene-referred and exposed, without a view
-    /// transform. RGB is premultiplied by the coverage of the pixel, the fourth component; a plain background covers nothing.
-    /// Row by row from the top.
+    /// Returns the light of a shot of the lit material, the mean of all samples: linear, scene-referred and exposed,
+    /// without a view transform. RGB is premultiplied by the fourth component, the coverage of the pixel. A plain
+    /// background has a coverage of 0. Row by row from the top.
     pub fn light(
         &self,
         gpu: &Gpu,

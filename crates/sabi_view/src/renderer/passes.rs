@@ -1,4 +1,4 @@
-//! The passes that a picture is made of.
+//! The passes of a picture.
 
 use sabi_gpu::{Gpu, wgsl_struct};
 
@@ -43,7 +43,7 @@ impl Renderer {
         Ok(maps)
     }
 
-    /// Renders the shadow maps of a sample, where they are not those of the first one.
+    /// Renders the shadow maps of a sample if they differ from those of the first sample.
     pub(super) fn cast_again(
         &self,
         gpu: &Gpu,
@@ -60,7 +60,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Renders the shadow maps of a sample, unless they are of these lights and this opaque model already.
+    /// Renders the shadow maps of a sample, unless they already show these lights and this opaque model.
     fn cast_shadows(
         &self,
         gpu: &Gpu,
@@ -103,7 +103,7 @@ impl Renderer {
             draw_casters(&mut pass, scene, bound, &opaque);
         }
         gpu.queue().submit([encoder.finish()]);
-        // Veils are other ones in each sample, and their maps may change.
+        // Shadows of transparent places differ from sample to sample, and their maps may change, so they are not reused.
         maps.cast = (!bound.is_veiled()).then_some(cast);
         Ok(())
     }
@@ -128,7 +128,7 @@ fn draw_casters(pass: &mut wgpu::RenderPass<'_>, scene: &Scene<'_>, bound: &Boun
     }
 }
 
-/// Draws the visibility buffer, and the number of each pixel's look into the stencil.
+/// Draws the visibility buffer, and writes the number of each pixel's look to the stencil.
 pub(super) fn draw_raster(
     encoder: &mut wgpu::CommandEncoder,
     visibility: &VisibilityBuffer,
@@ -151,7 +151,7 @@ pub(super) fn draw_raster(
         color_attachments: &[Some(color_attachment(&places)), Some(color_attachment(&frames))],
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: &depth,
-            // Depth is reversed: 0 is farthest.
+            // Depth is reversed, so 0 is farthest.
             depth_ops: Some(cleared(0.0)),
             stencil_ops: Some(cleared(0)),
         }),
@@ -170,7 +170,7 @@ pub(super) fn draw_raster(
     }
 }
 
-/// One sample's light.
+/// Draws the light of one sample.
 pub(super) fn draw_light(
     encoder: &mut wgpu::CommandEncoder,
     light: &wgpu::Texture,
@@ -186,7 +186,7 @@ pub(super) fn draw_light(
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("light"),
         color_attachments: &[Some(part_attachment(&light, parts))],
-        // Only read: shaders read it, too.
+        // Read-only, since shaders read it as well.
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: &depth,
             depth_ops: None,
@@ -223,7 +223,7 @@ pub(super) fn draw_light(
 /// Part of a picture that is drawn: its left, upper, right and lower border in pixels.
 pub(crate) type Part = [u32; 4];
 
-/// Attachment of which parts are drawn again; all of it without any.
+/// Returns an attachment. If there are parts, only they are drawn again, so the rest is kept.
 pub(super) fn part_attachment<'v>(
     view: &'v wgpu::TextureView,
     parts: Option<&[Part]>,
@@ -241,7 +241,7 @@ pub(super) fn part_attachment<'v>(
     }
 }
 
-/// Draws all of a picture, or some parts of it one after another.
+/// Draws the whole picture, or the given parts one after another.
 pub(super) fn for_parts(
     pass: &mut wgpu::RenderPass<'_>,
     parts: Option<&[Part]>,

@@ -1,4 +1,4 @@
-//! Pictures of one view of a model in many looks, for which visibility is computed once.
+//! Pictures of one view of a model with many looks. Visibility is computed only once.
 
 use sabi_gpu::{DeviceMaps, Gpu};
 
@@ -28,8 +28,8 @@ const POSE_LIGHTS: [Light; 2] = {
     ]
 };
 
-/// One view of a model, for pictures of it in many looks. Its visibility is computed once: on software drivers that takes
-/// far longer than shading a small picture.
+/// One view of a model, for pictures of it with many looks. Its visibility is computed once, since on software drivers that
+/// takes far longer than shading a small picture.
 pub struct Pose {
     shot: Shot,
     target: Target,
@@ -40,7 +40,7 @@ pub struct Pose {
     look_of_material: Vec<usize>,
 }
 
-/// Look with which a pose is rastered, in place of all its looks.
+/// Look with which a pose is rasterized, whichever looks it is drawn with later.
 const RASTER_LOOK: MaterialLook = MaterialLook {
     maps: DeviceMaps {
         color: None,
@@ -60,7 +60,7 @@ const RASTER_LOOK: MaterialLook = MaterialLook {
 };
 
 impl Renderer {
-    /// A model as a shot sees it, in the lights of a studio, without relief and without lines.
+    /// Prepares a model as seen by a shot, in the lights of a studio, without relief and without lines.
     pub fn pose(
         &self,
         gpu: &Gpu,
@@ -109,8 +109,8 @@ impl Renderer {
         })
     }
 
-    /// Draws a pose with one look on all of the model: a node's own result where the look has one, else the lit material.
-    /// Model and environment are those of the pose.
+    /// Draws a pose with one look on the whole model. If the look has a node's own result, that is shown, otherwise the lit
+    /// material. Model and environment must be those of the pose.
     pub fn draw_look<'p>(
         &self,
         gpu: &Gpu,
@@ -135,7 +135,7 @@ impl Renderer {
             lights: &POSE_LIGHTS,
         };
         if !look.is_opaque {
-            // The visible surface behind a transparent place depends on the look.
+            // The look determines which surface is visible behind transparent places.
             self.draw(gpu, &mut pose.target, &scene, &shot)?;
             return Ok(&pose.target);
         }

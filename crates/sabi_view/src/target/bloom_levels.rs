@@ -1,4 +1,4 @@
-//! Textures that the bloom of a picture is spread over.
+//! Textures over which the bloom of a picture is spread.
 
 use sabi_gpu::Gpu;
 
@@ -8,19 +8,19 @@ use crate::upload::texture;
 
 /// Pixels of the picture along a side of a texel of the finest level.
 const FINEST: u32 = 4;
-/// Least texels along the shorter side of the coarsest level.
+/// Minimum number of texels along the shorter side of the coarsest level.
 const LEAST_SIDE: u32 = 8;
 
 /// Levels of the spread light of a picture, the finest first.
 pub(crate) struct BloomLevels {
-    /// Light of each level alone.
+    /// Light of each level without the others.
     pub(crate) gathered: Vec<wgpu::TextureView>,
-    /// Each level mixed with the coarser ones; of all but the coarsest.
+    /// Each level mixed with the coarser ones; all levels but the coarsest.
     pub(crate) mixed: Vec<wgpu::TextureView>,
 }
 
 impl BloomLevels {
-    /// Levels for a picture of a size, without content.
+    /// Creates the levels for a picture of this size, without content.
     pub(crate) fn new(gpu: &Gpu, size: [u32; 2]) -> Result<BloomLevels, ViewError> {
         let sizes = level_sizes(size);
         let level = |[width, height]: &[u32; 2]| -> Result<wgpu::TextureView, ViewError> {
@@ -33,13 +33,13 @@ impl BloomLevels {
         })
     }
 
-    /// The spread light, a quarter of the picture's size.
+    /// Returns the spread light, with a quarter of the picture's width and height.
     pub(crate) fn spread(&self) -> &wgpu::TextureView {
         self.mixed.first().unwrap_or(&self.gathered[0])
     }
 }
 
-/// Sizes of the levels, the finest first; never empty.
+/// Returns the sizes of the levels, the finest first. There is at least one.
 fn level_sizes(size: [u32; 2]) -> Vec<[u32; 2]> {
     let mut sizes = vec![size.map(|side| side.div_ceil(FINEST))];
     while let Some(&[width, height]) = sizes.last()

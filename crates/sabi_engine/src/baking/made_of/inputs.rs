@@ -1,4 +1,4 @@
-//! Files that a bake reads, by their content.
+//! Files that a bake reads, identified by their content.
 
 use std::path::{Path, PathBuf};
 
@@ -15,9 +15,9 @@ use crate::program::digest;
 pub struct InputRecord {
     /// Path of the file.
     pub path: String,
-    /// Length of the file; `None` where there was no file that could be read.
+    /// Length of the file; `None` if no file could be read.
     pub bytes: Option<u64>,
-    /// BLAKE3 of the file's bytes, hexadecimal; `None` where there was no file that could be read.
+    /// BLAKE3 of the file's bytes, hexadecimal; `None` if no file could be read.
     pub blake3: Option<String>,
 }
 
@@ -32,7 +32,7 @@ impl InputRecord {
     }
 }
 
-/// Records files with absolute paths, sorted and each once.
+/// Records files with absolute paths, sorted and without repeats.
 pub(crate) fn records(files: impl IntoIterator<Item = PathBuf>) -> Vec<InputRecord> {
     let mut paths: Vec<PathBuf> = files
         .into_iter()
@@ -45,7 +45,7 @@ pub(crate) fn records(files: impl IntoIterator<Item = PathBuf>) -> Vec<InputReco
     records
 }
 
-/// Lists the node files beside a graph and in the user's folder. All of them count as read: each may take the place of a kind.
+/// Lists the node files beside a graph and in the user's folder. All of them count as read, since each may replace a kind.
 pub(crate) fn node_files(graph: &Path, trusted: &TrustedPaths) -> Vec<PathBuf> {
     let folders = Kinds::folders(Some(graph)).into_iter();
     folders
@@ -85,7 +85,7 @@ mod tests {
         let nodes = folder.path().join("nodes/lib");
         std::fs::create_dir_all(&nodes).unwrap();
         std::fs::create_dir_all(folder.path().join("nodes/own")).unwrap();
-        // Beside the categories, no node is read.
+        // Outside of the category folders, no node is read.
         for name in [
             "nodes/own/my.wgsl",
             "nodes/lib/noise.wgsl",

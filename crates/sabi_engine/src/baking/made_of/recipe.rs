@@ -1,4 +1,4 @@
-//! Recipes of bakes: all that the maps depend on, besides the program, the adapter and the content of the files.
+//! Recipes of bakes: everything on which the maps depend, except the program, the adapter and the content of the files.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -24,13 +24,13 @@ use crate::opening::linked_model::{ModelOptions, Overlap, SavedReading};
 use crate::opening::memory::default_memory_bytes;
 use crate::source::paint::without_paint;
 
-/// Recipe of a bake. Paths are absolute, or relative to the folder of the file that the recipe stands in.
+/// Recipe of a bake. Paths are absolute, or relative to the folder of the file that contains the recipe.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Recipe {
     /// Graph file.
     pub graph: String,
-    /// Text of the graph where it is not what the file holds: one from standard input, or with unsaved changes.
+    /// Text of the graph if it differs from its file: from standard input, or with unsaved changes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub document: Option<String>,
     /// The model, and how it is read.
@@ -39,33 +39,33 @@ pub struct Recipe {
     pub variant: Option<String>,
     /// Seed in place of the graph's.
     pub seed: Option<u32>,
-    /// Values by exposed knob or `node.param`; later ones win.
+    /// Values by exposed knob or `node.param`. Later values override earlier ones.
     pub set: Vec<SetRecipe>,
     /// Fit in place of the graph's.
     #[serde(with = "recorded_fit")]
     pub fit: Option<Fit>,
-    /// True to take what is painted by hand.
+    /// True to use strokes painted by hand.
     pub paint: bool,
     /// Texels for a unit of UV.
     pub size: u32,
-    /// Presets by name or as files; none for the default one.
+    /// Presets by name or as files; empty for the default preset.
     pub presets: Vec<String>,
-    /// Pattern of names in place of those of the presets.
+    /// Pattern of names that replaces those of the presets.
     pub names: Option<String>,
-    /// Channels to export; none for all.
+    /// Channels to export; empty for all.
     pub channels: Vec<String>,
-    /// Maps of the model itself that are written beside those of the presets.
+    /// Maps of the model itself that are written in addition to those of the presets.
     #[serde(default)]
     pub mesh_maps: Vec<String>,
-    /// Material whose texture set is exported; none for all.
+    /// Material whose texture set is exported; `None` for all.
     pub material: Option<String>,
-    /// True to export constant channels as maps, too.
+    /// True to also export constant channels as maps.
     pub all_maps: bool,
-    /// Padding around the charts, texels; none to fill everything.
+    /// Padding around the charts in texels; `None` to fill everything.
     pub padding: Option<u32>,
     /// Treatment of differences at seams.
     pub seams: Seams,
-    /// Options of the copy of the model; none for no copy.
+    /// Options of the copy of the model; `None` for no copy.
     pub copy: Option<CopyOptions>,
     /// Adapter that was asked for.
     #[serde(serialize_with = "as_text", deserialize_with = "from_text")]
@@ -77,7 +77,7 @@ pub struct Recipe {
     pub fuse: bool,
 }
 
-/// Model of a recipe, and how it is read.
+/// Model of a recipe, and the options for reading it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelRecipe {
@@ -89,11 +89,11 @@ pub struct ModelRecipe {
     pub up: Up,
     /// Factor for all lengths of the file.
     pub scale: f32,
-    /// Scene of a glTF file; none for the one that the file names.
+    /// Scene of a glTF file; `None` for the file's default scene.
     pub scene: Option<u32>,
-    /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
+    /// Angle between faces up to which their shading is smooth, in degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
-    /// Names of the parts that are taken; none for all except hulls and coarser levels of detail.
+    /// Names of the parts that are used; empty for all except hulls and coarser levels of detail.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<String>,
     /// Names of the parts that are left out.
@@ -102,7 +102,7 @@ pub struct ModelRecipe {
     /// True to turn faces that are inside out, false to leave them even if the graph says otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn_faces: Option<bool>,
-    /// Folder in which files are looked for that the model names and that are not there.
+    /// Folder in which missing files that the model names are searched.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub textures: Option<String>,
     /// Treatment of overlapping charts.
@@ -111,19 +111,19 @@ pub struct ModelRecipe {
     pub udim: Udim,
 }
 
-/// A value in place of the graph's.
+/// A value that overrides the graph's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SetRecipe {
     /// Exposed knob or `node.param`.
     pub name: String,
-    /// The value, as graph files have it.
+    /// The value in the form of graph files.
     #[serde(deserialize_with = "value")]
     pub value: Value,
 }
 
 impl ModelRecipe {
-    /// Paths from which the model may open what it names: its folder, and what the request named.
+    /// Returns the paths from which the model may open the files that it names: its folder, and those that the request named.
     fn trusted(&self) -> TrustedPaths {
         let own = TrustedPaths::of_file(&path_of(&self.file));
         let textures = self.textures.as_deref().map(path_of);
@@ -132,7 +132,7 @@ impl ModelRecipe {
 }
 
 impl Recipe {
-    /// The recipe of a request with absolute paths.
+    /// Returns the recipe of a request, with absolute paths.
     pub(crate) fn of(request: &BakeRequest, document: Option<String>) -> Recipe {
         let (evaluator, model) = (&request.evaluator, &request.evaluator.model);
         let overrides = &evaluator.overrides;
@@ -178,8 +178,8 @@ impl Recipe {
         }
     }
 
-    /// Returns the request for a recipe with absolute paths, which writes into a folder. `cache_dir` and `preset_folder` are those of
-    /// this machine.
+    /// Returns the request for a recipe with absolute paths, with this output folder. `cache_dir` and `preset_folder` are
+    /// those of this machine.
     pub fn request(&self, output: &Path, cache_dir: Option<PathBuf>, preset_folder: Option<PathBuf>) -> BakeRequest {
         let model = &self.model;
         let set = self.set.iter().map(|set| (set.name.clone(), set.value.clone()));
@@ -238,7 +238,7 @@ impl Recipe {
         }
     }
 
-    /// Returns the recipe without what may differ from machine to machine, which the maps depend on by rounding only.
+    /// Returns the recipe without options that may differ from machine to machine, on which the maps depend only by rounding.
     pub(crate) fn on_any_machine(&self) -> Recipe {
         Recipe {
             adapter: AdapterChoice::Auto,
@@ -257,18 +257,18 @@ impl Recipe {
         path_of(&self.model.file)
     }
 
-    /// Returns the graph that stands in the recipe, whose paths are absolute; `None` where it is the file's.
+    /// Opens the graph that is contained in the recipe, whose paths are absolute; `None` if the graph is in its file.
     pub fn open_document(&self) -> Option<Result<OpenGraph, EngineError>> {
         let text = self.document.as_ref()?;
         Some(OpenGraph::read(path_of(&self.graph), text.as_bytes()))
     }
 
-    /// Rewrites the paths of a recipe that stands in a file of the base `from` for one of the base `to`.
+    /// Converts the paths of a recipe in a file of the base `from` to the base `to`.
     pub(crate) fn moved(self, from: &PathBase, to: &PathBase) -> Recipe {
         self.with_paths(|path| moved(path, from, to))
     }
 
-    /// Rewrites the paths of a recipe that stands in a file of this base as absolute ones.
+    /// Converts the paths of a recipe in a file of this base to absolute paths.
     pub(crate) fn with_absolute_paths(self, base: &PathBase) -> Recipe {
         self.with_paths(|path| made_absolute(path, base))
     }
@@ -282,13 +282,13 @@ impl Recipe {
     }
 }
 
-/// Rewrites a path that stands in a file of one base for another. A path that is no text stays absolute.
+/// Converts a path in a file of one base to another base. A path that is not text stays absolute.
 pub(crate) fn moved(written: &str, from: &PathBase, to: &PathBase) -> String {
     let rewritten = to.rewrite(written, from, AbsolutePaths::Shorten);
     rewritten.unwrap_or_else(|_| written.to_owned())
 }
 
-/// Rewrites a path that stands in a file of a base as an absolute one. A path that is no text is absolute already.
+/// Converts a path in a file of a base to an absolute path. A path that is not text is already absolute.
 pub(crate) fn made_absolute(written: &str, base: &PathBase) -> String {
     match path_from_stored(written) {
         Some(path) if path.is_absolute() => written.to_owned(),
@@ -296,7 +296,7 @@ pub(crate) fn made_absolute(written: &str, base: &PathBase) -> String {
     }
 }
 
-/// The file that a recorded absolute path leads to.
+/// Returns the file to which a recorded absolute path leads.
 pub(crate) fn path_of(recorded: &str) -> PathBuf {
     path_from_stored(recorded).unwrap_or_else(|| PathBuf::from(recorded))
 }
@@ -313,7 +313,7 @@ fn preset_text(name: &str) -> String {
     }
 }
 
-/// Returns whether a preset is given as a file: names of presets have no ending.
+/// Returns true if a preset is given as a file: names of presets have no extension.
 pub(crate) fn is_preset_file(preset: &str) -> bool {
     Path::new(preset)
         .extension()
@@ -338,7 +338,7 @@ fn value<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Value, D::Error> 
     value_of(&json).ok_or_else(|| serde::de::Error::custom("a number is not finite"))
 }
 
-/// The value of a graph that a JSON value stands for.
+/// Returns the value of a graph that a JSON value represents.
 fn value_of(json: &serde_json::Value) -> Option<Value> {
     use serde_json::Value as Json;
     Some(match json {

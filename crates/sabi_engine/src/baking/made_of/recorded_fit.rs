@@ -1,4 +1,4 @@
-//! Fit as a recipe has it: a word, or a length in meters.
+//! Fit in the form of a recipe: a word, or a length in meters.
 
 use sabi_graph::Fit;
 use serde::de::{Deserialize, Deserializer, Error};

@@ -1,4 +1,4 @@
-//! Maps whose values are read back a band of rows at a time: neither a result nor its normals are in memory as a whole.
+//! Maps whose values are read back in bands of rows, so that neither a result nor its normals are in memory as a whole.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ impl OpenSet<'_> {
         self.padding.pixels()
     }
 
-    /// Returns true if each pixel shows one texel of one result, so that bands can be read one after the other.
+    /// Returns true if each pixel shows one texel of one result, so that bands can be read one after another.
     pub(super) fn is_gathered_in_bands(&self) -> bool {
         self.results.distinct.len() <= 1 && self.layout.shared.is_empty()
     }
@@ -33,8 +33,8 @@ impl OpenSet<'_> {
 }
 
 impl<'s> Maps<'_, 's> {
-    /// Hands over one channel of a stored plane, whose values begin at `first`; without a plane, its neutral value, or nothing where
-    /// few materials have the channel.
+    /// Sends one channel of a stored plane, whose values begin at `first`. Without a plane, sends its neutral value, or
+    /// nothing for a channel that few materials have.
     pub(super) fn channel_in_bands(
         &mut self,
         run: &Run,
@@ -61,7 +61,7 @@ impl<'s> Maps<'_, 's> {
         self.gathered(set, channel, first, read, value)
     }
 
-    /// Hands over one channel that has the same value in all texels that its set shows.
+    /// Sends one channel that has the same value in all texels that its set shows.
     pub(super) fn even_channel(
         &mut self,
         set: &'s OpenSet<'s>,
@@ -79,7 +79,7 @@ impl<'s> Maps<'_, 's> {
         self.send(set, channel.clone(), pixels, true, memory)
     }
 
-    /// Computes and hands over the normals of a set; the neutral ones where its material has neither height nor slope.
+    /// Computes and sends the normals of a set; the neutral ones if its material has neither height nor slope.
     pub(super) fn normals_in_bands(
         &mut self,
         run: &mut Run,
@@ -98,7 +98,7 @@ impl<'s> Maps<'_, 's> {
         self.steps.send(MapStep::Advance)
     }
 
-    /// Gathers the values of a channel from bands that `read` reads of a range of texels, and hands them over.
+    /// Gathers the values of a channel from bands that `read` reads for a range of texels, and sends them.
     fn gathered(
         &mut self,
         set: &'s OpenSet<'s>,

@@ -1,4 +1,4 @@
-//! Maps of a material: its stored planes, and what is computed of them.
+//! Maps of a material: its stored planes, and maps computed from them.
 
 use sabi_export::Channel;
 use sabi_gpu::{PlaneData, Run};
@@ -11,8 +11,8 @@ use super::{MapStep, Maps, OpenSet};
 use crate::error::EngineError;
 use crate::evaluating::looks::slot_of;
 
-/// Stored channels, each with its exported channels and the index of their first value in a texel. The plane of the small maps comes
-/// before the colors, so that its texture is free when the pixels of a color map take most memory.
+/// Stored channels, each with its exported channels and the index of their first value in a texel. The plane of the small
+/// maps comes before the colors, so that its texture is free when the pixels of a color map take the most memory.
 pub(super) const MAPS: [(Stored, &[(Channel, usize)]); 7] = [
     (
         Stored::Surface,
@@ -30,7 +30,7 @@ pub(super) const MAPS: [(Stored, &[(Channel, usize)]); 7] = [
 ];
 
 impl<'s> Maps<'_, 's> {
-    /// Writes the maps of a material for all sets that take them from the same results.
+    /// Writes the maps of a material for all sets that use the same results.
     pub(super) fn material(
         &mut self,
         run: &mut Run,
@@ -114,7 +114,7 @@ impl<'s> Maps<'_, 's> {
         Ok(())
     }
 
-    /// Computes and writes the normal maps, after which heights and slopes are needed no more.
+    /// Computes and writes the normal maps. After that, heights and slopes are no longer needed.
     fn normal_maps(
         &mut self,
         run: &mut Run,
@@ -160,7 +160,7 @@ impl<'s> Maps<'_, 's> {
         }
     }
 
-    /// Computes the anisotropy of a result in the tangent frame; none where it has none.
+    /// Computes the anisotropy of a result in the tangent frame; `None` if it has none.
     fn anisotropy(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
         let Some(slot) = slot_of(result, Plane::Material(Stored::Anisotropy)) else {
             return Ok(None);
@@ -171,7 +171,7 @@ impl<'s> Maps<'_, 's> {
         Ok(Some(gpu.anisotropy(surface, run, slot, &self.from.run_options)?))
     }
 
-    /// Computes the normals of a result; none where it has neither height nor slope.
+    /// Computes the normals of a result; `None` if it has neither height nor slope.
     fn normals(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
         let slot = |channel| slot_of(result, Plane::Material(channel));
         let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));

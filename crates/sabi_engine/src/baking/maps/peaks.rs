@@ -1,4 +1,4 @@
-//! Highest emission of materials with several UDIM tiles: an engine has one strength for all of them.
+//! Highest emission of materials with several UDIM tiles. An engine uses one strength for all tiles.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::error::EngineError;
 use crate::evaluating::looks::slot_of;
 
 impl MapWriter<'_> {
-    /// Returns the highest emission of each material with several tiles, where a normalized map needs it.
+    /// Returns the highest emission of each material with several tiles, if a normalized map needs it.
     pub(super) fn emission_peaks(&self, run: &Run, sets: &[SetWork<'_>]) -> Result<BTreeMap<u32, f32>, EngineError> {
         let mut presets = self.options.presets.iter();
         let is_needed = presets.any(|named| {
@@ -30,7 +30,7 @@ impl MapWriter<'_> {
         Ok(peaks)
     }
 
-    /// Returns the highest emission that a set shows; none where no result has emission.
+    /// Returns the highest emission that a set shows; `None` if no result has emission.
     fn emission_peak(&self, run: &Run, set: &SetWork<'_>) -> Result<Option<f32>, EngineError> {
         let atlas = &self.evaluator.linked().atlas;
         let results = SheetResults::new(atlas, &set.materials);

@@ -1,23 +1,25 @@
-//! Components that are the same in all texels, found while a plane is read for another one.
+//! Detection of components that are the same in all texels, during reading of a plane for another component.
 
 use std::array;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Components of texels that were read so far, by any number of threads: a plane of three even ones is read once.
+/// Components of the texels that were read so far by any number of threads. With it, a plane of three constant components
+/// is read only once.
 #[derive(Debug, Default)]
 pub(super) struct Sameness {
-    /// Any one of the texels; none before the first.
+    /// Any one of the texels; empty before the first.
     texel: OnceLock<[f32; 4]>,
     varies: [AtomicBool; 4],
 }
 
 impl Sameness {
-    /// Takes note of a texel, and returns it.
+    /// Records a texel, and returns it.
     pub(super) fn noted(&self, texel: [f32; 4]) -> [f32; 4] {
         let known = self.texel.get_or_init(|| texel);
         for ((one, other), varies) in texel.iter().zip(known).zip(&self.varies) {
-            // Bits, which tell −0 from 0. A flag that is set already is not written to, which would slow the other threads down.
+            // Compares bits, since −0 and 0 differ. A flag that is already set is not written again, which would slow down
+            // the other threads.
             if one.to_bits() != other.to_bits() && !varies.load(Ordering::Relaxed) {
                 varies.store(true, Ordering::Relaxed);
             }
@@ -25,8 +27,7 @@ impl Sameness {
         texel
     }
 
-    /// Returns a texel that stands for all in some components from `first` on; none where one of these varies, or where no texel was
-    /// read.
+    /// Returns a texel that equals all others in some components from `first` on; `None` if one of these varies, or if no texel was read.
     pub(super) fn of(&self, first: usize, components: usize) -> Option<[f32; 4]> {
         let varies: [bool; 4] = array::from_fn(|at| self.varies[at].load(Ordering::Relaxed));
         let is_same = !varies.iter().skip(first).take(components).any(|varies| *varies);

@@ -1,4 +1,4 @@
-//! Pixels of a texture set, laid out.
+//! Layout of the pixels of a texture set.
 
 use std::{panic, thread};
 
@@ -10,11 +10,11 @@ use crate::evaluating::texture_sets::TextureSet;
 use crate::evaluating::texture_space::set_layout;
 use crate::opening::linked_model::LinkedModel;
 
-/// Most bytes of the pixels of a set that are laid out while something else is evaluated, when textures take most memory: those of
-/// 2048².
+/// Maximum number of bytes for the pixels of a set that are laid out during an evaluation, when textures take the most
+/// memory: those of 2048².
 const BYTES_BESIDE: usize = 64 << 20;
 
-/// Pixels of a texture set: where each takes its values from.
+/// Pixels of a texture set, with the texels from which each takes its values.
 pub(crate) struct SetPixels {
     pub(super) layout: SetLayout,
     pub(super) padding: PaddingMap,
@@ -31,8 +31,8 @@ impl SetPixels {
         }
     }
 
-    /// Lays out the pixels of a set, if there is one and it is no larger than 2048², while something else is evaluated: the processor
-    /// has time as long as the device compiles kernels.
+    /// Lays out the pixels of a set during an evaluation, if there is a set that is not larger than 2048². The processor is
+    /// idle while the device compiles kernels.
     pub(crate) fn new_while<T>(
         linked: &LinkedModel,
         set: Option<&TextureSet>,

@@ -1,6 +1,6 @@
 //! Manifest of an output folder: the bakes whose files are in it.
 //!
-//! It is written after all files of a bake are in place, so that a set which it describes is complete.
+//! It is written after all files of a bake are in place, so that every set in it is complete.
 
 use std::collections::BTreeSet;
 use std::fs::{Metadata, symlink_metadata};
@@ -32,8 +32,8 @@ pub(crate) struct Manifest {
     bakes: Vec<Json>,
 }
 
-/// Refuses an output folder whose own folder is a link, which would lead elsewhere, or whose lock is no ordinary file, which would be
-/// waited for.
+/// Refuses an output folder whose hidden folder is a link, which would lead elsewhere, or whose lock is not an ordinary
+/// file, since opening it could wait forever.
 pub(crate) fn check_own_folder(folder: &Path) -> Result<(), EngineError> {
     let own = folder.join(FOLDER);
     let is_odd =
@@ -52,11 +52,11 @@ pub(crate) fn check_own_folder(folder: &Path) -> Result<(), EngineError> {
     Err(EngineError::new(ErrorKind::CannotWrite, why).with_remedies([Remedy::OtherFolder]))
 }
 
-/// Right to change the files of an output folder, which one bake at a time has.
+/// Right to change the files of an output folder. Only one bake at a time has it.
 pub(crate) struct FolderChange {
     disk: Disk,
     folder: PathBuf,
-    /// Absent on file systems without locks.
+    /// Lock of the folder; `None` on file systems without locks.
     _lock: Option<FileLock>,
 }
 
@@ -85,14 +85,14 @@ impl FolderChange {
         Ok(FolderChange {
             disk: disk.clone(),
             folder: folder.to_owned(),
-            // Without a lock two bakes at the same moment could forget one of them, which is no reason to have no maps.
+            // Without a lock, two bakes at the same moment could lose a record, but that is no reason to write no maps.
             _lock: lock.ok().flatten(),
         })
     }
 
-    /// Records a bake whose files are in place. Warns of documents of earlier bakes that name maps of this one now.
+    /// Records a bake whose files are in place. Warns of documents of earlier bakes that now name maps of this bake.
     pub(crate) fn record(self, report: &mut BakeReport) -> Result<(), EngineError> {
-        // A damaged manifest describes no set.
+        // A damaged manifest counts as empty.
         let mut manifest = Manifest::read(&self.folder).unwrap_or_default();
         let stale = manifest.make_room(report, &base(&self.folder));
         report.warnings.extend(stale.into_iter().map(Warning::from));
@@ -106,11 +106,11 @@ impl FolderChange {
         Ok(file.commit()?)
     }
 
-    /// Gives up; a folder of its own that holds no manifest does not stay.
+    /// Gives up the right without a record. Removes the hidden folder if it has no manifest.
     pub(crate) fn abandon(self) {
         let own = self.folder.join(FOLDER);
         if !path(&self.folder).exists() {
-            // A folder that cannot be removed is hidden, and used by the next bake.
+            // A folder that cannot be removed is hidden, and the next bake uses it.
             let _ = std::fs::remove_file(own.join(LOCK));
             let _ = std::fs::remove_dir(&own);
         }
@@ -118,9 +118,9 @@ impl FolderChange {
 }
 
 impl Manifest {
-    /// Reads the manifest of a folder; an empty one where there is none. Returns why a damaged one cannot be read.
+    /// Reads the manifest of a folder; an empty one if there is none. Returns the reason if a manifest is damaged.
     pub(super) fn read(folder: &Path) -> Result<Manifest, String> {
-        // What is read here decides which files are looked at, also elsewhere.
+        // The manifest decides which files are read, also outside of the folder, so it must not be a link.
         if symlink_metadata(folder.join(FOLDER)).is_ok_and(|found| found.is_symlink()) {
             return Err("its folder is a link".to_owned());
         }
@@ -139,21 +139,21 @@ impl Manifest {
         }
     }
 
-    /// The bakes, with absolute paths, or why one cannot be read.
+    /// Returns the bakes with absolute paths, or the reason why a bake cannot be read.
     pub(super) fn recorded(&self, folder: &Path) -> Result<Vec<RecordedBake>, String> {
         let base = base(folder);
         self.bakes.iter().map(|bake| RecordedBake::of(bake, &base)).collect()
     }
 
-    /// Makes room for a bake: an earlier one of the same set goes, and so do files of the same names of others. Returns sentences about
-    /// documents that stay and name files of these names.
+    /// Removes an earlier bake of the same set from the manifest, and files of the same names from other bakes. Returns
+    /// sentences about remaining documents that name such files.
     fn make_room(&mut self, report: &BakeReport, base: &PathBase) -> Vec<String> {
         let report = report.placed(base);
         let written: BTreeSet<&str> = report.written_files().map(|(path, _)| path).collect();
         let mut stale = Vec::new();
         let recipe = report.recipe.clone();
         self.bakes.retain_mut(|earlier| {
-            // A record that cannot be read describes nothing.
+            // A record that cannot be read counts as empty.
             let Ok(known) = RecordedBake::of(earlier, base) else {
                 return false;
             };
@@ -162,7 +162,7 @@ impl Manifest {
                 .files()
                 .filter(|file| !written.contains(file.path.as_str()))
                 .count();
-            // One whose names have another seed or variant keeps all of its files.
+            // A bake whose names contain another seed or variant keeps all of its files.
             if left < count && is_same_set(&known.recipe, &recipe.clone().with_absolute_paths(base)) {
                 return false;
             }
@@ -180,7 +180,7 @@ impl Manifest {
         stale
     }
 
-    /// Returns a wanted bake whose files are all in place, made by this program.
+    /// Returns a wanted bake by this program whose files are all in place.
     fn finished(&self, folder: &Path, mut is_wanted: impl FnMut(&RecordedBake) -> bool) -> Option<FinishedBake> {
         let base = base(folder);
         let recorded = self.bakes.iter().filter_map(|json| {
@@ -213,7 +213,7 @@ impl FinishedBake {
         self.bake.files().map(|file| file.path.clone()).collect()
     }
 
-    /// Sentences that the bake warned with.
+    /// Returns the warnings of the bake as sentences.
     pub fn warnings(&self) -> Vec<String> {
         let warnings = self.json["warnings"].as_array().into_iter().flatten();
         warnings
@@ -221,7 +221,7 @@ impl FinishedBake {
             .collect()
     }
 
-    /// The report of the bake for a file of a base; with absolute paths for none.
+    /// Returns the report of the bake for a file of a base, or with absolute paths if there is none.
     pub fn report(&self, base: Option<&PathBase>) -> Result<Json, EngineError> {
         let (mut recipe, mut inputs) = (self.bake.recipe.clone(), self.bake.inputs.clone());
         if let Some(base) = base {
@@ -238,8 +238,8 @@ impl FinishedBake {
     }
 }
 
-/// Returns the bake that a request asks for, where its output folder has exactly the files that it would write: they were made by
-/// this program, from files that are the same now.
+/// Returns the requested bake if its output folder has exactly the files that it would write, made by this program from
+/// files that have not changed.
 pub fn finished_bake(request: &BakeRequest) -> Option<FinishedBake> {
     let manifest = Manifest::read(&request.output).ok()?;
     let wanted = Recipe::of(request, None);
@@ -247,25 +247,25 @@ pub fn finished_bake(request: &BakeRequest) -> Option<FinishedBake> {
     manifest.finished(&request.output, is_wanted)
 }
 
-/// Returns true if the output folder of a request has exactly the files that it would write, made on whatever adapter. `digest` gives
-/// the hashes of files as they are now.
+/// Returns true if the output folder of a request has exactly the files that it would write, made on any adapter. `digest`
+/// returns the present hashes of files.
 pub(crate) fn is_finished_on_any_machine(
     request: &BakeRequest,
     mut digest: impl FnMut(&Path) -> Option<String>,
 ) -> bool {
     let wanted = Recipe::of(request, None).on_any_machine();
-    let manifest = Manifest::read(&request.output).unwrap_or_default(); // A damaged manifest describes no set.
+    let manifest = Manifest::read(&request.output).unwrap_or_default(); // A damaged manifest counts as empty.
     let is_wanted = |bake: &RecordedBake| bake.recipe.on_any_machine() == wanted && bake.is_up_to_date(&mut digest);
     manifest.finished(&request.output, is_wanted).is_some()
 }
 
-/// A document as JSON. It goes through text, in which numbers of single precision have their shortest form.
+/// Converts a document to JSON. It goes through text, in which numbers of single precision have their shortest form.
 fn json_of(document: &impl Serialize) -> Result<Json, EngineError> {
     let json = serde_json::to_string(document).and_then(|text| serde_json::from_str(&text));
     json.map_err(|error| EngineError::of(ErrorKind::Defect, error))
 }
 
-/// Returns whether two bakes write the files of the same set, so that the later one takes the place of the earlier.
+/// Returns true if two bakes write the files of the same set, so that the later replaces the earlier.
 fn is_same_set(one: &Recipe, other: &Recipe) -> bool {
     let set = |recipe: &Recipe| {
         (
@@ -280,7 +280,7 @@ fn is_same_set(one: &Recipe, other: &Recipe) -> bool {
     set(one) == set(other)
 }
 
-/// Takes files out of a recorded bake, which is not complete any more.
+/// Removes files from a recorded bake, which is then no longer complete.
 fn without_files(bake: &mut Json, written: &BTreeSet<&str>) {
     let is_left = |file: &Json| file["path"].as_str().is_some_and(|path| !written.contains(path));
     for list in ["outputs", "documents"] {
@@ -309,7 +309,7 @@ pub(super) fn path(folder: &Path) -> PathBuf {
     folder.join(FOLDER).join(FILE)
 }
 
-/// Base of the paths in the manifest of a folder.
+/// Returns the base of the paths in the manifest of a folder.
 fn base(folder: &Path) -> PathBase {
     PathBase::of_folder(absolute(folder))
 }

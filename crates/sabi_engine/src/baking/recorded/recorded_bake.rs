@@ -1,4 +1,4 @@
-//! Bakes as reports and manifests record them.
+//! Bakes recorded in reports and manifests.
 
 use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
@@ -15,12 +15,12 @@ use crate::error::{EngineError, ErrorKind};
 use crate::program::Build;
 use crate::program::digest;
 
-/// Most bytes of a file of recorded bakes.
+/// Maximum size of a file of recorded bakes in bytes.
 pub(super) const MOST_BYTES: u64 = 64 << 20;
 /// Files that a sentence names.
 const MOST_NAMED: usize = 5;
 
-/// A bake that was recorded, with absolute paths.
+/// A recorded bake, with absolute paths.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct RecordedBake {
     /// Program that baked.
@@ -97,10 +97,10 @@ impl RecordedBake {
         RecordedBake::of(&json, &base).map_err(|why| bad(&format!("is damaged: {why}")))
     }
 
-    /// Reads a bake that is recorded in a file of a base; returns why it cannot be read.
+    /// Reads a bake that is recorded in a file of a base. Returns the reason if it cannot be read.
     pub(super) fn of(json: &Json, base: &PathBase) -> Result<RecordedBake, String> {
         let mut bake = RecordedBake::deserialize(json).map_err(|error| error.to_string())?;
-        // Made absolute, the path of another computer looks like one of this.
+        // Checked before the paths are made absolute, since then the path of another computer looks like a local one.
         bake.refuse_strange_paths(base)?;
         bake.recipe = bake.recipe.with_absolute_paths(base);
         for input in &mut bake.inputs {
@@ -109,13 +109,13 @@ impl RecordedBake {
         Ok(bake)
     }
 
-    /// Refuses a record from elsewhere that would have files looked for where nobody named any: on another computer, which learns the
-    /// user's name from that, or outside of the folder of the maps. Returns a clause.
+    /// Refuses a record that would cause access to files in places that the user did not name: on another computer, which
+    /// would learn the user's name, or outside of the folder of the maps. Returns a clause.
     fn refuse_strange_paths(&self, base: &PathBase) -> Result<(), String> {
         let is_here = |path: &str| is_local(path) && is_local(&path_of(path).to_string_lossy());
         let read = self.inputs.iter().map(|input| input.path.as_str());
         let mut read = read.chain([self.recipe.graph.as_str(), self.recipe.model.file.as_str()]);
-        // A record that lies on another computer itself was named there by the user.
+        // If the record itself is on another computer, the user has named that computer.
         if is_local(&base.folder().to_string_lossy())
             && let Some(strange) = read.find(|path| !is_here(path))
         {
@@ -134,7 +134,7 @@ impl RecordedBake {
         }
     }
 
-    /// Files that the bake wrote, relative to the output folder.
+    /// Returns the files that the bake wrote, relative to the output folder.
     pub(super) fn files(&self) -> impl Iterator<Item = &RecordedFile> {
         let copy = self
             .model
@@ -143,12 +143,12 @@ impl RecordedBake {
         self.outputs.iter().chain(&self.documents).chain(copy)
     }
 
-    /// Documents that the bake wrote, relative to the output folder.
+    /// Returns the documents that the bake wrote, relative to the output folder.
     pub(super) fn documents(&self) -> impl Iterator<Item = &str> {
         self.documents.iter().map(|document| document.path.as_str())
     }
 
-    /// Returns the files that the bake read and that are others by now, with a sentence each; none where all are the same.
+    /// Returns the files that the bake read and that have changed since, with a sentence each; empty if none has changed.
     pub(super) fn changed_inputs(&self) -> Vec<(String, String)> {
         let now = records(self.inputs.iter().map(|input| path_of(&input.path)));
         let known: BTreeSet<&InputRecord> = self.inputs.iter().collect();
@@ -171,13 +171,13 @@ impl RecordedBake {
         sentences
     }
 
-    /// Returns true if all files that the bake read are the same now. `digest` gives their hashes.
+    /// Returns true if no file that the bake read has changed. `digest` returns the present hashes.
     pub(super) fn is_up_to_date(&self, mut digest: impl FnMut(&Path) -> Option<String>) -> bool {
         let is_same = |input: &InputRecord| digest(&path_of(&input.path)) == input.blake3;
         self.inputs.iter().all(is_same) && self.new_node_files().is_empty()
     }
 
-    /// Node files that the bake could not have read.
+    /// Returns the node files that did not exist during the bake.
     fn new_node_files(&self) -> Vec<PathBuf> {
         let is_known = |path: &Path| {
             let stored = stored_path(&absolute(path));
@@ -188,7 +188,7 @@ impl RecordedBake {
         files
     }
 
-    /// Refuses to bake again what was made from other files than there are now.
+    /// Refuses to repeat a bake if files that it read have changed.
     pub fn refuse_changed_inputs(&self) -> Result<(), EngineError> {
         let changed = self.changed_inputs().into_iter();
         let mut changed: Vec<String> = changed.map(|(_, sentence)| sentence).collect();
@@ -204,7 +204,7 @@ impl RecordedBake {
         Err(EngineError::several(ErrorKind::BadInput, changed))
     }
 
-    /// Returns sentences on what a repeated bake wrote otherwise than this one; none where all bytes are the same.
+    /// Returns sentences on the differences between the files of a repeated bake and of this one; empty if all bytes are the same.
     pub fn differences(&self, repeated: &BakeReport) -> Vec<String> {
         let now: Vec<(&str, &str)> = repeated.written_files().collect();
         let known: Vec<(&str, &str)> = self
@@ -242,7 +242,7 @@ impl RecordedBake {
         sentences
     }
 
-    /// Returns the files in a folder that are not as the bake wrote them, with a sentence each; none where all are.
+    /// Returns the files in a folder that differ from those that the bake wrote, with a sentence each; empty if none does.
     pub(super) fn damaged_files(&self, folder: &Path) -> Vec<(String, String)> {
         let files: Vec<&RecordedFile> = self.files().collect();
         let damage = |file: &&RecordedFile| {

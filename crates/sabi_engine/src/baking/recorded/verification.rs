@@ -1,4 +1,4 @@
-//! Checks of output folders against what their bakes recorded.
+//! Checks of output folders against their recorded bakes.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -20,7 +20,7 @@ pub struct Verification {
     pub bakes: usize,
     /// Files that these bakes wrote.
     pub files: usize,
-    /// Things that are not as they should be.
+    /// Differences from the recorded bakes.
     pub findings: Vec<Finding>,
     /// Reason why the folder could not be checked, as a sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,7 +28,7 @@ pub struct Verification {
 }
 
 impl Verification {
-    /// A folder that could not be checked.
+    /// Returns the result for a folder that could not be checked.
     pub fn failed(folder: &Path, error: &EngineError) -> Verification {
         Verification {
             folder: folder.display().to_string(),
@@ -40,7 +40,7 @@ impl Verification {
     }
 }
 
-/// Something in an output folder that is not as it should be.
+/// A difference between an output folder and its recorded bakes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// Kind of finding.
@@ -65,7 +65,7 @@ pub enum FindingKind {
     LeftOver,
 }
 
-/// Checks the files of a folder against what its bakes recorded: damage, staleness and strangers.
+/// Checks the files of a folder against its recorded bakes: finds files that are damaged, outdated or unknown.
 ///
 /// # Errors
 /// There is no folder, or it has no manifest.
@@ -121,7 +121,7 @@ fn faults_of(bake: &RecordedBake, folder: &Path) -> Vec<Finding> {
     damaged.chain(stale).collect()
 }
 
-/// Files of a folder that no bake wrote. Other hidden files than those of killed bakes are nobody's business, and so are reports.
+/// Returns the files of a folder that no bake wrote. Hidden files, except those of killed bakes, and reports are ignored.
 fn others(folder: &Path, known: &BTreeSet<String>) -> Result<Vec<Finding>, EngineError> {
     let unread = |error: std::io::Error| {
         let why = format!("{} cannot be read: {}", folder.display(), sabi_files::io_reason(&error));

@@ -15,7 +15,7 @@ use crate::program_cache::ProgramCache;
 use crate::source::Sources;
 
 impl Evaluator {
-    /// Options for work on results outside of a run.
+    /// Returns options for work on results outside of a run.
     pub(crate) fn run_options<'p>(&'p self, submission: Duration, is_canceled: &'p dyn Fn() -> bool) -> RunOptions<'p> {
         RunOptions {
             is_canceled,
@@ -24,7 +24,7 @@ impl Evaluator {
         }
     }
 
-    /// Plans the targets with the limits of the device. Keeps warnings; returns anything worse as an error.
+    /// Plans the targets with the limits of the device. Stores warnings, and returns other faults as an error.
     pub fn plan(&mut self, targets: &[Target], mode: Mode) -> Result<Plan, EngineError> {
         let (plan, errors) = self.try_plan(targets, mode);
         let (warnings, errors): (Vec<PlanError>, Vec<PlanError>) = errors.into_iter().partition(PlanError::is_warning);
@@ -70,13 +70,13 @@ impl Evaluator {
         planned
     }
 
-    /// Keeps results that take long for later runs, and reads those of earlier ones, in a cache folder with a limit of their
-    /// size. Plans then have own slots (see [`Plan::with_own_slots`]).
+    /// Keeps results that take long to compute for later runs, and reads those of earlier runs, in a cache folder with a
+    /// size limit. Plans must then have their own slots (see [`Plan::with_own_slots`]).
     pub(crate) fn keep_results(&mut self, cache_dir: &Path, limit_bytes: u64) {
         self.kept_results = ProgramCache::open(cache_dir, "results", "result", limit_bytes);
     }
 
-    /// Lets runs forget the kernels that no later step needs. The device has to be this evaluator's alone.
+    /// Makes runs forget kernels that no later step needs. The device must belong only to this evaluator.
     pub(crate) fn forget_kernels(&mut self) {
         self.forgets_kernels = true;
     }
@@ -94,7 +94,7 @@ impl Evaluator {
         Ok(run)
     }
 
-    /// Runs a plan; `submission` is the longest time of one GPU submission.
+    /// Runs a plan. `submission` is the maximum time of one GPU submission.
     pub fn run(
         &mut self,
         plan: &Plan,
@@ -106,7 +106,7 @@ impl Evaluator {
         Ok(self.run_on_levels(plan, submission, progress, cache)?)
     }
 
-    /// Builds the coarser levels that a plan runs on, as far as they are missing.
+    /// Builds the coarser levels on which a plan runs, as far as they are missing.
     pub(crate) fn make_levels(&mut self, plan: &Plan, progress: &dyn Progress) -> Result<(), EngineError> {
         progress.advance(Phase::Upload, 0, 1);
         self.surface.make_levels(plan, &self.gpu)

@@ -18,7 +18,7 @@ use crate::source::{SourceKinds, pictures};
 use crate::warning::Warning;
 
 impl Worker {
-    /// Flattens the graph of a request and sends its faults; none where it cannot be flattened.
+    /// Flattens the graph of a request and sends its faults. Returns `None` if it cannot be flattened.
     pub(super) fn flatten(&mut self, job: &Job) -> Option<FlattenedRequest> {
         let request = &job.request;
         let subject = request.subjects.iter().filter_map(|subject| match subject {
@@ -133,7 +133,7 @@ impl Worker {
     }
 }
 
-/// Targets of nodes by where their results come from; faults are added to `other`.
+/// Returns the targets of nodes, given where their results come from. Faults are added to `other`.
 fn targets_of(named: Vec<NodeRef>, found: Vec<ResultOrigin>, other: &mut Vec<String>) -> BTreeMap<NodeRef, Target> {
     let mut targets = BTreeMap::new();
     for (node, found) in named.into_iter().zip(found) {
@@ -156,7 +156,7 @@ fn is_named(faults: &Faults, node: &str) -> bool {
     faults.blocked.iter().any(|blocked| blocked.node == node) || faults.faults.iter().any(|fault| fault.node == node)
 }
 
-/// Replaces the faults of the nodes that stand for failed group instances by the reasons of their failures.
+/// Replaces the faults of the nodes that represent failed group instances by the reasons of their failures.
 fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String>) -> Faults {
     faults.faults.retain(|fault| !failed_groups.contains_key(&fault.node));
     let failed_groups = failed_groups.into_iter();
@@ -165,7 +165,7 @@ fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String
     faults
 }
 
-/// Collects the faults of all nodes of a graph, whether their results are wanted or not.
+/// Collects the faults of all nodes of a graph, whether or not their results are wanted.
 fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> Faults {
     let resolved = planner_without_model(graph, &job.request.kinds, contents).resolve(&targets_of_all_nodes(graph));
     let (warnings, errors): (Vec<&PlanError>, Vec<&PlanError>) =
@@ -180,7 +180,7 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
         .collect();
     let at_fault: BTreeSet<&str> = errors.iter().map(|error| error.node.as_str()).collect();
     let mut blocked_by: BTreeMap<usize, &str> = BTreeMap::new();
-    // A node follows its inputs in a flat graph.
+    // A node comes after its inputs in a flat graph.
     for (index, node) in graph.nodes.iter().enumerate() {
         if at_fault.contains(node.id.as_str()) || resolved.nodes[index].is_some() {
             continue;
@@ -224,7 +224,7 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
     }
 }
 
-/// Nodes that read a file, while none is chosen. Muted ones read none.
+/// Returns the nodes that read a file for which none is chosen. Muted nodes read no file.
 fn nodes_without_files<'g>(graph: &'g FlatGraph, sources: &SourceKinds) -> BTreeSet<&'g str> {
     let nodes = graph.nodes.iter().filter(|node| !node.muted);
     let unchosen = nodes.filter(|node| pictures::named_file(node, sources).is_some_and(|(_, path)| path.is_empty()));

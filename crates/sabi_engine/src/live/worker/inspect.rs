@@ -18,7 +18,7 @@ use crate::live::queue::WorkProgress;
 use crate::live::sized_model::SizedModel;
 
 impl Worker {
-    /// Sends the values of the inspected nodes, as far as they have changed.
+    /// Sends the values of the inspected nodes if they have changed.
     pub(super) fn inspect(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let inspected = job.request.inspected.clone();
         self.sent.inspected.retain(|node, _| inspected.contains(node));

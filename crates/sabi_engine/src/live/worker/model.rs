@@ -1,4 +1,4 @@
-//! Loading the model, coarse before full.
+//! Loading of the model, the coarse size before the full one.
 
 use std::sync::Arc;
 
@@ -14,8 +14,8 @@ use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::phases::{Phase, Progress};
 
 impl Worker {
-    /// Loads the model if its revision has changed, at the coarse size if there is one. The last model that could be loaded
-    /// stays until another one is, and can be requested again by its revision.
+    /// Loads the model if its revision has changed, at the coarse size if there is one. The last model that was loaded is
+    /// kept until another one is loaded, and can be requested again by its revision.
     pub(super) fn load_first(&mut self, job: &Job) -> Result<(), EvaluationError> {
         let request = &job.request;
         if self.tried == Some(request.model_revision) {
@@ -77,7 +77,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Loads the model at full size, unless it is loaded.
+    /// Loads the model at full size if it is not loaded yet.
     pub(super) fn load_full(&mut self, job: &Job) -> Result<(), EvaluationError> {
         let Some(loaded) = self.loaded.as_mut().filter(|loaded| !loaded.has_full_failed) else {
             return Ok(());
@@ -137,7 +137,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Sets the graph of the full size, which is loaded if necessary. Returns whether it is available.
+    /// Sets the graph of the full size, which is loaded if necessary. Returns true if it is available.
     pub(super) fn set_graph_in_full(
         &mut self,
         job: &Job,

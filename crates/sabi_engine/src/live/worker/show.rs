@@ -1,4 +1,4 @@
-//! Pictures of viewports: coarse first, full after them.
+//! Pictures of viewports, coarse before full.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::opening::graph_faults::targets;
 use crate::source::paint::NAME as PAINT;
 
 impl Worker {
-    /// Sends coarse pictures, or full ones where there is no coarse size or full ones are quick.
+    /// Sends coarse pictures, or full ones if there is no coarse size or full ones are quick.
     pub(super) fn show_first(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let has_coarse = self.loaded.as_ref().is_some_and(|loaded| loaded.coarse.is_some());
         let is_quick = self.full_duration.is_some_and(|took| took < self.options.coarse_after)
@@ -35,7 +35,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Returns true if full pictures of all subjects take a few tiles alone, as while a stroke is drawn.
+    /// Returns true if full pictures of all subjects need only a few tiles, for example while a stroke is drawn.
     fn full_runs_in_part(&mut self, job: &Job, flattened: &FlattenedRequest) -> Result<bool, EvaluationError> {
         let is_loaded = self.loaded.as_ref().is_some_and(|loaded| loaded.full.is_some());
         // Only strokes change a few tiles.
@@ -60,7 +60,7 @@ impl Worker {
         Ok(in_part.all(|own| own))
     }
 
-    /// Sends full pictures, unless they were sent first.
+    /// Sends full pictures, unless they have been sent already.
     pub(super) fn show_full(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         if job.is_full_first {
             return Ok(());
@@ -82,9 +82,9 @@ impl Worker {
         Ok(())
     }
 
-    /// Sends pictures of all subjects at one size, as far as they have changed.
+    /// Sends pictures of all subjects at one size if they have changed.
     fn show(&mut self, job: &mut Job, flattened: &FlattenedRequest, is_coarse: bool) -> Result<(), EvaluationError> {
-        // A first picture is always finished, so that a stream of requests shows something.
+        // A first picture is always finished, so that a stream of requests still shows pictures.
         let is_superseded_by_requests = !is_coarse && !job.is_full_first;
         for subject in job.request.subjects.clone() {
             if is_superseded_by_requests {
@@ -135,7 +135,7 @@ impl Worker {
         if is_coarse {
             job.coarse_keys.insert(subject.clone(), key);
         }
-        // An earlier complete picture is worth more than a newer one with missing materials.
+        // An earlier complete picture is better than a newer one with missing materials.
         let is_whole = |plan: &Plan| plan.results.len() == wanted.len();
         let is_worse = |plan: &Plan| !is_whole(plan) && before.is_some_and(|before| before.is_whole);
         if before.is_some_and(is_known) || (is_coarse && job.is_full_first) || is_worse(&plan) {
@@ -162,7 +162,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Clears the caches of results, so that the next request finds free memory.
+    /// Clears the caches of results, so that memory is free for the next request.
     pub(super) fn forget_results(&mut self) {
         if let Some(loaded) = &mut self.loaded {
             for sized in loaded.coarse.iter_mut().chain(&mut loaded.full) {
@@ -172,7 +172,7 @@ impl Worker {
     }
 }
 
-/// Event with the looks of a subject.
+/// Returns the event with the looks of a subject.
 fn looks_event(
     job: &Job,
     subject: &ViewSubject,
@@ -191,16 +191,16 @@ fn looks_event(
     }
 }
 
-/// Id of the output that gives each material.
+/// Returns the id of the output that serves each material.
 fn outputs_of(sized: &SizedModel, flattened: &FlattenedRequest) -> BTreeMap<u32, String> {
     let nodes = &flattened.graph.nodes;
     let served = sized.node_of_material.iter();
-    // The node of materials that no output gives comes after all others.
+    // The node for materials that no output serves comes after all others.
     let served = served.filter_map(|(material, node)| Some((*material, nodes.get(*node)?.id.clone())));
     served.collect()
 }
 
-/// Returns the targets of a subject and their assignment to materials; none where a node does not exist.
+/// Returns the targets of a subject and their assignment to materials; `None` if a node does not exist.
 pub(super) fn wanted(
     sized: &SizedModel,
     flattened: &FlattenedRequest,
@@ -215,7 +215,7 @@ pub(super) fn wanted(
     }
 }
 
-/// Runs a plan for the wanted targets. Where a source node fails, plans again without the targets that need it.
+/// Runs a plan for the wanted targets. If a source node fails, plans again without the targets that need it.
 pub(super) fn evaluate(
     sized: &mut SizedModel,
     flattened: &FlattenedRequest,
@@ -239,7 +239,7 @@ pub(super) fn evaluate(
     }
 }
 
-/// Hashes the results that materials show, and whether they are approximate.
+/// Returns a hash of the results that materials show, and whether they are approximate.
 fn looks_key(sized: &SizedModel, plan: &Plan, shows: &LookAssignment) -> Key {
     let mut hash = blake3::Hasher::new();
     hash.update(&[u8::from(sized.is_approximate(plan))]);

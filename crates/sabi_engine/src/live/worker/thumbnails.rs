@@ -54,7 +54,7 @@ impl Worker {
                 }
                 Ok(None) => {}
                 Err(EvaluationError::Failed(error)) => {
-                    // The other thumbnails would most likely fail as well.
+                    // The other thumbnails would probably fail as well.
                     self.send(LiveEvent::Failed {
                         revision: job.request.revision,
                         error,
@@ -86,7 +86,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Draws the outputs; none where one of them cannot be made.
+    /// Draws the outputs; `None` if one of them cannot be computed.
     fn picture_of_outputs(
         &mut self,
         job: &mut Job,
@@ -125,7 +125,7 @@ impl Worker {
             .map_err(|error| EvaluationError::of_results(gpu, size, error))
     }
 
-    /// Draws one result; none where the run finds that it cannot be made.
+    /// Draws one result; `None` if the run finds that it cannot be computed.
     fn picture(
         &mut self,
         job: &mut Job,
@@ -171,7 +171,7 @@ impl Worker {
     }
 }
 
-/// Hashes what the thumbnail of each result shows.
+/// Returns a hash of what the thumbnail of each result shows.
 fn keys(sized: &SizedModel, plan: &Plan, request: &LiveRequest) -> BTreeMap<Target, Key> {
     let marks = [
         u8::from(sized.is_approximate(plan)),

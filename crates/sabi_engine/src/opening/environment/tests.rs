@@ -1,4 +1,4 @@
-//! Environments by name and from files of all kinds, good and bad, and what is kept of them.
+//! Environments by name and from valid and invalid files of all kinds, and their cache.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use sabi_view::Panorama;
 use super::{BUILT_IN, load_environment, read_panorama};
 use crate::{AdapterChoice, ErrorKind, Gpu};
 
-/// A file in a folder of its own, and its path as text.
+/// Returns a file in a folder of its own, and its path as text.
 fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -32,7 +32,7 @@ fn refused(choice: &str) -> (ErrorKind, String) {
 }
 
 #[test]
-fn own_environments_are_read_without_a_remark() {
+fn built_in_environments_are_read_without_a_warning() {
     for (name, _) in BUILT_IN {
         let (panorama, remarks) = read_panorama(name).unwrap();
         assert_eq!((panorama.width(), panorama.height()), (512, 256), "{name}");
@@ -41,7 +41,7 @@ fn own_environments_are_read_without_a_remark() {
 }
 
 #[test]
-fn a_name_that_is_none_brings_the_names_there_are() {
+fn an_error_for_an_unknown_name_lists_the_known_ones() {
     let (kind, sentence) = refused("studoi");
     assert_eq!(kind, ErrorKind::Usage);
     assert_eq!(
@@ -67,7 +67,7 @@ fn a_name_that_is_none_brings_the_names_there_are() {
 }
 
 #[test]
-fn damaged_files_are_sentences() {
+fn damaged_files_are_errors() {
     let whole = BUILT_IN[0].1;
     let mut claims_much = whole.to_vec();
     let size = b"-Y 256 +X 512";
@@ -89,7 +89,7 @@ fn damaged_files_are_sentences() {
 }
 
 #[test]
-fn light_that_is_none_is_told_and_mended() {
+fn invalid_light_is_replaced_with_a_warning() {
     let odd = [[f32::NAN, 1.0, -1.0], [1e9, 2.0, 3.0]];
     let channel = |at: usize| odd.map(|pixel: [f32; 3]| pixel[at]);
     let [r, g, b] = [0, 1, 2].map(channel);
@@ -112,7 +112,7 @@ fn light_that_is_none_is_told_and_mended() {
 }
 
 #[test]
-fn one_pixel_lights_evenly_and_an_odd_shape_is_stretched() {
+fn one_pixel_lights_uniformly_and_an_odd_shape_has_a_warning() {
     let (_folder, path) = file("one.hdr", &hdr(1, 1, &[[64, 128, 255, 130]]));
     let (panorama, remarks) = read_panorama(&path).unwrap();
     assert_eq!(panorama.rgb(), [[1.0, 2.0, 255.0 / 64.0]]);
@@ -127,7 +127,7 @@ fn one_pixel_lights_evenly_and_an_odd_shape_is_stretched() {
 }
 
 #[test]
-fn a_picture_of_codes_is_srgb_and_weak() {
+fn a_picture_of_integers_is_srgb_and_has_a_warning() {
     let options = PngOptions {
         channels: 3,
         bits: 8,
@@ -142,7 +142,7 @@ fn a_picture_of_codes_is_srgb_and_weak() {
 }
 
 #[test]
-fn what_was_made_is_kept_and_made_again_where_it_is_damaged() {
+fn prefiltered_light_is_cached_and_made_again_if_damaged() {
     let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
     let gpu = Gpu::open(&AdapterChoice::Cpu).expect(install);
     let cache = tempfile::tempdir().unwrap();
@@ -178,7 +178,7 @@ fn is_dark(panorama: &Panorama, to: Vec3) -> bool {
     })
 }
 
-/// In it, dark lines lead from the middle of each side to where the other axes are positive.
+/// In this picture, dark lines lead from the middle of each side to the positive directions of the other axes.
 #[test]
 fn openexrs_picture_of_axes_has_them_where_its_labels_say() {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");

@@ -1,4 +1,4 @@
-//! Model under a fit, which answers lengths in working units.
+//! Model with a fit, which provides lengths in working units.
 
 use sabi_gpu::SurfaceTables;
 use sabi_graph::Fit;
@@ -6,7 +6,7 @@ use sabi_surface::atlas::Atlas;
 
 use super::LinkedModel;
 
-/// Model under a fit. The fit decides which length of the model is one working unit.
+/// Model with a fit. The fit defines which length of the model is one working unit.
 #[derive(Clone, Copy)]
 pub struct FittedModel<'m> {
     linked: &'m LinkedModel,
@@ -26,7 +26,7 @@ impl<'m> FittedModel<'m> {
     /// Factor from model units to working units.
     pub fn working_from_model(&self) -> f64 {
         match self.fit {
-            // A single unit serves all pieces; nodes multiply by the size of each.
+            // A single unit is used for all pieces; nodes multiply by the size of each piece.
             Fit::Unit | Fit::Piece => 1.0 / self.linked.largest_side,
             Fit::Metres => 1.0,
             Fit::Length(length) => 1.0 / length,
@@ -43,7 +43,7 @@ impl<'m> FittedModel<'m> {
         1.0 / (self.working_from_model() * self.linked.scale)
     }
 
-    /// Factor from lengths under another fit to working units; for shares of pieces that of their mean size.
+    /// Returns the factor from lengths of another fit to working units. For shares of pieces, the mean size of pieces is used.
     pub(crate) fn working_from(&self, other: Fit) -> f64 {
         if other == Fit::Piece {
             return self.linked.pieces.mean_size * self.working_from_model();
@@ -51,23 +51,23 @@ impl<'m> FittedModel<'m> {
         self.working_from_model() / self.linked.fitted(other).working_from_model()
     }
 
-    /// Size of the largest piece, working units.
+    /// Returns the size of the largest piece in working units.
     pub(crate) fn largest_piece(&self) -> f64 {
         let sizes = self.linked.pieces.boxes.iter().map(|piece| piece.typical_size());
         f64::from(sizes.fold(0.0_f32, f32::max)) * self.working_from_model()
     }
 
-    /// Width of the finest texels, working units.
+    /// Returns the width of the finest texels in working units.
     pub(crate) fn finest_texel(&self) -> f64 {
         self.linked.finest_texel() * self.working_from_model()
     }
 
-    /// Area of the surface, square working units.
+    /// Returns the area of the surface in square working units.
     pub(crate) fn area(&self) -> f64 {
         self.linked.area() * self.working_from_model().powi(2)
     }
 
-    /// Largest coordinate, working units.
+    /// Returns the largest coordinate in working units.
     pub(crate) fn farthest(&self) -> f64 {
         self.linked.farthest * self.working_from_model()
     }
@@ -83,7 +83,7 @@ impl<'m> FittedModel<'m> {
         SurfaceTables::new(&model.mesh, pieces, atlas, self.working_from_model(), seed)
     }
 
-    /// Lowest and highest `dot(vertex, direction)`, working units.
+    /// Returns the lowest and the highest `dot(vertex, direction)` in working units.
     pub(crate) fn extent(&self, direction: [f32; 3]) -> [f32; 2] {
         let scale = self.working_from_model();
         let mesh = &self.linked.model.mesh;

@@ -9,20 +9,20 @@ use sabi_surface::load::PartChoice;
 use super::ModelOptions;
 use crate::opening::document::OpenGraph;
 
-/// Parts of a model that count, treatment of faces that are inside out, and place of lost textures: what is wrong with the model that a
-/// graph is made for, and so is kept in the graph.
+/// Parts of a model that are used, treatment of faces that are inside out, and folder of missing textures. These correct
+/// problems of the model for which a graph is made, so the graph stores them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SavedReading {
     /// Parts that count.
     pub parts: PartChoice,
-    /// True to turn faces that are inside out, false to leave them even if a graph says otherwise; none where nothing is said.
+    /// True to turn faces that are inside out, false to leave them even if a graph says otherwise; `None` if there is no choice.
     pub turn_faces: Option<bool>,
-    /// Folder in which, and below which, files are looked for that the model names and that are not there.
+    /// Folder in which, including its subfolders, missing files that the model names are searched.
     pub textures: Option<PathBuf>,
 }
 
 impl SavedReading {
-    /// Returns what the preview of a graph says about its model. Paths in it start from a base.
+    /// Returns the choices in the preview of a graph. Paths in it start from `base`.
     pub fn of_preview(preview: &Preview, base: &PathBase) -> SavedReading {
         SavedReading {
             parts: PartChoice {
@@ -34,7 +34,7 @@ impl SavedReading {
         }
     }
 
-    /// Says it in the preview of a graph, with a path to the folder for textures that starts from where the graph is.
+    /// Stores the choices in the preview of a graph. The path to the folder for textures is relative to the graph.
     pub fn put_into(&self, preview: &mut Preview, textures: Option<String>) {
         preview.textures = textures;
         preview.parts = self.parts.parts.clone();
@@ -42,7 +42,7 @@ impl SavedReading {
         preview.turn_faces = self.turns_faces();
     }
 
-    /// Returns what is asked for, and otherwise what a preview says.
+    /// Returns these choices, completed by those of a preview.
     pub(crate) fn or(&self, preview: &Preview, base: &PathBase) -> SavedReading {
         let saved = SavedReading::of_preview(preview, base);
         SavedReading {
@@ -62,7 +62,7 @@ impl SavedReading {
 }
 
 impl ModelOptions {
-    /// Returns the options with what a graph says where these say nothing, if it names this model.
+    /// Returns the options, completed by the choices of a graph if the graph names this model.
     pub(crate) fn for_graph(&self, open: &OpenGraph) -> ModelOptions {
         let named = open.document.preview.as_ref();
         let preview = named.filter(|preview| {

@@ -12,12 +12,12 @@ use super::{ModelOptions, Overlap, Unwrapping};
 pub(super) enum Unwrap {
     /// All of it, onto one sheet.
     All,
-    /// That of some materials, each onto a sheet of its own.
+    /// Some materials, each unwrapped onto a sheet of its own.
     Materials(BTreeSet<u32>),
 }
 
-/// Returns the part of a model that has to be unwrapped: what was asked for, else what has no UVs, for which it adds a warning, and
-/// what repeats too often, which is listed apart.
+/// Returns the part of a model that has to be unwrapped: the requested part, otherwise parts without UVs (with a warning)
+/// and parts that repeat too often (listed separately).
 pub(super) fn unwrapping(model: &mut Model, options: &ModelOptions) -> (Option<Unwrap>, Vec<Repeats>) {
     let asked = without_uvs(model, options);
     if options.overlap != Overlap::Auto || matches!(asked, Some(Unwrap::All)) {
@@ -33,8 +33,7 @@ pub(super) fn unwrapping(model: &mut Model, options: &ModelOptions) -> (Option<U
     ((!materials.is_empty()).then_some(Unwrap::Materials(materials)), repeats)
 }
 
-/// Returns the part of a model that has to be unwrapped: what was asked for, else what has no UVs. Adds a warning for the
-/// latter.
+/// Returns the part of a model that has to be unwrapped: the requested part, otherwise parts without UVs, for which it adds a warning.
 fn without_uvs(model: &mut Model, options: &ModelOptions) -> Option<Unwrap> {
     if options.overlap == Overlap::Unwrap {
         return Some(Unwrap::All);
@@ -118,7 +117,7 @@ mod tests {
     use super::first_of;
 
     #[test]
-    fn a_long_list_is_cut_short_and_counted() {
+    fn a_long_list_of_names_is_shortened_and_counted() {
         let names: Vec<String> = ["a", "b", "c", "d", "e", "f"].map(str::to_owned).to_vec();
         assert_eq!(first_of(&names[..2]), "a, b");
         assert_eq!(first_of(&names[..4]), "a, b, c, d");

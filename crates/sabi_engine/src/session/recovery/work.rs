@@ -10,16 +10,16 @@ use crate::catalog::node_file::NodeDraft;
 /// Unsaved work of a session.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(in crate::session) struct UnsavedWork {
-    /// The graph's text; none where its file holds it.
+    /// The graph's text; `None` if it is in the graph's file.
     pub(in crate::session) graph: Option<String>,
     /// Drafts of node files.
     pub(in crate::session) drafts: Vec<NodeDraft>,
-    /// Hash of the content that the graph's own file had then.
+    /// Hash of the content of the graph's own file at that time.
     pub(in crate::session) file_hash: Option<String>,
 }
 
 impl UnsavedWork {
-    /// Bytes of a recovery file, with the path of the graph's own file.
+    /// Returns the bytes of a recovery file, with the path of the graph's own file.
     pub(super) fn to_bytes(&self, file: Option<&Path>) -> Vec<u8> {
         let drafts: Vec<Json> = self.drafts.iter().map(NodeDraft::to_json).collect();
         let json = json!({

@@ -1,4 +1,4 @@
-//! Writing of a recovery file on a thread of its own.
+//! Writing of a recovery file on a separate thread.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use super::UnsavedWork;
 pub(super) struct Writing {
     path: PathBuf,
     work: UnsavedWork,
-    /// Absent once it was waited for, or where the system gave no thread.
+    /// Thread; `None` after waiting for it, or if no thread could be started.
     thread: Option<JoinHandle<Result<(), FileError>>>,
 }
 
@@ -36,12 +36,12 @@ impl Writing {
         })
     }
 
-    /// Returns whether the file is written, or could not be.
+    /// Returns true if the file has been written, or could not be written.
     pub(super) fn is_over(&self) -> bool {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
-    /// Waits for the disk, and returns the work that is in the file.
+    /// Waits for the disk, and returns the work that is now in the file.
     pub(super) fn finish(mut self) -> Result<UnsavedWork, FileError> {
         let written = self.thread.take().map_or(Ok(Ok(())), JoinHandle::join);
         let panicked = |_| {
@@ -59,7 +59,7 @@ impl Writing {
 impl Drop for Writing {
     fn drop(&mut self) {
         if let Some(thread) = self.thread.take() {
-            // Work that could not be written is missing from the recovery file, as after a crash a moment earlier.
+            // If writing failed, the work is missing from the recovery file, as if the program had ended a moment earlier.
             let _ = thread.join();
         }
     }

@@ -1,4 +1,4 @@
-//! Pictures of brushes: beside the strokes that stamp them.
+//! Pictures of brushes, which are stored beside the strokes that use them.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ fn png() -> Vec<u8> {
     encode_png(2, 1, PngData::U8(&[255, 0, 0, 0, 0, 255]), options).unwrap()
 }
 
-/// A session of a new file whose node `p` has a stroke that stamps a picture.
+/// Returns a session of a new file whose node `p` has a stroke with a picture.
 pub(super) fn painted(file: &Path) -> (Session, PictureName) {
     let mut session = Session::new(None);
     session.save_as(file).unwrap();
@@ -56,7 +56,7 @@ fn list(session: &Session) -> (Arc<StrokeList>, Version) {
     (list, version.parse().unwrap())
 }
 
-/// Names of pictures that the strokes of a graph lack.
+/// Returns the names of pictures that strokes of a graph use but that are missing.
 pub(super) fn missing(session: &Session) -> Vec<PictureName> {
     let open = session.graph();
     open.strokes.missing_pictures(&open.path, list(session).1)

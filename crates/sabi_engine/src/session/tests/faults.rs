@@ -1,4 +1,5 @@
-//! Every fault of the disk at every step of a save and of an autosave: nothing half, and nothing lost that was told as saved.
+//! Every fault of the disk at every step of a save and of an autosave: no file is incomplete, and nothing that was reported
+//! as saved is lost.
 
 use std::io::ErrorKind;
 
@@ -25,7 +26,7 @@ impl Place {
         self.desk.path().join("new/a.sabi")
     }
 
-    /// A session of a graph whose file holds one state, and whose recovery file another one, which is the current one.
+    /// Returns a session whose file has an earlier state of the graph than its recovery file, which has the current one.
     fn edited(&self) -> Session {
         let mut session = Session::new(Some(self.kept.path()));
         session.edit("Add", add("a")).unwrap();
@@ -35,7 +36,7 @@ impl Place {
         session
     }
 
-    /// Text and number of known strokes of what the program finds after it has ended.
+    /// Returns the text and the number of known strokes that the program finds after it has ended abnormally.
     fn recovered(&self) -> Option<(String, usize)> {
         let recovery = recoveries(self.kept.path()).pop()?;
         let mut session = Session::recover(recovery).unwrap();
@@ -160,7 +161,7 @@ fn strokes_that_cannot_be_stored_beside_the_graph_are_kept_until_they_can() {
 fn an_autosave_leaves_the_earlier_copy_or_the_new_one() {
     type Keep = fn(&mut Session) -> bool;
     let at_once: Keep = |session| session.keep(&[]).is_ok();
-    // A window calls it again until everything is written.
+    // A window calls it repeatedly until everything is written.
     let meanwhile: Keep = |session| {
         loop {
             match session.keep_meanwhile(&[]) {

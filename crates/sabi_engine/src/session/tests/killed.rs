@@ -1,16 +1,16 @@
-//! A program that is killed while it saves: its files are whole, and hold what it told last, or what came after.
+//! A program that is killed while it saves: its files are complete, and contain what it reported last or something later.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 
 use super::*;
 
-/// Variable with the folder of the program that is killed.
+/// Environment variable with the folder of the program that is killed.
 const FOLDER: &str = "SABI_TEST_OF_A_KILL";
 /// Programs that are killed.
 const KILLS: usize = 12;
 
-/// Number in the graph of a session: its gain, in thousandths.
+/// Returns the number in the graph of a session: its gain, in thousandths.
 fn number_of(session: &Session) -> u32 {
     match session
         .document()
@@ -23,7 +23,7 @@ fn number_of(session: &Session) -> u32 {
     }
 }
 
-/// Edits, keeps and saves for ever, and tells each once it is done.
+/// Edits, stores in the recovery file and saves forever, and reports each once it is done.
 fn save_for_ever(folder: &Path) {
     let mut session = Session::open(&folder.join("a.sabi"), Some(&folder.join("kept"))).unwrap();
     let mut out = std::io::stdout();
@@ -38,8 +38,7 @@ fn save_for_ever(folder: &Path) {
     }
 }
 
-/// Reads what the program tells until it has told this many things, kills it, and returns the last numbers that it had kept and
-/// saved.
+/// Reads the program's reports until there are this many, kills it, and returns the last numbers that it stored and saved.
 fn kill_after(lines: usize, folder: &Path) -> (u32, u32) {
     let mut program = Command::new(std::env::current_exe().unwrap());
     program.arg("session::tests::killed::a_killed_program_loses_nothing_that_it_told");
@@ -54,7 +53,7 @@ fn kill_after(lines: usize, folder: &Path) -> (u32, u32) {
         saved = number("saved").unwrap_or(saved);
         count += usize::from(number("kept").or(number("saved")).is_some());
         if count == lines {
-            // Lines that it writes between this and its end are read, too.
+            // Lines that the program writes between the last read and its end are read as well.
             child.kill().unwrap();
             count += 1;
         }

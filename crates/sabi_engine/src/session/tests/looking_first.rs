@@ -1,4 +1,4 @@
-//! A save looks at the file first, keeps what it replaces, and tells windows apart.
+//! A save checks the file first and keeps a backup of what it replaces; windows notice each other's open files.
 
 use super::*;
 use crate::remedy::Remedy;
@@ -17,7 +17,7 @@ fn edited(desk: &TempDir) -> (Session, PathBuf) {
 fn a_save_refuses_to_replace_what_another_program_wrote_meanwhile() {
     let desk = desk();
     let (mut session, file) = edited(&desk);
-    // The length is the same, and nothing has told the session of it.
+    // The length is the same, and no event has informed the session.
     let theirs = fs::read_to_string(&file).unwrap().replace("simplex", "billows");
     fs::write(&file, &theirs).unwrap();
     let error = session.save().unwrap_err();
@@ -89,7 +89,7 @@ fn the_last_three_files_are_kept_the_latest_first() {
         assert_eq!(backup(number).as_ref(), Some(text), "{number}");
     }
     assert_eq!(backup("4"), None);
-    // A save that changes nothing pushes none of them out.
+    // A save that changes nothing makes no backup.
     session.save().unwrap();
     assert_eq!(backup("3").as_ref(), Some(&written[3]));
     session.set_backups(1);
@@ -180,7 +180,7 @@ fn a_file_is_open_in_one_window_until_that_ends_in_any_way() {
     assert!(is_open_in_a_window(&file));
     let mut second = Session::open(&file, None).unwrap();
     assert!(!second.claim_file());
-    // The file of a killed program marks nothing.
+    // The lock file of a killed program has no effect.
     session.save().unwrap();
     session.close();
     fs::write(desk.path().join(".a.sabi.lock"), "").unwrap();

@@ -1,4 +1,4 @@
-//! Files of strokes that are links lead no further than their graph may read.
+//! Links among files of strokes lead only where their graph may read.
 
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use sabi_files::TrustedPaths;
 use super::strokes::{known, name, painted, stroke, versions};
 use super::*;
 
-/// Paints a stroke, and returns why it is not stored.
+/// Paints a stroke, and returns the reason why it is not stored.
 fn refused(session: &mut Session) -> String {
     let open = session.graph();
     let versions = open.strokes.after(&open.path, "crate", &versions(session), &stroke());
@@ -16,7 +16,7 @@ fn refused(session: &mut Session) -> String {
     session.keep_strokes().unwrap_err().to_string()
 }
 
-/// Puts a link in the place of a file or folder, which becomes `to`.
+/// Moves a file or folder to `to`, and puts a link in its place.
 fn replaced_by_link(file: &Path, to: &Path) {
     fs::rename(file, to).unwrap();
     symlink(to, file).unwrap();

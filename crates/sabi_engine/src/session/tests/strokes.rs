@@ -1,4 +1,4 @@
-//! Strokes of a session: beside its file, beside its recovery file, and beside the file that it is saved to.
+//! Strokes of a session: beside its file, beside its recovery file, and beside the file to which it is saved.
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ fn pressed(pressure: f32) -> sabi_paint::Step {
     sabi_paint::Step::Add(Arc::new(Stroke::new(Brush::default(), vec![point])))
 }
 
-/// Adds the node `p` where it is missing.
+/// Adds the node `p` if it is missing.
 pub(super) fn add_node(session: &mut Session) {
     if session.document().graph.node("p").is_none() {
         let edit = Edit::AddNode {
@@ -40,7 +40,7 @@ pub(super) fn add_node(session: &mut Session) {
     }
 }
 
-/// Paints a stroke on the node `p`, which is added where it is missing.
+/// Paints a stroke on the node `p`, which is added if it is missing.
 pub(super) fn paint(session: &mut Session) {
     add_node(session);
     let open = session.graph();
@@ -49,7 +49,7 @@ pub(super) fn paint(session: &mut Session) {
     session.keep_strokes().unwrap();
 }
 
-/// Has the node `p` name versions of strokes.
+/// Makes the node `p` name versions of strokes.
 pub(super) fn name(session: &mut Session, versions: String) {
     let edit = Edit::SetParam {
         body: Body::Main,
@@ -60,7 +60,7 @@ pub(super) fn name(session: &mut Session, versions: String) {
     session.edit("Stroke", edit).unwrap();
 }
 
-/// A session of a file `a.sabi` that was painted in this many times, and the file.
+/// Returns a session of a file `a.sabi` with this many painted strokes, and the file.
 pub(super) fn painted(desk: &TempDir, strokes: usize) -> (Session, std::path::PathBuf) {
     let file = desk.path().join("a.sabi");
     let mut session = Session::new(None);
@@ -80,7 +80,7 @@ pub(super) fn versions(session: &Session) -> String {
     }
 }
 
-/// Number of strokes that a session knows of its node.
+/// Returns the number of strokes of its node that a session knows.
 pub(super) fn known(session: &Session) -> usize {
     let open = session.graph();
     let list = open.strokes.on_model(&open.path, MODEL, &versions(session));
@@ -149,7 +149,7 @@ fn a_damaged_stroke_file_is_not_written_to_and_the_sentence_says_what_to_do() {
         "{refused}"
     );
     assert_eq!(fs::read(&strokes).unwrap(), bytes);
-    // Once the whole file is back, everything is stored behind what it has.
+    // Once the complete file is back, everything is appended to it.
     fs::write(&strokes, &whole).unwrap();
     again.keep_strokes().unwrap();
     assert!(fs::read(&strokes).unwrap().starts_with(&whole));
@@ -267,7 +267,7 @@ fn models_whose_names_differ_by_case_alone_have_files_that_every_disk_tells_apar
         let list = again.on_model(&graph, model, &both).unwrap();
         assert_eq!(list.strokes.len(), 1, "{model}");
     }
-    // A further stroke goes into the file that the model has.
+    // A further stroke is stored in the existing file of the model.
     let more = again.after(&graph, "Crate", &both, &pressed(0.25));
     again.store(&graph, &more).unwrap();
     assert_eq!(names().len(), 2, "{:?}", names());

@@ -11,10 +11,10 @@ use notify::{RecommendedWatcher, RecursiveMode, Watcher as _};
 use super::snapshot::subfolders;
 use super::{Message, Watched};
 
-/// Folders whose events the system reports, by canonical path. Whole folders are watched and not files, since many editors replace a
-/// file when they save it.
+/// Folders whose events the system reports, by canonical path. Folders are watched instead of files, since many editors
+/// replace a file when they save it.
 pub(super) struct Folders {
-    /// None where the system has no watcher; polling finds changes then.
+    /// Watcher; `None` if the system has none, in which case polling finds changes.
     watcher: Option<RecommendedWatcher>,
     armed: BTreeSet<PathBuf>,
 }
@@ -22,7 +22,7 @@ pub(super) struct Folders {
 impl Folders {
     pub(super) fn new(inbox: Sender<Message>) -> Folders {
         let on_event = move |event: notify::Result<notify::Event>| {
-            // An error means that the system's queue overflowed: then all files are checked.
+            // An error means that the system's queue overflowed, so all files are checked.
             let event = event.unwrap_or_else(|_| notify::Event::new(EventKind::Any));
             let paths = match event.kind {
                 EventKind::Access(_) => return,
@@ -43,12 +43,12 @@ impl Folders {
         }
     }
 
-    /// Watches the folders of these files, or the nearest ones above that exist.
+    /// Watches the folders of these files, or their nearest existing parent folders.
     pub(super) fn arm(&mut self, watched: &Watched) {
         let Some(watcher) = &mut self.watcher else { return };
         let wanted = folders_of(watched);
         for folder in self.armed.difference(&wanted) {
-            // The system has dropped a folder that does not exist any more.
+            // The system has already stopped watching a folder that no longer exists.
             let _ = watcher.unwatch(folder);
         }
         self.armed.retain(|folder| wanted.contains(folder));
@@ -75,13 +75,13 @@ impl Folders {
     }
 }
 
-/// Lists the folders that get an event when one of these files changes, appears or disappears.
+/// Lists the folders that receive an event when one of these files changes, appears or disappears.
 fn folders_of(watched: &Watched) -> BTreeSet<PathBuf> {
     let mut folders = BTreeSet::new();
     let files = watched.graph.iter().chain(&watched.model).chain(&watched.files);
     for file in files {
         folders.extend(file.parent().and_then(nearest));
-        // The target of a link lies in another folder.
+        // The target of a link is in another folder.
         let target = fs::canonicalize(file).ok();
         folders.extend(target.as_deref().and_then(Path::parent).and_then(nearest));
         folders.extend(target.filter(|target| target.is_dir()));
@@ -94,7 +94,7 @@ fn folders_of(watched: &Watched) -> BTreeSet<PathBuf> {
     folders
 }
 
-/// Returns a folder, or the nearest one above it that exists.
+/// Returns a folder, or its nearest existing parent folder.
 fn nearest(folder: &Path) -> Option<PathBuf> {
     let whole = std::path::absolute(if folder.as_os_str().is_empty() {
         Path::new(".")

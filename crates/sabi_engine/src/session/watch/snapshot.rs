@@ -19,9 +19,9 @@ pub(super) struct Snapshot {
 /// Snapshot of a file.
 #[derive(Default)]
 struct FileSnapshot {
-    /// Length and time; none while it does not exist.
+    /// Length and time; `None` while the file does not exist.
     stamp: Option<(u64, SystemTime)>,
-    /// Canonical path; none while its folder does not exist.
+    /// Canonical path; `None` while its folder does not exist.
     place: Option<PathBuf>,
 }
 

@@ -8,10 +8,10 @@ use tempfile::TempDir;
 
 use super::{Changes, Message, Pending, Watched, Watcher, settle};
 
-/// Longer than any system takes to tell; only a mistake comes near.
+/// Much longer than any system takes to report an event. It is reached only after a mistake.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A watcher of files in a folder of its own.
+/// A watcher of files in its own folder.
 struct Watch {
     folder: TempDir,
     watcher: Watcher,
@@ -19,13 +19,13 @@ struct Watch {
 }
 
 impl Watch {
-    /// `graph.sabi`, `nodes`, the model `model.gltf` with `model.bin`, the pictures `rust.png` and `far/away.png`, of which
-    /// only what `there` names is there.
+    /// Creates a watcher of `graph.sabi`, `nodes`, the model `model.gltf` with `model.bin`, and the pictures `rust.png` and
+    /// `far/away.png`. Only the files in `there` exist.
     fn of(there: &[&str]) -> Watch {
         let folder = tempfile::tempdir().expect("a folder");
         let (wake, woken) = channel();
         let watcher = Watcher::new(move || {
-            // Nobody listens once the test is over.
+            // Sending fails once the test has ended, which does not matter.
             let _ = wake.send(());
         });
         let watch = Watch {
@@ -61,7 +61,7 @@ impl Watch {
         self.folder.path().join(name)
     }
 
-    /// Writes a file in one step, as careful editors save: by putting another one in its place.
+    /// Writes a file in one step, like careful editors: by putting another file in its place.
     fn write(&self, name: &str, text: &str) {
         let path = self.path(name);
         fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
@@ -69,7 +69,7 @@ impl Watch {
         fs::rename(self.path("draft"), path).expect("a file");
     }
 
-    /// Everything up to a change that is meant; what comes before it must be a part of it.
+    /// Returns all changes up to one that `is_meant` selects. Earlier changes must be a part of it.
     fn until(&self, is_meant: impl Fn(&Changes) -> bool) -> Changes {
         let mut all = Changes::default();
         while !is_meant(&all) {
@@ -258,7 +258,7 @@ fn a_folder_that_never_rests_is_not_waited_for() {
             }
             is_over()
         });
-        // A pause that never comes: only the limit ends the wait before the writer does.
+        // With a pause that never occurs, only the limit ends the wait before the writer stops.
         settle(
             &messages,
             &mut pending,

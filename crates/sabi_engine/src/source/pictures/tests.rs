@@ -1,4 +1,4 @@
-//! Files are judged without decoding, seen anew when they are saved again, and pictures are kept within bounds.
+//! Files are examined without decoding, read again after they are saved, and pictures are kept within limits.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -10,18 +10,18 @@ use sabi_plan::FileFaultKind;
 
 use super::{OpenPicture, Pictures, Reading};
 
-/// A BMP of 2 by 2 pixels, all of one gray.
+/// Returns a BMP of 2 by 2 pixels, all of the same gray.
 pub(in crate::source) fn bmp(gray: u8) -> Vec<u8> {
     let mut bytes = b"BM".to_vec();
     for word in [70_u32, 0, 54, 40, 2, 2, 1 | 24 << 16, 0, 16, 2835, 2835, 0, 0] {
         bytes.extend(word.to_le_bytes());
     }
-    // Two rows of two pixels, each filled up to four bytes.
+    // Two rows of two pixels, each padded to a multiple of four bytes.
     bytes.extend([gray, gray, gray, gray, gray, gray, 0, 0].repeat(2));
     bytes
 }
 
-/// Saves a picture at so many seconds of 1970.
+/// Saves a picture with a modification time of so many seconds after the start of 1970.
 fn save(path: &Path, bytes: &[u8], second: u64) {
     fs::write(path, bytes).unwrap();
     let file = File::options().write(true).open(path).unwrap();
@@ -45,7 +45,7 @@ fn a_picture_saved_again_is_seen_by_the_next_plan() {
     let first = pictures.content(&path, "a.bmp").unwrap();
     assert_eq!(gray(&pictures.open(&path, "a.bmp", "").unwrap()), 10);
     save(&path, &bmp(20), 2);
-    // An earlier plan keeps the content that it was made for.
+    // An earlier plan still reads the content for which it was made.
     assert_eq!(gray(&pictures.open(&path, "a.bmp", "").unwrap()), 10);
     assert_ne!(pictures.content(&path, "a.bmp").unwrap(), first);
     assert_eq!(gray(&pictures.open(&path, "a.bmp", "").unwrap()), 20);
@@ -106,7 +106,7 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
     assert_eq!(kept(36), [2, 3, 1]);
     assert_eq!(kept(35), [3, 1]);
     assert_eq!(kept(0), [1]);
-    // Its one smaller copy counts too: a pixel of four floats.
+    // Its single smaller copy counts as well: a pixel of four floats.
     let last = pictures.open(&a, "x.bmp", "").unwrap();
     last.levels(
         Reading {
@@ -129,7 +129,7 @@ fn a_picture_of_a_model_is_decoded_once() {
     };
     let [first, second, other] = [7, 7, 8].map(open);
     assert!(Arc::ptr_eq(&first, &second) && !Arc::ptr_eq(&first, &other));
-    // A picture that is shown is never decoded beside itself, whether it is kept or not.
+    // A picture that is in use is never decoded a second time, whether it is kept or not.
     pictures.lock().evict(0);
     assert_eq!(pictures.lock().decoded.len(), 1);
     assert!(Arc::ptr_eq(&first, &open(7)));

@@ -1,4 +1,4 @@
-//! Files of strokes beside a graph, and what its nodes lack of them.
+//! Files of strokes beside a graph, and those that are missing.
 
 use std::path::{Path, PathBuf};
 
@@ -18,13 +18,13 @@ pub(crate) fn files_beside(graph: &Path) -> Vec<String> {
 }
 
 fn names_in(folder: &Path) -> impl Iterator<Item = String> + use<> {
-    // A folder that is missing has no files; what is missed of them is told by name.
+    // A missing folder has no files. Missing strokes are reported by name.
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok())
 }
 
 impl Strokes {
-    /// Files that the strokes of these versions lack beside a graph, each with words for it.
+    /// Returns the files that the strokes of these versions need and that are missing beside a graph, each with a description.
     pub(crate) fn lacking(&self, graph: &Path, written: &str) -> Vec<(PathBuf, String)> {
         let folder = paint_folder(graph);
         let mut lacking = Vec::new();

@@ -1,4 +1,4 @@
-//! Differences of the paint between two versions of strokes, so that only these are evaluated again.
+//! Differences of the paint between two versions of strokes, so that only changed texels are evaluated again.
 
 use std::sync::{Arc, PoisonError};
 
@@ -18,19 +18,18 @@ pub(crate) struct PaintedNodePlace {
     pub(crate) node: String,
 }
 
-/// Canvas that a node had last on an atlas.
+/// Canvas that a node used last on an atlas.
 pub(super) struct LatestCanvas {
     place: PaintedNodePlace,
     version: Version,
     canvas: Arc<Canvas>,
-    /// Version before, and the first texel of each eight in a row that differ since.
+    /// Previous version, and the first texel of each group of eight that has changed since.
     changed: Option<(Version, Arc<Vec<u32>>)>,
 }
 
 impl Strokes {
-    /// The first texel of each eight in a row in which the paint of a node differs between two versions, if these are the last two
-    /// that it was asked for on an atlas.
-    /// Without a version before, nothing was painted.
+    /// Returns the first texel of each group of eight in which the paint of a node differs between two versions, if these
+    /// are the last two that were requested on an atlas. If there is no earlier version, nothing was painted before.
     pub(crate) fn changed_texels(
         &self,
         place: &PaintedNodePlace,
@@ -49,13 +48,13 @@ impl Strokes {
         (*since == before).then(|| Arc::clone(texels))
     }
 
-    /// Remembers the canvas of a node on an atlas, and how it differs from the one before.
+    /// Remembers the canvas of a node on an atlas, and its differences from the previous one.
     pub(super) fn remember_canvas(&self, place: PaintedNodePlace, version: Version, canvas: &Arc<Canvas>) {
         let mut latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
         let known = latest.iter().position(|known| known.place == place);
         let before = known.and_then(|at| latest.remove(at));
         let changed = before.and_then(|before| match before.version == version {
-            // Another output of the same strokes.
+            // The canvas is for another output with the same strokes.
             true => before.changed,
             false => Some((before.version, Arc::new(canvas.changed_since(&before.canvas)?))),
         });

@@ -1,4 +1,4 @@
-//! Files of strokes: looked for beside a graph, read, and appended to.
+//! Files of strokes: searched beside a graph, read, and appended to.
 
 use std::path::{Path, PathBuf};
 
@@ -9,8 +9,9 @@ use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
 use super::{State, StrokeFile, base_of, picture_folder, stamp, stroke_file};
 
 impl State {
-    /// Returns the file of the strokes on a model: the one that it has, else one by its name. The name ends in a hash of the model's
-    /// name if another model has a file whose name differs by case at most, since many disks take both names for one file.
+    /// Returns the file of the strokes on a model: the existing one, otherwise one named after the model. If another model
+    /// has a file whose name differs only by case, the name ends in a hash of the model's name, since on many disks both
+    /// names would mean the same file.
     pub(super) fn file_of(&self, folder: &Path, model: &str) -> PathBuf {
         let plain = stroke_file(folder, model);
         let hash = blake3::hash(model.as_bytes()).to_hex();
@@ -36,13 +37,13 @@ impl State {
             return Ok(());
         };
         self.check_folders(folder)?;
-        // Before the strokes, so that those on the disk have their pictures.
+        // Pictures are stored before the strokes, so that strokes on the disk always have their pictures.
         if let Some(list) = self.book.list(version) {
             self.store_pictures(folder, &list)?;
         }
         self.read_folder(folder);
         let path = self.file_of(folder, &model);
-        // A file that another program changed, moved away or put right is looked at again.
+        // A file that another program changed, moved or repaired is read again.
         let known = self.files.get(&path);
         if known.is_none_or(|known| known.fault.is_some() || known.stamp != stamp(&path)) {
             self.read_file(&path);
@@ -56,7 +57,7 @@ impl State {
             return Err(format!("strokes are not stored, since {fault}; move the file away"));
         }
         let stored = store(disk, &path, &model, book, version, &mut file.stored);
-        // The rest of a write that failed is read before the next one.
+        // If writing failed, the file is read again before the next write.
         file.stamp = if stored.is_ok() { stamp(&path) } else { None };
         if stored.is_ok() {
             file.model = Some(model);
@@ -64,8 +65,8 @@ impl State {
         stored.map_err(|error: StoreError| format!("strokes are not stored: {error}"))
     }
 
-    /// Checks that the folders of strokes and of pictures, if they are there, lead nowhere where the graph may not read: nothing is
-    /// written there either.
+    /// Checks that the folders of strokes and of pictures, if they exist, do not lead where the graph may not read. Nothing
+    /// is written there either.
     fn check_folders(&self, folder: &Path) -> Result<(), String> {
         let base = base_of(folder);
         for place in [folder.to_owned(), picture_folder(folder)] {
@@ -95,14 +96,14 @@ impl State {
 
     pub(super) fn read_file(&mut self, path: &Path) {
         let shown = path.display();
-        // Before the content, so that a file that is written meanwhile counts as changed the next time.
+        // The stamp is read before the content, so that a file that is written in the meantime counts as changed the next time.
         let mut file = StrokeFile {
             stamp: stamp(path),
             ..StrokeFile::default()
         };
         let folder = path.parent().unwrap_or(Path::new("")); // Every file of strokes is in a folder.
         match self.read_below(folder, path, FILE_LIMIT_BYTES) {
-            // Writing would make the file that the link leads to.
+            // Writing would create the file to which the link leads.
             Err(Unread::Missing) if path.is_symlink() => {
                 file.fault = Some(format!("{shown} is a link to a file that does not exist"));
             }

@@ -1,4 +1,4 @@
-//! Strokes that lost places, for the warning of a paint node.
+//! Strokes with lost points, for the warning of a paint node.
 
 use std::collections::BTreeMap;
 
@@ -6,11 +6,12 @@ use sabi_paint::{Stroke, Version};
 
 use super::Strokes;
 
-/// Most strokes that a warning names.
+/// Maximum number of strokes that a warning names.
 const NAMED_STROKES: usize = 4;
 
 impl Strokes {
-    /// Lists the strokes of a version that have lost places, with how many, as words: `'label': 3, stroke 2 of 12: 1 and 5 more`.
+    /// Lists the strokes of a version that have lost points, with the number of points, as text: `'label': 3, stroke 2 of
+    /// 12: 1 and 5 more`.
     pub(crate) fn lost_places(&self, version: Version, lost: &BTreeMap<Version, usize>) -> String {
         let list = self.lock().book.list(version);
         let Some(list) = list else { return String::new() };
@@ -34,7 +35,7 @@ pub(crate) fn title(stroke: &Stroke, index: usize, count: usize) -> String {
     }
 }
 
-/// Joins the first few of some words, and counts the others.
+/// Joins the first few of some texts, and counts the others.
 fn some_of(all: &[String]) -> String {
     let named = &all[..all.len().min(NAMED_STROKES)];
     let more = all.len() - named.len();

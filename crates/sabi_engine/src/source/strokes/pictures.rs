@@ -1,4 +1,4 @@
-//! Pictures of brushes: in a folder beside the strokes that stamp them, named by their content.
+//! Pictures of brushes. They are in a folder beside the strokes that use them, and named by their content.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use sabi_paint::{PictureName, StampPicture, StampPictures, StrokeList};
 
 use super::{Strokes, base_of, paint_folder};
 
-/// Largest file of a picture that is read.
+/// Maximum size of a picture file that is read.
 const FILE_LIMIT_BYTES: u64 = 256 << 20;
 
 /// A picture in memory.
@@ -25,7 +25,7 @@ pub(super) struct KeptPicture {
 #[derive(Default)]
 pub(crate) struct FoundPictures {
     pub(crate) pictures: StampPictures,
-    /// Those that are not beside the graph, or damaged.
+    /// Pictures that are missing beside the graph, or damaged.
     pub(crate) missing: Vec<PictureName>,
 }
 
@@ -83,12 +83,12 @@ impl Strokes {
         self.keep_picture(png, "png")
     }
 
-    /// A picture that was taken or read; none where it is not in memory.
+    /// Returns a picture that was added or read; `None` if it is not in memory.
     pub fn picture(&self, name: &PictureName) -> Option<Arc<StampPicture>> {
         self.lock().pictures.get(name).map(|kept| kept.stamp.clone())
     }
 
-    /// The file of a picture that was taken or read; none where it is not in memory.
+    /// Returns the file of a picture that was added or read; `None` if it is not in memory.
     pub fn picture_file(&self, name: &PictureName) -> Option<Arc<Vec<u8>>> {
         self.lock().pictures.get(name).map(|kept| kept.bytes.clone())
     }
@@ -99,7 +99,7 @@ impl Strokes {
         let mut found = FoundPictures::default();
         for name in names_of(list) {
             let known = self.lock().pictures.get(&name).cloned();
-            // Read while nothing is locked, since the window asks for strokes meanwhile.
+            // Read while nothing is locked, since the window needs strokes in the meantime.
             match known.or_else(|| self.open_picture(&folder, &name)) {
                 Some(kept) => {
                     found.pictures.insert(name.clone(), kept.stamp.clone());
@@ -160,7 +160,7 @@ impl KeptPicture {
         })
     }
 
-    /// Reads a picture of a folder of strokes; none where it is missing, not what its name says, or may not be opened.
+    /// Reads a picture of a folder of strokes; `None` if it is missing, does not match its name, or may not be opened.
     fn open(trusted: &TrustedPaths, paint: &Path, name: &PictureName) -> Option<KeptPicture> {
         let file = picture_folder(paint).join(name.as_str());
         let bytes = trusted.read_at(&base_of(paint), &file, FILE_LIMIT_BYTES).ok()?;
@@ -175,7 +175,7 @@ impl super::State {
         let folder = picture_folder(paint);
         for name in names_of(list) {
             let file = folder.join(name.as_str());
-            // One that is missing is told when it is painted.
+            // A missing picture is reported when it is painted.
             let Some(kept) = self.pictures.get(&name) else { continue };
             let length = std::fs::metadata(&file).map(|file| file.len());
             if length.is_ok_and(|length| length == kept.bytes.len() as u64) {

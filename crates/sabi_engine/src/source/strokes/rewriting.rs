@@ -1,4 +1,4 @@
-//! Strokes that are written anew: without their history, or on another model.
+//! Rewriting of strokes: without their history, or on another model.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,13 +27,13 @@ pub struct FlattenedFile {
 #[derive(Default)]
 pub(crate) struct Flattened {
     book: StrokeBook,
-    /// Version that took the place of each earlier one.
+    /// For each earlier version, the version that replaces it.
     after: BTreeMap<Version, Version>,
     strokes: usize,
 }
 
 impl Flattened {
-    /// Names of its versions, as a node has them.
+    /// Returns the names of its versions in the form in which a node stores them.
     pub(crate) fn versions(&self) -> String {
         let names = self.after.values().map(Version::to_string);
         names.collect::<Vec<String>>().join(" ")
@@ -46,7 +46,7 @@ impl Flattened {
     }
 }
 
-/// A name for a copy of a file of strokes that no file has: an earlier copy holds history that is nowhere else.
+/// Returns an unused name for a copy of a file of strokes. An earlier copy must not be replaced, since it may have the only history.
 fn free_backup(file: &Path) -> PathBuf {
     let numbered = (2..).map(|number: u32| format!("strokes.bak{number}"));
     let mut endings = std::iter::once("strokes.bak".to_owned()).chain(numbered);
@@ -80,7 +80,7 @@ impl Strokes {
                     })
                 }
             };
-            // A version without strokes is no version of a file.
+            // A version without strokes is not stored in a file.
             if after != Version::EMPTY {
                 flattened.after.insert(version, after);
                 state.models.insert(after, model);
@@ -90,7 +90,7 @@ impl Strokes {
         Ok(names.join(" "))
     }
 
-    /// Sizes of the files of strokes, and those that they would have.
+    /// Returns the sizes of the files of strokes, and their sizes after flattening.
     pub(crate) fn file_sizes(&self, graph: &Path, flattened: &BTreeMap<String, Flattened>) -> Vec<FlattenedFile> {
         let state = self.lock();
         let files = flattened.iter().map(|(model, flattened)| {
@@ -152,7 +152,7 @@ impl Strokes {
         models
     }
 
-    /// Versions of a node with other strokes on a model; adds the number of their places to `points`.
+    /// Returns the versions of a node with other strokes on a model. Adds the number of their points to `points`.
     pub(crate) fn painted_anew(&self, model: &str, written: &str, steps: &[Step], points: &mut usize) -> String {
         let mut state = self.lock();
         let mut version = Version::EMPTY;

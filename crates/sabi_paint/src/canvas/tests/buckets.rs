@@ -1,10 +1,10 @@
-//! Fills that depend on the paint below, and stamps of different colors.
+//! Fills that depend on existing paint, and stamps of different colors.
 
 use super::plates::plate;
 use super::*;
 use crate::{Jitter, Tip};
 
-/// The outline of a square on the front of a plate, and a bucket that is emptied at a place of the front.
+/// Returns the outline of a square on the front of a plate, and a bucket fill at a position of the front.
 fn with_bucket(surface: &PaintSurface<'_>, at: [f64; 2]) -> [Stroke; 2] {
     let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]];
     let sides = corners
@@ -23,7 +23,7 @@ fn with_bucket(surface: &PaintSurface<'_>, at: [f64; 2]) -> [Stroke; 2] {
 }
 
 #[test]
-fn a_bucket_fills_up_to_what_is_painted_and_over_seams() {
+fn a_bucket_fills_up_to_existing_paint_and_across_seams() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
     let surface = PaintSurface::new(&mesh, &index);
@@ -33,7 +33,7 @@ fn a_bucket_fills_up_to_what_is_painted_and_over_seams() {
     assert!((area / (1.095 * 1.095) - 1.0).abs() < 0.02, "{area}");
     let outside = painted(&surface, &atlas, &with_bucket(&surface, [0.8, 0.2]));
     let area = covered_area(&mesh, &atlas, &outside);
-    // Both sides and the four narrow ones, without what lies inside of the line.
+    // Both sides and the four narrow sides, without the area inside of the line.
     let expected = 2.0 * 4.0 + 4.0 * 0.2 - 0.905 * 0.905;
     assert!((area / expected - 1.0).abs() < 0.02, "{area} {expected}");
     for (at, cover) in [([0.0, 0.0], 0.0), ([0.7, 0.7], 1.0)] {
@@ -42,7 +42,7 @@ fn a_bucket_fills_up_to_what_is_painted_and_over_seams() {
 }
 
 #[test]
-fn stamps_differ_in_color_within_their_limits_and_the_same_each_time() {
+fn stamps_differ_in_color_within_limits_and_equally_each_time() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -78,7 +78,7 @@ fn stamps_differ_in_color_within_their_limits_and_the_same_each_time() {
     for tip in [Tip::Round, Tip::Rivets] {
         let found = colors(darker, tip);
         assert!(found.len() > 6, "{}", found.len());
-        // The brightest channel within half of its own, and its share of the others as before.
+        // The brightest channel is within half of its own value, and its ratio to the others has not changed.
         assert!(
             found
                 .iter()

@@ -1,4 +1,4 @@
-//! Strokes that change paint that is there.
+//! Strokes that change existing paint.
 
 use super::plates::plate;
 use super::*;
@@ -6,10 +6,10 @@ use crate::CanvasTexel;
 
 const RED: [f32; 3] = [0.8, 0.0, 0.0];
 const GREEN: [f32; 3] = [0.0, 0.4, 0.0];
-/// Brighter than white in one channel, and no number in another.
+/// Brighter than white in one channel, and NaN in another.
 const GLARE: [f32; 3] = [7.0, f32::NAN, 0.5];
 
-/// A plate with a hard disk of radius 0.3 in the middle, and strokes after it: the cover at places of the front.
+/// Paints a hard disk of radius 0.3 in the middle of a plate, and then other strokes. Returns the cover at positions of the front.
 fn after<const N: usize>(changes: impl Fn(&PaintSurface<'_>) -> Vec<Stroke>, places: [[f64; 2]; N]) -> [f32; N] {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
@@ -38,7 +38,7 @@ fn stroke(surface: &PaintSurface<'_>, action: Action, from: [f64; 2], to: [f64; 
 }
 
 #[test]
-fn a_smear_pulls_paint_along_and_leaves_an_even_area_as_it_is() {
+fn a_smear_pulls_paint_along_and_leaves_a_uniform_area_unchanged() {
     let outside = [[0.45, 0.0], [-0.45, 0.0], [0.0, 0.0]];
     let pulled = after(
         |surface| vec![stroke(surface, Action::Smear, [0.0, 0.0], [0.5, 0.0])],
@@ -59,7 +59,7 @@ fn a_smear_pulls_paint_along_and_leaves_an_even_area_as_it_is() {
 }
 
 #[test]
-fn a_blur_softens_a_border_under_the_brush_alone_and_sharpening_makes_it_harder_again() {
+fn a_blur_softens_a_border_only_under_the_brush_and_sharpening_hardens_it() {
     let border = [[0.26, 0.0], [0.34, 0.0], [-0.26, 0.0], [-0.34, 0.0]];
     let along = ([0.3, -0.2], [0.3, 0.2]);
     let blur = |surface: &PaintSurface<'_>| {
@@ -82,7 +82,7 @@ fn a_blur_softens_a_border_under_the_brush_alone_and_sharpening_makes_it_harder_
 }
 
 #[test]
-fn a_clone_copies_what_lies_at_its_source() {
+fn a_clone_copies_the_paint_at_its_source() {
     let clone = |surface: &PaintSurface<'_>| {
         let mut clone = stroke(surface, Action::Clone, [0.6, 0.5], [0.6, 0.7]);
         clone.brush.hardness = 1.0;
@@ -103,15 +103,15 @@ fn a_clone_copies_what_lies_at_its_source() {
     assert_eq!(without, [0.0, 0.0], "a clone without a source changes nothing");
 }
 
-/// Paint in the middle of the right half of a plate that is raised everywhere, after a clone there of a node with these colors on the left
-/// and on the right half, if one is connected.
+/// Returns the paint in the middle of the right half of a raised plate, after a clone stroke there. If a node is connected,
+/// it has these colors on the left and on the right half.
 fn copied(source: Option<[f64; 2]>, halves: Option<[[f32; 3]; 2]>) -> CanvasTexel {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
     let columns = atlas.page_size[0] as usize;
     let border = texel_of_plate(&atlas, [0.0, 0.0]) % columns;
-    let [left, right] = halves.unwrap_or_default(); // Not asked for then.
+    let [left, right] = halves.unwrap_or_default(); // Not read if no node is connected.
     let input = |texel: usize| if texel % columns < border { left } else { right };
     let layers = Layers {
         color: true,
@@ -142,7 +142,7 @@ fn copied(source: Option<[f64; 2]>, halves: Option<[[f32; 3]; 2]>) -> CanvasTexe
 }
 
 #[test]
-fn a_clone_of_another_node_copies_its_colors_from_the_source_or_from_each_place() {
+fn a_clone_of_a_node_result_copies_colors_from_the_source_or_in_place() {
     for (claim, source, expected) in [
         ("without a source, what lies there", None, GREEN),
         ("with one, what lies at it", Some([-0.5, 0.0]), RED),
@@ -179,8 +179,8 @@ fn a_clone_of_another_node_copies_its_colors_from_the_source_or_from_each_place(
 }
 
 #[test]
-fn changes_do_not_show_where_a_stroke_crosses_a_seam() {
-    // Paint on the front and the side of a thick plate, blurred over their edge, where two charts meet.
+fn changes_are_continuous_where_a_stroke_crosses_a_seam() {
+    // Paint on the front and the side of a thick plate, blurred over the edge at which two charts meet.
     let mesh = plate(0.4);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
     let surface = PaintSurface::new(&mesh, &index);
@@ -191,7 +191,7 @@ fn changes_do_not_show_where_a_stroke_crosses_a_seam() {
     let blur = stroke(&surface, Action::Blur, [1.0, -0.4], [1.0, 0.4]);
     let canvas = painted(&surface, &atlas, &[fill, blur]);
     let on_front = canvas.texel(texel_of_plate(&atlas, [0.995, 0.0])).cover;
-    // Texels of the right side, whose rows go from the back to the front.
+    // Texels of the right side, whose rows lead from the back to the front.
     let side: Vec<f32> = (0..atlas.owners.len())
         .filter(|texel| matches!(atlas.owners[*texel], 6 | 7))
         .map(|texel| canvas.texel(texel).cover)

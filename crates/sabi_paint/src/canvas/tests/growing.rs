@@ -1,4 +1,4 @@
-//! Strokes that are drawn place by place.
+//! Strokes that are drawn point by point.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ const ALL: Layers = Layers {
     direction: true,
 };
 
-/// Places of a winding way over the front of a plate, on which the pressure rises and falls.
+/// Returns points of a winding way over the front of a plate, on which the pressure rises and falls.
 fn winding(surface: &PaintSurface<'_>, count: usize) -> Vec<StrokePoint> {
     let place = |at: usize| {
         let share = at as f64 / count as f64;
@@ -30,7 +30,7 @@ fn winding(surface: &PaintSurface<'_>, count: usize) -> Vec<StrokePoint> {
     points.collect()
 }
 
-/// Brushes with what the strokes of each show.
+/// Returns brushes, each with a description of its strokes.
 fn brushes() -> [(&'static str, Brush); 7] {
     let round = Brush {
         radius: 0.12,
@@ -91,7 +91,7 @@ fn brushes() -> [(&'static str, Brush); 7] {
 }
 
 #[test]
-fn a_stroke_that_grows_is_at_each_place_to_the_bit_what_is_laid_at_once() {
+fn a_growing_stroke_has_at_each_point_the_same_bits_as_one_painted_at_once() {
     let mesh = plate(0.3);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128));
     let surface = PaintSurface::new(&mesh, &index);
@@ -118,7 +118,7 @@ fn a_stroke_that_grows_is_at_each_place_to_the_bit_what_is_laid_at_once() {
 }
 
 #[test]
-fn another_stroke_does_not_go_on_with_the_growth_of_the_one_before() {
+fn a_new_stroke_does_not_continue_the_state_of_the_previous_one() {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 64));
     let surface = PaintSurface::new(&mesh, &index);

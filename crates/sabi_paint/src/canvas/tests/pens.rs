@@ -4,7 +4,7 @@ use super::plates::plate;
 use super::*;
 use crate::{PenEffects, Symmetry, Tip, Turn, carried};
 
-/// A place of the front of a plate under a pen that leans by an angle toward a direction.
+/// Returns a point on the front of a plate with a pen that leans by an angle toward a direction.
 fn leaning(surface: &PaintSurface<'_>, at: [f64; 2], toward: DVec3, degrees: f32) -> StrokePoint {
     let point = way_on_plate(surface, at, at, 1)[0];
     let shaft = surface.shaft(point.site, toward, degrees);
@@ -17,7 +17,7 @@ fn on_plate(test: impl FnOnce(&Mesh, &PaintSurface<'_>, &Atlas)) {
     test(&mesh, &PaintSurface::new(&mesh, &index), &atlas);
 }
 
-/// A hard brush of radius 0.4 under which the pen changes nothing.
+/// Returns a hard brush of radius 0.4 on which the pen has no effect.
 fn plain(tip: Tip) -> Brush {
     Brush {
         tip,
@@ -28,7 +28,7 @@ fn plain(tip: Tip) -> Brush {
     }
 }
 
-/// Shows whether a square with sides of 0.8 stands on its corner: it reaches 0.5 to the side then.
+/// Returns true if a square with sides of 0.8 stands on its corner, in which case it reaches 0.5 to the side.
 fn is_on_its_corner(surface: &PaintSurface<'_>, atlas: &Atlas, brush: Brush, point: StrokePoint) -> bool {
     let canvas = painted(surface, atlas, &[Stroke::new(brush, vec![point])]);
     canvas.texel(texel_of_plate(atlas, [0.5, 0.0])).cover > 0.5
@@ -60,7 +60,7 @@ fn the_size_follows_the_tilt_and_a_mouse_has_the_full_size() {
 }
 
 #[test]
-fn the_tip_lies_as_the_pen_leans_and_along_the_stroke_under_an_upright_one() {
+fn the_tip_follows_a_leaning_pen_and_the_stroke_under_an_upright_pen() {
     on_plate(|_, surface, atlas| {
         let brush = Brush {
             turn: Turn::Pen,
@@ -104,7 +104,7 @@ fn pressure_and_tilt_turn_the_tip() {
 }
 
 #[test]
-fn the_copy_in_a_mirror_leans_as_the_mirror_shows_it() {
+fn the_pen_of_a_mirrored_copy_leans_in_the_mirrored_direction() {
     on_plate(|_, surface, atlas| {
         let brush = Brush {
             radius: 0.2,
@@ -134,7 +134,7 @@ fn the_copy_in_a_mirror_leans_as_the_mirror_shows_it() {
             }
         }
         assert!(seen > 500, "{seen}");
-        // A corner of the turned square, which it would not have on the other side if it were turned the same way.
+        // A corner of the rotated square, which would not be there if the copy were rotated in the same direction.
         assert!(cover(0.5 + 0.1, 0.24) > 0.5 && cover(-0.6, 0.24) > 0.5 && cover(-0.4, 0.24) < 0.5);
     });
 }
@@ -165,7 +165,7 @@ fn a_line_grows_while_the_pen_is_leaned() {
 }
 
 #[test]
-fn a_stroke_that_is_carried_and_turned_takes_the_lean_along() {
+fn a_stroke_that_is_moved_and_turned_takes_the_lean_of_the_pen_along() {
     on_plate(|_, surface, _| {
         let from = leaning(surface, [0.0, 0.0], DVec3::X, 30.0);
         let to = leaning(surface, [0.3, 0.2], DVec3::X, 0.0);
@@ -177,7 +177,7 @@ fn a_stroke_that_is_carried_and_turned_takes_the_lean_along() {
 }
 
 #[test]
-fn no_numbers_of_a_driver_make_a_shaft_that_is_none() {
+fn invalid_numbers_of_a_driver_never_make_a_shaft() {
     on_plate(|_, surface, _| {
         let site = way_on_plate(surface, [0.0, 0.0], [0.0, 0.0], 1)[0].site;
         assert_eq!(surface.shaft(site, DVec3::X, f32::NAN), None);

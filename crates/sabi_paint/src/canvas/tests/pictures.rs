@@ -12,7 +12,7 @@ use crate::{Eye, Limits, PictureName, PicturePart, PictureTip, StampPicture};
 
 pub(super) const COLORED: Layers = Layers { color: true, ..VALUE };
 
-/// A picture of four by two pixels, the left half red and the right half blue.
+/// Returns a picture of four by two pixels, the left half red and the right half blue.
 pub(super) fn flag() -> (PictureTip, StampPictures) {
     let row = [
         [255, 0, 0, 255],
@@ -38,7 +38,7 @@ pub(super) fn flag() -> (PictureTip, StampPictures) {
     )
 }
 
-/// A decal of the flag, half a unit to both sides, in the middle of the front of a plate.
+/// Returns a decal of the flag, half a unit to both sides, in the middle of the front of a plate.
 fn decal(surface: &PaintSurface<'_>, picture: PictureTip, angle_degrees: f32) -> Stroke {
     let brush = Brush {
         picture: Some(picture),
@@ -52,7 +52,7 @@ fn decal(surface: &PaintSurface<'_>, picture: PictureTip, angle_degrees: f32) ->
     }
 }
 
-/// Covers and colors of a canvas at places of the front.
+/// Returns covers and colors of a canvas at positions of the front.
 fn seen(atlas: &Atlas, canvas: &Canvas, places: [[f64; 2]; 4]) -> [(f32, [f32; 3]); 4] {
     places.map(|place| {
         let texel = texel_of_plate(atlas, place);
@@ -65,7 +65,7 @@ const BLUE: (f32, [f32; 3]) = (1.0, [0.0, 0.0, 1.0]);
 const CLEAR: (f32, [f32; 3]) = (0.0, [0.0; 3]);
 
 #[test]
-fn a_decal_stands_upright_keeps_its_sides_and_brings_its_colors() {
+fn a_decal_is_upright_and_not_mirrored_and_has_its_own_colors() {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -89,7 +89,7 @@ fn a_decal_stands_upright_keeps_its_sides_and_brings_its_colors() {
 }
 
 #[test]
-fn a_decal_in_a_mirror_is_not_written_backward() {
+fn a_decal_on_a_mirrored_side_is_not_mirrored() {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -104,8 +104,8 @@ fn a_decal_in_a_mirror_is_not_written_backward() {
 }
 
 #[test]
-fn a_decal_goes_straight_over_the_joints_of_boards() {
-    // Boards of the crate lie at different depths, each a piece of its own.
+fn a_decal_is_projected_straight_over_the_joints_of_boards() {
+    // Boards of the crate are at different depths, and each is a separate piece.
     let mesh = mesh_of("crate");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 1024), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -127,7 +127,7 @@ fn a_decal_goes_straight_over_the_joints_of_boards() {
         .map(|texel| index.pieces[atlas.owners[texel] as usize])
         .collect();
     assert!(pieces.len() > 2, "{pieces:?}");
-    // The area that is seen from the front is that of the square, whatever it lies on.
+    // The area as seen from the front is that of the square, whatever surface it is on.
     let seen: f64 = (0..400)
         .filter(|at| {
             let place = DVec3::new(f64::from(at % 20) - 9.5, f64::from(at / 20) - 9.5, 0.0) * 0.024 * size;
@@ -217,7 +217,7 @@ fn stamps_of_a_picture_have_its_colors_or_the_color_of_the_brush() {
     assert_eq!(color(PicturePart::Alpha), (1.0, [0.0, 1.0, 0.0]));
 }
 
-/// Area that a hard disk at the edge of a thick plate covers within limits, seen from an eye.
+/// Returns the area that a hard disk at the edge of a thick plate covers with these limits, seen from an eye.
 fn limited_area(limits: Limits, eye: Option<Eye>) -> f64 {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
@@ -235,14 +235,14 @@ fn limited_area(limits: Limits, eye: Option<Eye>) -> f64 {
     covered_area(&mesh, &atlas, &painted(&surface, &atlas, &[stroke]))
 }
 
-/// Area of the part of a disk of radius 0.5 that lies beyond a line at 0.2 from its middle.
+/// Returns the area of the part of a disk of radius 0.5 that is beyond a line at 0.2 from its middle.
 fn segment() -> f64 {
     let (radius, line): (f64, f64) = (0.5, 0.2);
     radius * radius * (line / radius).acos() - line * (radius * radius - line * line).sqrt()
 }
 
 #[test]
-fn limits_of_angle_front_and_sight_keep_a_stroke_from_the_other_sides() {
+fn limits_of_angle_front_and_sight_protect_the_other_sides() {
     let disk = std::f64::consts::PI * 0.25;
     let front = disk - segment();
     let above = Some(Eye::Toward([0.0, 0.0, 1.0]));
@@ -294,9 +294,9 @@ fn limits_of_angle_front_and_sight_keep_a_stroke_from_the_other_sides() {
 }
 
 #[test]
-fn a_stroke_leaves_what_something_hides_from_the_artist_alone() {
+fn a_stroke_does_not_paint_places_that_are_hidden_from_the_artist() {
     let mut mesh = plate(0.01);
-    // A second plate over the right half of the first, of which only the upper side counts here.
+    // A second plate above the right half of the first. Only its upper side matters here.
     let lid = plate(0.01);
     let first = mesh.positions.len() as u32;
     mesh.positions

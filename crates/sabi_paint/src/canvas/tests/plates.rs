@@ -3,8 +3,8 @@
 use super::*;
 use crate::Eye;
 
-/// A plate as thin as a sheet: two squares back to back, joined at their edges by narrow sides, with texture coordinates side by
-/// side on whole texels.
+/// Returns a plate as thin as a sheet: two squares back to back, joined at their edges by narrow sides. The texture
+/// coordinates of the sides are next to each other on whole texels.
 pub(super) fn plate(thickness: f32) -> Mesh {
     let mut mesh = Mesh {
         uv_set: Some(0),
@@ -48,7 +48,7 @@ pub(super) fn plate(thickness: f32) -> Mesh {
     mesh
 }
 
-/// A hard disk of radius 0.5 around a place of the upper side.
+/// Returns a canvas with a hard disk of radius 0.5 around a position of the upper side.
 fn stamped(surface: &PaintSurface<'_>, atlas: &Atlas, position: DVec3) -> Canvas {
     let point = surface.point(Site { triangle: 0, position }, 1.0, true).unwrap();
     let brush = Brush {
@@ -60,7 +60,7 @@ fn stamped(surface: &PaintSurface<'_>, atlas: &Atlas, position: DVec3) -> Canvas
 }
 
 #[test]
-fn the_other_side_of_a_thin_wall_stays_clean() {
+fn the_other_side_of_a_thin_wall_is_not_painted() {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -76,11 +76,11 @@ fn the_other_side_of_a_thin_wall_stays_clean() {
 }
 
 #[test]
-fn a_stroke_goes_around_the_edge_of_a_wall_by_the_length_of_its_way() {
+fn a_stroke_continues_around_the_edge_of_a_wall_by_its_length() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
     let surface = PaintSurface::new(&mesh, &index);
-    // 0.2 from the right edge: the stamp reaches 0.1 of the side and 0.2 of the back.
+    // The position is 0.2 from the right edge, so the stamp covers 0.1 of the side and 0.2 of the back.
     let canvas = stamped(&surface, &atlas, DVec3::new(0.8, -0.1, 0.05));
     let area = covered_area(&mesh, &atlas, &canvas);
     let disk = std::f64::consts::PI * 0.25;
@@ -88,7 +88,7 @@ fn a_stroke_goes_around_the_edge_of_a_wall_by_the_length_of_its_way() {
 }
 
 #[test]
-fn the_inside_of_an_outline_is_filled_as_it_was_seen_and_nothing_behind_it() {
+fn the_inside_of_an_outline_is_filled_as_seen_and_nothing_behind_it() {
     let mesh = plate(0.2);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -122,13 +122,13 @@ fn the_inside_of_an_outline_is_filled_as_it_was_seen_and_nothing_behind_it() {
 }
 
 #[test]
-fn a_stroke_that_is_seen_at_eighty_degrees_has_no_hole_and_its_full_width() {
+fn a_stroke_seen_at_eighty_degrees_has_no_hole_and_its_full_width() {
     let mesh = plate(0.01);
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
     let tilt = 80_f64.to_radians();
     let eye = 40.0 * DVec3::new(tilt.sin(), 0.0, tilt.cos());
-    // Few events, as far apart on the surface as a fast hand leaves them there: toward the eye.
+    // Few events, as far apart on the surface as those of a fast hand that moves toward the eye.
     let points = drawn(&surface, &bvh, 7, eye, |t| DVec3::new(1.2 * t - 0.6, 0.0, 0.0));
     assert_eq!(points.len(), 7);
     let brush = Brush {
@@ -174,13 +174,13 @@ fn nothing_is_painted_farther_away_than_the_brush_reaches_on_a_barrel_of_boards_
             }
             let place = place_of_texel(&mesh, &atlas, texel, *owner);
             let distance = place.distance(site.position);
-            // Pieces at an angle are laid flat, so a little farther than the radius.
+            // Pieces at an angle are rotated to be flat, so the distance may be slightly larger than the radius.
             assert!(distance < 1.3 * 0.06, "{distance} at height {height}");
         }
     }
 }
 
-/// Position of the middle of a texel that a triangle owns.
+/// Returns the position of the middle of a texel that a triangle owns.
 fn place_of_texel(mesh: &Mesh, atlas: &Atlas, texel: usize, owner: u32) -> DVec3 {
     let columns = atlas.page_size[0] as usize;
     let offset = atlas.charts[atlas.triangle_chart[owner as usize] as usize].texel_from_uv;
@@ -199,7 +199,7 @@ fn place_of_texel(mesh: &Mesh, atlas: &Atlas, texel: usize, owner: u32) -> DVec3
 }
 
 #[test]
-fn a_light_touch_is_softer_where_the_pressure_changes_the_hardness() {
+fn light_pressure_gives_a_softer_stroke_if_pressure_changes_the_hardness() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
     let surface = PaintSurface::new(&mesh, &index);
@@ -223,7 +223,7 @@ fn a_light_touch_is_softer_where_the_pressure_changes_the_hardness() {
     for tip in [crate::Tip::Round, crate::Tip::Square] {
         for pressure in [1.0, 0.5, 0.0] {
             let (found, expected) = cover(pressure, tip, 0.25);
-            // The middle of the texel lies up to half a texel beside the place.
+            // The middle of the texel may be up to half a texel away from the position.
             assert!(
                 (found - expected).abs() < 0.05,
                 "{tip:?} {pressure}: {found} for {expected}"

@@ -1,4 +1,4 @@
-//! Ribbons on a plate, held against formulas.
+//! Ribbons on a plate, compared with formulas.
 
 use super::plates::plate;
 use super::*;
@@ -42,7 +42,7 @@ fn a_straight_ribbon_covers_its_length_times_its_width_with_straight_ends() {
 }
 
 #[test]
-fn a_ribbon_around_a_bend_has_no_hole_and_no_place_twice() {
+fn a_ribbon_around_a_bend_has_no_hole_and_covers_no_place_twice() {
     let mesh = plate(0.02);
     let (atlas, index) = (atlas_of(&mesh, 512), SurfaceIndex::new(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -57,7 +57,7 @@ fn a_ribbon_around_a_bend_has_no_hole_and_no_place_twice() {
         ..ribbon(&surface, Tip::Round, [0.0; 2], [0.0; 2])
     };
     let canvas = painted(&surface, &atlas, &[stroke]);
-    // Two bands of width 0.4 whose outer corner is round.
+    // Two bands of width 0.4 with a rounded outer corner.
     let corner = 0.04 * (1.0 - std::f64::consts::FRAC_PI_4);
     let expected = 0.4 * (1.0 + 1.1) - corner;
     let area = covered_area(&mesh, &atlas, &canvas);
@@ -71,7 +71,7 @@ fn a_picture_is_repeated_a_whole_number_of_times_along_a_ribbon() {
     let mesh = plate(0.02);
     let (atlas, index) = (atlas_of(&mesh, 512), SurfaceIndex::new(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
-    // Its left half is red, its right half clear; twice as long as high.
+    // Its left half is red, its right half transparent. It is twice as long as high.
     let pixels: Vec<u8> = (0..8 * 4)
         .flat_map(|pixel| if pixel % 8 < 4 { [255, 0, 0, 255] } else { [0; 4] })
         .collect();
@@ -98,13 +98,13 @@ fn a_picture_is_repeated_a_whole_number_of_times_along_a_ribbon() {
 }
 
 #[test]
-fn bands_go_on_from_each_stamp_to_the_next() {
+fn bands_are_continuous_from_each_stamp_to_the_next() {
     let mesh = plate(0.02);
     let (atlas, index) = (atlas_of(&mesh, 1024), SurfaceIndex::new(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
     for tip in [Tip::Weld, Tip::Rope] {
         let canvas = painted(&surface, &atlas, &[ribbon(&surface, tip, [-0.6, 0.0], [0.6, 0.0])]);
-        // Stamps of 0.4 meet at −0.2 and 0.2: no step there is larger than those elsewhere.
+        // Stamps of 0.4 meet at −0.2 and 0.2. Differences there are not larger than elsewhere.
         let step = |x: f64| {
             let at = |x: f64| f64::from(canvas.texel(texel_of_plate(&atlas, [x, 0.03])).cover);
             (at(x + 0.004) - at(x - 0.004)).abs()
@@ -122,11 +122,11 @@ fn bands_go_on_from_each_stamp_to_the_next() {
 }
 
 #[test]
-fn a_ribbon_that_passes_its_own_start_has_no_slit_there() {
+fn a_ribbon_that_passes_its_own_start_has_no_gap_there() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
     let surface = PaintSurface::new(&mesh, &index);
-    // Around a square, and on over its start.
+    // Leads around a square, and continues over its start.
     let corners = [
         [0.0, -0.5],
         [0.5, -0.5],

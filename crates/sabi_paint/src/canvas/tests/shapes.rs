@@ -4,7 +4,7 @@ use super::plates::plate;
 use super::*;
 use crate::{Jitter, Symmetry, Tip, Turn, stamp_swatch, swatch};
 
-/// Texels of each triangle that are painted by more than a half.
+/// Returns, for each triangle, true if a texel of it has a cover of more than a half.
 fn painted_triangles(atlas: &Atlas, canvas: &Canvas) -> Vec<bool> {
     let mut painted = vec![false; atlas.triangle_chart.len()];
     for (owner, texel) in atlas.owners.iter().zip(canvas.texels()) {
@@ -46,7 +46,7 @@ fn a_symmetric_model_gets_a_symmetric_mask() {
 }
 
 #[test]
-fn a_fill_covers_exactly_what_belongs_to_the_place_that_was_touched() {
+fn a_fill_covers_exactly_the_area_that_contains_the_touched_point() {
     let mesh = mesh_of("crate");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -58,7 +58,7 @@ fn a_fill_covers_exactly_what_belongs_to_the_place_that_was_touched() {
         fill.area = area;
         painted_triangles(&atlas, &painted(&surface, &atlas, &[fill]))
     };
-    // Triangles smaller than a texel own none.
+    // Triangles that are smaller than a texel own no texel.
     let mut owns = vec![false; atlas.triangle_chart.len()];
     for owner in atlas
         .owners
@@ -93,7 +93,7 @@ fn a_fill_covers_exactly_what_belongs_to_the_place_that_was_touched() {
 }
 
 #[test]
-fn every_tip_leaves_something_within_its_radius_and_the_same_each_time() {
+fn every_tip_paints_within_its_radius_and_the_same_each_time() {
     let mesh = mesh_of("cube");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -133,7 +133,7 @@ fn every_tip_leaves_something_within_its_radius_and_the_same_each_time() {
 }
 
 #[test]
-fn a_gradient_fades_evenly_between_its_ends_and_goes_on_beyond_them() {
+fn a_gradient_fades_evenly_between_its_ends_and_is_constant_beyond_them() {
     let mesh = mesh_of("cube");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -166,7 +166,7 @@ fn a_gradient_fades_evenly_between_its_ends_and_goes_on_beyond_them() {
     }
 }
 
-/// Mean place of what a stroke of leaks paints.
+/// Returns the mean position of the paint of a stroke of leaks.
 fn hangs(mesh: &Mesh, surface: &PaintSurface<'_>, atlas: &Atlas, way: [Site; 2], turn: Turn) -> DVec3 {
     let points = [surface.point(way[0], 1.0, true), surface.point(way[1], 1.0, false)];
     let brush = Brush {
@@ -194,8 +194,8 @@ fn hangs(mesh: &Mesh, surface: &PaintSurface<'_>, atlas: &Atlas, way: [Site; 2],
 }
 
 #[test]
-fn a_tip_that_hangs_points_down_a_wall_and_along_the_stroke_on_level_ground() {
-    // Triangles are small, so that their middles tell where paint lies.
+fn a_hanging_tip_points_down_a_wall_and_along_the_stroke_on_level_ground() {
+    // The triangles are small, so that their middles show where the paint is.
     let mesh = mesh_of("sphere");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
@@ -204,7 +204,7 @@ fn a_tip_that_hangs_points_down_a_wall_and_along_the_stroke_on_level_ground() {
         let toward = DVec3::new(x, y, z).normalize();
         site_seen_from(&mesh, &bvh, 9.0 * size * toward, DVec3::ZERO).unwrap()
     };
-    // Stamps of leaks are heavy at their upper end.
+    // Stamps of leaks have more paint at their upper end.
     let wall = [site(0.0, 0.0, 1.0), site(0.08, 0.0, 1.0)];
     let moved = |way: [Site; 2], turn: Turn| {
         hangs(&mesh, &surface, &atlas, way, turn) - way[0].position.midpoint(way[1].position)
@@ -228,7 +228,7 @@ fn a_tip_that_hangs_points_down_a_wall_and_along_the_stroke_on_level_ground() {
 }
 
 #[test]
-fn a_swatch_shows_what_is_painted_within_its_borders_whatever_the_radius() {
+fn a_swatch_shows_all_paint_within_its_borders_for_any_radius() {
     let none = StampPictures::new();
     for (tip, name) in Tip::ALL {
         let brush = Brush::default().with_tip(tip);
@@ -258,7 +258,7 @@ fn a_swatch_shows_what_is_painted_within_its_borders_whatever_the_radius() {
 }
 
 #[test]
-fn strokes_are_carried_to_another_place_and_turned_there() {
+fn strokes_are_moved_to_another_place_and_turned_there() {
     let mesh = plate(0.02);
     let index = SurfaceIndex::new(&mesh);
     let surface = PaintSurface::new(&mesh, &index);
@@ -278,7 +278,7 @@ fn strokes_are_carried_to_another_place_and_turned_there() {
         assert!(end.distance(expected) < 1e-6, "{end} {expected}");
     }
     assert_eq!((lost, carried.points.len(), carried.points[1].starts), (0, 5, false));
-    // What would lie beyond the border by more than it may is lost.
+    // Points that would be too far beyond the border are lost.
     let border = way_on_plate(&surface, [0.95, 0.0], [0.95, 0.0], 1)[0];
     let (carried, lost) = crate::carried(&surface, &stroke, [&points[0], &border], 0.0);
     assert!(lost > 0 && carried.points.len() + lost == 5, "{lost}");

@@ -7,7 +7,7 @@ use super::plates::plate;
 use super::*;
 use crate::{Eye, Limits, PicturePart, PictureTip, Stencil, Symmetry};
 
-/// A stencil over the middle of the front of a plate, a half wide to both sides, for an eye far above.
+/// Returns a stencil in front of the middle of the front of a plate, half a unit wide to both sides, for an eye far above.
 fn stencil(picture: PictureTip) -> Option<Arc<Stencil>> {
     Some(Arc::new(Stencil {
         picture,
@@ -15,14 +15,14 @@ fn stencil(picture: PictureTip) -> Option<Arc<Stencil>> {
     }))
 }
 
-/// Cover and color of a canvas at a place of the front.
+/// Returns cover and color of a canvas at a position of the front.
 fn at(atlas: &Atlas, canvas: &Canvas, place: [f64; 2]) -> (f32, [f32; 3]) {
     let texel = canvas.texel(texel_of_plate(atlas, place));
     (texel.cover, texel.color)
 }
 
 #[test]
-fn strokes_fills_and_ribbons_through_a_stencil_leave_its_picture_and_nothing_beside_it() {
+fn strokes_fills_and_ribbons_through_a_stencil_paint_only_its_picture() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -67,7 +67,7 @@ fn strokes_fills_and_ribbons_through_a_stencil_leave_its_picture_and_nothing_bes
 }
 
 #[test]
-fn a_stencil_goes_along_with_the_copies_of_a_stroke() {
+fn copies_of_a_stroke_use_a_copied_stencil() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -104,7 +104,7 @@ fn a_stroke_without_the_picture_of_its_stencil_leaves_nothing() {
 }
 
 #[test]
-fn fills_keep_within_the_limits_of_the_brush() {
+fn fills_stay_within_the_limits_of_the_brush() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -146,7 +146,7 @@ fn fills_keep_within_the_limits_of_the_brush() {
 }
 
 #[test]
-fn a_stencil_is_carried_along_with_its_stroke() {
+fn a_stencil_moves_with_its_stroke() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
@@ -180,7 +180,7 @@ fn a_stencil_is_carried_along_with_its_stroke() {
 }
 
 #[test]
-fn a_stroke_from_a_denser_mesh_is_carried_from_where_it_lies_now() {
+fn a_stroke_from_a_denser_mesh_is_moved_from_its_present_place() {
     let mesh = plate(0.1);
     let index = SurfaceIndex::new(&mesh);
     let surface = PaintSurface::new(&mesh, &index);
@@ -201,7 +201,7 @@ fn a_stroke_from_a_denser_mesh_is_carried_from_where_it_lies_now() {
 }
 
 #[test]
-fn a_forged_brush_without_size_has_few_places_and_stamps() {
+fn a_forged_brush_of_size_zero_has_few_points_and_stamps() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 64));
     let surface = PaintSurface::new(&mesh, &index);
