@@ -13,6 +13,7 @@ use sabi_graph::{LibrarySource, NodeId, NodeRef};
 
 use crate::action::Action;
 use crate::brush_shelf::BrushShelf;
+use crate::builtin_models::model_of;
 use crate::evaluation::Evaluation;
 use crate::exports::Exports;
 use crate::key_map::KeyMap;
@@ -20,7 +21,7 @@ use crate::knobs::Lengths;
 use crate::library::Library;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
-use crate::paths::{canonical_if_present, model_of};
+use crate::paths::canonical_if_present;
 use crate::pen::Pens;
 use crate::saved_pictures::SavedPictures;
 use crate::search::Candidate;

@@ -19,6 +19,7 @@ mod app;
 mod bars;
 mod brush;
 mod brush_shelf;
+mod builtin_models;
 mod canvas;
 mod command;
 mod context;

@@ -4,9 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use sabi_editing::library::GRAPH_EXTENSION;
-use sabi_engine::{Refusal, Session, Unread, canonical};
-
-use crate::files::examples::builtin_file;
+use sabi_engine::canonical;
 
 /// Endings of font files.
 pub(crate) const FONTS: [&str; 3] = ["ttf", "otf", "ttc"];
@@ -61,24 +59,6 @@ pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
     name.push(".");
     name.push(GRAPH_EXTENSION);
     path.with_file_name(name)
-}
-
-/// File of the model that a graph names, or the reason that the graph may not open it. Built-in models are in the folder `examples`.
-pub(crate) fn model_of(session: &Session, examples: Option<&Path>) -> Option<Result<PathBuf, Refusal>> {
-    let preview = session.document().preview.as_ref()?;
-    let named = preview.mesh.clone()?;
-    if let Some(file) = examples
-        .zip(preview.builtin_mesh())
-        .and_then(|(folder, name)| builtin_file(folder, name))
-    {
-        return Some(Ok(file));
-    }
-    let graph = session.graph();
-    Some(match graph.trusted.check(&graph.base(), &named) {
-        Err(Unread::Refused(refusal)) => Err(refusal),
-        // Everything else is told when it is read.
-        _ => Ok(graph.base().resolve(&named)),
-    })
 }
 
 /// A path with an ending behind its name, unless it has that already.

@@ -11,8 +11,9 @@ use sabi_engine::{
 };
 
 use crate::app::{Editor, Folders, Handover, InitialState};
+use crate::builtin_models::model_of;
 use crate::files::{examples, new_graph};
-use crate::paths::{in_canonical_folder, model_of};
+use crate::paths::in_canonical_folder;
 use crate::settings::default_folder;
 
 /// Devices that may be lost soon after another before the window is given up.

@@ -18,12 +18,13 @@ use sabi_graph::Preview;
 use super::recoveries::Recoveries;
 use crate::action::LibraryKind;
 use crate::brush_shelf::BrushShelf;
+use crate::builtin_models::{builtin_name, model_of};
 use crate::evaluation::Evaluation;
 use crate::files::examples;
 use crate::kinds_reading::KindsReading;
 use crate::library::Library;
 use crate::model_row::ModelRow;
-use crate::paths::{canonical_if_present, in_canonical_folder, model_of};
+use crate::paths::{canonical_if_present, in_canonical_folder};
 use crate::saved_pictures::SavedPictures;
 use crate::search::{Candidate, LibraryGroup, candidates};
 use crate::settings::{ModelStrip, Settings};
@@ -355,7 +356,7 @@ impl Documents {
         }
         let reading = evaluation.model.import_options().saved();
         let examples = self.folders.examples.as_deref();
-        let builtin = examples.and_then(|folder| examples::builtin_name(folder, model));
+        let builtin = examples.and_then(|folder| builtin_name(folder, model));
         let mesh = match builtin {
             Some(name) => Ok(format!("{}{name}", Preview::BUILTIN)),
             None => relative_paths::from_own_folder(&self.document, model),

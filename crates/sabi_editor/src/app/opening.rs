@@ -8,6 +8,7 @@ use sabi_editing::OpenDocument;
 use sabi_engine::{Session, TrustedPaths};
 
 use super::documents::{Documents, Folders};
+use crate::builtin_models::model_of;
 use crate::canvas::Canvas;
 use crate::files::key_list::KeyList;
 use crate::files::start::StartPage;
@@ -23,7 +24,7 @@ use crate::panels::parameters::Parameters;
 use crate::panels::performance::Performance;
 use crate::panels::problems::Problems;
 use crate::panels::stack::Layers;
-use crate::paths::{in_canonical_folder, model_of};
+use crate::paths::in_canonical_folder;
 use crate::settings::Settings;
 use crate::views::Views;
 use crate::watching::Watching;

@@ -9,8 +9,8 @@ use sabi_engine::{EngineError, Refusal};
 
 use super::bar;
 use crate::action::{Action, TrustAction};
+use crate::builtin_models::model_of;
 use crate::context::ViewContext;
-use crate::paths::model_of;
 
 /// Most folders that are offered at once.
 const MOST_FOLDERS: usize = 3;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use sabi_engine::{effect_library, free_graph_file, write_whole};
 
-use crate::paths::canonical_if_present;
+use crate::builtin_models::{MESHES, MODELS};
 
 /// Built-in example: its title, file and model.
 pub(crate) struct Example {
@@ -75,21 +75,8 @@ pub(crate) const EXAMPLES: [Example; 8] = [
     ),
 ];
 
-macro_rules! models {
-    ($($name:literal)*) => {
-        [$(($name, include_bytes!(concat!("../../../../assets/meshes/", $name)).as_slice()),)*]
-    };
-}
-
-/// Models of the examples, the one that new graphs are shown on first.
-const MODELS: [(&str, &[u8]); 11] = models![
-    "bench.glb" "barrel.glb" "chain.glb" "chair.glb" "column.glb" "crate.glb" "cube.glb" "figure.glb" "sphere.glb" "table.glb"
-    "wall.glb"
-];
-
-/// Folders of graphs, models and groups in the folder of examples, as in the project.
+/// Folders of graphs and groups in the folder of examples, as in the project.
 const GRAPHS: &str = "graphs/examples";
-const MESHES: &str = "assets/meshes";
 /// Name of the folder of examples of every user.
 pub(crate) const EXAMPLES_FOLDER: &str = "examples";
 const LIBRARY: &str = "graphs/library";
@@ -152,22 +139,6 @@ pub(crate) fn is_own_model(file: &Path) -> bool {
     MODELS.iter().any(|(name, _)| is_named(file, name))
 }
 
-/// File of a built-in model by its name in graphs, whether it was written or not; none if there is no such model.
-pub(crate) fn builtin_file(folder: &Path, name: &str) -> Option<PathBuf> {
-    let mut models = MODELS.iter().map(|(file, _)| *file);
-    let file = models.find(|file| Path::new(file).file_stem().is_some_and(|stem| stem == name))?;
-    Some(folder.join(MESHES).join(file))
-}
-
-/// Name in graphs of a built-in model; none for other files, and for one that was changed since it was written.
-pub(crate) fn builtin_name(folder: &Path, file: &Path) -> Option<String> {
-    let is_same = |own: &PathBuf| canonical_if_present(own) == canonical_if_present(file);
-    let (own, (_, bytes)) = models(folder).zip(MODELS).find(|(own, _)| is_same(own))?;
-    let is_unchanged = fs::read(&own).is_ok_and(|read| read == bytes);
-    let name = own.file_stem().filter(|_| is_unchanged)?;
-    Some(name.to_string_lossy().into_owned())
-}
-
 fn is_named(file: &Path, name: &str) -> bool {
     file.ends_with(Path::new(EXAMPLES_FOLDER).join(MESHES).join(name))
 }
@@ -207,6 +178,7 @@ fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::builtin_models::{builtin_file, builtin_name};
 
     #[test]
     fn a_built_in_model_is_known_by_its_place_among_the_examples() {
