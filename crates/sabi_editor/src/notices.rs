@@ -183,7 +183,10 @@ mod tests {
     fn a_sentence_begins_with_a_capital() {
         assert_eq!(with_capital("no node is muted"), "No node is muted");
         assert_eq!(with_capital("'Blur' is read"), "'Blur' is read");
-        assert_eq!(with_capital("goat.obj: there is no such file"), "goat.obj: there is no such file");
+        assert_eq!(
+            with_capital("goat.obj: there is no such file"),
+            "goat.obj: there is no such file"
+        );
         assert_eq!(with_capital(""), "");
     }
 

@@ -77,7 +77,9 @@ impl View for Problems {
                 ));
             }
             for sentence in others {
-                ui.add(egui::Label::new(RichText::new(with_capital(&context.said(sentence))).color(theme.fault)).wrap());
+                ui.add(
+                    egui::Label::new(RichText::new(with_capital(&context.said(sentence))).color(theme.fault)).wrap(),
+                );
             }
             let of_model = evaluation.model.warnings();
             for warning in context.warnings() {

@@ -75,7 +75,12 @@ fn a_failed_save_is_told_with_its_file_until_it_is_closed_or_a_save_succeeds() {
 #[test]
 fn the_message_about_a_failed_save_leads_to_saving_elsewhere() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().shell.notices.fail(Work::Save, "the disk is full");
+    window
+        .harness
+        .state_mut()
+        .shell
+        .notices
+        .fail(Work::Save, "the disk is full");
     window.settle();
     window.press("Save as…");
     assert!(window.says("Save the graph") && !window.has_failure("the disk is full"));
