@@ -11,14 +11,31 @@ use crate::warning::Warning;
 /// Share of its maps below which a layout is probably a mistake: UVs in another scale, or of a part of a larger sheet.
 const LEAST_COVERED: f64 = 0.05;
 
-/// Texels of a sheet.
+/// Least share of the texels per area of the densest other sheet with which a sheet has enough of them, however little it covers.
+const LEAST_DENSE: f64 = 0.25;
+
+/// Texels of a sheet, and the area of the model that has them.
 #[derive(Clone, Copy, Default)]
 struct Sheet {
     covered: u64,
     maps: u64,
+    /// Square model units.
+    area: f64,
 }
 
-/// Warns about each sheet that covers little of its maps. The bake reports those that cover nothing.
+impl Sheet {
+    fn share(&self) -> f64 {
+        self.covered as f64 / self.maps.max(1) as f64
+    }
+
+    /// Texels for each square model unit.
+    fn density(&self) -> f64 {
+        self.covered as f64 / self.area
+    }
+}
+
+/// Warns about each sheet that covers little of its maps, unless it is about as dense as those that cover much: it belongs to a small
+/// part of the model then. The bake reports those that cover nothing.
 pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
     let atlas = &linked.atlas;
     let mut sheets: BTreeMap<u32, Sheet> = BTreeMap::new();
@@ -28,11 +45,19 @@ pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
     for chart in &atlas.charts {
         sheets.entry(chart.sheet).or_default().covered += u64::from(chart.texels);
     }
+    let mesh = &linked.model.mesh;
+    for (triangle, chart) in (0..).zip(&atlas.triangle_chart) {
+        let [a, b, c] = mesh.corners(triangle);
+        let sheet = atlas.charts.get(*chart as usize).map_or(0, |chart| chart.sheet);
+        sheets.entry(sheet).or_default().area += (b - a).cross(c - a).length() / 2.0;
+    }
     let names = set_names(&linked.model);
-    let share = |sheet: &Sheet| sheet.covered as f64 / sheet.maps.max(1) as f64;
+    let full = sheets.values().filter(|sheet| sheet.share() >= LEAST_COVERED);
+    let densest = full.map(Sheet::density).fold(0.0, f64::max);
+    let is_as_dense = |sheet: &Sheet| densest > 0.0 && sheet.density() >= LEAST_DENSE * densest;
     let sparse = sheets
         .iter()
-        .filter(|(_, sheet)| sheet.covered > 0 && share(sheet) < LEAST_COVERED);
+        .filter(|(_, sheet)| sheet.covered > 0 && sheet.share() < LEAST_COVERED && !is_as_dense(sheet));
     let warning = |(&material, sheet): (&u32, &Sheet)| {
         let name = match linked.model.mesh.is_one_sheet {
             true => linked.model.stem.as_str(),
@@ -41,7 +66,7 @@ pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
         };
         let sentence = format!(
             "the UVs of '{name}' cover {} of its maps, so that few texels show anything",
-            percent(share(sheet))
+            percent(sheet.share())
         );
         let remedies: &[Remedy] = match linked.unwrapped {
             Some(_) => &[],

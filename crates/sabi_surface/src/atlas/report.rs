@@ -12,6 +12,8 @@ use crate::model::Mesh;
 
 /// Ratio of the densest to the sparsest chart above which texels differ visibly in size.
 const DENSITY_RATIO: f64 = 4.0;
+/// Share of the surface on thin charts up to which nothing is warned about: nobody sees the texels of a few rivets.
+const THIN_LEAST_SHARE: f64 = 5e-3;
 /// Charts below this share of the surface are ignored when densities are compared.
 const DENSITY_LEAST_SHARE: f64 = 1e-3;
 
@@ -74,14 +76,28 @@ impl ReportInputs<'_> {
         in_uv.len() as u32
     }
 
-    /// Counts thin charts. Charts without area in UV do not count.
+    /// Counts thin charts.
     fn thin_charts(&self) -> u32 {
-        let has_area = |chart: usize| {
+        self.thin().count() as u32
+    }
+
+    /// Share of the surface that lies on thin charts.
+    fn thin_share(&self) -> f64 {
+        let partition = &self.in_uv.partition;
+        let area = |chart: usize| self.areas(partition.triangles(chart)).0;
+        let all: f64 = (0..partition.len()).map(area).sum();
+        self.thin().map(area).sum::<f64>() / all
+    }
+
+    /// Thin charts. Those without area in UV do not count.
+    fn thin(&self) -> impl Iterator<Item = usize> {
+        let has_area = move |chart: usize| {
             let mut triangles = self.in_uv.partition.triangles(chart).iter();
             triangles.any(|&triangle| self.orientations[triangle as usize] != 0)
         };
         let masks = self.in_uv.masks.iter().enumerate();
-        masks.filter(|(chart, mask)| mask.is_thin() && has_area(*chart)).count() as u32
+        let thin = masks.filter(move |(chart, mask)| mask.is_thin() && has_area(*chart));
+        thin.map(|(chart, _)| chart)
     }
 
     fn moved_charts(&self) -> u32 {
@@ -103,7 +119,7 @@ impl ReportInputs<'_> {
             let triangles = counted(report.degenerate_uv_triangles, "triangle has", "triangles have");
             warnings.push(format!("{triangles} no area in UV and no place on the maps"));
         }
-        if report.thin_charts > 0 {
+        if report.thin_charts > 0 && self.thin_share() > THIN_LEAST_SHARE {
             let charts = counted(report.thin_charts, "UV chart is", "UV charts are");
             warnings.push(format!(
                 "{charts} thinner than two texels at size {}; a larger size or fewer, larger charts would help",

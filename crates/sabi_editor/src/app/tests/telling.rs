@@ -11,6 +11,7 @@ use sabi_engine::Session;
 use super::safety::CLOUDS;
 use super::{Window, beside, graph_text};
 use crate::dock::Panel;
+use crate::files::examples;
 use crate::notices::Work;
 
 /// Two triangles that share all of their UVs.
@@ -134,6 +135,27 @@ fn warnings_about_a_model_have_a_badge_there_and_in_the_status_bar_that_lists_th
     drop(in_status);
     window.click_at(status);
     assert!(window.says(&sentence));
+}
+
+#[test]
+fn sabis_own_models_give_no_warnings_at_the_usual_size() {
+    const USUAL: u32 = 512;
+    let mut window = Window::with(|folders| {
+        let file = beside(folders).join("graph.sabi");
+        fs::write(&file, graph_text("").replace("64", "512")).expect("a graph");
+        Session::open(&file, None).expect("a graph")
+    });
+    let folder = window.path("own");
+    for file in examples::models(&folder) {
+        examples::write_model(&folder, &file).expect("a model");
+        window.harness.state_mut().take_chosen_model(&file);
+        window.until("the model at its full size", |editor| {
+            let model = &editor.evaluation.model;
+            model.loaded().1 && model.received.as_ref().is_some_and(|model| model.size == USUAL)
+        });
+        let model = &window.editor().evaluation.model;
+        assert_eq!((model.file(), model.warnings()), (file.as_path(), [].as_slice()));
+    }
 }
 
 #[test]

@@ -237,7 +237,7 @@ fn charts_too_small_for_a_texel_are_reported() {
     let mut mesh = cube(1);
     patch(
         &mut mesh,
-        [[9.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0]],
+        [[9.0, 0.0, 0.0], [0.3, 0.0, 0.0], [0.0, 0.3, 0.0]],
         Frame::straight([0.9, 0.9], 0.0005),
         1,
     );
