@@ -67,7 +67,8 @@ impl View for StartPage {
             ui.set_width(WIDTH);
             // On a small screen, or with many graphs to recover, the page is higher than the screen.
             let most = ui.ctx().content_rect().height() - 2.0 * MARGIN;
-            let page = ScrollArea::vertical().max_height(most);
+            // The window of the page has the height of its last frame, which must not limit it.
+            let page = ScrollArea::vertical().max_height(most).min_scrolled_height(most);
             page.show(ui, |ui| self.page(ui, context, &mut actions)).inner
         });
         let should_close = modal.should_close();

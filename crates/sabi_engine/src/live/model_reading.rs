@@ -99,7 +99,7 @@ impl Progress for Wanted<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::mpsc::{Receiver, channel};
+    use std::sync::mpsc::channel;
 
     use super::*;
     use crate::error::ErrorKind;
@@ -109,30 +109,30 @@ mod tests {
         EngineError::new(ErrorKind::BadInput, "no model")
     }
 
-    /// Returns work that ends when it receives a message.
-    fn waiting(go: Receiver<()>) -> impl FnOnce(&dyn Progress) -> Result<LinkedModel, EngineError> + Send {
-        move |_| {
-            let _ = go.recv();
-            Err(no_model())
-        }
-    }
-
     #[test]
     fn reading_of_a_model_that_is_no_longer_wanted_does_not_delay_the_caller() {
         let queue = Arc::new(WorkerQueue::new(&LiveOptions::default()));
         let progress = Arc::new(LoadProgress::new(&queue, 1));
         let mut reading = ModelReading::default();
-        let (go, told) = channel();
+        let ((begun, begins), (go, told)) = (channel(), channel());
         let closes = queue.clone();
-        let closing = std::thread::spawn(move || closes.close());
-        let error = reading.read(&progress, waiting(told)).err();
+        let closing = std::thread::spawn(move || {
+            begins.recv().unwrap();
+            closes.close();
+        });
+        let waiting = move |_: &dyn Progress| {
+            begun.send(()).unwrap();
+            let _ = told.recv();
+            Err(no_model())
+        };
+        let error = reading.read(&progress, waiting).err();
         assert_eq!(error.map(|error| error.kind), Some(ErrorKind::Interrupted));
         closing.join().unwrap();
         let left = reading.left.take().unwrap();
         assert!(!left.is_finished(), "it is still at work");
         queue.activity.clear();
         progress.advance(Phase::Atlas, 0, 1);
-        assert_eq!(queue.activity.get(), None, "what was left tells nothing more");
+        assert_eq!(queue.activity.get(), None, "abandoned work reports no progress");
         go.send(()).unwrap();
         left.join().unwrap();
     }
