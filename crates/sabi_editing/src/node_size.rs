@@ -54,7 +54,7 @@ pub struct ShownRows {
     is_reroute: bool,
 }
 
-/// Which rows of a list are shown.
+/// Choice of the rows of a list that are shown.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Shown {
     All(usize),

@@ -171,7 +171,7 @@ pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32
 /// position would hide each other.
 fn free_position(document: &OpenDocument, pos: [f32; 2]) -> [f32; 2] {
     let is_taken = |place: [f32; 2]| document.graph().nodes().any(|(_, node)| node.pos == place);
-    // One position more than there are nodes is enough, except so far from the origin that a step is lost in rounding.
+    // Trying one position more than there are nodes is enough, except so far from the origin that a step is lost in rounding.
     let steps = 0..=document.graph().len();
     let mut places = steps.map(|step| pos.map(|at| at + step as f32 * 2.0 * GRID));
     places.find(|place| !is_taken(*place)).unwrap_or(pos)

@@ -16,7 +16,7 @@ pub struct PanelKnob {
     pub name: String,
     /// Definition of the published knob in the graph.
     pub exposed: Exposed,
-    /// How the knob is shown: like the first knob that it controls, with its own name and range.
+    /// Appearance of the knob: that of the first knob that it controls, with its own name and range.
     pub knob: Knob,
     /// Current value, in the shown variant if there is one.
     pub value: Value,

@@ -241,7 +241,7 @@ fn the_command_line_decides_whether_faces_of_a_graphs_own_model_are_turned() {
         let more = [more, &["--size", "16", "--force", "--report", "first.json"]].concat();
         place.bake("turning.sabi", "cube.obj", &more).good();
         assert_eq!(turned(&place.read("first.json")), expected, "{more:?}");
-        // What a report says is done again, whatever the graph says.
+        // The settings of a report are used again, even if the graph has others.
         let again = [
             "bake",
             "--from",

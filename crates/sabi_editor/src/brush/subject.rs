@@ -20,7 +20,7 @@ pub(crate) struct PaintSubject {
     pub(super) node: NodeId,
     /// Versions of its strokes.
     pub(super) strokes: String,
-    /// What strokes change, in words: a layer, the mask of one, or the node.
+    /// Name of the layer, mask or node that strokes change, for captions.
     pub(crate) title: String,
     pub(crate) brush: BrushChoices,
     /// The picture over the view that strokes are painted through.
@@ -75,7 +75,7 @@ impl PaintSubject {
     }
 }
 
-/// What strokes of a paint node change, in words.
+/// Returns the name of the layer, mask or node that strokes of a paint node change.
 fn title_of(document: &OpenDocument, node: &NodeId) -> String {
     match painted_layer(document, node) {
         Some(layer) if layer.is_mask_alone => format!("the mask of {}", layer.title),

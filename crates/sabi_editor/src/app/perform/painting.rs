@@ -29,7 +29,7 @@ impl Editor {
                 brush.value = value.unwrap_or(brush.value);
                 self.find_brush_picture();
                 if self.begin_painting(ui) {
-                    // What was just added is painted next, for which the brush has to be at hand.
+                    // The added layer is painted next, so the page of the brush is opened.
                     self.shell.dock.bring_up(Panel::Parameters);
                 }
             }

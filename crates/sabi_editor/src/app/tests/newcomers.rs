@@ -238,7 +238,7 @@ fn a_new_layer_is_painted_even_if_the_brush_erased_before() {
     let paint = window.document().selected_one().expect("the paint node").clone();
     let list = window.list(paint.as_str()).expect("strokes");
     assert_eq!(list.strokes[0].action, BrushAction::Paint);
-    // Where there is something to erase, an eraser stays one.
+    // On a node that has strokes, an eraser stays an eraser.
     window.harness.state_mut().shell.settings.brush.action = BrushAction::Erase;
     window.key(Key::B);
     window.key(Key::B);
