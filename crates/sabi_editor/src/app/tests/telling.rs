@@ -147,7 +147,7 @@ fn the_bench_and_the_crate_give_no_warnings_at_the_usual_size() {
     });
     let folder = window.path("own");
     let is_meant = |file: &std::path::PathBuf| file.ends_with("bench.glb") || file.ends_with("crate.glb");
-    for file in examples::models(&folder).into_iter().filter(is_meant) {
+    for file in examples::models(&folder).filter(is_meant) {
         examples::write_model(&folder, &file).expect("a model");
         window.harness.state_mut().take_chosen_model(&file);
         window.until("the model at its full size", |editor| {
