@@ -1,8 +1,8 @@
 //! Edits as data: everything that an artist can do to the open document.
 
+mod exposing_commands;
 mod node_commands;
 mod perform;
-mod publishing_commands;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -11,9 +11,9 @@ use std::sync::Arc;
 use sabi_engine::paint::{Step, Stroke};
 use sabi_graph::{Fit, NodeId, OutputRef, SavedView, SlotRef};
 
+pub use exposing_commands::{PanelCommand, PortCommand, VariantCommand};
 pub use node_commands::{ArrangeCommand, GroupCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource};
 pub use perform::perform;
-pub use publishing_commands::{PanelCommand, PortCommand, VariantCommand};
 
 use crate::notes::NoteChange;
 use crate::wires::MaskMerge;
@@ -43,7 +43,7 @@ pub enum EditCommand {
     Group(GroupCommand),
     /// The clipboard.
     Clipboard(ClipboardCommand),
-    /// The panel of published knobs.
+    /// The panel of exposed knobs.
     Panel(PanelCommand),
     /// Variants of the panel.
     Variant(VariantCommand),

@@ -56,7 +56,7 @@ impl CurrentFaces {
 enum FaceChange {
     /// No effect.
     None,
-    /// Defaults of the published knobs of the main graph, for files that use it as a group.
+    /// Defaults of the exposed knobs of the main graph, for files that use it as a group.
     Whole,
     /// Possibly the ports and knobs of any node.
     Any,
@@ -75,9 +75,9 @@ impl FaceChange {
             Edit::SetParam { body, node, param, .. } => {
                 let is_set = |slot: &SlotRef| slot.node == *node && slot.name == *param;
                 let graph = document.body(body);
-                let mut published = graph.iter().flat_map(|graph| graph.exposed().values());
+                let mut exposed = graph.iter().flat_map(|graph| graph.exposed().values());
                 match body {
-                    _ if !published.any(|knob| knob.to.iter().any(is_set)) => FaceChange::None,
+                    _ if !exposed.any(|knob| knob.to.iter().any(is_set)) => FaceChange::None,
                     Body::Main => FaceChange::Whole,
                     Body::Group(_) => FaceChange::Any,
                 }

@@ -1,7 +1,7 @@
-//! Edits that follow from other edits: group instances are adapted to changes of what their group publishes, and frames
+//! Edits that follow from other edits: group instances are adapted to changes of what their group exposes, and frames
 //! that lose their last node are removed.
 //!
-//! An instance that refers to an input, output or knob that its group does not publish would prevent the evaluation of the whole graph.
+//! An instance that refers to an input, output or knob that its group does not expose would prevent the evaluation of the whole graph.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -70,7 +70,7 @@ fn with_instances(document: &Document, mut edits: Vec<Edit>) -> Vec<Edit> {
         // The edits are invalid. The session will refuse them and give the reason.
         return edits;
     }
-    // A group may publish parts of a changed group inside it, so the changes can propagate. They do so at most as often as
+    // A group may expose parts of a changed group inside it, so the changes can propagate. They do so at most as often as
     // there are groups.
     for _ in 0..=document.groups.len() {
         let follows = following(document, &after, &changed);
@@ -129,20 +129,20 @@ fn following(before: &Document, after: &Document, changed: &BTreeSet<String>) ->
                 instance.readers(&change, &mut edits);
             }
             if !found.is_empty() {
-                let published = Published {
+                let outer = OuterGraph {
                     document: after,
                     body: &body,
                     graph,
                     instances: &found,
                 };
-                published.follow(&change, &mut edits);
+                outer.follow(&change, &mut edits);
             }
         }
     }
     edits
 }
 
-/// A group before and after the edits. A reference to a name that it did not publish before was broken already and is not changed.
+/// A group before and after the edits. A reference to a name that it did not expose before was broken already and is not changed.
 struct Change<'a> {
     was: &'a GroupDef,
     is: &'a GroupDef,
@@ -229,15 +229,15 @@ impl Instance<'_> {
     }
 }
 
-/// A graph that contains instances of a changed group, and the parts of those instances that it publishes.
-struct Published<'a> {
+/// A graph that contains instances of a changed group, and the parts of those instances that it exposes.
+struct OuterGraph<'a> {
     document: &'a Document,
     body: &'a Body,
     graph: &'a Graph,
     instances: &'a BTreeSet<&'a NodeId>,
 }
 
-impl Published<'_> {
+impl OuterGraph<'_> {
     fn follow(&self, change: &Change<'_>, edits: &mut Vec<Edit>) {
         let body = || self.body.clone();
         for (name, knob) in self.graph.exposed() {

@@ -134,12 +134,12 @@ fn group_edits(name: &str, group: &GroupDef, imported: &ImportedGroups) -> Vec<E
         let body = body.clone();
         edits.push(Edit::AddNode { body, id, node });
     }
-    edits.extend(publishing(&body, group));
+    edits.extend(exposing(&body, group));
     edits
 }
 
-/// Edits that add the published ports and knobs, the variants, the frames and the notes of a group definition.
-pub(crate) fn publishing(body: &Body, group: &GroupDef) -> Vec<Edit> {
+/// Edits that add the exposed ports and knobs, the variants, the frames and the notes of a group definition.
+pub(crate) fn exposing(body: &Body, group: &GroupDef) -> Vec<Edit> {
     let inputs = group.inputs.iter().map(|(name, input)| Edit::SetInput {
         body: body.clone(),
         name: name.clone(),

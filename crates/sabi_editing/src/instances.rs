@@ -34,7 +34,7 @@ pub(crate) fn ports<'d>(
     }
 }
 
-/// Returns edits that rename knobs in all published knobs that control them.
+/// Returns edits that rename knobs in all exposed knobs that control them.
 pub(crate) fn renamed_knobs(document: &Document, matches: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (body, graph) in bodies(document) {

@@ -15,7 +15,7 @@ pub enum KnobTarget {
         /// Name of the knob.
         knob: String,
     },
-    /// A published knob, by its name.
+    /// An exposed knob, by its name.
     Panel(String),
 }
 

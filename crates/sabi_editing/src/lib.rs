@@ -9,7 +9,7 @@
 //! * An edit is one undo step, however many nodes it changes; undoing it restores the same text of the document.
 //! * A refused edit changes nothing and leaves its reason in the notices.
 //! * The shown graph exists, and all selected nodes are in it.
-//! * A graph that can be evaluated can still be evaluated after every edit: instances follow what their group publishes, and
+//! * A graph that can be evaluated can still be evaluated after every edit: instances follow what their group exposes, and
 //!   no wires form a cycle.
 //! * Nothing here knows a window, a device or a thread.
 //!

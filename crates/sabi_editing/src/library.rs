@@ -97,7 +97,7 @@ fn group_document(document: &OpenDocument, name: &str, group: &GroupDef) -> Resu
             saved.apply(add).map_err(refused)?;
         }
     }
-    for edit in group_import::publishing(&Body::Main, group) {
+    for edit in group_import::exposing(&Body::Main, group) {
         saved.apply(edit).map_err(refused)?;
     }
     Ok(saved)

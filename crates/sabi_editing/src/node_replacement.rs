@@ -84,7 +84,7 @@ fn accepts(knob: &Knob, value: &Value) -> bool {
 }
 
 /// Replaces a node by a node of another kind. Wires that fit are kept, and so are parameters with the same name, their
-/// published knobs and the frames around the node.
+/// exposed knobs and the frames around the node.
 pub fn by_kind(document: &mut OpenDocument, id: &NodeId, kind: &str) -> bool {
     let Some(entry) = document.catalog().entry(kind).cloned() else {
         return document.refuse(format!("there is no node kind '{kind}'"));

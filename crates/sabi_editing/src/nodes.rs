@@ -293,7 +293,7 @@ fn set_knob_of(
     let ids: Vec<NodeId> = ids.into_iter().collect();
     // All of these nodes have the same kind, so a value that means no variant is a reset for all of them.
     let value = value.filter(|value| !ids.iter().any(|node| means_no_variant(document, node, knob, value)));
-    let mut edits = panel_values::published_values(document, &ids, knob, value.as_ref());
+    let mut edits = panel_values::exposed_values(document, &ids, knob, value.as_ref());
     let step = match ids.as_slice() {
         [id] => format!("{} of '{}'", knob_label(document.face(id), knob), document.title(id)),
         [id, ..] => format!("{} of {} nodes", knob_label(document.face(id), knob), ids.len()),

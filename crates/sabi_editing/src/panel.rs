@@ -1,4 +1,4 @@
-//! The panel of the shown graph: its published knobs.
+//! The panel of the shown graph: its exposed knobs.
 
 use std::collections::BTreeMap;
 
@@ -14,19 +14,19 @@ use crate::{instances, shown_variant};
 pub struct PanelKnob {
     /// Name in files and on command lines.
     pub name: String,
-    /// Definition of the published knob in the graph.
+    /// Definition of the exposed knob in the graph.
     pub exposed: Exposed,
     /// Appearance of the knob: that of the first knob that it controls, with its own name and range.
     pub knob: Knob,
     /// Current value, in the shown variant if there is one.
     pub value: Value,
     /// Value that a reset restores: the value without the shown variant; if no variant is shown, the value when the graph
-    /// was opened; for a knob that was published later, the default of its node's kind. In a group that was added later, it is the
+    /// was opened; for a knob that was exposed later, the default of its node's kind. In a group that was added later, it is the
     /// current value.
     pub at_first: Value,
 }
 
-/// Returns the published knobs in the order of the panel. A knob that controls only unknown knobs is left out.
+/// Returns the exposed knobs in the order of the panel. A knob that controls only unknown knobs is left out.
 pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
     let face = document.own_face();
     let opened = document.own_face_when_opened();
@@ -36,7 +36,7 @@ pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
         let knob = face?.knob(name)?.clone();
         let first = exposed.to.first()?;
         let inner = document.face(&first.node)?.knob(&first.name)?;
-        // If a published knob has a default, that is its value.
+        // If an exposed knob has a default, that is its value.
         let own = &knob.ty.default;
         let opened_with = match opened.map(|face| face.knob(name)) {
             Some(Some(before)) => &before.ty.default,
@@ -55,7 +55,7 @@ pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
     knobs.collect()
 }
 
-/// Publishes a knob of a node under a free name on the panel of the shown graph.
+/// Exposes a knob of a node under a free name on the panel of the shown graph.
 pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     if let Some(name) = exposed_as(document, id, knob) {
         let why = format!("this parameter is exposed already, as '{name}'");
@@ -91,7 +91,7 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     document.edit("Expose", vec![edit])
 }
 
-/// Adds a knob of a node to the knobs that a published knob controls.
+/// Adds a knob of a node to the knobs that an exposed knob controls.
 pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &str) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
@@ -110,9 +110,9 @@ pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &
         like(first) == like(own)
     });
     if !is_alike {
-        let published = knob_label(document.own_face(), name);
+        let exposed = knob_label(document.own_face(), name);
         let own = own.map_or(knob, |own| &own.label);
-        return document.refuse(format!("'{published}' holds values of another sort than '{own}'"));
+        return document.refuse(format!("'{exposed}' holds values of another sort than '{own}'"));
     }
     if exposed.to.contains(&slot) {
         return true;
@@ -122,7 +122,7 @@ pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &
     document.edit("Expose", vec![edit])
 }
 
-/// Publishes a knob of a node together with those of the selected nodes of its kind.
+/// Exposes a knob of a node together with those of the selected nodes of its kind.
 pub fn expose_of_selected(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     let kind = |id: &NodeId| document.node(id).map(|node| &node.kind);
     let selected = document.selection().iter();
@@ -139,7 +139,7 @@ pub fn expose_of_selected(document: &mut OpenDocument, id: &NodeId, knob: &str) 
     is_new
 }
 
-/// Returns the name under which a knob of a node is published; `None` if it is not.
+/// Returns the name under which a knob of a node is exposed; `None` if it is not.
 pub fn exposed_as<'d>(document: &'d OpenDocument, id: &NodeId, knob: &str) -> Option<&'d str> {
     let is_meant = |slot: &SlotRef| slot.node == *id && slot.name == knob;
     let mut exposed = document.graph().exposed().iter();
@@ -157,7 +157,7 @@ pub fn unexpose(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Stop exposing", vec![edit])
 }
 
-/// Takes a knob of a node off the panel. Other knobs that the same published knob controls stay.
+/// Takes a knob of a node off the panel. Other knobs that the same exposed knob controls stay.
 pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     let Some(name) = exposed_as(document, id, knob).map(str::to_owned) else {
         return false;
@@ -174,7 +174,7 @@ pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bo
     document.edit("Stop exposing", vec![edit])
 }
 
-/// Renames a published knob, in files, variants and all instances.
+/// Renames an exposed knob, in files, variants and all instances.
 pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = to.trim();
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
@@ -227,7 +227,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     document.edit("Rename parameter", edits)
 }
 
-/// Changes the definition of a published knob.
+/// Changes the definition of an exposed knob.
 fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOnce(&mut Exposed)) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
@@ -237,19 +237,19 @@ fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOn
     document.edit(step, vec![edit])
 }
 
-/// Sets the label of a published knob; an empty one restores that of the knob that it controls.
+/// Sets the label of an exposed knob; an empty one restores that of the knob that it controls.
 pub fn set_label(document: &mut OpenDocument, name: &str, label: &str) -> bool {
     let label = Some(label.trim().to_owned()).filter(|label| !label.is_empty());
     change(document, "Rename parameter", name, |knob| knob.label = label)
 }
 
-/// Sets the section of a published knob; an empty one is none.
+/// Sets the section of an exposed knob; an empty one is none.
 pub fn set_section(document: &mut OpenDocument, name: &str, section: &str) -> bool {
     let section = Some(section.trim().to_owned()).filter(|section| !section.is_empty());
     change(document, "Move parameter", name, |knob| knob.section = section)
 }
 
-/// Moves a published knob before another one and into its section, or to the end.
+/// Moves an exposed knob before another one and into its section, or to the end.
 pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) -> bool {
     let graph = document.graph();
     let mut names: Vec<&str> = graph.panel().into_iter().map(|(name, _)| name).collect();
@@ -282,7 +282,7 @@ pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) 
     document.edit("Move parameter", edits)
 }
 
-/// Edit that sets the definition of a published knob.
+/// Edit that sets the definition of an exposed knob.
 pub(crate) fn exposing(document: &OpenDocument, name: &str, knob: Exposed) -> Edit {
     Edit::Expose {
         body: document.body(),

@@ -1,4 +1,4 @@
-//! Values of published knobs, and the values that they accept.
+//! Values of exposed knobs, and the values that they accept.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use crate::names::knob_label;
 use crate::open_document::OpenDocument;
 use crate::{instances, panel, shown_variant};
 
-/// Sets a published knob. If a variant is shown, the value is stored in the variant; otherwise in the knob's default if it
+/// Sets an exposed knob. If a variant is shown, the value is stored in the variant; otherwise in the knob's default if it
 /// has one, or else in the nodes that it controls.
 pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     if let Some(why) = why_not_set(document, name, value) {
@@ -18,7 +18,7 @@ pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     document.edit(&step_name(document, name), edits)
 }
 
-/// Resets a published knob: if a variant is shown, to the graph's own value; otherwise to its value when the graph was opened.
+/// Resets an exposed knob: if a variant is shown, to the graph's own value; otherwise to its value when the graph was opened.
 pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
     if let Some((variant, values)) = shown_variant::values(document) {
         let mut values = values.clone();
@@ -35,7 +35,7 @@ pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
     }
 }
 
-/// Name of a step that sets a published knob.
+/// Name of a step that sets an exposed knob.
 fn step_name(document: &OpenDocument, name: &str) -> String {
     let label = knob_label(document.own_face(), name);
     match shown_variant::name(document) {
@@ -44,7 +44,7 @@ fn step_name(document: &OpenDocument, name: &str) -> String {
     }
 }
 
-/// Returns the reason why a published knob cannot be set to a value; `None` if it can.
+/// Returns the reason why an exposed knob cannot be set to a value; `None` if it can.
 pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) -> Option<String> {
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Some(format!("there is no exposed parameter '{name}'"));
@@ -52,7 +52,7 @@ pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) ->
     range_fault(exposed.range, value).map(|why| format!("'{}' {why}", knob_label(document.own_face(), name)))
 }
 
-/// Edits that set a published knob.
+/// Edits that set an exposed knob.
 fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
     if let Some((variant, values)) = shown_variant::values(document) {
         let mut values = values.clone();
@@ -83,7 +83,7 @@ fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
 }
 
 /// Returns whether a new value of a node's knob belongs only in the shown variant: the variant sets this knob, and the
-/// value is within the published range, or a reset.
+/// value is within the exposed range, or a reset.
 pub(crate) fn is_of_variant_only(document: &OpenDocument, id: &NodeId, knob: &str, value: Option<&Value>) -> bool {
     let Some(name) = panel::exposed_as(document, id, knob) else {
         return false;
@@ -94,22 +94,17 @@ pub(crate) fn is_of_variant_only(document: &OpenDocument, id: &NodeId, knob: &st
     is_set && value.is_none_or(|value| range_fault(range, value).is_none())
 }
 
-/// Returns the edits of published knobs that must accompany new values of the nodes' knobs, since the shown variant or a
+/// Returns the edits of exposed knobs that must accompany new values of the nodes' knobs, since the shown variant or a
 /// default would override these.
-pub(crate) fn published_values(
-    document: &OpenDocument,
-    ids: &[NodeId],
-    knob: &str,
-    value: Option<&Value>,
-) -> Vec<Edit> {
-    let published: BTreeSet<&str> = ids
+pub(crate) fn exposed_values(document: &OpenDocument, ids: &[NodeId], knob: &str, value: Option<&Value>) -> Vec<Edit> {
+    let exposed: BTreeSet<&str> = ids
         .iter()
         .filter_map(|id| panel::exposed_as(document, id, knob))
         .collect();
     let variant = shown_variant::values(document);
     let mut of_variant = variant.map(|(_, values)| values.clone()).unwrap_or_default(); // Without a shown variant, it has no values.
     let mut edits = Vec::new();
-    for name in published {
+    for name in exposed {
         let Some(exposed) = document.graph().exposed().get(name) else {
             continue;
         };
@@ -119,7 +114,7 @@ pub(crate) fn published_values(
             .find(|slot| slot.name == knob && ids.contains(&slot.node));
         let curve = slot.and_then(|slot| exposed.curves.get(slot));
         let of_knob = value.map(|value| curve.map_or_else(|| value.clone(), |curve| curve.invert(value)));
-        // A reset removes the overriding value. A value outside of the published range removes it, too.
+        // A reset removes the overriding value. A value outside of the exposed range removes it, too.
         let inside = of_knob
             .as_ref()
             .filter(|value| range_fault(exposed.range, value).is_none());
@@ -150,7 +145,7 @@ pub(crate) fn published_values(
     edits
 }
 
-/// Sets the default of a published knob. `None` removes it, so that the nodes keep their own values.
+/// Sets the default of an exposed knob. `None` removes it, so that the nodes keep their own values.
 pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Value>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
@@ -163,7 +158,7 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
     document.edit("Set default", vec![edit])
 }
 
-/// Sets the range of a published knob; `None` restores the range of the knob that it controls. All values set so far must
+/// Sets the range of an exposed knob; `None` restores the range of the knob that it controls. All values set so far must
 /// lie in the range.
 pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
@@ -183,7 +178,7 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     document.edit("Set range", vec![edit])
 }
 
-/// Lists the values of a published knob in its default, the variants and the instances, each with a description of its place.
+/// Lists the values of an exposed knob in its default, the variants and the instances, each with a description of its place.
 fn set_values<'d>(
     document: &'d OpenDocument,
     name: &'d str,

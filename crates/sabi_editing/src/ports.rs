@@ -32,8 +32,8 @@ pub fn outputs(document: &OpenDocument) -> &BTreeMap<String, OutputRef> {
     instances::ports(document.contents(), document.shown()).1
 }
 
-/// Publishes an input of a node as an input of the group. Returns its name.
-pub fn publish_input(document: &mut OpenDocument, slot: &SlotRef) -> Option<String> {
+/// Exposes an input of a node as an input of the group. Returns its name.
+pub fn expose_input(document: &mut OpenDocument, slot: &SlotRef) -> Option<String> {
     let name = free_name(&slot.name, '_', |name| inputs(document).contains_key(name));
     let input = GroupInput {
         to: vec![slot.clone()],
@@ -179,8 +179,8 @@ pub fn results(document: &OpenDocument) -> Vec<OutputRef> {
     all.collect()
 }
 
-/// Returns the name under which a port is published; `None` if it is not.
-pub fn published_as<'d>(document: &'d OpenDocument, port: &PendingWire) -> Option<&'d str> {
+/// Returns the name under which a port is exposed; `None` if it is not.
+pub fn exposed_as<'d>(document: &'d OpenDocument, port: &PendingWire) -> Option<&'d str> {
     match port {
         PendingWire::Into(slot) => connections::feeder(document, document.shown(), slot),
         PendingWire::From(result) => {
@@ -251,8 +251,8 @@ pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     document.edit("Rename input", edits)
 }
 
-/// Publishes an output of a node as an output of the group. Returns its name.
-pub fn publish_output(document: &mut OpenDocument, from: &OutputRef) -> Option<String> {
+/// Exposes an output of a node as an output of the group. Returns its name.
+pub fn expose_output(document: &mut OpenDocument, from: &OutputRef) -> Option<String> {
     let port = document
         .face(&from.node)
         .and_then(|face| face.output(from.port.as_deref()));

@@ -1,4 +1,4 @@
-//! Random values of published knobs, near their current values: of a group instance, and of the document's own panel.
+//! Random values of exposed knobs, near their current values: of a group instance, and of the document's own panel.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -27,7 +27,7 @@ const SCALE: f64 = 8.0;
 const COLOR_STEP: f64 = 22.0;
 const COLOR_REACH: f64 = 40.0;
 
-/// Gives an instance of a group another seed, and changes each published number and color to a value near its current one.
+/// Gives an instance of a group another seed, and changes each exposed number and color to a value near its current one.
 /// Values also stay near those of the chosen variant, or of the group if there is none. Knobs of `kept`, choices, texts,
 /// lists and numbers without a range stay unchanged.
 pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<String>) -> bool {
@@ -63,7 +63,7 @@ pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<Strin
     document.edit("Random values", edits)
 }
 
-/// Gives the document another seed and the published knobs of the shown graph other values, like [`randomize`]. If a
+/// Gives the document another seed and the exposed knobs of the shown graph other values, like [`randomize`]. If a
 /// variant is shown, its values are changed. Values stay near those that a reset restores.
 pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> bool {
     let panel = panel::knobs(document);
@@ -79,7 +79,7 @@ pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> 
     for known in panel.into_iter().filter(|known| !kept.contains(&known.name)) {
         let value = match known.knob.ty.role {
             KnobRole::Seed => Some(Value::from(document.ids.seed())),
-            // A knob that was published since the graph was opened has no other value than its current one.
+            // A knob that was exposed since the graph was opened has no other value than its current one.
             _ => near(&known.knob, home_of(&known), &known.value, || signed(document)),
         };
         if let Some(value) = value {

@@ -10,12 +10,12 @@ use crate::open_document::OpenDocument;
 
 /// Successors of removed nodes. References without a successor are removed together with the nodes.
 pub(crate) trait Successors {
-    /// Returns the knobs that a published knob controls in place of a removed knob; empty if there are none.
-    fn knobs(&self, _published: &str, _knob: &SlotRef) -> Vec<SlotRef> {
+    /// Returns the knobs that an exposed knob controls in place of a removed knob; empty if there are none.
+    fn knobs(&self, _exposed: &str, _knob: &SlotRef) -> Vec<SlotRef> {
         Vec::new()
     }
 
-    /// Returns the curve of a published knob for the successor of a removed knob that had the curve `before`.
+    /// Returns the curve of an exposed knob for the successor of a removed knob that had the curve `before`.
     fn curve(&self, before: Option<&KnobCurve>, _removed: &SlotRef, _successor: &SlotRef) -> Option<KnobCurve> {
         before.cloned()
     }

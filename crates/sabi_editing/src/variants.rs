@@ -1,4 +1,4 @@
-//! Variants: named sets of values for published knobs, one of which is shown and edited.
+//! Variants: named sets of values for exposed knobs, one of which is shown and edited.
 
 use std::collections::BTreeMap;
 

@@ -67,8 +67,8 @@ pub(crate) enum Action {
     Look(LookAction),
     /// Change a parameter of a node, and of the selected nodes of its kind.
     Knob { node: NodeId, event: KnobEvent },
-    /// Change the value of a published parameter.
-    TurnPublished(KnobEvent),
+    /// Change the value of an exposed parameter.
+    TurnExposed(KnobEvent),
     /// Save the present values as a variant, with a picture of the model.
     SaveVariant(String),
     /// Open, save or replace the graph's file.

@@ -83,7 +83,7 @@ pub(crate) enum WindowCommand {
     Tutorial,
     /// Shows or hides the list of keys.
     Keys,
-    /// Shows only the model and the published parameters, or all panels again.
+    /// Shows only the model and the exposed parameters, or all panels again.
     UseView,
     /// Enlarges the interface by one step.
     Larger,

@@ -75,7 +75,7 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) is_file_foreign: bool,
     /// True if the user wants no question about the node files beside the open graph.
     pub(crate) leaves_nodes: bool,
-    /// True if only the model and the published parameters are shown.
+    /// True if only the model and the exposed parameters are shown.
     pub(crate) is_use_view: bool,
     /// True while a parameter is dragged.
     pub(crate) is_dragging: bool,

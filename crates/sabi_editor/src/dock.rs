@@ -190,7 +190,7 @@ impl Workspace {
     }
 }
 
-/// Only the model and the published parameters, for people who never open the graph.
+/// Only the model and the exposed parameters, for people who never open the graph.
 fn use_layout() -> Layout {
     let mut tiles = Tiles::default();
     let model = tiles.insert_pane(Panel::Viewport);
@@ -231,7 +231,7 @@ fn bring_up(layout: &mut Layout, panel: Panel) {
 /// Layout of the panels, and where they were drawn last.
 pub(crate) struct Dock {
     layout: Layout,
-    /// Layout while only the model and the published parameters are shown.
+    /// Layout while only the model and the exposed parameters are shown.
     use_layout: Option<Layout>,
     /// Rectangles of the panels that were drawn in the last frame.
     pub(crate) rects: BTreeMap<Panel, Rect>,
@@ -258,7 +258,7 @@ impl Dock {
         &self.layout
     }
 
-    /// Returns whether only the model and the published parameters are shown.
+    /// Returns whether only the model and the exposed parameters are shown.
     pub(crate) fn is_use_view(&self) -> bool {
         self.use_layout.is_some()
     }
@@ -273,7 +273,7 @@ impl Dock {
         Panel::ALL.into_iter().filter(|panel| self.is_shown(*panel))
     }
 
-    /// Shows only the model and the published parameters, or all panels again. Returns whether only those are shown now.
+    /// Shows only the model and the exposed parameters, or all panels again. Returns whether only those are shown now.
     pub(crate) fn toggle_use_view(&mut self) -> bool {
         self.use_layout = match self.use_layout.take() {
             Some(_) => None,

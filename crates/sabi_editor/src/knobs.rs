@@ -54,7 +54,7 @@ pub(crate) struct KnobRow<'a> {
     pub(crate) wired: Option<&'a str>,
     /// Mask that multiplies the parameter.
     pub(crate) mask: ParamMask<'a>,
-    /// Name under which the parameter is published.
+    /// Name under which the parameter is exposed.
     pub(crate) exposed: Option<&'a str>,
     /// True if the selected nodes hold different values; `value` then belongs to a single node of them.
     pub(crate) differs: bool,
@@ -96,7 +96,7 @@ pub(crate) enum KnobEvent {
     Set { knob: String, value: Value },
     /// Reset to the default.
     Reset { knob: String },
-    /// Publish the parameter.
+    /// Expose the parameter.
     Expose { knob: String },
     /// Take the parameter off the panel.
     Unexpose { knob: String },
@@ -104,7 +104,7 @@ pub(crate) enum KnobEvent {
     AddMask { knob: String },
     /// Remove the mask that multiplies the parameter.
     RemoveMask { knob: String },
-    /// Publish the input for the mask that multiplies the parameter.
+    /// Expose the input for the mask that multiplies the parameter.
     ExposeMask { knob: String },
     /// Begin a drag: everything until [`KnobEvent::Ended`] is one step to undo.
     Began,
@@ -145,8 +145,8 @@ pub(crate) fn knobs_ui(
     sections_ui(ui, KnobUi::new(theme, memory, lengths), sections)
 }
 
-/// Shows published parameters as [`knobs_ui`] does, without marks that they are published.
-pub(crate) fn published_ui(
+/// Shows exposed parameters as [`knobs_ui`] does, without marks that they are exposed.
+pub(crate) fn exposed_ui(
     ui: &mut Ui,
     theme: &Theme,
     memory: &mut KnobMemory,

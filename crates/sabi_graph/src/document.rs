@@ -1,4 +1,4 @@
-//! A graph file as data: the main graph, its groups and their published knobs and ports.
+//! A graph file as data: the main graph, its groups and their exposed knobs and ports.
 
 use std::collections::BTreeMap;
 

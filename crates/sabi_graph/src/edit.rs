@@ -23,7 +23,7 @@ pub enum Body {
 pub enum Edit {
     /// Adds a node with its parameters and links.
     AddNode { body: Body, id: NodeId, node: Node },
-    /// Removes a node with all links from it and all its published parameters and ports.
+    /// Removes a node with all links from it and all its exposed parameters and ports.
     RemoveNode { body: Body, id: NodeId },
     /// Sets a parameter, or resets it (`None`).
     SetParam {
@@ -65,7 +65,7 @@ pub enum Edit {
     RemoveFrame { body: Body, id: String },
     /// Adds a note or replaces the one of that id, or removes it (`None`).
     SetNote { body: Body, id: String, note: Option<Note> },
-    /// Publishes a knob, or replaces the one of that name.
+    /// Exposes a knob, or replaces the one of that name.
     Expose { body: Body, name: String, knob: Exposed },
     /// Removes a knob from the panel and from all variants.
     Unexpose { body: Body, name: String },

@@ -183,12 +183,12 @@ impl Graph {
         &self.notes
     }
 
-    /// Published knobs, by name.
+    /// Exposed knobs, by name.
     pub fn exposed(&self) -> &BTreeMap<String, Exposed> {
         &self.exposed
     }
 
-    /// Returns the published knobs in the order of the panel, by position and name. A section is placed where its first knob is.
+    /// Returns the exposed knobs in the order of the panel, by position and name. A section is placed where its first knob is.
     pub fn panel(&self) -> Vec<(&str, &Exposed)> {
         let mut knobs: Vec<(&str, &Exposed)> = self.exposed.iter().map(|(name, knob)| (name.as_str(), knob)).collect();
         knobs.sort_by_key(|(_, knob)| knob.order.unwrap_or(u32::MAX));
@@ -207,7 +207,7 @@ impl Graph {
         &self.variants
     }
 
-    /// Returns the values of published knobs in a variant, or without one: defaults of the knobs, overridden by values of
+    /// Returns the values of exposed knobs in a variant, or without one: defaults of the knobs, overridden by values of
     /// the variant. Parameters that no knob sets keep the values of their nodes.
     pub fn knob_values<'g>(
         &'g self,

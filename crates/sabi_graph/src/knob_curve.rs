@@ -1,11 +1,11 @@
-//! Curves between a published knob and the parameters that it sets.
+//! Curves between an exposed knob and the parameters that it sets.
 
 use crate::Value;
 
 /// Maximum number of points of a curve.
 const POINT_LIMIT: usize = 64;
 
-/// Curve from the value of a published knob to the value of a parameter: straight lines between points, constant before the
+/// Curve from the value of an exposed knob to the value of a parameter: straight lines between points, constant before the
 /// first point and after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnobCurve {

@@ -73,7 +73,7 @@ pub enum Problem {
     /// A node of kind `graph/group` without the name of a group.
     #[error("the node is a group instance but names no group; add \"group\": \"name or file.sabi\"")]
     GroupNotNamed,
-    /// A variant that sets a knob that is not published.
+    /// A variant that sets a knob that is not exposed.
     #[error("variant {variant} sets {knob}, which is not exposed{hint}")]
     NotExposed {
         /// The variant, quoted.

@@ -70,7 +70,7 @@ fn slots(graph: &Graph, slots: &[SlotRef]) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Checks that a variant sets a published knob.
+/// Checks that a variant sets an exposed knob.
 pub(crate) fn variant_sets(graph: &Graph, variant: &str, knob: &str) -> Result<(), Problem> {
     if graph.exposed().contains_key(knob) {
         return Ok(());

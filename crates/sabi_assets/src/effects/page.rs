@@ -45,7 +45,7 @@ pub(super) fn page(groups: &[Group]) -> String {
     page
 }
 
-/// Labels and descriptions of the published knobs, in their order.
+/// Labels and descriptions of the exposed knobs, in their order.
 fn knobs(document: &Value) -> Vec<(String, String)> {
     let exposed = document.get("exposed").and_then(Value::as_object);
     let mut knobs: Vec<(u64, String, String)> = exposed

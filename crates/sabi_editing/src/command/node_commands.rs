@@ -104,15 +104,15 @@ pub enum KnobCommand {
         /// New value.
         value: Value,
     },
-    /// Publish a knob of a node together with those of the selected nodes of its kind.
-    Publish {
+    /// Expose a knob of a node together with those of the selected nodes of its kind.
+    Expose {
         /// Node that has the knob.
         node: NodeId,
         /// Name of the knob.
         knob: String,
     },
     /// Take a knob of a node off the panel.
-    Unpublish {
+    Unexpose {
         /// Node that has the knob.
         node: NodeId,
         /// Name of the knob.

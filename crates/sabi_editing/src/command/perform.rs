@@ -33,7 +33,7 @@ pub fn perform(document: &mut OpenDocument, command: EditCommand) -> Outcome {
         EditCommand::Note(command) => note(document, command),
         EditCommand::Group(command) => group(document, &command),
         EditCommand::Clipboard(command) => clip(document, &command),
-        EditCommand::Panel(command) => published(document, command),
+        EditCommand::Panel(command) => exposed(document, command),
         EditCommand::Variant(command) => variant(document, &command),
         EditCommand::Port(command) => port(document, command),
         EditCommand::Layer(command) => layer(document, command),
@@ -173,8 +173,8 @@ fn knob(document: &mut OpenDocument, command: KnobCommand) -> Outcome {
     let is_done = match command {
         KnobCommand::Set { node, knob, value } => nodes::set_knob_of_selected(document, &node, &knob, value),
         KnobCommand::SetTarget { target, value } => knob_target::set(document, &target, value),
-        KnobCommand::Publish { node, knob } => panel::expose_of_selected(document, &node, &knob),
-        KnobCommand::Unpublish { node, knob } => panel::unexpose_knob(document, &node, &knob),
+        KnobCommand::Expose { node, knob } => panel::expose_of_selected(document, &node, &knob),
+        KnobCommand::Unexpose { node, knob } => panel::unexpose_knob(document, &node, &knob),
     };
     is_done.into()
 }
@@ -266,7 +266,7 @@ fn clip(document: &mut OpenDocument, command: &ClipboardCommand) -> Outcome {
     copied.map_or(Outcome::Unchanged, Outcome::Copied)
 }
 
-fn published(document: &mut OpenDocument, command: PanelCommand) -> Outcome {
+fn exposed(document: &mut OpenDocument, command: PanelCommand) -> Outcome {
     let is_done = match command {
         PanelCommand::Set { name, value } => panel_values::set(document, &name, &value),
         PanelCommand::Reset(name) => panel_values::reset(document, &name),
@@ -295,8 +295,8 @@ fn variant(document: &mut OpenDocument, command: &VariantCommand) -> Outcome {
 fn port(document: &mut OpenDocument, command: PortCommand) -> Outcome {
     let is_done = match command {
         PortCommand::NameGraph(name) => groups::rename_graph(document, &name),
-        PortCommand::PublishInput(slot) => ports::publish_input(document, &slot).is_some(),
-        PortCommand::PublishOutput(from) => ports::publish_output(document, &from).is_some(),
+        PortCommand::ExposeInput(slot) => ports::expose_input(document, &slot).is_some(),
+        PortCommand::ExposeOutput(from) => ports::expose_output(document, &from).is_some(),
         PortCommand::SetInputLabel { name, label } => ports::set_input_label(document, &name, &label),
         PortCommand::RenameInput { name, to } => ports::rename_input(document, &name, &to),
         PortCommand::RemoveInput(name) => ports::remove_input(document, &name),

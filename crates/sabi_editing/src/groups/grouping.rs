@@ -1,4 +1,4 @@
-//! Grouping: selected nodes are replaced by an instance of a new group. The results stay the same, and published knobs,
+//! Grouping: selected nodes are replaced by an instance of a new group. The results stay the same, and exposed knobs,
 //! ports and frames refer to the instance.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -142,7 +142,7 @@ fn instance_edits(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, b
     edits
 }
 
-/// Inputs, outputs and published knobs of a new group, by their names.
+/// Inputs, outputs and exposed knobs of a new group, by their names.
 struct Boundary {
     instance: NodeId,
     inputs: BTreeMap<String, BoundaryInput>,
@@ -150,9 +150,9 @@ struct Boundary {
     outputs: BTreeMap<String, OutputRef>,
     /// Names of the group's outputs, for each form in which wires refer to an output.
     output_names: BTreeMap<OutputRef, String>,
-    /// Published knobs of the new group.
+    /// Exposed knobs of the new group.
     knobs: BTreeMap<String, Exposed>,
-    /// Name of the group's knob for each published knob of the enclosing graph.
+    /// Name of the group's knob for each exposed knob of the enclosing graph.
     knob_names: BTreeMap<String, String>,
 }
 
@@ -241,8 +241,8 @@ impl Boundary {
         self.output_names.insert(from.clone(), name);
     }
 
-    /// Publishes in the group the knobs of nodes inside that a published knob outside controls.
-    fn add_knob(&mut self, published: &str, knob: &Exposed, ids: &BTreeSet<NodeId>) {
+    /// Exposes in the group the knobs of nodes inside that an exposed knob outside controls.
+    fn add_knob(&mut self, exposed: &str, knob: &Exposed, ids: &BTreeSet<NodeId>) {
         let to: Vec<SlotRef> = knob
             .to
             .iter()
@@ -253,8 +253,8 @@ impl Boundary {
             return;
         }
         let is_taken = |name: &str| self.knobs.contains_key(name) || INSTANCE_KNOBS.contains(&name);
-        let name = free_name(published, '_', is_taken);
-        self.knob_names.insert(published.to_owned(), name.clone());
+        let name = free_name(exposed, '_', is_taken);
+        self.knob_names.insert(exposed.to_owned(), name.clone());
         let mut inside = knob.with_targets(to);
         // The knob outside keeps range and default. Only a knob with curves needs its own default inside.
         inside.range = None;
@@ -271,8 +271,8 @@ impl Boundary {
 }
 
 impl Successors for Boundary {
-    fn knobs(&self, published: &str, _: &SlotRef) -> Vec<SlotRef> {
-        let name = self.knob_names.get(published);
+    fn knobs(&self, exposed: &str, _: &SlotRef) -> Vec<SlotRef> {
+        let name = self.knob_names.get(exposed);
         name.map(|name| self.slot(name)).into_iter().collect()
     }
 

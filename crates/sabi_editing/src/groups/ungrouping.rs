@@ -206,7 +206,7 @@ impl DissolvedGroup<'_> {
         slots.iter().filter_map(moved).collect()
     }
 
-    /// Sets the values that published knobs give to nodes: defaults first, then the instance's variant, then its own values.
+    /// Sets the values that exposed knobs give to nodes: defaults first, then the instance's variant, then its own values.
     fn set_knobs(&self, instance: &Node, nodes: &mut [(NodeId, Node)]) {
         let exposed = self.group.graph.exposed();
         let defaults = exposed

@@ -46,7 +46,7 @@ fn commands() -> Vec<EditCommand> {
             target: KnobTarget::of_node(&node(), knob()),
             value: Value::Number(0.5),
         }),
-        EditCommand::Knob(KnobCommand::Publish {
+        EditCommand::Knob(KnobCommand::Expose {
             node: node(),
             knob: knob(),
         }),
@@ -71,8 +71,8 @@ fn commands() -> Vec<EditCommand> {
         EditCommand::Frame(FrameCommand::Add),
         EditCommand::Group(GroupCommand::Make),
         EditCommand::Port(PortCommand::NameGraph("Rust".to_owned())),
-        EditCommand::Port(PortCommand::PublishInput(to("l.base"))),
-        EditCommand::Port(PortCommand::PublishOutput(from("b"))),
+        EditCommand::Port(PortCommand::ExposeInput(to("l.base"))),
+        EditCommand::Port(PortCommand::ExposeOutput(from("b"))),
         EditCommand::Layer(LayerCommand::Toggle(id("l"))),
         EditCommand::Layer(LayerCommand::SetOpacity {
             node: id("l"),

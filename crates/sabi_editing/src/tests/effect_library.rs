@@ -31,7 +31,7 @@ const OF_THE_WHOLE_MODEL: [(&str, &str); 5] = [
         "stripes are painted over joints, once the object is put together",
     ),
 ];
-/// Maximum number of knobs that a group publishes.
+/// Maximum number of knobs that a group exposes.
 const MOST_KNOBS: usize = 9;
 
 fn folder() -> PathBuf {
@@ -146,7 +146,7 @@ fn faults_of(document: &Document) -> Vec<String> {
     let graph = &document.graph;
     let panel = graph.panel();
     let names: Vec<&str> = panel.iter().map(|(name, _)| *name).collect();
-    expect(names.len() <= MOST_KNOBS, "publishes more than nine knobs");
+    expect(names.len() <= MOST_KNOBS, "exposes more than nine knobs");
     // A group with random values for whole parts has no size; use its choice of parts instead.
     let second = if names.contains(&"by") { "by" } else { "size" };
     expect(
@@ -195,7 +195,7 @@ fn with_instance(folder: &Path) -> crate::OpenDocument {
     document
 }
 
-/// Writes a library of two groups, one of which uses the other. `knobs` are the knobs that it publishes.
+/// Writes a library of two groups, one of which uses the other. `knobs` are the knobs that it exposes.
 fn write_library(folder: &Path, knobs: &str) {
     fs::create_dir_all(folder.join("weathering")).expect("a folder");
     let write = |name: &str, more: &str, nodes: &str| {

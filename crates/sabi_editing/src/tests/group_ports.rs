@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Creates a group with two instances. One of them is inside another group, which publishes its ports.
+/// Creates a group with two instances. One of them is inside another group, which exposes its ports.
 fn wear() -> OpenDocument {
     let groups = r#""groups": {
         "wear": { "inputs": { "where": { "to": ["l.source"], "label": "Where" } }, "outputs": { "mask": "l" },
@@ -25,7 +25,7 @@ fn wear() -> OpenDocument {
 #[test]
 fn an_input_can_feed_only_inputs_that_accept_its_type() {
     let mut document = wear();
-    let name = step(&mut document, |document| ports::publish_input(document, &to("b.above")));
+    let name = step(&mut document, |document| ports::expose_input(document, &to("b.above")));
     assert_eq!(name.as_deref(), Some("above"));
     step(&mut document, |document| ports::feed(document, "above", &to("b.mask")));
     assert_eq!(ports::inputs(&document)["above"].to, [to("b.above"), to("b.mask")]);
@@ -40,9 +40,7 @@ fn an_input_can_feed_only_inputs_that_accept_its_type() {
     );
     assert_eq!(said("above", "n.lost"), "'Cells' has no input 'lost'");
     assert_eq!(said("lost", "b.mask"), "the group has no input 'lost'");
-    let said = refused(&mut document, |document| {
-        ports::publish_input(document, &to("l.source"))
-    });
+    let said = refused(&mut document, |document| ports::expose_input(document, &to("l.source")));
     assert_eq!(said, "the group's input 'Where' leads there already");
     flat(&document);
 }
@@ -83,7 +81,7 @@ fn removing_an_input_removes_its_wires_in_all_instances() {
 fn adding_a_second_output_keeps_the_wires_from_the_first_one_valid() {
     let mut document = wear();
     let before = evaluated(&document);
-    let name = step(&mut document, |document| ports::publish_output(document, &from("n.id")));
+    let name = step(&mut document, |document| ports::expose_output(document, &from("n.id")));
     assert_eq!(name.as_deref(), Some("id"));
     assert_eq!(evaluated(&document), before);
     step(&mut document, |document| {
@@ -115,7 +113,7 @@ fn removing_an_output_removes_its_wires_in_all_instances() {
 }
 
 #[test]
-fn removing_a_node_removes_everything_it_published() {
+fn removing_a_node_removes_everything_it_exposed() {
     let mut document = wear();
     select(&mut document, &["l"]);
     step(&mut document, |document| nodes::delete(document, false));
@@ -124,7 +122,7 @@ fn removing_a_node_removes_everything_it_published() {
     assert_eq!(
         param(&document, "o", "outer_low"),
         None,
-        "the group around published it in turn"
+        "the group around exposed it in turn"
     );
     assert_eq!(
         wire(&document, "g.where"),
@@ -137,8 +135,8 @@ fn removing_a_node_removes_everything_it_published() {
 #[test]
 fn a_taken_name_is_refused() {
     let mut document = wear();
-    ports::publish_input(&mut document, &to("b.above"));
-    ports::publish_output(&mut document, &from("n.id"));
+    ports::expose_input(&mut document, &to("b.above"));
+    ports::expose_output(&mut document, &from("n.id"));
     let mut said = |does: &dyn Fn(&mut OpenDocument) -> bool| refused(&mut document, |document| does(document));
     assert_eq!(
         said(&|document| ports::rename_input(document, "where", "above")),
@@ -173,10 +171,8 @@ fn a_taken_name_is_refused() {
 #[test]
 fn the_main_graph_has_inputs_and_outputs_for_files_that_use_it_as_a_group() {
     let mut document = opened("", r#""l": { "kind": "adjust/levels" }"#);
-    step(&mut document, |document| {
-        ports::publish_input(document, &to("l.source"))
-    });
-    step(&mut document, |document| ports::publish_output(document, &from("l")));
+    step(&mut document, |document| ports::expose_input(document, &to("l.source")));
+    step(&mut document, |document| ports::expose_output(document, &from("l")));
     step(&mut document, |document| ports::rename_output(document, "mask", "wear"));
     step(&mut document, |document| {
         ports::rename_input(document, "source", "where")

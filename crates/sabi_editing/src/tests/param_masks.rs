@@ -1,4 +1,4 @@
-//! Masks that multiply parameters are connected, published, copied and replaced like inputs.
+//! Masks that multiply parameters are connected, exposed, copied and replaced like inputs.
 
 use super::*;
 
@@ -64,7 +64,7 @@ fn an_input_of_a_group_can_feed_the_mask_of_a_parameter() {
         "out": { "kind": "output/mask", "inputs": { "source": "g.mask" } }"#;
     let mut document = opened(groups, nodes);
     assert!(navigation::enter(&mut document, &id("g")));
-    let name = step(&mut document, |document| ports::publish_input(document, &to("l.gamma")));
+    let name = step(&mut document, |document| ports::expose_input(document, &to("l.gamma")));
     assert_eq!(name.as_deref(), Some("gamma"));
     assert_eq!(inputs(&document, "l"), ["source", "gamma"]);
     let feedable = ports::feedable(&document, "where");

@@ -1,4 +1,4 @@
-//! Random values of published knobs, measured over many draws.
+//! Random values of exposed knobs, measured over many draws.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::random_knobs::{randomize, randomize_panel};
 /// Number of draws for each knob.
 const DRAWS: usize = 120;
 
-/// A document with an instance of a group that publishes a size, a share and a color.
+/// A document with an instance of a group that exposes a size, a share and a color.
 fn with_instance() -> (OpenDocument, NodeId) {
     let groups = r##""groups": { "g": { "outputs": { "mask": "n" },
         "exposed": { "size": { "to": ["n.size"], "range": [0.02, 1], "default": 0.3 },

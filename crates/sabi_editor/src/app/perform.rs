@@ -73,7 +73,7 @@ impl Editor {
             Action::Pin { node } => self.looks.toggle_pin_2d(document, &node),
             Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
             Action::Knob { node, event } => self.change_knob(node, event, ui),
-            Action::TurnPublished(event) => self.change_published_value(event, ui),
+            Action::TurnExposed(event) => self.change_exposed_value(event, ui),
             Action::SaveVariant(name) => self.save_variant(name),
             Action::File(action) => self.perform_on_file(action),
             Action::Model(action) => self.perform_on_model(action),
@@ -253,15 +253,15 @@ impl Editor {
                 let value = None;
                 self.edit(KnobCommand::Set { node, knob, value }, ui);
             }
-            KnobEvent::Expose { knob } => self.edit(KnobCommand::Publish { node, knob }, ui),
-            KnobEvent::Unexpose { knob } => self.edit(KnobCommand::Unpublish { node, knob }, ui),
+            KnobEvent::Expose { knob } => self.edit(KnobCommand::Expose { node, knob }, ui),
+            KnobEvent::Unexpose { knob } => self.edit(KnobCommand::Unexpose { node, knob }, ui),
             KnobEvent::AddMask { knob: name } => {
                 self.shell.dock.bring_up(Panel::Canvas);
                 let document = &self.documents.document;
                 self.views.canvas.ask_for_mask(ui, document, SlotRef { node, name });
             }
             KnobEvent::RemoveMask { knob: name } => self.edit(WireCommand::RemoveMask(SlotRef { node, name }), ui),
-            KnobEvent::ExposeMask { knob: name } => self.edit(PortCommand::PublishInput(SlotRef { node, name }), ui),
+            KnobEvent::ExposeMask { knob: name } => self.edit(PortCommand::ExposeInput(SlotRef { node, name }), ui),
             KnobEvent::Eyedropper { knob } => {
                 self.toggle_color_target(ColorTarget::Parameter(KnobTarget::of_node(&node, knob)));
             }
@@ -274,8 +274,8 @@ impl Editor {
         }
     }
 
-    /// Changes the value of a published parameter.
-    fn change_published_value(&mut self, event: KnobEvent, ui: &Ui) {
+    /// Changes the value of an exposed parameter.
+    fn change_exposed_value(&mut self, event: KnobEvent, ui: &Ui) {
         match event {
             KnobEvent::Set { knob: name, value } => self.edit(PanelCommand::Set { name, value }, ui),
             KnobEvent::Reset { knob } => self.edit(PanelCommand::Reset(knob), ui),
@@ -289,7 +289,7 @@ impl Editor {
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::Canceled => self.cancel_drag(),
             KnobEvent::ShowLength(length) => self.looks.length = Some(length).filter(|length| length.is_finite()),
-            // A parameter of the panel is published already, and its masks are linked at the nodes.
+            // A parameter of the panel is exposed already, and its masks are linked at the nodes.
             KnobEvent::Expose { .. }
             | KnobEvent::AddMask { .. }
             | KnobEvent::RemoveMask { .. }

@@ -40,12 +40,12 @@ pub(crate) struct NodesBefore {
     others: BTreeSet<NodeId>,
 }
 
-/// Rectangle of a node with the names of its published ports beside it, canvas points.
+/// Rectangle of a node with the names of its exposed ports beside it, canvas points.
 fn named_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
     let node = node_rect(document, id)?;
     let mut rect = node;
     for (place, _) in shown_ports_of(document, id) {
-        let Some(name) = ports::published_as(document, &place.pending_wire()) else {
+        let Some(name) = ports::exposed_as(document, &place.pending_wire()) else {
             continue;
         };
         let room = room_of_name(name);

@@ -40,7 +40,7 @@ pub(super) struct NodeSummary {
     pub(super) is_pinned: bool,
     /// Values of the node's parameters by name; the others have their defaults.
     pub(super) values: BTreeMap<String, Value>,
-    /// Names under which the node's parameters are published, by their own names.
+    /// Names under which the node's parameters are exposed, by their own names.
     pub(super) exposed: BTreeMap<String, String>,
     /// Names of the masks that multiply the node's parameters, by their names.
     pub(super) masks: BTreeMap<String, String>,

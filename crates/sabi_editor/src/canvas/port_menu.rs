@@ -1,4 +1,4 @@
-//! The context menu of ports, and the marks of published ports.
+//! The context menu of ports, and the marks of exposed ports.
 
 use egui::{Align2, FontId, Painter, Pos2, Response, Stroke, vec2};
 use sabi_editing::command::{PortCommand, WireCommand};
@@ -7,13 +7,13 @@ use sabi_graph::{Body, OutputRef, SlotRef};
 
 use super::add_menu::{AddMenu, Purpose};
 use super::popups::Popups;
-use super::port_refs::{NAME_OF_PUBLISHED, PortRef};
+use super::port_refs::{NAME_OF_EXPOSED, PortRef};
 use super::wires::is_named;
 use super::{Canvas, wire_names};
 use crate::action::Action;
 use crate::theme::{Theme, type_size};
 
-/// Zoom below which names of published ports are not drawn.
+/// Zoom below which names of exposed ports are not drawn.
 const LEGIBLE: f32 = 0.7;
 
 /// Shows the context menu of a port.
@@ -29,8 +29,8 @@ pub(super) fn show(
             Body::Main => "graph",
             Body::Group(_) => "group",
         };
-        let published_as = ports::published_as(document, &place.pending_wire());
-        let (publish, off) = match place {
+        let exposed_as = ports::exposed_as(document, &place.pending_wire());
+        let (expose, off) = match place {
             PortRef::Input(_) => (
                 format!("Expose as input of the {whole}"),
                 "Disconnect from the input".to_owned(),
@@ -40,10 +40,10 @@ pub(super) fn show(
                 "Remove the output".to_owned(),
             ),
         };
-        match &published_as {
-            None if ui.button(publish).clicked() => actions.push(Action::edit(publish_command(place))),
+        match &exposed_as {
+            None if ui.button(expose).clicked() => actions.push(Action::edit(expose_command(place))),
             Some(name) if ui.button(format!("{off} '{}'", label(document, place, name))).clicked() => {
-                actions.push(Action::edit(unpublish(place, name)));
+                actions.push(Action::edit(unexpose(place, name)));
             }
             _ => {}
         }
@@ -91,14 +91,14 @@ fn named_outputs(document: &OpenDocument, slot: &SlotRef) -> Vec<OutputRef> {
         .collect()
 }
 
-fn publish_command(place: &PortRef) -> PortCommand {
+fn expose_command(place: &PortRef) -> PortCommand {
     match place {
-        PortRef::Input(slot) => PortCommand::PublishInput(slot.clone()),
-        PortRef::Output(from) => PortCommand::PublishOutput(from.clone()),
+        PortRef::Input(slot) => PortCommand::ExposeInput(slot.clone()),
+        PortRef::Output(from) => PortCommand::ExposeOutput(from.clone()),
     }
 }
 
-fn unpublish(place: &PortRef, name: &str) -> PortCommand {
+fn unexpose(place: &PortRef, name: &str) -> PortCommand {
     match place {
         PortRef::Input(slot) => PortCommand::Unfeed(slot.clone()),
         PortRef::Output(_) => PortCommand::RemoveOutput(name.to_owned()),
@@ -138,10 +138,10 @@ pub(super) fn open_node_menu(popups: &mut Popups, document: &OpenDocument, place
     popups.menu = Some(AddMenu::new(at, purpose));
 }
 
-/// Distances of the ends of the mark of a published port from the port, canvas points.
+/// Distances of the ends of the mark of an exposed port from the port, canvas points.
 const MARK: [f32; 2] = [9.0, 24.0];
 
-/// Marks a published port with its name outside of the graph.
+/// Marks an exposed port with its name outside of the graph.
 pub(super) fn mark(
     painter: &Painter,
     theme: &Theme,
@@ -150,7 +150,7 @@ pub(super) fn mark(
     center: Pos2,
     zoom: f32,
 ) {
-    let Some(name) = ports::published_as(document, &place.pending_wire()) else {
+    let Some(name) = ports::exposed_as(document, &place.pending_wire()) else {
         return;
     };
     let (way, align) = match place {
@@ -162,12 +162,12 @@ pub(super) fn mark(
     painter.circle_filled(far, 3.0 * zoom, theme.accent);
     if zoom > LEGIBLE {
         let font = FontId::proportional((type_size::SMALL * zoom * 2.0).round() / 2.0);
-        let at = center + vec2(way * NAME_OF_PUBLISHED * zoom, 0.0);
+        let at = center + vec2(way * NAME_OF_EXPOSED * zoom, 0.0);
         painter.text(at, align, name, font, theme.quiet);
     }
 }
 
-/// Label of the input or output of the shown graph as which a port is published.
+/// Label of the input or output of the shown graph as which a port is exposed.
 fn label(document: &OpenDocument, place: &PortRef, name: &str) -> String {
     match place {
         PortRef::Input(_) => ports::input_label(document, name),

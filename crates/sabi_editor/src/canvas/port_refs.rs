@@ -106,12 +106,12 @@ pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer:
     nearest.map(|(_, place)| place)
 }
 
-/// Distance of the name of a published port from the port, canvas points.
-pub(super) const NAME_OF_PUBLISHED: f32 = 31.0;
+/// Distance of the name of an exposed port from the port, canvas points.
+pub(super) const NAME_OF_EXPOSED: f32 = 31.0;
 /// Width of a letter of such a name, canvas points: more than most have.
 const LETTER: f32 = 6.0;
 
-/// Room beside a published port that its name takes, canvas points.
+/// Room beside an exposed port that its name takes, canvas points.
 pub(super) fn room_of_name(name: &str) -> f32 {
-    NAME_OF_PUBLISHED + LETTER * name.chars().count() as f32
+    NAME_OF_EXPOSED + LETTER * name.chars().count() as f32
 }

@@ -18,8 +18,8 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>) {
     }
     let name = format!("`{}`{}", row.knob.name, limits(row.knob));
     ui.label(formatted_as(&name, theme.quiet, type_size::SMALL));
-    if let Some(published) = row.exposed {
-        let sentence = format!("Exposed as `{published}`.");
+    if let Some(exposed) = row.exposed {
+        let sentence = format!("Exposed as `{exposed}`.");
         ui.label(formatted_as(&sentence, theme.quiet, type_size::SMALL));
     }
 }

@@ -95,7 +95,7 @@ pub(super) struct KnobUi<'a> {
     pub(super) lengths: Lengths,
     /// Factor of type size and heights.
     pub(super) zoom: f32,
-    /// True if the rows are those of published parameters.
+    /// True if the rows are those of exposed parameters.
     pub(super) is_panel: bool,
     /// Label of the switch of the section that is shown, if it has one.
     pub(super) section: Option<String>,

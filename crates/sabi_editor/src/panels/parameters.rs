@@ -1,4 +1,4 @@
-//! Parameters of the selected nodes; with nothing selected, what the shown graph publishes.
+//! Parameters of the selected nodes; with nothing selected, what the shown graph exposes.
 
 use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::connections::PendingWire;
@@ -10,7 +10,7 @@ use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 use super::input_histogram::InputHistogram;
 use super::instance::InstanceState;
 use super::painting::Painting;
-use super::{channel_sections, instance, ports, published, variants};
+use super::{channel_sections, exposed, instance, ports, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::knobs::{KnobMemory, KnobRow, ParamMask, knobs_ui};
@@ -19,7 +19,7 @@ use crate::knobs::{KnobMemory, KnobRow, ParamMask, knobs_ui};
 #[derive(Default)]
 pub(crate) struct Parameters {
     memory: KnobMemory,
-    published: published::Published,
+    exposed: exposed::ExposedParameters,
     variants: variants::Variants,
     instance: InstanceState,
     painting: Painting,
@@ -47,11 +47,11 @@ impl View for Parameters {
 }
 
 impl Parameters {
-    /// Published parameters, variants, inputs and outputs of the shown graph.
+    /// Exposed parameters, variants, inputs and outputs of the shown graph.
     fn of_graph(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            actions.extend(self.published.show(ui, context, &mut self.memory));
+            actions.extend(self.exposed.show(ui, context, &mut self.memory));
             actions.extend(self.variants.show(ui, context));
             if !context.is_use_view {
                 let commands = ports::show(ui, context.theme, context.document);
@@ -159,7 +159,7 @@ struct KnobLinks<'d> {
     wired: Option<String>,
     /// Mask that multiplies it.
     mask: Option<String>,
-    /// Name under which it is published.
+    /// Name under which it is exposed.
     exposed: Option<&'d str>,
 }
 
@@ -187,7 +187,7 @@ pub(crate) fn mask_of(document: &OpenDocument, id: &NodeId, knob: &str) -> Optio
         node: id.clone(),
         name: knob.to_owned(),
     };
-    let fed = document_ports::published_as(document, &PendingWire::Into(slot.clone()));
+    let fed = document_ports::exposed_as(document, &PendingWire::Into(slot.clone()));
     let fed = fed.map(|input| format!("the input '{}'", document_ports::input_label(document, input)));
     fed.or_else(|| Some(document.title(&connections::wire_into(document, &slot)?.node)))
 }

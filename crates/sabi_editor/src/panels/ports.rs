@@ -28,7 +28,7 @@ pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<P
         .show_unindented(ui, |ui| {
             name(ui, theme, document, is_group, &mut commands);
             if count == 0 {
-                let sentence = "It has no inputs and outputs yet. Right-click a port of a node on the canvas to publish it as an \
+                let sentence = "It has no inputs and outputs yet. Right-click a port of a node on the canvas to expose it as an \
                                 input or an output.";
                 ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
             }

@@ -1,4 +1,4 @@
-//! Random values of published parameters, and the parameters that they leave alone.
+//! Random values of exposed parameters, and the parameters that they leave alone.
 
 use std::collections::BTreeSet;
 

@@ -55,7 +55,7 @@ impl Faces {
 
     /// Rebuilds the entry for a file that is used as a group. Its knobs have the values of the main graph.
     pub fn refresh_whole(&mut self, document: &Document) {
-        let whole = Published {
+        let whole = GroupBody {
             name: &document.name,
             description: &document.description,
             graph: &document.graph,
@@ -160,14 +160,14 @@ impl FacesBuilder<'_, '_> {
             Some(group) => {
                 let body = Body::Group(name.to_owned());
                 self.body(&body);
-                let published = Published {
+                let exposed = GroupBody {
                     name: group.name.as_deref().unwrap_or(name),
                     description: &group.description,
                     graph: &group.graph,
                     inputs: &group.inputs,
                     outputs: &group.outputs,
                 };
-                Some(Arc::new(published.entry(&self.faces, &body)))
+                Some(Arc::new(exposed.entry(&self.faces, &body)))
             }
             None => self.file(name),
         };
@@ -206,8 +206,8 @@ fn with_param_masks(entry: &Arc<Entry>, is_linked: impl Fn(&str) -> bool) -> Arc
     Arc::new(with)
 }
 
-/// A graph with the inputs and outputs that it publishes as a group.
-struct Published<'a> {
+/// A graph with the inputs and outputs that it exposes as a group.
+struct GroupBody<'a> {
     name: &'a str,
     description: &'a Description,
     graph: &'a Graph,
@@ -215,7 +215,7 @@ struct Published<'a> {
     outputs: &'a BTreeMap<String, OutputRef>,
 }
 
-impl Published<'_> {
+impl GroupBody<'_> {
     fn entry(&self, faces: &Faces, body: &Body) -> Entry {
         let inputs = self.inputs.iter().map(|(name, input)| {
             let targets: Vec<&Port> = input
@@ -265,7 +265,7 @@ impl Published<'_> {
         }
     }
 
-    /// Builds a published knob, which looks like the first knob that it sets.
+    /// Builds an exposed knob, which looks like the first knob that it sets.
     fn knob(&self, faces: &Faces, body: &Body, name: &str, exposed: &Exposed) -> Option<Knob> {
         let slot = exposed.to.first()?;
         let entry = faces.of(body, slot.node.as_str())?;
@@ -291,7 +291,7 @@ impl Published<'_> {
         })
     }
 
-    /// Lists the knobs of every instance, without those whose names the group has published.
+    /// Lists the knobs of every instance, without those whose names the group has exposed.
     fn instance_knobs(&self) -> Vec<Knob> {
         let mut knobs = vec![seed_knob(), scale_knob(), fit_knob()];
         if !self.graph.variants().is_empty() {
@@ -309,7 +309,7 @@ impl Published<'_> {
 pub(super) fn any_group() -> Entry {
     let none = ParamValue::Text("none".to_owned());
     let variant = ParamType::new(Role::Text, Memory::Text, &none);
-    let doc = "Variant of the group to start from; its published knobs are parameters, too.";
+    let doc = "Variant of the group to start from; its exposed knobs are parameters, too.";
     Entry {
         id: GROUP_KIND.to_owned(),
         version: 1,

@@ -94,7 +94,7 @@ fn a_wire_prefers_a_port_of_its_own_type() {
 }
 
 #[test]
-fn a_group_shows_its_published_ports_and_a_reroute_the_type_of_its_wire() {
+fn a_group_shows_its_exposed_ports_and_a_reroute_the_type_of_its_wire() {
     let document = document(
         r#""groups": { "wear": {
             "inputs": { "where": { "to": ["worn.below"] } },

@@ -31,7 +31,7 @@ pub struct GraphDescription {
     pub seed: u32,
     /// Number of nodes after groups are inlined; `None` if they cannot be.
     pub nodes: Option<usize>,
-    /// Published knobs in the order of the panel.
+    /// Exposed knobs in the order of the panel.
     pub knobs: Vec<KnobDescription>,
     /// Variants by name.
     pub variants: Vec<VariantDescription>,
@@ -45,7 +45,7 @@ pub struct GraphDescription {
     pub warnings: Vec<String>,
 }
 
-/// A published knob of a graph.
+/// An exposed knob of a graph.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KnobDescription {
     /// Name in graph files and on the command line.

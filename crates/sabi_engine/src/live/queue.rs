@@ -180,7 +180,7 @@ fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     }
 }
 
-/// Publishes the progress of work. Between two of its steps, the work waits for its turn, and is canceled if it is obsolete.
+/// Reports the progress of work. Between two of its steps, the work waits for its turn, and is canceled if it is obsolete.
 pub(super) struct WorkProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
     /// True if newer requests cancel the work; otherwise only closing the queue does.

@@ -241,5 +241,5 @@ fn words(document: &NamedDocument, written: &str) -> String {
         .nodes()
         .find(|(_, node)| names_it(node))
         .map(|(words, _)| words);
-    node.unwrap_or_else(|| format!("{}: a published parameter or a variant", document.open.path.display()))
+    node.unwrap_or_else(|| format!("{}: an exposed parameter or a variant", document.open.path.display()))
 }

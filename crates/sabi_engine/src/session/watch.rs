@@ -191,11 +191,11 @@ impl WatchThread {
         }
         self.folders.arm(&self.watched);
         if !changes.is_empty() {
-            self.publish(changes);
+            self.deliver(changes);
         }
     }
 
-    fn publish(&self, new: Changes) {
+    fn deliver(&self, new: Changes) {
         let mut shared = locked(&self.shared);
         let known = &mut shared.changes;
         known.graph |= new.graph;

@@ -1,4 +1,4 @@
-//! Edits of published knobs, variants and ports, and of frames and notes.
+//! Edits of exposed knobs, variants and ports, and of frames and notes.
 
 use std::collections::BTreeMap;
 
@@ -84,7 +84,7 @@ impl Document {
         })
     }
 
-    /// Removes the knob from the variants first, so that a variant never sets a knob that is not published.
+    /// Removes the knob from the variants first, so that a variant never sets a knob that is not exposed.
     pub(super) fn unexpose(&mut self, body: Body, name: String) -> Result<Edit, EditError> {
         let graph = self.body_mut(&body)?;
         let Some(knob) = graph.exposed.remove(&name) else {

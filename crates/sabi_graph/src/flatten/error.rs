@@ -15,7 +15,7 @@ pub enum FlattenError {
         /// All of them, quoted.
         known: String,
     },
-    /// The name of an override names neither a published knob nor a parameter.
+    /// The name of an override names neither an exposed knob nor a parameter.
     #[error("nothing is called {name}{hint}; set an exposed knob ({known}) or a node's parameter as node.param")]
     NoSuchKnob {
         /// The name, quoted.
@@ -101,7 +101,7 @@ pub enum FlattenError {
         /// The limit of nodes.
         count: usize,
     },
-    /// A published knob with the name of a knob that every instance has.
+    /// An exposed knob with the name of a knob that every instance has.
     #[error("the group of node {instance} exposes a knob {knob:?}, which every group instance has already; rename it")]
     ReservedKnob {
         /// The instance, quoted.

@@ -8,7 +8,7 @@ use crate::problem::{Problem, hint, listed, quoted};
 use crate::value::number_text;
 use crate::{Fit, Graph, SlotRef, Value};
 
-/// Knobs of every group instance; published knobs of a group must have other names.
+/// Knobs of every group instance; exposed knobs of a group must have other names.
 pub const INSTANCE_KNOBS: [&str; 4] = ["fit", "scale", "seed", "variant"];
 
 /// Value of the knob `fit` of an instance that keeps the fit of its group.
@@ -39,7 +39,7 @@ impl<'a> Panel<'a> {
         Ok(panel)
     }
 
-    /// Sets a published knob. Returns false if there is no knob with this name.
+    /// Sets an exposed knob. Returns false if there is no knob with this name.
     pub(super) fn set(&mut self, name: &str, value: &Value) -> Result<bool, FlattenError> {
         let graph = self.graph;
         match graph.exposed().get(name) {

@@ -54,7 +54,7 @@ fn an_error_in_a_group_names_the_group_and_the_node() {
 }
 
 #[test]
-fn a_published_knob_or_port_must_exist() {
+fn an_exposed_knob_or_port_must_exist() {
     let nodes = "\"nodes\": { \"edges\": { \"kind\": \"x\" } }";
     for (more, text) in [
         (

@@ -104,7 +104,7 @@ impl Hands {
         self.dice.pick(&names).unwrap_or_else(|| "Group".to_owned())
     }
 
-    fn published(&mut self) -> String {
+    fn exposed(&mut self) -> String {
         let names: Vec<String> = self.document.graph().exposed().keys().cloned().collect();
         self.dice.pick(&names).unwrap_or_else(|| "nothing".to_owned())
     }
@@ -153,7 +153,7 @@ impl Hands {
                 self.arrange();
             }
             19 | 20 => {
-                self.publish();
+                self.expose();
             }
             21 => self.stack(),
             22 => {
@@ -302,8 +302,8 @@ impl Hands {
                 nodes::add_instance(&mut self.document, &group, pos, loose.as_ref()).is_some()
             }
             9 => groups::rename(&mut self.document, &group, &name),
-            10 => ports::publish_input(&mut self.document, &input).is_some(),
-            11 => ports::publish_output(&mut self.document, &output).is_some(),
+            10 => ports::expose_input(&mut self.document, &input).is_some(),
+            11 => ports::expose_output(&mut self.document, &output).is_some(),
             12 => ports::feed(&mut self.document, &port_in, &input) || ports::unfeed(&mut self.document, &input),
             13 => {
                 ports::rename_input(&mut self.document, &port_in, &name)
@@ -338,22 +338,22 @@ impl Hands {
         }
     }
 
-    fn publish(&mut self) -> bool {
-        let ((node, knob), name, published) = (self.knob(), self.name(), self.published());
+    fn expose(&mut self) -> bool {
+        let ((node, knob), name, exposed) = (self.knob(), self.name(), self.exposed());
         let (value, end) = (self.dice.value(), self.dice.below(4) as f64);
         let variants: Vec<String> = self.document.graph().variants().keys().cloned().collect();
         let variant = self.dice.pick(&variants).unwrap_or_default();
         let document = &mut self.document;
         match self.dice.below(16) {
             0..=3 => panel::expose(document, &node, &knob),
-            4 => panel::unexpose(document, &published),
-            5 => panel::expose_also(document, &node, &knob, &published) || panel::unexpose_knob(document, &node, &knob),
-            6 => panel::rename(document, &published, &name),
-            7 => panel::set_label(document, &published, &name) && panel::set_section(document, &published, &name),
-            8 => panel::move_knob(document, &published, Some(&name)),
-            9 => panel_values::set_range(document, &published, Some([0.0, end]).filter(|_| end > 0.0)),
-            10 => panel_values::set_default(document, &published, value),
-            11 | 12 => panel_values::set(document, &published, &value.unwrap_or(Value::Null)),
+            4 => panel::unexpose(document, &exposed),
+            5 => panel::expose_also(document, &node, &knob, &exposed) || panel::unexpose_knob(document, &node, &knob),
+            6 => panel::rename(document, &exposed, &name),
+            7 => panel::set_label(document, &exposed, &name) && panel::set_section(document, &exposed, &name),
+            8 => panel::move_knob(document, &exposed, Some(&name)),
+            9 => panel_values::set_range(document, &exposed, Some([0.0, end]).filter(|_| end > 0.0)),
+            10 => panel_values::set_default(document, &exposed, value),
+            11 | 12 => panel_values::set(document, &exposed, &value.unwrap_or(Value::Null)),
             13 => variants::save(document, &name),
             14 => variants::show(document, Some(&*variant).filter(|name| !name.is_empty())),
             _ => variants::rename(document, &variant, &name) || variants::remove(document, &variant),

@@ -178,7 +178,7 @@ impl Editor {
             .command(command, &self.evaluation, &seen, rect, pointer);
     }
 
-    /// Shows only the model and the published parameters of the whole graph, or all panels again.
+    /// Shows only the model and the exposed parameters of the whole graph, or all panels again.
     pub(crate) fn toggle_use_view(&mut self) {
         if self.shell.dock.toggle_use_view() {
             navigation::leave_to(&mut self.documents.document, 0);

@@ -51,7 +51,7 @@ impl Editor {
         self.looks.toggle_pin_2d(&self.documents.document, id);
     }
 
-    /// Returns whether only the model and the published parameters are shown.
+    /// Returns whether only the model and the exposed parameters are shown.
     pub(super) fn is_use_view(&self) -> bool {
         self.shell.dock.is_use_view()
     }

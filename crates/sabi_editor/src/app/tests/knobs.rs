@@ -1,4 +1,4 @@
-//! Parameters in the window: one step for each drag, on nodes and in the panel, of several nodes, published.
+//! Parameters in the window: one step for each drag, on nodes and in the panel, of several nodes, exposed.
 
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
@@ -118,9 +118,9 @@ fn a_knob_is_put_on_the_panel_of_the_graph_and_taken_off_by_its_menu() {
     let bar = window.knob("Grain");
     window.click_with(bar, PointerButton::Secondary, Modifiers::NONE);
     window.press("Expose parameter");
-    let published: Vec<_> = window.document().graph().exposed().values().cloned().collect();
-    assert_eq!(published.len(), 1);
-    assert_eq!(published[0].to[0].to_string(), "clouds.gain");
+    let exposed: Vec<_> = window.document().graph().exposed().values().cloned().collect();
+    assert_eq!(exposed.len(), 1);
+    assert_eq!(exposed[0].to[0].to_string(), "clouds.gain");
     window.click_with(window.knob("Grain"), PointerButton::Secondary, Modifiers::NONE);
     window.press("Stop exposing");
     assert_eq!(window.document().graph().exposed().len(), 0);

@@ -1,4 +1,4 @@
-//! Published parameters, variants, inputs and outputs, changed in the window.
+//! Exposed parameters, variants, inputs and outputs, changed in the window.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use sabi_graph::Value;
 use super::Window;
 use crate::dock::Panel;
 
-const PUBLISHED: &str = r##"{
+const EXPOSED: &str = r##"{
   "format": "sabi", "version": 1, "name": "Worn edges",
   "exposed": {
     "amount": { "to": ["l.opacity"], "label": "Wear", "order": 1 },
@@ -102,8 +102,8 @@ impl Window {
 }
 
 #[test]
-fn a_drag_of_a_published_knob_is_one_step_and_turns_what_it_stands_for() {
-    let mut window = Window::of(PUBLISHED);
+fn a_drag_of_a_exposed_knob_is_one_step_and_turns_what_it_stands_for() {
+    let mut window = Window::of(EXPOSED);
     let bar = window.harness.get_by_label("Wear").rect();
     window.drag(
         bar.center(),
@@ -130,8 +130,8 @@ fn a_drag_of_a_published_knob_is_one_step_and_turns_what_it_stands_for() {
 }
 
 #[test]
-fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_else() {
-    let mut window = Window::of(PUBLISHED);
+fn the_use_view_has_the_model_the_exposed_knobs_and_the_export_and_nothing_else() {
+    let mut window = Window::of(EXPOSED);
     let noise = "n".parse().expect("an id");
     window.harness.state_mut().documents.document.select([noise]);
     window.settle();
@@ -153,7 +153,7 @@ fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_els
 }
 
 #[test]
-fn nothing_published_says_how_to_publish_a_knob() {
+fn nothing_exposed_says_how_to_expose_a_knob() {
     let mut window = Window::empty();
     window.settle();
     let sentence = "No parameter is exposed yet. Right-click a parameter of a node and choose Expose parameter; it then stands here.";
@@ -161,8 +161,8 @@ fn nothing_published_says_how_to_publish_a_knob() {
 }
 
 #[test]
-fn the_pen_changes_what_published_knobs_say_of_themselves() {
-    let mut window = Window::of(PUBLISHED);
+fn the_pen_changes_what_exposed_knobs_say_of_themselves() {
+    let mut window = Window::of(EXPOSED);
     window.click("Change the panel");
     let labels: Vec<_> = window.harness.get_all_by_label("Label").collect();
     assert_eq!(labels.len(), 2, "a card for each");
@@ -187,8 +187,8 @@ fn the_pen_changes_what_published_knobs_say_of_themselves() {
 }
 
 #[test]
-fn published_knobs_are_put_into_order_by_dragging() {
-    let mut window = Window::of(PUBLISHED);
+fn exposed_knobs_are_put_into_order_by_dragging() {
+    let mut window = Window::of(EXPOSED);
     window.click("Change the panel");
     let [first, second] =
         ["Move Wear", "Move Grain size"].map(|name| window.harness.get_by_label(name).rect().center());
@@ -208,7 +208,7 @@ fn published_knobs_are_put_into_order_by_dragging() {
 
 #[test]
 fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() {
-    let mut window = Window::of(PUBLISHED);
+    let mut window = Window::of(EXPOSED);
     window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
     window.click("Faint");
     assert_eq!(window.held("amount"), Some(Value::Number(0.25)));
@@ -244,7 +244,7 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
 
 #[test]
 fn a_shown_variant_starts_from_the_base_is_changed_by_knobs_and_leaves_the_base_as_it_was() {
-    let mut window = Window::of(PUBLISHED);
+    let mut window = Window::of(EXPOSED);
     window.settle();
     let wear = |window: &Window| window.held("amount");
     window.click("Faint");
@@ -271,7 +271,7 @@ fn a_shown_variant_starts_from_the_base_is_changed_by_knobs_and_leaves_the_base_
 
 #[test]
 fn every_variant_that_is_shown_has_a_picture_and_so_has_the_base() {
-    let mut window = Window::of(PUBLISHED);
+    let mut window = Window::of(EXPOSED);
     let has_picture = |editor: &crate::app::Editor, of_variant: Option<&str>| {
         let document = &editor.documents.document;
         let what = match of_variant {

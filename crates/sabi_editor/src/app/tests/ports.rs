@@ -33,7 +33,7 @@ fn inside() -> Window {
 }
 
 #[test]
-fn ports_are_published_and_taken_back_by_their_menus() {
+fn ports_are_exposed_and_taken_back_by_their_menus() {
     let mut window = inside();
     window.choose("Cells, input Position, vector", "Expose as input of the group");
     window.choose("Cells, output Mask, mask", "Expose as output of the group");

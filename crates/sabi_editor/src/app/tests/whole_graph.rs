@@ -1,4 +1,4 @@
-//! A graph with a frame, a published parameter and a variant, built from nothing by mouse and keys.
+//! A graph with a frame, an exposed parameter and a variant, built from nothing by mouse and keys.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -91,7 +91,7 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
 }
 
 /// Puts a knob of a node on the panel, and keeps what it was turned to once as a variant.
-fn publish(window: &mut Window, worn: &NodeId) {
+fn expose(window: &mut Window, worn: &NodeId) {
     window.click_at(window.title(worn));
     window.click_with(window.knob("Opacity"), PointerButton::Secondary, Modifiers::NONE);
     window.press("Expose parameter");
@@ -144,7 +144,7 @@ fn a_whole_graph_is_built_from_nothing_and_its_file_is_as_expected() {
         "nodes, wires, knobs, and the frame with its name"
     );
     let worn = names.iter().find(|(_, name)| **name == "worn_p2dd");
-    publish(&mut window, worn.expect("the blend").0);
+    expose(&mut window, worn.expect("the blend").0);
     let file = settle_down(&mut window);
     let built = window.text();
     assert_eq!(fs::read_to_string(&file).expect("a file"), built);

@@ -93,7 +93,7 @@ fn a_mistake_on_a_node_is_told_beside_it_until_something_else_is_pressed() {
 }
 
 #[test]
-fn the_menu_of_a_row_on_a_node_publishes_its_parameter() {
+fn the_menu_of_a_row_on_a_node_exposes_its_parameter() {
     let mut board = node(["blend/mask.opacity", "blend/mask.below"].map(knob), 1.0);
     board.get_by_label("Below").click_secondary();
     board.run();

@@ -35,7 +35,7 @@ fn a_random_seed_is_no_change() {
 }
 
 #[test]
-fn the_menu_resets_publishes_and_takes_back() {
+fn the_menu_resets_exposes_and_takes_back() {
     let mut board = changed();
     open_menu(&mut board, "Opacity");
     click(&mut board, "Expose parameter");

@@ -1,4 +1,4 @@
-//! Published parameters of the shown graph, for people who never open it; and, with the pen, their names and ranges.
+//! Exposed parameters of the shown graph, for people who never open it; and, with the pen, their names and ranges.
 
 mod editing;
 
@@ -13,18 +13,18 @@ use sabi_graph::Body;
 use super::random::{self, Kept};
 use crate::action::Action;
 use crate::context::ViewContext;
-use crate::knobs::{KnobMemory, KnobRow, KnobSection, ParamMask, published_ui};
+use crate::knobs::{KnobMemory, KnobRow, KnobSection, ParamMask, exposed_ui};
 
-/// Published parameters of the shown graph.
+/// Exposed parameters of the shown graph.
 #[derive(Default)]
-pub(crate) struct Published {
+pub(crate) struct ExposedParameters {
     /// True if names and ranges are shown instead of values.
     is_editing: bool,
     /// Parameters that random values leave alone, by their graph.
     kept: Kept<Body>,
 }
 
-impl Published {
+impl ExposedParameters {
     /// Shows the parameters and returns the requested actions.
     pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>, memory: &mut KnobMemory) -> Vec<Action> {
         let (document, theme) = (context.document, context.theme);
@@ -63,8 +63,8 @@ impl Published {
             editing::show(ui, theme, &panel, &mut edits);
             actions.extend(edits.into_iter().map(Action::edit));
             // Without rows, so that a drag whose row is gone ends.
-            let events = published_ui(ui, theme, memory, &[], &context.lengths());
-            actions.extend(events.into_iter().map(Action::TurnPublished));
+            let events = exposed_ui(ui, theme, memory, &[], &context.lengths());
+            actions.extend(events.into_iter().map(Action::TurnExposed));
             return actions;
         }
         if !panel.is_empty() {
@@ -72,15 +72,15 @@ impl Published {
         }
         let knobs: Vec<_> = panel.iter().map(shown).collect();
         let sections = sections(&panel, &knobs);
-        ui.push_id(("published", document.body()), |ui| {
-            let events = published_ui(ui, theme, memory, &sections, &context.lengths());
-            actions.extend(events.into_iter().map(Action::TurnPublished));
+        ui.push_id(("exposed", document.body()), |ui| {
+            let events = exposed_ui(ui, theme, memory, &sections, &context.lengths());
+            actions.extend(events.into_iter().map(Action::TurnExposed));
         });
         actions
     }
 }
 
-impl Published {
+impl ExposedParameters {
     /// Random values of the parameters.
     fn random(&mut self, ui: &mut Ui, document: &OpenDocument, panel: &[PanelKnob]) -> Option<PanelCommand> {
         let body = document.body();
@@ -103,14 +103,14 @@ fn shown(knob: &PanelKnob) -> sabi_engine::catalog::Knob {
 
 fn sections<'p>(panel: &'p [PanelKnob], knobs: &'p [sabi_engine::catalog::Knob]) -> Vec<KnobSection<'p>> {
     let mut sections: Vec<KnobSection<'p>> = Vec::new();
-    for (published, knob) in panel.iter().zip(knobs) {
-        let title = published.exposed.section.as_deref();
+    for (exposed, knob) in panel.iter().zip(knobs) {
+        let title = exposed.exposed.section.as_deref();
         let row = KnobRow {
             knob,
-            value: Some(&published.value),
+            value: Some(&exposed.value),
             wired: None,
             mask: ParamMask::NotTaken,
-            exposed: Some(&published.name),
+            exposed: Some(&exposed.name),
             differs: false,
         };
         match sections.last_mut() {

@@ -1,11 +1,11 @@
-//! Commands for everything that a graph publishes: knobs, variants, inputs and outputs. They refer to all of these by their
-//! published names.
+//! Commands for everything that a graph exposes: knobs, variants, inputs and outputs. They refer to all of these by their
+//! exposed names.
 
 use std::collections::BTreeSet;
 
 use sabi_graph::{OutputRef, SlotRef, Value};
 
-/// Change of the panel of published knobs.
+/// Change of the panel of exposed knobs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PanelCommand {
     /// Set the value of a knob.
@@ -91,10 +91,10 @@ pub enum VariantCommand {
 pub enum PortCommand {
     /// Set the name of the shown graph.
     NameGraph(String),
-    /// Publish an input of a node.
-    PublishInput(SlotRef),
-    /// Publish an output of a node.
-    PublishOutput(OutputRef),
+    /// Expose an input of a node.
+    ExposeInput(SlotRef),
+    /// Expose an output of a node.
+    ExposeOutput(OutputRef),
     /// Set the label of an input; an empty one restores its name.
     SetInputLabel {
         /// Name of the input.

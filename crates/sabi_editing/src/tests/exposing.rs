@@ -1,4 +1,4 @@
-//! Knobs that are published.
+//! Knobs that are exposed.
 
 use super::*;
 
@@ -19,7 +19,7 @@ fn value(document: &OpenDocument, name: &str) -> Option<Value> {
 }
 
 #[test]
-fn a_knob_is_published_and_unpublished() {
+fn a_knob_is_exposed_and_unexposed() {
     let mut document = opened("", NODES);
     step(&mut document, |document| panel::expose(document, &id("n"), "size"));
     step(&mut document, |document| panel::expose(document, &id("w"), "size"));
@@ -40,7 +40,7 @@ fn a_knob_is_published_and_unpublished() {
 }
 
 #[test]
-fn one_published_knob_can_control_several_knobs_of_the_same_type() {
+fn one_exposed_knob_can_control_several_knobs_of_the_same_type() {
     let mut document = opened("", NODES);
     panel::expose(&mut document, &id("n"), "size");
     step(&mut document, |document| {
@@ -68,7 +68,7 @@ fn one_published_knob_can_control_several_knobs_of_the_same_type() {
 }
 
 #[test]
-fn a_published_knob_is_reset_to_its_value_when_the_graph_was_opened() {
+fn an_exposed_knob_is_reset_to_its_value_when_the_graph_was_opened() {
     let mut document = opened(r#""exposed": { "size": { "to": ["n.size", "w.size"] } },"#, NODES);
     panel_values::set(&mut document, "size", &Value::Number(0.75));
     assert_eq!(panel::knobs(&document)[0].at_first, Value::Number(0.5));
@@ -90,7 +90,7 @@ fn a_published_knob_is_reset_to_its_value_when_the_graph_was_opened() {
 }
 
 #[test]
-fn a_published_seed_does_not_take_the_reserved_name_of_the_instance_seed() {
+fn an_exposed_seed_does_not_take_the_reserved_name_of_the_instance_seed() {
     let mut document = opened("", NODES);
     selection::select_all(&mut document);
     selection::toggle(&mut document, &id("out"));
@@ -202,7 +202,7 @@ fn a_knob_with_a_default_overrides_nodes_and_setting_a_node_changes_the_default(
     assert_eq!(size(&document), None, "reset is reset");
 }
 
-/// A group that publishes `size` and has a variant, with an instance `i`.
+/// A group that exposes `size` and has a variant, with an instance `i`.
 fn dust() -> OpenDocument {
     let more = r#""groups": { "g": { "exposed": { "size": { "to": ["x.size"] } }, "variants": { "v": { "size": 0.5 } },
         "outputs": { "mask": "x" }, "nodes": { "x": { "kind": "noise/white" } } } },"#;

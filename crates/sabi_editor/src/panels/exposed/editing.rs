@@ -1,4 +1,4 @@
-//! Cards of published parameters: names, section, range and default.
+//! Cards of exposed parameters: names, section, range and default.
 
 use egui::{DragValue, Rect, RichText, Sense, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
