@@ -128,13 +128,15 @@ pub fn straighten(document: &mut OpenDocument) -> bool {
         let Some(node) = document.node(&id).filter(|_| places.contains_key(&id)) else {
             continue;
         };
-        let Some(face) = document.face(&id) else { continue };
-        let wired = face.inputs.iter().enumerate().find_map(|(row, port)| {
+        let Some(interface) = document.interface(&id) else {
+            continue;
+        };
+        let wired = interface.inputs.iter().enumerate().find_map(|(row, port)| {
             let from = node.inputs.get(&port.name)?;
             places.contains_key(&from.node).then_some((row, from.clone()))
         });
         let Some((row, from)) = wired else { continue };
-        let Some(source) = document.face(&from.node) else {
+        let Some(source) = document.interface(&from.node) else {
             continue;
         };
         let out = source

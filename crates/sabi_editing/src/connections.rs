@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::{Entry, Port};
+use sabi_engine::catalog::{Interface, Port};
 use sabi_graph::{Body, Edit, GROUP_KIND, GroupInput, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
 
 use crate::instances;
@@ -48,8 +48,11 @@ pub(crate) fn check_type(document: &OpenDocument, from: &OutputRef, to: &SlotRef
     let Some(input) = input(document, to) else {
         return Err(format!("'{}' has no input '{}'", document.title(&to.node), to.name));
     };
-    let source = document.face(&from.node);
-    if source.and_then(|face| face.output(from.port.as_deref())).is_none() {
+    let source = document.interface(&from.node);
+    if source
+        .and_then(|interface| interface.output(from.port.as_deref()))
+        .is_none()
+    {
         let title = document.title(&from.node);
         return Err(match &from.port {
             Some(port) => format!("'{title}' gives no result '{port}'"),
@@ -104,12 +107,12 @@ fn inputs_behind_reroutes(document: &OpenDocument, id: &NodeId) -> Vec<(String, 
 
 /// Returns the type that a wire from an output carries, if it is known.
 pub fn carried(document: &OpenDocument, from: &OutputRef) -> Option<PortType> {
-    document.faces().carried(document.shown(), from)
+    document.interfaces().carried(document.shown(), from)
 }
 
 /// Input of a node of the shown graph.
 pub fn input<'d>(document: &'d OpenDocument, slot: &SlotRef) -> Option<&'d Port> {
-    document.face(&slot.node)?.input(&slot.name)
+    document.interface(&slot.node)?.input(&slot.name)
 }
 
 /// Edit that connects an input to an output.
@@ -125,8 +128,8 @@ pub(crate) fn connecting(document: &OpenDocument, from: &OutputRef, to: &SlotRef
 /// Canonical form of an output: the first output of a node kind has no port name. An output of a group always has one, since
 /// the group may get other outputs.
 pub(crate) fn canonical(document: &OpenDocument, from: &OutputRef) -> OutputRef {
-    let face = document.face(&from.node);
-    let named = face.and_then(|face| Some(port_in_wire(face, face.output(from.port.as_deref())?)));
+    let interface = document.interface(&from.node);
+    let named = interface.and_then(|interface| Some(port_in_wire(interface, interface.output(from.port.as_deref())?)));
     OutputRef {
         node: from.node.clone(),
         port: named.unwrap_or_else(|| from.port.clone()),
@@ -149,11 +152,11 @@ pub(crate) fn disconnecting(document: &OpenDocument, slot: &SlotRef) -> Edit {
 
 /// Returns an edit that gives the parameter of this input its first value, since the wire would otherwise have no visible
 /// effect. Returns `None` if the parameter has a value already, or the input has no such parameter.
-pub(crate) fn starting(document: &OpenDocument, connected: &Edit, face: &Entry) -> Option<Edit> {
+pub(crate) fn starting(document: &OpenDocument, connected: &Edit, interface: &Interface) -> Option<Edit> {
     let Edit::Connect { body, node, input, .. } = connected else {
         return None;
     };
-    let (param, value) = face.input(input)?.starts.clone()?;
+    let (param, value) = interface.input(input)?.starts.clone()?;
     let is_set = document.node(node).is_some_and(|node| node.params.contains_key(&param));
     (!is_set).then(|| Edit::SetParam {
         body: body.clone(),
@@ -169,16 +172,22 @@ pub(crate) fn connecting_pending(
     document: &OpenDocument,
     pending: &PendingWire,
     id: &NodeId,
-    face: &Entry,
+    interface: &Interface,
 ) -> Option<Edit> {
     let own = document.node(id).map(|node| &node.inputs);
     let is_free = |port: &Port| own.is_none_or(|inputs| !inputs.contains_key(&port.name));
     match pending {
         PendingWire::From(from) => {
-            document.face(&from.node)?.output(from.port.as_deref())?;
+            document.interface(&from.node)?.output(from.port.as_deref())?;
             let carried = carried(document, from);
-            let exact = face.plain_inputs().find(|port| port.ty == carried && is_free(port));
-            let input = exact.or_else(|| face.plain_inputs().find(|port| port.accepts(carried) && is_free(port)))?;
+            let exact = interface
+                .plain_inputs()
+                .find(|port| port.ty == carried && is_free(port));
+            let input = exact.or_else(|| {
+                interface
+                    .plain_inputs()
+                    .find(|port| port.accepts(carried) && is_free(port))
+            })?;
             let to = SlotRef {
                 node: id.clone(),
                 name: input.name.clone(),
@@ -186,14 +195,14 @@ pub(crate) fn connecting_pending(
             Some(connecting(document, from, &to))
         }
         PendingWire::Into(to) => {
-            let output = face.output_for(input(document, to)?)?;
+            let output = interface.output_for(input(document, to)?)?;
             Some(Edit::Connect {
                 body: document.body(),
                 node: to.node.clone(),
                 input: to.name.clone(),
                 from: OutputRef {
                     node: id.clone(),
-                    port: port_in_wire(face, output),
+                    port: port_in_wire(interface, output),
                 },
             })
         }
@@ -218,7 +227,7 @@ pub(crate) fn depends_on(document: &OpenDocument, id: &NodeId, source: &NodeId) 
 }
 
 /// Returns the port name in a wire from an output: none for the first output of a node kind, always a name for groups.
-pub(crate) fn port_in_wire(face: &Entry, port: &Port) -> Option<String> {
-    let is_first = face.outputs.first().is_some_and(|first| first.name == port.name);
-    (!is_first || face.id == GROUP_KIND).then(|| port.name.clone())
+pub(crate) fn port_in_wire(interface: &Interface, port: &Port) -> Option<String> {
+    let is_first = interface.outputs.first().is_some_and(|first| first.name == port.name);
+    (!is_first || interface.id == GROUP_KIND).then(|| port.name.clone())
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::{Entry, KnobRole};
+use sabi_engine::catalog::{Interface, KnobRole};
 use sabi_graph::{Body, Document, Edit, NodeId, OutputRef, PortType, SlotRef, Value};
 
 use crate::node_size::NODE_WIDTH;
@@ -42,7 +42,7 @@ pub(crate) fn on_model(
     let stack = stack::all(document).into_iter().find(|stack| stack.end == end)?;
     let Some(below) = stack.layers.first().map(|layer| layer.node.clone()) else {
         let id = add(document, &end, 0, kind, group)?;
-        let needs = document.face(&id).and_then(|face| main_input(face));
+        let needs = document.interface(&id).and_then(|interface| main_input(interface));
         // A group without a material below uses the model's own material, unless its input says otherwise.
         if needs.is_some_and(|input| group.is_none() || input.is_required) {
             layers::add(document, &end, 1, OWN_MATERIAL)?;
@@ -68,13 +68,13 @@ pub(crate) fn on_node(document: &mut OpenDocument, kind: &str, group: Option<&st
 }
 
 /// Returns whether a node or group with these ports can be a layer on top of a node's material.
-pub fn can_lie_on(document: &OpenDocument, face: &Entry, node: &NodeId) -> bool {
-    let gives = |face: &Entry| face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
-    let Some(under) = document.face(node) else {
+pub fn can_lie_on(document: &OpenDocument, interface: &Interface, node: &NodeId) -> bool {
+    let gives = |interface: &Interface| interface.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+    let Some(under) = document.interface(node) else {
         return false;
     };
     let is_output = under.category() == "output" && main_input(under).is_some();
-    gives(face) && main_input(face).is_some() && (is_output || gives(under))
+    gives(interface) && main_input(interface).is_some() && (is_output || gives(under))
 }
 
 fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str, group: Option<&str>) -> Option<NodeId> {
@@ -160,9 +160,9 @@ fn is_in_group(document: &Document, group: &str) -> bool {
 /// Adds a layer on top that adds the model's normal map and changes nothing else.
 fn add_normal_map(document: &mut OpenDocument, end: &StackEnd) -> Option<NodeId> {
     let layer = layers::add(document, end, 0, LAYER)?;
-    let face = document.face(&layer).cloned()?;
+    let interface = document.interface(&layer).cloned()?;
     let body = document.body();
-    let switches = face.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Toggle);
+    let switches = interface.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Toggle);
     let mut edits: Vec<Edit> = switches
         .map(|knob| Edit::SetParam {
             body: body.clone(),

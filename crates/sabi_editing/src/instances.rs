@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use sabi_engine::catalog::{Entry, Faces};
+use sabi_engine::catalog::{Interface, Interfaces};
 use sabi_graph::{Body, Document, Edit, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, SlotRef};
 
 /// All graphs of a document.
@@ -101,9 +101,9 @@ fn renamed(slots: &mut [SlotRef], matches: impl Fn(&SlotRef) -> bool, to: &str) 
 }
 
 /// Returns the ports and knobs of instances of a graph.
-pub(crate) fn face_of<'f>(faces: &'f Faces, body: &Body) -> Option<&'f Arc<Entry>> {
+pub(crate) fn interface_of<'f>(interfaces: &'f Interfaces, body: &Body) -> Option<&'f Arc<Interface>> {
     match body {
-        Body::Main => faces.of_whole(),
-        Body::Group(name) => faces.of_group(name),
+        Body::Main => interfaces.of_whole(),
+        Body::Group(name) => interfaces.of_group(name),
     }
 }

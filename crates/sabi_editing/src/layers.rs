@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{Edit, NodeId, OutputRef, PortType, SlotRef, Value};
 
 use crate::connections::port_in_wire;
@@ -60,7 +60,9 @@ fn why_not_move(document: &OpenDocument, stack: &Stack, top: usize, bottom: usiz
         );
     }
     let needs_one = |layer: &Layer| {
-        let port = document.face(&layer.node).and_then(|face| main_input(face));
+        let port = document
+            .interface(&layer.node)
+            .and_then(|interface| main_input(interface));
         port.is_some_and(|port| port.is_required)
     };
     let is_open = stack.links[bottom + 1].from.is_none();
@@ -137,8 +139,8 @@ pub fn remove(document: &mut OpenDocument, end: &StackEnd, at: usize) -> bool {
 }
 
 /// Lists the kinds that a layer can have: kinds that change the material below; for the lowest layer, all kinds that output a material.
-pub fn kinds(document: &OpenDocument, is_lowest: bool) -> Vec<Arc<Entry>> {
-    let gives = |entry: &Entry| entry.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+pub fn kinds(document: &OpenDocument, is_lowest: bool) -> Vec<Arc<Interface>> {
+    let gives = |entry: &Interface| entry.outputs.iter().any(|port| port.ty == Some(PortType::Material));
     let entries = document.catalog().entries();
     let fit = entries.filter(|entry| gives(entry) && (is_lowest || main_input(entry).is_some()));
     fit.cloned().collect()
@@ -156,7 +158,7 @@ pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -
 
 /// Adds an instance of a group of the document, as [`add`] adds a node.
 pub fn add_instance(document: &mut OpenDocument, end: &StackEnd, at: usize, group: &str) -> Option<NodeId> {
-    let Some(entry) = document.faces().of_group(group).cloned() else {
+    let Some(entry) = document.interfaces().of_group(group).cloned() else {
         document.notify(format!("there is no group '{group}'"));
         return None;
     };
@@ -167,7 +169,7 @@ fn add_entry(
     document: &mut OpenDocument,
     end: &StackEnd,
     at: usize,
-    entry: &Entry,
+    entry: &Interface,
     group: Option<&str>,
 ) -> Option<NodeId> {
     let stack = stack_behind(document, end)?;
@@ -213,17 +215,20 @@ fn add_entry(
 /// then read the layer.
 pub(crate) fn add_over(document: &mut OpenDocument, id: &NodeId, kind: &str, group: Option<&str>) -> Option<NodeId> {
     let entry = match group {
-        Some(group) => document.faces().of_group(group),
+        Some(group) => document.interfaces().of_group(group),
         None => document.catalog().entry(kind),
     };
     let entry = entry.cloned()?;
-    let given = |face: &Entry| {
-        let port = face.outputs.iter().find(|port| port.ty == Some(PortType::Material));
-        port.map(|port| port_in_wire(face, port))
+    let given = |interface: &Interface| {
+        let port = interface
+            .outputs
+            .iter()
+            .find(|port| port.ty == Some(PortType::Material));
+        port.map(|port| port_in_wire(interface, port))
     };
     let from = OutputRef {
         node: id.clone(),
-        port: document.face(id).and_then(|face| given(face))?,
+        port: document.interface(id).and_then(|interface| given(interface))?,
     };
     let (input, output) = main_input(&entry).zip(given(&entry))?;
     let is_read = |read: Option<&OutputRef>| read.is_some_and(|read| connections::canonical(document, read) == from);
@@ -313,7 +318,7 @@ fn place_of_layer(document: &OpenDocument, link: &Link, size: [f32; 2]) -> ([f32
 
 /// Input for the mask of a layer, if its node takes one.
 pub fn mask_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
-    let input = document.face(id)?.inputs.iter().find(|port| port.name == "mask")?;
+    let input = document.interface(id)?.inputs.iter().find(|port| port.name == "mask")?;
     Some(SlotRef {
         node: id.clone(),
         name: input.name.clone(),
@@ -353,7 +358,7 @@ pub fn toggle(document: &mut OpenDocument, id: &NodeId) -> bool {
 
 /// Sets the opacity of a layer.
 pub fn set_opacity(document: &mut OpenDocument, id: &NodeId, opacity: f64) -> bool {
-    let Some(knob) = document.face(id).and_then(|face| face.knob("opacity")) else {
+    let Some(knob) = document.interface(id).and_then(|interface| interface.knob("opacity")) else {
         let title = document.title(id);
         return document.refuse(format!("'{title}' has no Opacity"));
     };

@@ -37,7 +37,7 @@ mod bundled_groups;
 pub mod clipboard;
 pub mod command;
 pub mod connections;
-mod current_faces;
+mod current_interfaces;
 pub mod document_settings;
 mod document_trust;
 pub mod dropped_layers;

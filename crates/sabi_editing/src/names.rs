@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 
 /// Suffix of the names of groups that are files.
 pub(crate) const FILE_ENDING: &str = ".sabi";
@@ -18,8 +18,8 @@ pub(crate) fn separate_file_notice(group: &str) -> String {
 }
 
 /// Returns the label of a knob, or its name if the ports and knobs of its node are unknown.
-pub(crate) fn knob_label(face: Option<&Arc<Entry>>, knob: &str) -> String {
-    let known = face.and_then(|face| face.knob(knob));
+pub(crate) fn knob_label(interface: Option<&Arc<Interface>>, knob: &str) -> String {
+    let known = interface.and_then(|interface| interface.knob(knob));
     known.map_or_else(|| knob.to_owned(), |knob| knob.label.clone())
 }
 

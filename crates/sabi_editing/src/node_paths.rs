@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{Body, NodeId};
 
 use crate::open_document::OpenDocument;
@@ -32,9 +32,9 @@ pub fn title(document: &OpenDocument, full_id: &str) -> String {
     let mut titles = Vec::new();
     for step in full_id.split('/') {
         let node = body.as_ref().and_then(|body| document.graph_of(body)?.node(step));
-        let face = body.as_ref().and_then(|body| document.faces().of(body, step));
+        let interface = body.as_ref().and_then(|body| document.interfaces().of(body, step));
         let own = node.and_then(|node| node.label.clone());
-        let title = own.or_else(|| face.map(|face| face.label.clone()));
+        let title = own.or_else(|| interface.map(|interface| interface.label.clone()));
         titles.push(title.unwrap_or_else(|| step.to_owned()));
         body = node.and_then(|node| node.group.clone()).map(Body::Group);
     }
@@ -97,13 +97,13 @@ fn label_in(document: &OpenDocument, before: &str, after: &str, last: Option<&st
     }
     let of_node = after.strip_prefix(OF_NODE).and_then(|rest| rest.split_once('\''));
     let node = of_node.map(|(node, _)| node).or(last)?;
-    let face = face(document, node)?;
-    let knob = face.knob(name).map(|knob| &knob.label);
-    knob.or_else(|| face.input(name).map(|port| &port.label)).cloned()
+    let interface = interface(document, node)?;
+    let knob = interface.knob(name).map(|knob| &knob.label);
+    knob.or_else(|| interface.input(name).map(|port| &port.label)).cloned()
 }
 
 /// Ports and knobs of a node by its full id. `None` if they are not known, as in groups of other files.
-fn face(document: &OpenDocument, full_id: &str) -> Option<Arc<Entry>> {
+fn interface(document: &OpenDocument, full_id: &str) -> Option<Arc<Interface>> {
     let (instances, own) = match full_id.rsplit_once('/') {
         Some((instances, own)) => (Some(instances), own),
         None => (None, full_id),
@@ -112,7 +112,7 @@ fn face(document: &OpenDocument, full_id: &str) -> Option<Arc<Entry>> {
     for step in instances.into_iter().flat_map(|instances| instances.split('/')) {
         body = Body::Group(document.graph_of(&body)?.node(step)?.group.clone()?);
     }
-    document.faces().of(&body, own).cloned()
+    document.interfaces().of(&body, own).cloned()
 }
 
 /// Replaces the ids of nodes of the shown graph that form a circle by their titles.

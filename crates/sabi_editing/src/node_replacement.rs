@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_engine::catalog::{Entry, Knob, KnobRole, Port};
+use sabi_engine::catalog::{Interface, Knob, KnobRole, Port};
 use sabi_graph::{Edit, Node, NodeId, OutputRef, SlotRef, Value};
 
 use crate::connections::port_in_wire;
@@ -14,14 +14,14 @@ use crate::{connections, new_nodes, nodes, references};
 struct ReplacementNode<'a> {
     id: &'a NodeId,
     /// Ports and knobs of the old node and of the new node.
-    faces: [&'a Entry; 2],
+    interfaces: [&'a Interface; 2],
     /// Name of the new input for each old input.
     inputs: BTreeMap<String, String>,
 }
 
 impl Successors for ReplacementNode<'_> {
     fn knobs(&self, _: &str, knob: &SlotRef) -> Vec<SlotRef> {
-        let [old, new] = self.faces;
+        let [old, new] = self.interfaces;
         // A parameter is replaced by a parameter, whether a mask multiplies it or not.
         let is_of_input = old.param_mask(&knob.name).is_none();
         let name = match self.inputs.get(&knob.name).filter(|_| is_of_input) {
@@ -40,7 +40,7 @@ impl Successors for ReplacementNode<'_> {
     }
 
     fn output(&self, from: &OutputRef) -> Option<OutputRef> {
-        let [old, new] = self.faces;
+        let [old, new] = self.interfaces;
         let port = old.output(from.port.as_deref())?;
         let same = new
             .outputs
@@ -99,11 +99,11 @@ pub fn by_group(document: &mut OpenDocument, id: &NodeId, group: &str) -> bool {
     made.is_some_and(|(new_id, node, entry)| put_in_place(document, id, new_id, node, &entry))
 }
 
-fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut node: Node, entry: &Entry) -> bool {
-    let Some((old, face)) = document.node(id).cloned().zip(document.face(id).cloned()) else {
+fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut node: Node, entry: &Interface) -> bool {
+    let Some((old, interface)) = document.node(id).cloned().zip(document.interface(id).cloned()) else {
         return document.refuse("the node that should be replaced is gone");
     };
-    if entry.id == face.id && node.group == old.group {
+    if entry.id == interface.id && node.group == old.group {
         return document.refuse(format!("this is a node of kind '{}' already", entry.label));
     }
     node.pos = old.pos;
@@ -111,8 +111,8 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
     node.label = old.label.clone();
     let replacement = ReplacementNode {
         id: &new_id,
-        faces: [&face, entry],
-        inputs: paired_inputs(document, id, &old, &face, entry),
+        interfaces: [&interface, entry],
+        inputs: paired_inputs(document, id, &old, &interface, entry),
     };
     for (name, from) in &old.inputs {
         if let Some(input) = replacement.inputs.get(name) {
@@ -153,15 +153,15 @@ fn paired_inputs(
     document: &OpenDocument,
     id: &NodeId,
     old: &Node,
-    face: &Entry,
-    entry: &Entry,
+    interface: &Interface,
+    entry: &Interface,
 ) -> BTreeMap<String, String> {
     let mut free: Vec<&Port> = entry.inputs.iter().collect();
     let mut paired = BTreeMap::new();
     // Inputs are paired in the order of the rows of the node. Inputs that the kind does not have come last.
-    let known = face.inputs.iter().map(|port| &port.name);
-    let unknown = old.inputs.keys().filter(|name| face.input(name).is_none());
-    let is_param_mask = |name: &String| face.param_mask(name).is_some();
+    let known = interface.inputs.iter().map(|port| &port.name);
+    let unknown = old.inputs.keys().filter(|name| interface.input(name).is_none());
+    let is_param_mask = |name: &String| interface.param_mask(name).is_some();
     let (param_masks, names): (Vec<&String>, Vec<&String>) = known.chain(unknown).partition(|name| is_param_mask(name));
     let kept = param_masks.into_iter().filter(|name| entry.param_mask(name).is_some());
     paired.extend(kept.map(|name| (name.clone(), name.clone())));
@@ -169,7 +169,7 @@ fn paired_inputs(
         for name in &names {
             let carried = match old.inputs.get(*name) {
                 Some(from) => connections::carried(document, from),
-                None => face.input(name).and_then(|port| port.ty),
+                None => interface.input(name).and_then(|port| port.ty),
             };
             let slot = SlotRef {
                 node: id.clone(),
@@ -195,7 +195,7 @@ fn paired_inputs(
 }
 
 /// Returns an edit that connects a reader to the new node, to the output with the same name or to one that fits.
-fn reconnected(document: &OpenDocument, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
+fn reconnected(document: &OpenDocument, slot: &SlotRef, id: &NodeId, entry: &Interface) -> Option<Edit> {
     let input = connections::input(document, slot)?;
     let named = connections::wire_into(document, slot)?.port.clone();
     let same = entry.output(named.as_deref()).filter(|port| input.accepts(port.ty));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::{Entry, Knob, KnobRole};
+use sabi_engine::catalog::{Interface, Knob, KnobRole};
 use sabi_graph::{Graph, NodeId, NodeRows, REROUTE_KIND};
 
 use crate::open_document::OpenDocument;
@@ -26,7 +26,7 @@ pub const GRID: f32 = 10.0;
 
 /// Returns the knobs that are shown on a node: the first ones that fit into a row and do not belong to an input, since
 /// inputs have rows anyway.
-pub fn own_knobs(entry: &Entry) -> impl Iterator<Item = &Knob> {
+pub fn own_knobs(entry: &Interface) -> impl Iterator<Item = &Knob> {
     let fits_row = |role: &KnobRole| {
         matches!(
             role,
@@ -40,7 +40,7 @@ pub fn own_knobs(entry: &Entry) -> impl Iterator<Item = &Knob> {
 }
 
 /// Returns whether a node is a reroute, which is drawn as a dot.
-pub fn is_reroute(entry: &Entry) -> bool {
+pub fn is_reroute(entry: &Interface) -> bool {
     entry.id == REROUTE_KIND
 }
 
@@ -80,7 +80,7 @@ impl Shown {
 
 impl ShownRows {
     /// Returns all rows of a node.
-    pub fn all(entry: &Entry) -> ShownRows {
+    pub fn all(entry: &Interface) -> ShownRows {
         ShownRows {
             inputs: Shown::All(entry.inputs.len()),
             outputs: Shown::All(entry.outputs.len()),
@@ -91,7 +91,7 @@ impl ShownRows {
     }
 
     /// Returns the rows of a node of a graph, according to its display settings.
-    pub fn of(graph: &Graph, id: &NodeId, entry: &Entry) -> ShownRows {
+    pub fn of(graph: &Graph, id: &NodeId, entry: &Interface) -> ShownRows {
         let all = ShownRows::all(entry);
         let Some(node) = graph.node(id.as_str()).filter(|_| !all.is_reroute) else {
             return all;
@@ -187,7 +187,7 @@ impl ShownRows {
 }
 
 /// Returns the outputs of a node that have readers. If there are none, returns the first output, so that a wire can be started there.
-fn read_outputs(graph: &Graph, id: &NodeId, entry: &Entry) -> Vec<usize> {
+fn read_outputs(graph: &Graph, id: &NodeId, entry: &Interface) -> Vec<usize> {
     let first = entry.outputs.first().map(|port| port.name.as_str());
     let read: BTreeSet<&str> = graph
         .readers(id.as_str())
@@ -204,14 +204,14 @@ fn read_outputs(graph: &Graph, id: &NodeId, entry: &Entry) -> Vec<usize> {
 }
 
 /// Width and height of a node that shows all rows, canvas points.
-pub fn size_of(entry: &Entry) -> [f32; 2] {
+pub fn size_of(entry: &Interface) -> [f32; 2] {
     ShownRows::all(entry).size()
 }
 
 /// Returns the rows of a node of the shown graph; `None` if there is no such node.
 pub fn rows_of(document: &OpenDocument, id: &NodeId) -> Option<ShownRows> {
-    let face = document.face(id)?;
-    Some(ShownRows::of(document.graph(), id, face))
+    let interface = document.interface(id)?;
+    Some(ShownRows::of(document.graph(), id, interface))
 }
 
 /// Width and height of a node of the shown graph, canvas points.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use sabi_engine::catalog::{Entry, Faces};
+use sabi_engine::catalog::{Interface, Interfaces};
 use sabi_graph::{Body, Edit, GROUP_KIND, Node, NodeDisplay, NodeId, NodeRows, Value};
 
 use crate::connections::PendingWire;
@@ -43,7 +43,7 @@ pub(crate) fn new_instance(
     document: &mut OpenDocument,
     group: &str,
     pos: [f32; 2],
-) -> Option<(NodeId, Node, Arc<Entry>)> {
+) -> Option<(NodeId, Node, Arc<Interface>)> {
     if let Some(open) = containing_shown(document, group) {
         document.notify(format!(
             "'{group}' holds '{open}', which is open here; a group cannot be inside itself"
@@ -70,8 +70,8 @@ pub(crate) fn new_instance(
 }
 
 /// Returns the ports and knobs of an instance of a group, even if no instance exists.
-fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Entry>> {
-    if let Some(known) = document.faces().of_group(group) {
+fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Interface>> {
+    if let Some(known) = document.interfaces().of_group(group) {
         return Some(known.clone());
     }
     if !is_file(group) {
@@ -82,7 +82,7 @@ fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Entry>> {
     let base = base.base_of(group);
     let catalog = document.catalog().clone();
     let mut read = |name: &str| document.read_group_file(&base, name);
-    Faces::new(&catalog, &contents, &mut read).of_whole().cloned()
+    Interfaces::new(&catalog, &contents, &mut read).of_whole().cloned()
 }
 
 /// Returns the name of the shown group if `group` contains it. An instance of `group` inside it would contain itself.
@@ -112,18 +112,18 @@ fn place_new(
     document: &mut OpenDocument,
     id: NodeId,
     mut node: Node,
-    entry: &Entry,
+    entry: &Interface,
     pending: Option<&PendingWire>,
 ) -> Option<NodeId> {
     node.pos = free_position(document, node.pos);
     let mut edits = vec![new_nodes::addition(document, &id, node)];
     let connected = pending.and_then(|pending| connections::connecting_pending(document, pending, &id, entry));
     let reader = match pending {
-        Some(PendingWire::Into(to)) => document.face(&to.node).map(|face| &**face),
+        Some(PendingWire::Into(to)) => document.interface(&to.node).map(|interface| &**interface),
         _ => Some(entry),
     };
     let started = connected.as_ref().zip(reader);
-    let started = started.and_then(|(edit, face)| connections::starting(document, edit, face));
+    let started = started.and_then(|(edit, interface)| connections::starting(document, edit, interface));
     edits.extend(connected.into_iter().chain(started));
     let is_made = document.edit(&format!("Add {}", entry.label), edits);
     is_made.then(|| {
@@ -134,8 +134,8 @@ fn place_new(
 
 /// Returns a place for a new node with these ports where it covers no other node: the given place, or the nearest free one beside, above
 /// or below the nodes there. If the distances are similar, right or below is preferred, since graphs are read in that direction.
-pub fn uncovered(document: &OpenDocument, face: &Entry, place: [f32; 2]) -> [f32; 2] {
-    let size = node_size::size_of(face);
+pub fn uncovered(document: &OpenDocument, interface: &Interface, place: [f32; 2]) -> [f32; 2] {
+    let size = node_size::size_of(interface);
     let boxes: Vec<[[f32; 2]; 2]> = document
         .graph()
         .nodes()
@@ -295,8 +295,12 @@ fn set_knob_of(
     let value = value.filter(|value| !ids.iter().any(|node| means_no_variant(document, node, knob, value)));
     let mut edits = panel_values::exposed_values(document, &ids, knob, value.as_ref());
     let step = match ids.as_slice() {
-        [id] => format!("{} of '{}'", knob_label(document.face(id), knob), document.title(id)),
-        [id, ..] => format!("{} of {} nodes", knob_label(document.face(id), knob), ids.len()),
+        [id] => format!(
+            "{} of '{}'",
+            knob_label(document.interface(id), knob),
+            document.title(id)
+        ),
+        [id, ..] => format!("{} of {} nodes", knob_label(document.interface(id), knob), ids.len()),
         [] => return false,
     };
     for node in ids {

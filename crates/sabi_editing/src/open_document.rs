@@ -6,14 +6,14 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_engine::catalog::{Catalog, Entry, Faces};
+use sabi_engine::catalog::{Catalog, Interface, Interfaces};
 use sabi_engine::{EngineError, Kinds, PathBase, Session};
 use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 
-use crate::current_faces::CurrentFaces;
+use crate::current_interfaces::CurrentInterfaces;
 use crate::document_trust::Trust;
 use crate::group_files::GroupFiles;
-use crate::instances::face_of;
+use crate::instances::interface_of;
 use crate::library_folder::LibraryFolder;
 use crate::new_ids::IdGenerator;
 use crate::{evaluability, follow_up};
@@ -28,9 +28,9 @@ pub struct OpenDocument {
     kinds_revision: u64,
     catalog: Arc<Catalog>,
     files_revision: u64,
-    faces: CurrentFaces,
+    interfaces: CurrentInterfaces,
     /// Ports and knobs of the nodes when the document was opened.
-    opened: Faces,
+    opened: Interfaces,
     group_files: GroupFiles,
     /// Entered group instances, outermost first.
     instance_path: Vec<NodeId>,
@@ -66,8 +66,8 @@ impl OpenDocument {
             kinds,
             kinds_revision: first,
             files_revision: first,
-            faces: CurrentFaces::default(),
-            opened: Faces::default(),
+            interfaces: CurrentInterfaces::default(),
+            opened: Interfaces::default(),
             group_files: GroupFiles::default(),
             instance_path: Vec::new(),
             shown: Body::Main,
@@ -78,7 +78,7 @@ impl OpenDocument {
             trust: Trust::default(),
         };
         document.refresh();
-        document.opened = document.faces().clone();
+        document.opened = document.interfaces().clone();
         document
     }
 
@@ -145,35 +145,35 @@ impl OpenDocument {
     }
 
     /// Ports and knobs of a node of the shown graph.
-    pub fn face(&self, id: &NodeId) -> Option<&Arc<Entry>> {
-        self.faces().of(&self.shown, id.as_str())
+    pub fn interface(&self, id: &NodeId) -> Option<&Arc<Interface>> {
+        self.interfaces().of(&self.shown, id.as_str())
     }
 
     /// Ports and knobs of the nodes of all graphs of the document.
-    pub fn faces(&self) -> &Faces {
-        &self.faces.faces
+    pub fn interfaces(&self) -> &Interfaces {
+        &self.interfaces.interfaces
     }
 
     /// Returns a number that increases each time ports and knobs of nodes may have changed. The numbers of different open
     /// documents are always different.
-    pub fn faces_number(&self) -> u64 {
-        self.faces.number
+    pub fn interfaces_number(&self) -> u64 {
+        self.interfaces.number
     }
 
     /// Returns the ports and knobs of instances of the shown graph.
-    pub fn own_face(&self) -> Option<&Arc<Entry>> {
-        face_of(self.faces(), &self.shown)
+    pub fn own_interface(&self) -> Option<&Arc<Interface>> {
+        interface_of(self.interfaces(), &self.shown)
     }
 
     /// Ports and knobs that instances of the shown graph had when the document was opened.
-    pub(crate) fn own_face_when_opened(&self) -> Option<&Arc<Entry>> {
-        face_of(&self.opened, &self.shown)
+    pub(crate) fn own_interface_when_opened(&self) -> Option<&Arc<Interface>> {
+        interface_of(&self.opened, &self.shown)
     }
 
     /// Returns the title of a node of the shown graph: its own label, or the label of its kind.
     pub fn title(&self, id: &NodeId) -> String {
         let own = self.node(id).and_then(|node| node.label.clone());
-        own.or_else(|| self.face(id).map(|face| face.label.clone()))
+        own.or_else(|| self.interface(id).map(|interface| interface.label.clone()))
             .unwrap_or_else(|| id.to_string())
     }
 
@@ -349,7 +349,7 @@ impl OpenDocument {
     pub fn files_changed(&mut self, files: &BTreeSet<PathBuf>) {
         self.session.graph().look_again(files);
         self.group_files.look_again(files);
-        self.faces.look_again();
+        self.interfaces.look_again();
         self.files_revision += 1;
         self.refresh();
     }
@@ -373,7 +373,7 @@ impl OpenDocument {
     /// Updates what is derived from the document: ports and knobs of nodes, the shown graph and the selection.
     fn refresh(&mut self) {
         let session = &self.session;
-        let has_changed = self.faces.refresh(
+        let has_changed = self.interfaces.refresh(
             session,
             &self.catalog,
             self.kinds_revision,

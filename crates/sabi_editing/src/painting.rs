@@ -99,8 +99,8 @@ pub fn paint_over(document: &mut OpenDocument, node: &NodeId) -> Option<NodeId> 
     if strokes_of(document, node).is_some() {
         return Some(node.clone());
     }
-    let face = document.face(node).cloned()?;
-    let Some(port) = face
+    let interface = document.interface(node).cloned()?;
+    let Some(port) = interface
         .outputs
         .iter()
         .find(|port| port.ty == Some(PortType::Mask))
@@ -110,7 +110,7 @@ pub fn paint_over(document: &mut OpenDocument, node: &NodeId) -> Option<NodeId> 
         return None;
     };
     let own = document.node(node)?;
-    let place = [own.pos[0] + size_of(&face)[0] + GAP, own.pos[1]];
+    let place = [own.pos[0] + size_of(&interface)[0] + GAP, own.pos[1]];
     let (id, mut paint) = new_nodes::of_kind(document, PAINT, place);
     let from = OutputRef {
         node: node.clone(),
@@ -119,7 +119,7 @@ pub fn paint_over(document: &mut OpenDocument, node: &NodeId) -> Option<NodeId> 
     paint.inputs = BTreeMap::from([("base".to_owned(), from)]);
     let mut edits = vec![new_nodes::addition(document, &id, paint)];
     // A wire that names no port reads the first one.
-    let is_first = face.outputs.first().is_some_and(|first| first.name == port);
+    let is_first = interface.outputs.first().is_some_and(|first| first.name == port);
     let readers: BTreeSet<(NodeId, String)> = document
         .graph()
         .nodes()

@@ -28,17 +28,17 @@ pub struct PanelKnob {
 
 /// Returns the exposed knobs in the order of the panel. A knob that controls only unknown knobs is left out.
 pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
-    let face = document.own_face();
-    let opened = document.own_face_when_opened();
+    let interface = document.own_interface();
+    let opened = document.own_interface_when_opened();
     let variant = shown_variant::values(document).map(|(_, values)| values);
     let set: BTreeMap<&str, &Value> = document.graph().knob_values(variant).collect();
     let knobs = document.graph().panel().into_iter().filter_map(|(name, exposed)| {
-        let knob = face?.knob(name)?.clone();
+        let knob = interface?.knob(name)?.clone();
         let first = exposed.to.first()?;
-        let inner = document.face(&first.node)?.knob(&first.name)?;
+        let inner = document.interface(&first.node)?.knob(&first.name)?;
         // If an exposed knob has a default, that is its value.
         let own = &knob.ty.default;
-        let opened_with = match opened.map(|face| face.knob(name)) {
+        let opened_with = match opened.map(|interface| interface.knob(name)) {
             Some(Some(before)) => &before.ty.default,
             Some(None) => &inner.ty.default,
             // A group that came later, as an effect of the library does, begins with its own values.
@@ -62,8 +62,8 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
         return document.refuse(why);
     }
     let Some(label) = document
-        .face(id)
-        .and_then(|face| face.knob(knob))
+        .interface(id)
+        .and_then(|interface| interface.knob(knob))
         .map(|knob| knob.label.clone())
     else {
         let title = document.title(id);
@@ -103,14 +103,14 @@ pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &
     let first = exposed
         .to
         .first()
-        .and_then(|slot| document.face(&slot.node)?.knob(&slot.name));
-    let own = document.face(id).and_then(|face| face.knob(knob));
+        .and_then(|slot| document.interface(&slot.node)?.knob(&slot.name));
+    let own = document.interface(id).and_then(|interface| interface.knob(knob));
     let is_alike = first.zip(own).is_some_and(|(first, own)| {
         let like = |knob: &Knob| (knob.ty.role.clone(), knob.ty.memory);
         like(first) == like(own)
     });
     if !is_alike {
-        let exposed = knob_label(document.own_face(), name);
+        let exposed = knob_label(document.own_interface(), name);
         let own = own.map_or(knob, |own| &own.label);
         return document.refuse(format!("'{exposed}' holds values of another sort than '{own}'"));
     }

@@ -37,7 +37,7 @@ pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
 
 /// Name of a step that sets an exposed knob.
 fn step_name(document: &OpenDocument, name: &str) -> String {
-    let label = knob_label(document.own_face(), name);
+    let label = knob_label(document.own_interface(), name);
     match shown_variant::name(document) {
         Some(variant) => format!("{label} of the variant '{variant}'"),
         None => format!("{label} of the panel"),
@@ -49,7 +49,7 @@ pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) ->
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Some(format!("there is no exposed parameter '{name}'"));
     };
-    range_fault(exposed.range, value).map(|why| format!("'{}' {why}", knob_label(document.own_face(), name)))
+    range_fault(exposed.range, value).map(|why| format!("'{}' {why}", knob_label(document.own_interface(), name)))
 }
 
 /// Edits that set an exposed knob.
@@ -151,7 +151,7 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
         return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     if let Some(why) = default.as_ref().and_then(|value| range_fault(exposed.range, value)) {
-        let label = knob_label(document.own_face(), name);
+        let label = knob_label(document.own_interface(), name);
         return document.refuse(format!("'{label}' {why}"));
     }
     let edit = panel::exposing(document, name, Exposed { default, ..exposed });
@@ -168,7 +168,7 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     let range = range.map(|ends| ends.map(|end| canonical_number(end).unwrap_or(end)));
     let outside = set_values(document, name, &exposed).find_map(|(place, value)| {
         let why = range_fault(range, &value)?;
-        let label = knob_label(document.own_face(), name);
+        let label = knob_label(document.own_interface(), name);
         Some(format!("{place} would lie outside: '{label}' {why}"))
     });
     if let Some(why) = outside {

@@ -17,13 +17,15 @@ pub fn inputs(document: &OpenDocument) -> &BTreeMap<String, GroupInput> {
 
 /// Label of an input of the shown graph.
 pub fn input_label(document: &OpenDocument, name: &str) -> String {
-    let known = document.own_face().and_then(|face| face.input(name));
+    let known = document.own_interface().and_then(|interface| interface.input(name));
     known.map_or_else(|| label_of(name), |port| port.label.clone())
 }
 
 /// Label of an output of the shown graph.
 pub fn output_label(document: &OpenDocument, name: &str) -> String {
-    let known = document.own_face().and_then(|face| face.output(Some(name)));
+    let known = document
+        .own_interface()
+        .and_then(|interface| interface.output(Some(name)));
     known.map_or_else(|| label_of(name), |port| port.label.clone())
 }
 
@@ -150,13 +152,18 @@ pub fn feedable(document: &OpenDocument, name: &str) -> Vec<SlotRef> {
     let Some(input) = inputs(document).get(name) else {
         return Vec::new();
     };
-    let faces = || document.graph().ids().filter_map(|id| Some((id, document.face(id)?)));
+    let interfaces = || {
+        document
+            .graph()
+            .ids()
+            .filter_map(|id| Some((id, document.interface(id)?)))
+    };
     let slot = |id: &NodeId, port: &Port| SlotRef {
         node: id.clone(),
         name: port.name.clone(),
     };
-    let plain = faces().flat_map(|(id, face)| face.plain_inputs().map(move |port| slot(id, port)));
-    let masks = faces().flat_map(|(id, face)| face.param_masks.iter().map(move |port| slot(id, port)));
+    let plain = interfaces().flat_map(|(id, interface)| interface.plain_inputs().map(move |port| slot(id, port)));
+    let masks = interfaces().flat_map(|(id, interface)| interface.param_masks.iter().map(move |port| slot(id, port)));
     let is_free = |slot: &SlotRef| {
         connections::wire_into(document, slot).is_none()
             && connections::feeder(document, document.shown(), slot).is_none()
@@ -170,7 +177,10 @@ pub fn feedable(document: &OpenDocument, name: &str) -> Vec<SlotRef> {
 /// All outputs of the nodes in the shown graph.
 pub fn results(document: &OpenDocument) -> Vec<OutputRef> {
     let all = document.graph().ids().flat_map(|id| {
-        let ports = document.face(id).into_iter().flat_map(|face| &face.outputs);
+        let ports = document
+            .interface(id)
+            .into_iter()
+            .flat_map(|interface| &interface.outputs);
         ports.map(|port| OutputRef {
             node: id.clone(),
             port: Some(port.name.clone()),
@@ -254,8 +264,8 @@ pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
 /// Exposes an output of a node as an output of the group. Returns its name.
 pub fn expose_output(document: &mut OpenDocument, from: &OutputRef) -> Option<String> {
     let port = document
-        .face(&from.node)
-        .and_then(|face| face.output(from.port.as_deref()));
+        .interface(&from.node)
+        .and_then(|interface| interface.output(from.port.as_deref()));
     let Some(stem) = port.map(|port| port.name.clone()) else {
         document.notify(format!("'{}' gives no such result", document.title(&from.node)));
         return None;
@@ -270,8 +280,11 @@ pub fn retarget_output(document: &mut OpenDocument, name: &str, from: &OutputRef
     if !outputs(document).contains_key(name) {
         return document.refuse(format!("the group has no output '{name}'"));
     }
-    let face = document.face(&from.node);
-    if face.and_then(|face| face.output(from.port.as_deref())).is_none() {
+    let interface = document.interface(&from.node);
+    if interface
+        .and_then(|interface| interface.output(from.port.as_deref()))
+        .is_none()
+    {
         let title = document.title(&from.node);
         return document.refuse(format!("'{title}' gives no such result"));
     }

@@ -32,7 +32,7 @@ const COLOR_REACH: f64 = 40.0;
 /// lists and numbers without a range stay unchanged.
 pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<String>) -> bool {
     let node = document.node(id).filter(|node| node.kind == GROUP_KIND).cloned();
-    let Some((node, face)) = node.zip(document.face(id).cloned()) else {
+    let Some((node, interface)) = node.zip(document.interface(id).cloned()) else {
         return document.refuse("only an instance of a group has random values");
     };
     let chosen = node.params.get("variant").and_then(Value::as_text);
@@ -51,7 +51,7 @@ pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<Strin
     if !kept.contains(SEED) {
         edits.push(set(SEED, Value::from(document.ids.seed())));
     }
-    for knob in &face.knobs {
+    for knob in &interface.knobs {
         if INSTANCE_KNOBS.contains(&knob.name.as_str()) || kept.contains(&knob.name) {
             continue;
         }

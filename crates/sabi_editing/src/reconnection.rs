@@ -158,17 +158,17 @@ impl<'d> SourceSearch<'d> {
     fn passed_inputs(&mut self, body: &Body, from: &OutputRef) -> Vec<String> {
         let document = self.document;
         let node = document.graph_of(body).and_then(|graph| graph.node(from.node.as_str()));
-        let Some((node, face)) = node.zip(document.faces().of(body, from.node.as_str())) else {
+        let Some((node, interface)) = node.zip(document.interfaces().of(body, from.node.as_str())) else {
             return Vec::new();
         };
         let own = node.group.as_ref().filter(|_| node.kind == GROUP_KIND);
         if let Some(group) = own.filter(|name| document.contents().groups.contains_key(*name)) {
             return self.passed_inputs_of_group(group, from.port.as_deref());
         }
-        let Some(port) = face.output(from.port.as_deref()) else {
+        let Some(port) = interface.output(from.port.as_deref()) else {
             return Vec::new();
         };
-        let fitting = face.plain_inputs().filter(|input| input.ty == port.ty);
+        let fitting = interface.plain_inputs().filter(|input| input.ty == port.ty);
         fitting.map(|input| input.name.clone()).collect()
     }
 

@@ -1,6 +1,6 @@
 //! The graph as stacks of layers: the chain of materials behind each output, top layer first.
 
-use sabi_engine::catalog::{Entry, Port};
+use sabi_engine::catalog::{Interface, Port};
 use sabi_graph::{GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
 
 use crate::open_document::OpenDocument;
@@ -72,8 +72,8 @@ impl Stack {
 pub fn all(document: &OpenDocument) -> Vec<Stack> {
     let nodes = document.graph().nodes();
     let ends = nodes.filter(|(id, _)| {
-        let face = document.face(id);
-        face.is_some_and(|face| face.category() == "output" && material_input(document, id).is_some())
+        let interface = document.interface(id);
+        interface.is_some_and(|interface| interface.category() == "output" && material_input(document, id).is_some())
     });
     let ends: Vec<StackEnd> = ends.map(|(id, _)| StackEnd::Node(id.clone())).collect();
     let (_, outputs) = instances::ports(document.contents(), document.shown());
@@ -146,7 +146,7 @@ fn output_count(document: &OpenDocument, id: &NodeId) -> usize {
 
 /// Input for the material that a node changes.
 fn material_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
-    let port = main_input(document.face(id)?)?;
+    let port = main_input(document.interface(id)?)?;
     Some(SlotRef {
         node: id.clone(),
         name: port.name.clone(),
@@ -155,9 +155,9 @@ fn material_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
 
 fn layer(document: &OpenDocument, at: &OutputRef, above: &Link, below: &Link) -> Layer {
     let id = &at.node;
-    let face = document.face(id);
+    let interface = document.interface(id);
     let node = document.node(id);
-    let opacity = face.and_then(|face| face.knob("opacity"));
+    let opacity = interface.and_then(|interface| interface.knob("opacity"));
     let opacity = opacity.and_then(|knob| {
         let set = node.and_then(|node| node.params.get("opacity"));
         set.unwrap_or(&knob.ty.default).as_number()
@@ -210,9 +210,12 @@ fn lowest_reason(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<S
 }
 
 /// Input for the material that a node with these ports changes.
-pub(crate) fn main_input(face: &Entry) -> Option<&Port> {
-    let mut inputs = face.inputs.iter().filter(|port| port.ty == Some(PortType::Material));
-    if face.id != GROUP_KIND {
+pub(crate) fn main_input(interface: &Interface) -> Option<&Port> {
+    let mut inputs = interface
+        .inputs
+        .iter()
+        .filter(|port| port.ty == Some(PortType::Material));
+    if interface.id != GROUP_KIND {
         return inputs.next();
     }
     // Inputs of a group are sorted by name, so the first one need not be the material below.

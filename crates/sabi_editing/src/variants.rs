@@ -48,7 +48,10 @@ pub fn shown_as_text(document: &OpenDocument) -> String {
 
 /// Returns a text that identifies the graph's own values of the panel.
 pub fn own_as_text(document: &OpenDocument) -> String {
-    let own = document.own_face().into_iter().flat_map(|face| &face.knobs);
+    let own = document
+        .own_interface()
+        .into_iter()
+        .flat_map(|interface| &interface.knobs);
     let own = own.filter(|knob| document.graph().exposed().contains_key(&knob.name));
     as_text(
         document,

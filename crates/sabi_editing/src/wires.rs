@@ -41,8 +41,8 @@ pub fn connect(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef) -> b
         return document.refuse(why);
     }
     let edit = connections::connecting(document, from, to);
-    let face = document.face(&to.node);
-    let started = face.and_then(|face| connections::starting(document, &edit, face));
+    let interface = document.interface(&to.node);
+    let started = interface.and_then(|interface| connections::starting(document, &edit, interface));
     let edits = std::iter::once(edit).chain(started).collect();
     document.edit(&connecting_step(document, from, to), edits)
 }
@@ -68,7 +68,7 @@ pub fn check(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<
 
 /// Lists the inputs of a node that accept a wire from an output: normal inputs, and inputs for masks that multiply parameters.
 pub fn accepting(document: &OpenDocument, from: &OutputRef, id: &NodeId) -> [Vec<SlotRef>; 2] {
-    let Some(face) = document.face(id) else {
+    let Some(interface) = document.interface(id) else {
         return [Vec::new(), Vec::new()];
     };
     let accepting = |port: &Port| {
@@ -78,8 +78,8 @@ pub fn accepting(document: &OpenDocument, from: &OutputRef, id: &NodeId) -> [Vec
         };
         check(document, from, &slot).is_ok().then_some(slot)
     };
-    let plain = face.plain_inputs().filter_map(accepting).collect();
-    [plain, face.param_masks.iter().filter_map(accepting).collect()]
+    let plain = interface.plain_inputs().filter_map(accepting).collect();
+    [plain, interface.param_masks.iter().filter_map(accepting).collect()]
 }
 
 /// Disconnects these inputs.
@@ -196,15 +196,15 @@ pub fn swap_inputs(document: &mut OpenDocument) -> bool {
     let mut edits = Vec::new();
     let mut fed = Vec::new();
     for id in document.selection() {
-        let Some((face, node)) = document.face(id).zip(document.node(id)) else {
+        let Some((interface, node)) = document.interface(id).zip(document.node(id)) else {
             continue;
         };
         let slot = |port: &Port| SlotRef {
             node: id.clone(),
             name: port.name.clone(),
         };
-        let mut pairs = face.plain_inputs().enumerate().flat_map(|(at, one)| {
-            let rest = face.plain_inputs().skip(at + 1);
+        let mut pairs = interface.plain_inputs().enumerate().flat_map(|(at, one)| {
+            let rest = interface.plain_inputs().skip(at + 1);
             rest.filter(|other| other.ty == one.ty).map(move |other| (one, other))
         });
         let feeder = |port: &Port| connections::feeder(document, document.shown(), &slot(port)).map(str::to_owned);
@@ -220,7 +220,7 @@ pub fn swap_inputs(document: &mut OpenDocument) -> bool {
             });
             if [to, from]
                 .iter()
-                .all(|port| face.knob(&port.name).is_some_and(|knob| knob.is_of_input))
+                .all(|port| interface.knob(&port.name).is_some_and(|knob| knob.is_of_input))
             {
                 edits.push(Edit::SetParam {
                     body: document.body(),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use egui::Pos2;
 use sabi_editing::command::{EditCommand, NodeSource, PaintCommand};
 use sabi_editing::knob_target::KnobTarget;
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_engine::paint::{Stroke, Version};
 use sabi_engine::view::Mode;
 use sabi_engine::{NodeDraft, SetKey};
@@ -39,11 +39,11 @@ pub(crate) enum Action {
     /// Add a node in the middle of the canvas.
     AddInMiddle(NodeSource),
     /// Draw a node that is dragged to the canvas from another panel.
-    DragNew { face: Arc<Entry>, at: Pos2 },
+    DragNew { interface: Arc<Interface>, at: Pos2 },
     /// Add a dragged node where it was dropped, if that is on the canvas.
     DropNew {
         new: NodeSource,
-        face: Arc<Entry>,
+        interface: Arc<Interface>,
         at: Pos2,
     },
     /// Put the selected group into a library.

@@ -36,7 +36,7 @@ use std::sync::Arc;
 use egui::{Align2, FontId, Pos2, Rect, Sense, Ui, pos2};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::{OpenDocument, node_paths, node_size};
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{NodeId, NodeRef, OutputRef, SlotRef};
 
 use crate::action::{Action, ArrowKey};
@@ -216,14 +216,21 @@ impl Canvas {
     }
 
     /// Draws a node that is dragged from another panel where it would be dropped, and scrolls at the edges of the canvas.
-    pub(crate) fn drag_new(&mut self, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
-        dragged_node::draw(self, ui, theme, document, face, at);
+    pub(crate) fn drag_new(
+        &mut self,
+        ui: &Ui,
+        theme: &Theme,
+        document: &OpenDocument,
+        interface: &Interface,
+        at: Pos2,
+    ) {
+        dragged_node::draw(self, ui, theme, document, interface, at);
         self.edge_scroll.scroll(&mut self.camera, ui, at);
     }
 
     /// Node at a place of the screen on whose material a node that is dropped there lies as a layer.
-    pub(crate) fn node_for_dropped(&self, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<NodeId> {
-        dragged_node::node_at(self, document, face, at)
+    pub(crate) fn node_for_dropped(&self, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<NodeId> {
+        dragged_node::node_at(self, document, interface, at)
     }
 
     /// Place for a node that is dropped at a place of the screen, and the input whose wire it is inserted into; none
@@ -231,10 +238,10 @@ impl Canvas {
     pub(crate) fn place_for_dropped(
         &self,
         document: &OpenDocument,
-        face: &Entry,
+        interface: &Interface,
         at: Pos2,
     ) -> Option<([f32; 2], Option<SlotRef>)> {
-        let wire = dragged_node::wire_at(&self.camera, document, face, at);
+        let wire = dragged_node::wire_at(&self.camera, document, interface, at);
         Some((self.camera.place_at(at)?, wire.map(|wire| wire.to)))
     }
 
@@ -294,7 +301,7 @@ impl Canvas {
 /// First output of the selected node, if exactly one node is selected.
 fn selected_output(document: &OpenDocument) -> Option<OutputRef> {
     let node = document.selected_one()?;
-    let port = document.face(node)?.outputs.first()?;
+    let port = document.interface(node)?.outputs.first()?;
     Some(OutputRef {
         node: node.clone(),
         port: Some(port.name.clone()),

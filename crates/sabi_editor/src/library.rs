@@ -8,7 +8,7 @@ use std::sync::Arc;
 use sabi_editing::OpenDocument;
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_editing::linked_groups::file_of;
-use sabi_engine::catalog::{Catalog, Faces};
+use sabi_engine::catalog::{Catalog, Interfaces};
 use sabi_engine::{OpenGraph, TrustedPaths, group_digest};
 
 use sabi_graph::LibrarySource;
@@ -126,14 +126,14 @@ fn group_of(library: LibraryKind, root: &Path, file: &Path, catalog: &Catalog) -
     let trusted = TrustedPaths::default().with_path(root);
     let open = OpenGraph::open_trusting(file, &trusted).map_err(|error| error.to_string())?;
     let mut beside = |name: &str| Some(open.open_group(name).ok()?.document);
-    let faces = Faces::new(catalog, &open.document, &mut beside);
-    let whole = faces.of_whole().ok_or_else(|| {
+    let interfaces = Interfaces::new(catalog, &open.document, &mut beside);
+    let whole = interfaces.of_whole().ok_or_else(|| {
         let why = "is in the library, and gives nothing that other graphs could use; add an output to it";
         format!("{} {why}", file.display())
     })?;
-    let mut face = whole.as_ref().clone();
-    if face.label == "Group" {
-        face.label = file_stem(file).into_owned();
+    let mut interface = whole.as_ref().clone();
+    if interface.label == "Group" {
+        interface.label = file_stem(file).into_owned();
     }
     Ok(LibraryGroup {
         library,
@@ -141,6 +141,6 @@ fn group_of(library: LibraryKind, root: &Path, file: &Path, catalog: &Catalog) -
         digest: group_digest(&open).ok(),
         file: file.to_owned(),
         graph: Arc::new(open),
-        face: Arc::new(face),
+        interface: Arc::new(interface),
     })
 }

@@ -190,7 +190,7 @@ impl Looks {
 /// mask of where it is.
 fn material_of_group(document: &OpenDocument, id: &NodeId) -> Option<String> {
     document.node(id).filter(|node| node.kind == GROUP_KIND)?;
-    material_port(&document.face(id)?.outputs)
+    material_port(&document.interface(id)?.outputs)
 }
 
 /// The first output that gives a material, as results name it: the first output of all has no name.
@@ -201,7 +201,7 @@ pub(crate) fn material_port(outputs: &[Port]) -> Option<String> {
 
 /// A node's result at an output, as the evaluation names it: the first output has no name.
 pub(crate) fn result_of(document: &OpenDocument, id: &NodeId, output: Option<String>) -> NodeRef {
-    let outputs = document.face(id).map_or(&[][..], |face| &face.outputs);
+    let outputs = document.interface(id).map_or(&[][..], |interface| &interface.outputs);
     let others = outputs.iter().skip(1).map(|port| &port.name);
     NodeRef {
         node: document.full_id(id),

@@ -7,7 +7,7 @@ use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 use sabi_editing::command::NodeSource;
 use sabi_engine::OpenGraph;
-use sabi_engine::catalog::{Catalog, Entry, Faces, label_of};
+use sabi_engine::catalog::{Catalog, Interface, Interfaces, label_of};
 
 use crate::action::LibraryKind;
 
@@ -15,7 +15,7 @@ use crate::action::LibraryKind;
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
     pub(crate) new: NodeSource,
-    pub(crate) face: Arc<Entry>,
+    pub(crate) interface: Arc<Interface>,
     /// Section of menus: a category, or the origin of a group.
     pub(crate) section: String,
     /// Key of the favorite in settings.
@@ -66,7 +66,7 @@ pub(crate) struct LibraryGroup {
     pub(crate) digest: Option<String>,
     pub(crate) file: PathBuf,
     pub(crate) graph: Arc<OpenGraph>,
-    pub(crate) face: Arc<Entry>,
+    pub(crate) interface: Arc<Interface>,
 }
 
 impl LibraryGroup {
@@ -95,7 +95,7 @@ impl LibraryGroup {
 /// Everything that can be added, by section: the node kinds, the document's own groups that are named, and those of the library.
 pub(crate) fn candidates(
     catalog: &Catalog,
-    faces: &Faces,
+    interfaces: &Interfaces,
     groups: &[String],
     library_groups: &[LibraryGroup],
 ) -> Vec<Candidate> {
@@ -103,14 +103,14 @@ pub(crate) fn candidates(
         new: NodeSource::Kind(entry.id.clone()),
         favorite: entry.id.clone(),
         section: entry.category().to_owned(),
-        face: entry.clone(),
+        interface: entry.clone(),
         variants: Vec::new(),
     });
     let own = groups.iter().filter_map(|name| {
         Some(Candidate {
             new: NodeSource::Group(name.clone()),
             favorite: format!("group {name}"),
-            face: faces.of_group(name)?.clone(),
+            interface: interfaces.of_group(name)?.clone(),
             section: "groups here".to_owned(),
             variants: Vec::new(),
         })
@@ -118,7 +118,7 @@ pub(crate) fn candidates(
     let in_library = library_groups.iter().map(|group| Candidate {
         new: NodeSource::Library(group.file.clone()),
         favorite: group.favorite(),
-        face: group.face.clone(),
+        interface: group.interface.clone(),
         variants: group.variants(),
         section: match (group.library, &group.category) {
             (LibraryKind::Sabi, Some(category)) => format!("effects: {category}"),
@@ -177,7 +177,7 @@ pub(crate) fn ranked<'c>(candidates: &'c [Candidate], query: &str) -> Vec<&'c Ca
         .collect();
     found.sort_by(|(one_has_all, one, a), (other_has_all, other, b)| {
         let by_score = (other_has_all, other).cmp(&(one_has_all, one));
-        by_score.then_with(|| a.face.label.cmp(&b.face.label))
+        by_score.then_with(|| a.interface.label.cmp(&b.interface.label))
     });
     found.into_iter().map(|(_, _, candidate)| candidate).collect()
 }
@@ -193,7 +193,7 @@ struct WordMatch {
 
 /// Best matches of all words.
 fn matched(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Candidate) -> Vec<WordMatch> {
-    let face = &candidate.face;
+    let interface = &candidate.interface;
     let of_word = |(pattern, word): &(Pattern, String)| {
         let mut best = WordMatch::default();
         let mut letters = Vec::new();
@@ -211,19 +211,19 @@ fn matched(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Ca
             best.score = best.score.max(if is_whole { found * WHOLE_WORD } else { found });
             best.is_whole |= is_whole;
         };
-        try_text(&face.label, LABEL, &mut best);
-        try_text(&face.id, ID, &mut best);
-        for alias in &face.aliases {
+        try_text(&interface.label, LABEL, &mut best);
+        try_text(&interface.id, ID, &mut best);
+        for alias in &interface.aliases {
             try_text(alias, ALIAS, &mut best);
         }
         for variant in &candidate.variants {
             try_text(variant, VARIANT, &mut best);
         }
         let says = |text: &str| text.to_lowercase().contains(word.as_str());
-        if says(&face.summary) {
+        if says(&interface.summary) {
             best.score = best.score.max(SUMMARY * SUMMARY_SCORE);
-            best.is_whole |= has_word(&face.summary);
-        } else if best.score == 0 && says(&face.description) {
+            best.is_whole |= has_word(&interface.summary);
+        } else if best.score == 0 && says(&interface.description) {
             best.score = DESCRIPTION * SUMMARY_SCORE;
         }
         best
@@ -244,15 +244,15 @@ mod tests {
         let folder = effect_library(Path::new("")).expect("the library of the project");
         let mut library = Library::default();
         let groups = library.groups(vec![(LibraryKind::Sabi, folder)], &catalog);
-        candidates(&catalog, &Faces::default(), &[], groups)
+        candidates(&catalog, &Interfaces::default(), &[], groups)
     }
 
     fn found(query: &str) -> Vec<String> {
         let catalog = Catalog::new(&Kinds::builtin());
-        let candidates = candidates(&catalog, &Faces::default(), &[], &[]);
+        let candidates = candidates(&catalog, &Interfaces::default(), &[], &[]);
         ranked(&candidates, query)
             .iter()
-            .map(|candidate| candidate.face.id.clone())
+            .map(|candidate| candidate.interface.id.clone())
             .collect()
     }
 
@@ -334,7 +334,7 @@ mod tests {
             let first: Vec<&str> = ranked(&all, query)
                 .iter()
                 .take(6)
-                .map(|found| found.face.label.as_str())
+                .map(|found| found.interface.label.as_str())
                 .collect();
             for name in names {
                 assert!(first.contains(name), "{query}: {name} is not in {first:?}");
@@ -350,13 +350,18 @@ mod tests {
             digest: None,
             file: Path::new(folder).join("weathering/rust.sabi"),
             graph: Arc::new(OpenGraph::empty(PathBuf::from("none.sabi"))),
-            face: Catalog::new(&Kinds::builtin())
+            interface: Catalog::new(&Kinds::builtin())
                 .entry("noise/cells")
                 .expect("a kind")
                 .clone(),
         };
         let of = |folder: &str, library| {
-            let found = candidates(&Catalog::default(), &Faces::default(), &[], &[group(folder, library)]);
+            let found = candidates(
+                &Catalog::default(),
+                &Interfaces::default(),
+                &[],
+                &[group(folder, library)],
+            );
             found.into_iter().next().expect("the group")
         };
         let rust = of("/data/effects/0123456789abcdef", LibraryKind::Sabi);

@@ -3,7 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod description;
 pub(crate) mod diagnosis;
-mod faces;
+mod interfaces;
 mod knob;
 pub(crate) mod node_file;
 mod picture;
@@ -17,7 +17,7 @@ use sabi_graph::{GROUP_KIND, PortType, REROUTE_KIND, Value};
 use sabi_nodes::kind::{Input, InputDefault, Kind, Output, Param, Role, Shape};
 use sabi_plan::{SourceKind, SourcePort};
 
-pub use faces::{Faces, ReadGroup};
+pub use interfaces::{Interfaces, ReadGroup};
 pub use knob::Knob;
 pub(crate) use picture::first_square;
 pub use picture::{has_picture, picture_of, small_picture};
@@ -29,7 +29,7 @@ use crate::opening::kinds::Kinds;
 
 /// A kind of node, or one group instance, as an artist sees it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct Interface {
     /// Identifier as in graph files, `category/name`.
     pub id: String,
     /// Version of the algorithm.
@@ -86,7 +86,7 @@ impl Port {
     }
 }
 
-impl Entry {
+impl Interface {
     /// Returns the part of the id before the slash, by which menus group nodes.
     pub fn category(&self) -> &str {
         self.id
@@ -141,7 +141,7 @@ impl Entry {
 /// All node kinds by id.
 #[derive(Clone, Debug, Default)]
 pub struct Catalog {
-    entries: BTreeMap<String, Arc<Entry>>,
+    entries: BTreeMap<String, Arc<Interface>>,
 }
 
 impl Catalog {
@@ -149,30 +149,30 @@ impl Catalog {
     pub fn new(kinds: &Kinds) -> Catalog {
         let of_files = kinds.library.kinds().map(entry_of_kind);
         let of_rust = kinds.sources.values().chain(kinds.sinks.values()).map(entry_of_source);
-        let all = of_files.chain(of_rust).chain([reroute(), faces::any_group()]);
+        let all = of_files.chain(of_rust).chain([reroute(), interfaces::any_group()]);
         Catalog {
             entries: all.map(|entry| (entry.id.clone(), Arc::new(entry))).collect(),
         }
     }
 
     /// Lists the kinds that can be added to a graph by their id, sorted by id; groups are added by name instead.
-    pub fn entries(&self) -> impl Iterator<Item = &Arc<Entry>> {
+    pub fn entries(&self) -> impl Iterator<Item = &Arc<Interface>> {
         self.entries.values().filter(|entry| entry.id != GROUP_KIND)
     }
 
     /// Lists all kinds sorted by id, groups included.
-    pub(crate) fn all(&self) -> impl Iterator<Item = &Entry> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Interface> {
         self.entries.values().map(Arc::as_ref)
     }
 
     /// Returns the kind with an id, which may have a version.
-    pub fn entry(&self, kind: &str) -> Option<&Arc<Entry>> {
+    pub fn entry(&self, kind: &str) -> Option<&Arc<Interface>> {
         let plain = kind.split_once('@').map_or(kind, |(plain, _)| plain);
         self.entries.get(plain)
     }
 }
 
-fn entry_of_kind(kind: &Kind) -> Entry {
+fn entry_of_kind(kind: &Kind) -> Interface {
     let shown = kind
         .params
         .iter()
@@ -187,7 +187,7 @@ fn entry_of_kind(kind: &Kind) -> Entry {
         unconnected: unconnected(input),
         starts: input.starts.clone(),
     });
-    Entry {
+    Interface {
         id: kind.id.clone(),
         version: kind.version,
         label: kind.label.clone(),
@@ -242,7 +242,7 @@ fn port_of_output(output: &Output) -> Port {
     }
 }
 
-fn entry_of_source(kind: &SourceKind) -> Entry {
+fn entry_of_source(kind: &SourceKind) -> Interface {
     let port = |port: &SourcePort, is_required: bool| Port {
         name: port.name.clone(),
         label: label_of(&port.name),
@@ -252,7 +252,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
         unconnected: port.unconnected.as_deref().map(Value::from),
         starts: None,
     };
-    Entry {
+    Interface {
         id: kind.id.clone(),
         version: 1,
         label: kind.label.clone(),
@@ -273,7 +273,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
 }
 
 /// Returns the entry of reroutes.
-fn reroute() -> Entry {
+fn reroute() -> Interface {
     let port = |doc: &str| Port {
         name: "source".to_owned(),
         label: "Source".to_owned(),
@@ -283,7 +283,7 @@ fn reroute() -> Entry {
         unconnected: None,
         starts: None,
     };
-    Entry {
+    Interface {
         id: REROUTE_KIND.to_owned(),
         version: 1,
         label: "Reroute".to_owned(),
@@ -302,9 +302,9 @@ fn reroute() -> Entry {
 }
 
 /// Returns an entry for a node of an unknown kind, which is kept and shown and has no outputs.
-pub(crate) fn placeholder(kind: &str) -> Entry {
+pub(crate) fn placeholder(kind: &str) -> Interface {
     let is_group = kind == GROUP_KIND;
-    Entry {
+    Interface {
         id: kind.to_owned(),
         version: 1,
         label: if is_group { "Group".to_owned() } else { kind.to_owned() },

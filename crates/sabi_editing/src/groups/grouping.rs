@@ -19,8 +19,8 @@ pub fn make(document: &mut OpenDocument) -> bool {
     if ids.is_empty() {
         return document.refuse("select the nodes that a group should hold");
     }
-    let mut faces = ids.iter().filter_map(|id| document.face(id));
-    if faces.any(|face| face.category() == "output") {
+    let mut interfaces = ids.iter().filter_map(|id| document.interface(id));
+    if interfaces.any(|interface| interface.category() == "output") {
         return document.refuse("an output cannot be inside a group; leave it outside and group what leads to it");
     }
     if let Some(between) = first_between(document, &ids) {
@@ -231,8 +231,8 @@ impl Boundary {
         let known = self.output_names.get(&plain).cloned();
         let name = known.unwrap_or_else(|| {
             let port = document
-                .face(&from.node)
-                .and_then(|face| face.output(from.port.as_deref()));
+                .interface(&from.node)
+                .and_then(|interface| interface.output(from.port.as_deref()));
             let stem = port.map_or("result", |port| port.name.as_str());
             free_name(stem, '_', |name| self.outputs.contains_key(name))
         });

@@ -136,10 +136,10 @@ fn scale_lengths(
     }
     let body = Body::Group(name.to_owned());
     for (old, new) in &dissolved.new_id {
-        let Some(((_, node), face)) = nodes
+        let Some(((_, node), interface)) = nodes
             .iter_mut()
             .find(|(id, _)| id == new)
-            .zip(document.faces().of(&body, old.as_str()))
+            .zip(document.interfaces().of(&body, old.as_str()))
         else {
             continue;
         };
@@ -148,7 +148,7 @@ fn scale_lengths(
             node.params.insert("scale".to_owned(), Value::Number(own * scale));
             continue;
         }
-        for knob in face.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Length) {
+        for knob in interface.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Length) {
             let value = node.params.get(&knob.name).unwrap_or(&knob.ty.default);
             let value = scaled(value, scale);
             node.params.insert(knob.name.clone(), value);

@@ -26,7 +26,7 @@ impl OpenDocument {
     /// Sets the node kinds of the document's folders for the first time since the document was opened.
     pub fn first_kinds(&mut self, kinds: Kinds) {
         self.replace_kinds(kinds);
-        self.opened = self.faces().clone();
+        self.opened = self.interfaces().clone();
     }
 
     /// Replaces the node kinds after their files changed.

@@ -66,7 +66,7 @@ fn distributed_nodes_have_equal_spaces_and_the_ends_stay() {
 fn slant(document: &OpenDocument, input: &str) -> f32 {
     let input = to(input);
     let wire = connections::wire_into(document, &input).expect("a wire");
-    let [reader, source] = [&input.node, &wire.node].map(|id| document.face(id).expect("a face"));
+    let [reader, source] = [&input.node, &wire.node].map(|id| document.interface(id).expect("an interface"));
     let row = reader
         .inputs
         .iter()

@@ -166,8 +166,8 @@ fn all_readers_of_a_node_read_the_layer_that_is_dropped_on_it() {
     let top = on(&mut document, "out");
     assert_eq!(wire(&document, "out.material"), top);
     assert_eq!(wire(&document, &format!("{top}.base")), "dents");
-    let face = document.catalog().entry("effect/layer").cloned().expect("a kind");
-    let takes = ["paint", "out", "n"].map(|node| can_lie_on(&document, &face, &id(node)));
+    let interface = document.catalog().entry("effect/layer").cloned().expect("a kind");
+    let takes = ["paint", "out", "n"].map(|node| can_lie_on(&document, &interface, &id(node)));
     assert_eq!(takes, [true, true, false]);
     let plain = document.catalog().entry("source/material").cloned().expect("a kind");
     assert!(!can_lie_on(&document, &plain, &id("paint")), "it would hide the node");

@@ -60,8 +60,8 @@ fn a_renamed_input_is_renamed_in_all_instances_and_enclosing_groups() {
     assert_eq!(wire(&document, "g.place"), "w");
     assert_eq!(
         document
-            .face(&id("g"))
-            .map(|face| face.inputs[0].label.clone())
+            .interface(&id("g"))
+            .map(|interface| interface.inputs[0].label.clone())
             .as_deref(),
         Some("The place")
     );

@@ -86,7 +86,8 @@ fn a_reroute_is_aligned_by_its_own_size() {
     );
     document.select([bend.clone(), id("levels")]);
     arrangement::straighten(&mut document);
-    let level = pos(&document, "levels")[1] + ShownRows::all(document.face(&id("levels")).expect("a face")).input(0);
+    let level =
+        pos(&document, "levels")[1] + ShownRows::all(document.interface(&id("levels")).expect("an interface")).input(0);
     assert!((pos(&document, bend.as_str())[1] + height / 2.0 - level).abs() < 1e-3);
     step(&mut document, |document| arrangement::align(document, Align::Right));
     let right = |id: &NodeId| pos(&document, id.as_str())[0] + node_size::of(&document, id)[0];

@@ -227,18 +227,18 @@ fn a_node_of_the_main_graph_is_muted_only_once_and_undo_unmutes_it() {
 #[test]
 fn a_node_that_would_cover_another_is_placed_beside_it() {
     let document = opened("", r#""n": { "kind": "noise/cells", "pos": [0, 0] }"#);
-    let face = document.face(&id("n")).cloned().expect("a node");
-    let size = node_size::size_of(&face);
+    let interface = document.interface(&id("n")).cloned().expect("a node");
+    let size = node_size::size_of(&interface);
     let free = [0.0, size[1]];
-    assert_eq!(nodes::uncovered(&document, &face, free), free);
+    assert_eq!(nodes::uncovered(&document, &interface, free), free);
     // At the edge of another node it moves only by the overlap plus the space between nodes.
-    let [x, y] = nodes::uncovered(&document, &face, [0.0, size[1] - 10.0]);
+    let [x, y] = nodes::uncovered(&document, &interface, [0.0, size[1] - 10.0]);
     assert!(x == 0.0 && (size[1]..size[1] + 30.0).contains(&y), "{x} {y}");
     for place in [[0.0, 0.0], [30.0, -20.0], [90.0, 100.0]] {
-        let [x, y] = nodes::uncovered(&document, &face, place);
+        let [x, y] = nodes::uncovered(&document, &interface, place);
         assert!(x.abs() >= size[0] || y.abs() >= size[1], "{place:?}: {x} {y}");
     }
     // It is placed on the right, in reading direction, although the left is nearer by an amount that nobody can see.
-    let [x, y] = nodes::uncovered(&document, &face, [-0.4, 0.0]);
+    let [x, y] = nodes::uncovered(&document, &interface, [-0.4, 0.0]);
     assert!(x >= size[0] && y == 0.0, "{x} {y}");
 }

@@ -10,8 +10,8 @@ const NODES: &str = r#"
 
 /// Names of the inputs that a node has now.
 fn inputs(document: &OpenDocument, node: &str) -> Vec<String> {
-    let face = document.face(&id(node)).expect("a node");
-    face.inputs.iter().map(|port| port.name.clone()).collect()
+    let interface = document.interface(&id(node)).expect("a node");
+    interface.inputs.iter().map(|port| port.name.clone()).collect()
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod actions;
 mod dice;
 mod kills;
 
-use sabi_engine::catalog::Faces;
+use sabi_engine::catalog::Interfaces;
 use sabi_graph::UNDO_STEPS;
 
 use super::*;
@@ -23,7 +23,7 @@ impl Hands {
         let read = Document::from_json(&text);
         assert_eq!(read.as_ref(), Ok(self.document.contents()));
         for node in self.ids() {
-            assert!(self.document.face(&node).is_some());
+            assert!(self.document.interface(&node).is_some());
         }
         assert!(
             self.document
@@ -34,9 +34,9 @@ impl Hands {
         let base = self.document.session.graph().base();
         let mut read = |name: &str| self.document.read_group_file(&base, name);
         let (catalog, contents) = (kinds().1, Document::from_json(&text).expect("a document"));
-        let listed = Faces::new(&catalog, &contents, &mut read);
+        let listed = Interfaces::new(&catalog, &contents, &mut read);
         assert_eq!(
-            self.document.faces(),
+            self.document.interfaces(),
             &listed,
             "what is followed edit by edit is what would be listed anew"
         );

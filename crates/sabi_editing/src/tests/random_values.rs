@@ -97,10 +97,10 @@ fn random_values_of_all_effects_stay_in_range_and_away_from_the_ends_of_scales()
     for file in all_files() {
         let mut document = document_with(Session::new(None), 7);
         let node = library::add(&mut document, &file, [0.0; 2], None).expect("an instance");
-        let face = document.face(&node).cloned().expect("ports and knobs");
+        let interface = document.interface(&node).cloned().expect("ports and knobs");
         for _ in 0..8 {
             assert!(randomize(&mut document, &node, &BTreeSet::new()), "{}", file.display());
-            for knob in &face.knobs {
+            for knob in &interface.knobs {
                 let set = document
                     .node(&node)
                     .and_then(|node| node.params.get(&knob.name)?.as_number());

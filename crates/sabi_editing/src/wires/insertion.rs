@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{Edit, NodeId, SlotRef};
 
 use crate::connections::PendingWire;
@@ -34,10 +34,10 @@ pub fn can_insert(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> bool {
 }
 
 /// Returns whether a node that does not exist yet could be inserted into the wire that leads to an input.
-pub fn can_insert_new(document: &OpenDocument, face: &Entry, to: &SlotRef) -> bool {
+pub fn can_insert_new(document: &OpenDocument, interface: &Interface, to: &SlotRef) -> bool {
     let from = connections::wire_into(document, to);
-    let reads = from.is_some_and(|from| face.input_for(connections::carried(document, from)).is_some());
-    reads && connections::input(document, to).is_some_and(|input| face.output_for(input).is_some())
+    let reads = from.is_some_and(|from| interface.input_for(connections::carried(document, from)).is_some());
+    reads && connections::input(document, to).is_some_and(|input| interface.output_for(input).is_some())
 }
 
 fn inserting(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Option<Vec<Edit>> {
@@ -46,9 +46,9 @@ fn inserting(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Option<Vec<E
     if from.node == *id || is_read || connections::depends_on(document, id, &to.node) {
         return None;
     }
-    let face = document.face(id)?.clone();
-    let into = connections::connecting_pending(document, &PendingWire::From(from), id, &face)?;
-    let out = connections::connecting_pending(document, &PendingWire::Into(to.clone()), id, &face)?;
+    let interface = document.interface(id)?.clone();
+    let into = connections::connecting_pending(document, &PendingWire::From(from), id, &interface)?;
+    let out = connections::connecting_pending(document, &PendingWire::Into(to.clone()), id, &interface)?;
     Some(vec![into, out])
 }
 

@@ -247,15 +247,15 @@ impl Documents {
             self.candidates.own = own_groups(&self.document, library_groups);
         }
         let now = (
-            self.document.faces_number(),
+            self.document.interfaces_number(),
             self.document.kinds().1,
             self.candidates.own.clone(),
         );
         if self.candidates.of.as_ref() == Some(&now) && !has_changed {
             return;
         }
-        let (catalog, faces) = (self.document.catalog(), self.document.faces());
-        self.candidates.all = candidates(catalog, faces, &now.2, library_groups);
+        let (catalog, interfaces) = (self.document.catalog(), self.document.interfaces());
+        self.candidates.all = candidates(catalog, interfaces, &now.2, library_groups);
         self.candidates.of = Some(now);
     }
 

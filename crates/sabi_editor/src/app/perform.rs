@@ -57,8 +57,8 @@ impl Editor {
                 let place = self.views.canvas.camera.center();
                 self.add_uncovering(new, place, ui);
             }
-            Action::DragNew { face, at } => self.drag_new(&face, at, ui),
-            Action::DropNew { new, face, at } => self.drop_new(new, &face, at, ui),
+            Action::DragNew { interface, at } => self.drag_new(&interface, at, ui),
+            Action::DropNew { new, interface, at } => self.drop_new(new, &interface, at, ui),
             Action::AddToLibrary(library) => self.save_to_library(library),
             Action::SaveNode(node) => self.save_node(&node),
             Action::Replace { node, by } => self.replace(node, by),
@@ -203,10 +203,10 @@ impl Editor {
     /// Asks for the file of a node that reads one, such as a new Image, while none is chosen.
     fn ask_for_file_of(&mut self, id: &NodeId) {
         let document = &self.documents.document;
-        let Some((face, node)) = document.face(id).zip(document.node(id)) else {
+        let Some((interface, node)) = document.interface(id).zip(document.node(id)) else {
             return;
         };
-        let mut files = face.knobs.iter().filter(|knob| knob.ty.role == KnobRole::File);
+        let mut files = interface.knobs.iter().filter(|knob| knob.ty.role == KnobRole::File);
         if let Some(knob) = files.find(|knob| !node.params.contains_key(&knob.name)) {
             self.browse(KnobTarget::of_node(id, knob.name.clone()));
         }
@@ -215,10 +215,12 @@ impl Editor {
     /// Adds a node by a key or a click, where it covers no other.
     pub(in crate::app) fn add_uncovering(&mut self, source: NodeSource, place: [f32; 2], ui: &Ui) {
         let mut candidates = self.documents.candidates().iter();
-        let face = candidates
+        let interface = candidates
             .find(|known| known.new == source)
-            .map(|known| known.face.clone());
-        let place = face.map_or(place, |face| nodes::uncovered(&self.documents.document, &face, place));
+            .map(|known| known.interface.clone());
+        let place = interface.map_or(place, |interface| {
+            nodes::uncovered(&self.documents.document, &interface, place)
+        });
         self.add(source, place, None, ui);
     }
 

@@ -175,7 +175,7 @@ fn beside_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
     }
 }
 
-/// Entry of a model that can be shown beside the main one.
+/// Interface of a model that can be shown beside the main one.
 fn beside_entry(ui: &mut Ui, context: &ViewContext<'_>, model: &Path, actions: &mut Vec<Action>) {
     let is_beside = context.row.contains(model);
     let mut wanted = is_beside;

@@ -209,8 +209,8 @@ impl AddMenu {
 
     fn row(&mut self, ui: &mut Ui, theme: &Theme, candidate: &Candidate, at: usize) -> bool {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
-        let face = &candidate.face;
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &face.label));
+        let interface = &candidate.interface;
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &interface.label));
         let is_chosen = at == self.chosen;
         if is_chosen && ui.input(|input| input.key_pressed(Key::ArrowDown) || input.key_pressed(Key::ArrowUp)) {
             response.scroll_to_me(None);
@@ -226,9 +226,9 @@ impl AddMenu {
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         painter.rect_filled(rect, space::CORNER, fill);
         let mark = egui::Rect::from_min_size(rect.min + vec2(4.0, 6.0), vec2(4.0, ROW - 12.0));
-        painter.rect_filled(mark, 2.0, theme.category(face.category()));
+        painter.rect_filled(mark, 2.0, theme.category(interface.category()));
         // The dots of the outputs are beside the name.
-        let dots = 10.0 * face.outputs.len().min(4) as f32;
+        let dots = 10.0 * interface.outputs.len().min(4) as f32;
         let text = |at: egui::Pos2, text: &str, size: f32, color: Color32| {
             let right = if size == type_size::BODY {
                 dots + space::USUAL
@@ -238,33 +238,38 @@ impl AddMenu {
             let width = rect.right() - at.x - right;
             painter.galley(at, elided(ui, text, FontId::proportional(size), width, color), color);
         };
-        text(rect.min + vec2(16.0, 2.0), &face.label, type_size::BODY, theme.text);
+        text(
+            rect.min + vec2(16.0, 2.0),
+            &interface.label,
+            type_size::BODY,
+            theme.text,
+        );
         text(
             rect.min + vec2(16.0, 18.0),
-            &face.summary,
+            &interface.summary,
             type_size::SMALL,
             theme.quiet,
         );
-        let outputs = face.outputs.iter().enumerate();
+        let outputs = interface.outputs.iter().enumerate();
         for (at, port) in outputs.take(4) {
             let center = rect.right_top() + vec2(-10.0 - 10.0 * at as f32, 10.0);
             painter.circle_filled(center, 3.5, theme.port(port.ty));
         }
-        response.on_hover_text(&face.summary).clicked()
+        response.on_hover_text(&interface.summary).clicked()
     }
 
     fn fits(&self, document: &OpenDocument, candidate: &Candidate) -> bool {
-        let face = &candidate.face;
+        let interface = &candidate.interface;
         if let Some(into) = &self.purpose.into {
-            return wires::can_insert_new(document, face, into);
+            return wires::can_insert_new(document, interface, into);
         }
         match &self.purpose.pending {
             None => true,
-            Some(PendingWire::From(from)) => face
-                .input_for(document.faces().carried(&document.body(), from))
+            Some(PendingWire::From(from)) => interface
+                .input_for(document.interfaces().carried(&document.body(), from))
                 .is_some(),
             Some(PendingWire::Into(to)) => {
-                connections::input(document, to).is_some_and(|input| face.output_for(input).is_some())
+                connections::input(document, to).is_some_and(|input| interface.output_for(input).is_some())
             }
         }
     }
@@ -280,7 +285,7 @@ impl AddMenu {
                 source: new,
                 place: match is_dropped {
                     true => purpose.place,
-                    false => nodes::uncovered(document, &chosen.face, purpose.place),
+                    false => nodes::uncovered(document, &chosen.interface, purpose.place),
                 },
                 pending: purpose.pending,
                 into: purpose.into,

@@ -86,7 +86,9 @@ pub(super) fn knob_row(ui: &mut Ui, row_context: &mut RowContext, shown: &NodeSu
     let zoom = row_context.zoom;
     // Allocated first, since ports are placed by rows, whose height must not depend on their contents.
     let (rect, _) = ui.allocate_exact_size(vec2(INNER, ROW_HEIGHT) * zoom, Sense::hover());
-    let Some(knob) = shown.face.knobs.get(at) else { return };
+    let Some(knob) = shown.interface.knobs.get(at) else {
+        return;
+    };
     let theme = row_context.theme.clone();
     let row = KnobRow {
         knob,
@@ -94,7 +96,7 @@ pub(super) fn knob_row(ui: &mut Ui, row_context: &mut RowContext, shown: &NodeSu
         wired: None,
         mask: match shown.masks.get(&knob.name) {
             Some(mask) => ParamMask::Of(mask),
-            None if shown.face.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
+            None if shown.interface.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
             None => ParamMask::NotTaken,
         },
         exposed: shown.exposed.get(&knob.name).map(String::as_str),
@@ -162,7 +164,7 @@ pub(super) fn backdrop(theme: &Theme, shown: &NodeSummary, rect: Rect, zoom: f32
         sw: 0,
         se: 0,
     };
-    let category = theme.category(shown.face.category());
+    let category = theme.category(shown.interface.category());
     let fill = if shown.is_muted { theme.panel } else { theme.raised };
     let outline = match (is_selected, &shown.state.fault) {
         (true, _) => Stroke::new(2.0, theme.accent),

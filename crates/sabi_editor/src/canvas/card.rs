@@ -35,7 +35,7 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContex
         let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + letters * 1.5));
         let corner = CornerRadius::same(space::CORNER);
         ui.painter()
-            .rect_filled(strip, corner, theme.category(shown.face.category()));
+            .rect_filled(strip, corner, theme.category(shown.interface.category()));
         let font = FontId::proportional(letters.round());
         let name = body::elided(ui, &shown.title, font, strip.width() - 8.0 * zoom, theme.text);
         let at = Align2::LEFT_CENTER.anchor_size(strip.left_center() + egui::vec2(5.0 * zoom, 0.0), name.size());

@@ -3,7 +3,7 @@
 use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
 use sabi_editing::node_size::{NODE_WIDTH, PICTURE_SIDE, TITLE_HEIGHT};
 use sabi_editing::{OpenDocument, dropped_layers};
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 
 use sabi_graph::NodeId;
 
@@ -43,19 +43,19 @@ impl EdgeScroll {
 }
 
 /// Draws the dragged node, and the node that it would be a layer on or the wire that it would be inserted into.
-pub(super) fn draw(canvas: &Canvas, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
+pub(super) fn draw(canvas: &Canvas, ui: &Ui, theme: &Theme, document: &OpenDocument, interface: &Interface, at: Pos2) {
     let camera = &canvas.camera;
     let zoom = camera.place_at(at).map_or(ZOOM_OUTSIDE, |_| camera.view.zoom);
     let painter = ui
         .ctx()
         .layer_painter(LayerId::new(Order::Tooltip, Id::new("node that is dragged")));
-    let under = node_at(canvas, document, face, at).and_then(|id| node_rect(document, &id));
+    let under = node_at(canvas, document, interface, at).and_then(|id| node_rect(document, &id));
     if let Some((under, panel)) = under.zip(camera.panel) {
         let under = camera.view.screen_rect(panel, under);
         let line = Stroke::new(2.5, theme.accent);
         let painter = painter.with_clip_rect(panel);
         painter.rect_stroke(under, CornerRadius::same(space::CORNER), line, StrokeKind::Outside);
-    } else if let Some((wire, panel)) = wire_at(camera, document, face, at).zip(camera.panel) {
+    } else if let Some((wire, panel)) = wire_at(camera, document, interface, at).zip(camera.panel) {
         let painter = painter.with_clip_rect(panel);
         wires::draw(&painter, theme, &wire, zoom, wires::WireLook::Highlighted);
     }
@@ -69,18 +69,18 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, theme: &Theme, document: &OpenDocum
     let title = rect.with_max_y(rect.top() + TITLE_HEIGHT * zoom);
     let corner = CornerRadius::same(space::CORNER);
     painter.rect_filled(rect, corner, theme.raised.gamma_multiply(0.7));
-    painter.rect_filled(title, corner, theme.category(face.category()).gamma_multiply(0.9));
+    painter.rect_filled(title, corner, theme.category(interface.category()).gamma_multiply(0.9));
     let line = Stroke::new(1.5, theme.accent);
     painter.rect_stroke(rect, corner, line, StrokeKind::Outside);
     let font = FontId::proportional((type_size::BODY * zoom).max(type_size::SMALL));
-    let name = body::elided(ui, &face.label, font, title.width() - 12.0 * zoom, theme.text);
+    let name = body::elided(ui, &interface.label, font, title.width() - 12.0 * zoom, theme.text);
     let place = Align2::LEFT_CENTER.align_size_within_rect(name.size(), title.shrink2(vec2(8.0 * zoom, 0.0)));
     painter.galley(place.min, name, theme.text);
     ui.set_cursor_icon(egui::CursorIcon::Grabbing);
 }
 
 /// Node at a place of the screen on whose material a new node lies as a layer; of several the one that is drawn above the others.
-pub(super) fn node_at(canvas: &Canvas, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<NodeId> {
+pub(super) fn node_at(canvas: &Canvas, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<NodeId> {
     let panel = canvas.camera.panel.filter(|panel| panel.contains(at))?;
     let is_at = |id: &NodeId| {
         let rect = node_rect(document, id).map(|rect| canvas.camera.view.screen_rect(panel, rect));
@@ -89,13 +89,13 @@ pub(super) fn node_at(canvas: &Canvas, document: &OpenDocument, face: &Entry, at
     let order = |id: &NodeId| canvas.draw_order.iter().position(|known| known == id);
     let nodes = document.graph().ids().filter(|id| is_at(id));
     let above = nodes.max_by_key(|id| order(id))?;
-    dropped_layers::can_lie_on(document, face, above).then(|| above.clone())
+    dropped_layers::can_lie_on(document, interface, above).then(|| above.clone())
 }
 
 /// Wire at a place of the screen that a new node can be inserted into.
-pub(super) fn wire_at(camera: &Camera, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<Wire> {
+pub(super) fn wire_at(camera: &Camera, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<Wire> {
     let panel = camera.panel.filter(|panel| panel.contains(at))?;
     let wires = wires::visible(document, &camera.view, panel);
     let wire = wires::within(&wires, at, CATCH)?;
-    sabi_editing::wires::can_insert_new(document, face, &wire.to).then(|| wire.clone())
+    sabi_editing::wires::can_insert_new(document, interface, &wire.to).then(|| wire.clone())
 }

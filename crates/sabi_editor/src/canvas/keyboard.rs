@@ -103,7 +103,7 @@ fn port_beside(document: &OpenDocument, port: &PortRef, key: ArrowKey) -> Option
     match (port, key) {
         (PortRef::Input(slot), ArrowKey::Left) => {
             let from = connections::wire_into(document, slot)?;
-            let port = document.face(&from.node)?.output(from.port.as_deref())?;
+            let port = document.interface(&from.node)?.output(from.port.as_deref())?;
             Some(PortRef::Output(OutputRef {
                 node: from.node.clone(),
                 port: Some(port.name.clone()),

@@ -13,7 +13,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
         .graph()
         .ids()
         .filter_map(|id| {
-            let category = document.face(id).map_or("", |face| face.category());
+            let category = document.interface(id).map_or("", |interface| interface.category());
             let color = if document.is_selected(id) {
                 context.theme.accent
             } else {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use egui::TextureId;
 use sabi_editing::node_size::ShownRows;
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{NodeId, Value};
 
 use crate::knobs::KnobEvent;
@@ -28,7 +28,7 @@ pub(super) struct NodeState {
 /// Data from which a node is drawn.
 pub(super) struct NodeSummary {
     pub(super) id: NodeId,
-    pub(super) face: Arc<Entry>,
+    pub(super) interface: Arc<Interface>,
     /// Rows that it shows.
     pub(super) rows: ShownRows,
     pub(super) title: String,

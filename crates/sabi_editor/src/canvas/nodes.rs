@@ -9,7 +9,7 @@ use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
 use sabi_editing::OpenDocument;
 use sabi_editing::command::{FrameCommand, NavigationCommand, SelectionCommand};
 use sabi_editing::node_size::{TITLE_HEIGHT, is_reroute};
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{NodeId, PortType};
 
 use super::gesture::{Gesture, begin_move};
@@ -46,7 +46,7 @@ pub(super) fn show(
         shown.state = (context.state_of)(id);
         shown.is_previewed = context.previewed == Some(id);
         shown.is_pinned = context.pinned == Some(id);
-        let is_reroute = is_reroute(&shown.face);
+        let is_reroute = is_reroute(&shown.interface);
         let mut has_knob_menu = false;
         let response = if is_reroute {
             reroute::show(canvas, ui, panel, context, key)
@@ -263,8 +263,9 @@ fn context_menu(
 
 /// Offers the channels of a node's material, each to be shown on the model alone.
 fn channel_menu(ui: &mut Ui, id: &NodeId, document: &OpenDocument, actions: &mut Vec<Action>) {
-    let gives_material = |face: &Arc<Entry>| face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
-    if !document.face(id).is_some_and(gives_material) {
+    let gives_material =
+        |interface: &Arc<Interface>| interface.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+    if !document.interface(id).is_some_and(gives_material) {
         return;
     }
     ui.menu_button("Show a channel on the model", |ui| {
@@ -355,12 +356,12 @@ mod tests {
 
     /// Checks that ports and size are where they are said to be.
     fn check(document: &OpenDocument, id: &NodeId, zoom: f32, how: NodeRows) {
-        let face = document.face(id).expect("a node");
+        let interface = document.interface(id).expect("a node");
         let rows = rows_of(document, id).expect("a node");
         let (ports, rect) = drawn(document, id, zoom);
-        let inputs = (0..face.inputs.len()).filter(|row| rows.shows_input(*row));
+        let inputs = (0..interface.inputs.len()).filter(|row| rows.shows_input(*row));
         let inputs = inputs.map(|row| (true, pos2(0.0, rows.input(row))));
-        let outputs = (0..face.outputs.len()).filter(|row| rows.shows_output(*row));
+        let outputs = (0..interface.outputs.len()).filter(|row| rows.shows_output(*row));
         let outputs = outputs.map(|row| (false, pos2(NODE_WIDTH, rows.output(row))));
         for (is_input, place) in inputs.chain(outputs) {
             let expected = (place.to_vec2() * zoom).to_pos2();
@@ -370,14 +371,14 @@ mod tests {
             assert!(
                 is_there,
                 "{} at {zoom} with {how:?} rows: {expected:?} in {ports:?}",
-                face.id
+                interface.id
             );
         }
         let size = vec2(NODE_WIDTH, rows.size()[1]) * zoom;
         assert!(
             (rect.size() - size).length() < 1.5,
             "{} at {zoom} with {how:?} rows: {rect:?}, and we say {size:?}",
-            face.id
+            interface.id
         );
     }
 

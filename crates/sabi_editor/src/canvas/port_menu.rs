@@ -80,7 +80,7 @@ pub(super) fn show(
 fn named_outputs(document: &OpenDocument, slot: &SlotRef) -> Vec<OutputRef> {
     let named = document.graph().ids().filter(|id| is_named(document, id));
     let outputs = named.flat_map(|id| {
-        let ports = document.face(id).map_or(&[][..], |face| &face.outputs);
+        let ports = document.interface(id).map_or(&[][..], |interface| &interface.outputs);
         ports.iter().map(|port| OutputRef {
             node: id.clone(),
             port: Some(port.name.clone()),

@@ -43,7 +43,7 @@ pub(super) fn choices(
     let knob = rows_of(document, node)?
         .knob_at(down)
         .filter(|_| canvas.camera.view.zoom >= CARD_ZOOM)
-        .and_then(|at| own_knobs(document.face(node)?).nth(at));
+        .and_then(|at| own_knobs(document.interface(node)?).nth(at));
     let pointed = knob.and_then(|knob| params.iter().position(|slot| slot.name == knob.name));
     let aimed = match pointed {
         Some(at) => plain.len() + at,

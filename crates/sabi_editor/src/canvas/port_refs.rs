@@ -52,17 +52,17 @@ impl PortRef {
 
 /// All ports of a node, in order.
 pub(super) fn ports_of(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Port)> {
-    let Some(face) = document.face(id) else {
+    let Some(interface) = document.interface(id) else {
         return Vec::new();
     };
-    let inputs = face.inputs.iter().map(|port| {
+    let inputs = interface.inputs.iter().map(|port| {
         let slot = SlotRef {
             node: id.clone(),
             name: port.name.clone(),
         };
         (PortRef::Input(slot), port.clone())
     });
-    let outputs = face.outputs.iter().map(|port| {
+    let outputs = interface.outputs.iter().map(|port| {
         let from = OutputRef {
             node: id.clone(),
             port: Some(port.name.clone()),
@@ -74,10 +74,10 @@ pub(super) fn ports_of(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Po
 
 /// Ports of a node that have a row, in order.
 pub(super) fn shown_ports_of(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Port)> {
-    let (Some(face), Some(rows)) = (document.face(id), node_size::rows_of(document, id)) else {
+    let (Some(interface), Some(rows)) = (document.interface(id), node_size::rows_of(document, id)) else {
         return Vec::new();
     };
-    let inputs = face.inputs.len();
+    let inputs = interface.inputs.len();
     let is_shown = |at: usize| match at.checked_sub(inputs) {
         None => rows.shows_input(at),
         Some(output) => rows.shows_output(output),

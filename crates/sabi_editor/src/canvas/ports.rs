@@ -105,8 +105,10 @@ pub(super) fn is_wired(document: &OpenDocument, place: &PortRef) -> bool {
     match place {
         PortRef::Input(slot) => connections::wire_into(document, slot).is_some(),
         PortRef::Output(from) => {
-            let face = document.face(&from.node);
-            let first = face.and_then(|face| face.outputs.first()).map(|port| &port.name);
+            let interface = document.interface(&from.node);
+            let first = interface
+                .and_then(|interface| interface.outputs.first())
+                .map(|port| &port.name);
             let readers = document.graph().readers(from.node.as_str());
             readers
                 .iter()

@@ -3,7 +3,7 @@
 use egui::{PointerButton, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, pos2};
 use sabi_editing::OpenDocument;
 use sabi_editing::node_size::{ShownRows, rows_of};
-use sabi_engine::catalog::{Entry, Port};
+use sabi_engine::catalog::{Interface, Port};
 use sabi_graph::NodeId;
 
 use super::gesture::Gesture;
@@ -20,7 +20,7 @@ const LEAST_DOT: f32 = 1.4;
 /// Inputs or outputs of a card.
 struct Side<'a> {
     id: &'a NodeId,
-    face: &'a Entry,
+    interface: &'a Interface,
     rows: &'a ShownRows,
     is_input: bool,
     /// Rectangle of the whole card on the screen.
@@ -38,14 +38,14 @@ pub(super) fn show(
     actions: &mut Vec<Action>,
 ) {
     let document = context.document;
-    let Some((face, rect)) = document.face(id).zip(node_rect(document, id)) else {
+    let Some((interface, rect)) = document.interface(id).zip(node_rect(document, id)) else {
         return;
     };
     let Some(rows) = rows_of(document, id) else { return };
     for is_input in [true, false] {
         let side = Side {
             id,
-            face,
+            interface,
             rows: &rows,
             is_input,
             rect: canvas.camera.view.screen_rect(panel, rect),
@@ -61,9 +61,9 @@ pub(super) fn show(
 impl Side<'_> {
     fn ports(&self) -> &[Port] {
         if self.is_input {
-            &self.face.inputs
+            &self.interface.inputs
         } else {
-            &self.face.outputs
+            &self.interface.outputs
         }
     }
 
@@ -102,7 +102,7 @@ impl Side<'_> {
         let rows = 0..self.ports().len();
         let away = |row: &usize| (self.y(*row) - at.y).abs();
         let row = rows.min_by(|one, other| away(one).total_cmp(&away(other)))?;
-        let before = if self.is_input { 0 } else { self.face.inputs.len() };
+        let before = if self.is_input { 0 } else { self.interface.inputs.len() };
         port_refs::ports_of(document, self.id).into_iter().nth(before + row)
     }
 

@@ -10,7 +10,7 @@ use egui_node_graph::{
 };
 use sabi_editing::node_size::{ShownRows, own_knobs};
 use sabi_editing::{OpenDocument, panel};
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{Body, Edit, NodeId, PortType};
 
 use super::body;
@@ -163,7 +163,7 @@ impl Snapshot {
     /// Updates the copy. Unchanged nodes keep their keys, so that a drag continues.
     pub(super) fn sync(&mut self, document: &OpenDocument) {
         let body = document.body();
-        let now = (body.clone(), document.session.revision(), document.faces_number());
+        let now = (body.clone(), document.session.revision(), document.interfaces_number());
         if self.of.as_ref() == Some(&now) {
             return;
         }
@@ -185,26 +185,28 @@ impl Snapshot {
             self.remove(&id);
         }
         for (id, node) in document.graph().nodes() {
-            let Some(face) = document.face(id) else { continue };
-            let rows = ShownRows::of(document.graph(), id, face);
+            let Some(interface) = document.interface(id) else {
+                continue;
+            };
+            let rows = ShownRows::of(document.graph(), id, interface);
             let is_same = |key: &Key| {
                 let known = &self.graph[*key].user_data;
-                known.rows == rows && (Arc::ptr_eq(&known.face, face) || known.face == *face)
+                known.rows == rows && (Arc::ptr_eq(&known.interface, interface) || known.interface == *interface)
             };
             if !self.keys.get(id).is_some_and(is_same) {
                 self.remove(id);
-                self.add(id, face.clone(), rows);
+                self.add(id, interface.clone(), rows);
             }
             let Some(key) = self.keys.get(id) else { continue };
             let shown = &mut self.graph[*key];
             shown.user_data.title = document.title(id);
             shown.user_data.is_muted = node.muted;
             shown.user_data.values.clone_from(&node.params);
-            let knobs = face.knobs.iter().map(|knob| &knob.name);
+            let knobs = interface.knobs.iter().map(|knob| &knob.name);
             let exposed =
                 knobs.filter_map(|knob| Some((knob.clone(), panel::exposed_as(document, id, knob)?.to_owned())));
             shown.user_data.exposed = exposed.collect();
-            let knobs = face.knobs.iter().map(|knob| &knob.name);
+            let knobs = interface.knobs.iter().map(|knob| &knob.name);
             let masks = knobs.filter_map(|knob| Some((knob.clone(), mask_of(document, id, knob)?)));
             shown.user_data.masks = masks.collect();
         }
@@ -213,7 +215,10 @@ impl Snapshot {
 
     /// Takes over values if nothing else has changed, as while a slider moves; returns whether that was so.
     fn follow_values(&mut self, document: &OpenDocument) -> bool {
-        let known = self.of.as_ref().filter(|(.., faces)| *faces == document.faces_number());
+        let known = self
+            .of
+            .as_ref()
+            .filter(|(.., interfaces)| *interfaces == document.interfaces_number());
         let Some(edits) = known.and_then(|(_, revision, _)| document.session.edits_since(*revision)) else {
             return false;
         };
@@ -239,10 +244,10 @@ impl Snapshot {
         }
     }
 
-    fn add(&mut self, id: &NodeId, face: Arc<Entry>, rows: ShownRows) {
+    fn add(&mut self, id: &NodeId, interface: Arc<Interface>, rows: ShownRows) {
         let shown = NodeSummary {
             id: id.clone(),
-            face: face.clone(),
+            interface: interface.clone(),
             rows: rows.clone(),
             title: String::new(),
             is_muted: false,
@@ -254,21 +259,21 @@ impl Snapshot {
             masks: BTreeMap::new(),
         };
         let key = self.graph.add_node(String::new(), shown, |graph, key| {
-            let inputs = face.inputs.iter().enumerate();
+            let inputs = interface.inputs.iter().enumerate();
             for (_, port) in inputs.filter(|(row, _)| rows.shows_input(*row)) {
                 let carries = CarriedType(port.ty);
                 let kind = InputParamKind::ConnectionOnly;
                 graph.add_input_param(key, port.label.clone(), carries, Row::Port, kind, true);
             }
-            for knob in own_knobs(&face).filter(|_| rows.shows_knobs()) {
-                let Some(at) = face.knobs.iter().position(|known| known.name == knob.name) else {
+            for knob in own_knobs(&interface).filter(|_| rows.shows_knobs()) {
+                let Some(at) = interface.knobs.iter().position(|known| known.name == knob.name) else {
                     continue;
                 };
                 let row = Row::Knob(at);
                 let kind = InputParamKind::ConstantOnly;
                 graph.add_input_param(key, knob.label.clone(), CarriedType(None), row, kind, true);
             }
-            let outputs = face.outputs.iter().enumerate();
+            let outputs = interface.outputs.iter().enumerate();
             for (_, port) in outputs.filter(|(row, _)| rows.shows_output(*row)) {
                 graph.add_output_param(key, port.label.clone(), CarriedType(port.ty));
             }
@@ -286,8 +291,8 @@ impl Snapshot {
                 let ends = self.keys.get(id).zip(self.keys.get(&from.node));
                 let Some((reader, source)) = ends else { continue };
                 let [reads, gives] = [reader, source].map(|key| &self.graph[*key].user_data);
-                let input = reads.face.inputs.iter().position(|port| port.name == *name);
-                let outputs = &gives.face.outputs;
+                let input = reads.interface.inputs.iter().position(|port| port.name == *name);
+                let outputs = &gives.interface.outputs;
                 let output = match &from.port {
                     Some(port) => outputs.iter().position(|known| known.name == *port),
                     None => (!outputs.is_empty()).then_some(0),

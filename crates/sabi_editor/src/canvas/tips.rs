@@ -20,10 +20,10 @@ pub(super) fn show(ui: &Ui, context: &CanvasContext<'_>, shown: &NodeSummary, no
     tip.show(|ui| {
         ui.set_max_width(WIDEST);
         ui.strong(&shown.title);
-        if shown.title != shown.face.label {
-            ui.colored_label(context.theme.quiet, &shown.face.label);
+        if shown.title != shown.interface.label {
+            ui.colored_label(context.theme.quiet, &shown.interface.label);
         }
-        ui.label(&shown.face.summary);
+        ui.label(&shown.interface.summary);
         if let Some(fault) = &shown.state.fault {
             ui.colored_label(context.theme.fault, fault);
         }

@@ -18,7 +18,9 @@ const GAP: f32 = 12.0;
 /// Name of a wire: the title of its source, with the output where that is not the first one.
 pub(super) fn name_of(document: &OpenDocument, from: &OutputRef) -> String {
     let title = document.title(&from.node);
-    let outputs = document.face(&from.node).map_or(&[][..], |face| &face.outputs);
+    let outputs = document
+        .interface(&from.node)
+        .map_or(&[][..], |interface| &interface.outputs);
     let port = from
         .port
         .as_ref()
@@ -106,7 +108,7 @@ fn paint(ui: &Ui, context: &CanvasContext<'_>, tag: &Tag, port: Pos2, zoom: f32)
     let document = context.document;
     let color = context
         .theme
-        .port(document.faces().carried(document.shown(), &tag.from));
+        .port(document.interfaces().carried(document.shown(), &tag.from));
     let (way, align) = match tag.to {
         Some(_) => (-1.0, Align2::RIGHT_CENTER),
         None => (1.0, Align2::LEFT_CENTER),

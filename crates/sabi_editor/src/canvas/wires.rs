@@ -81,7 +81,7 @@ pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<
             if !Rect::from_points(&curve).intersects(panel) {
                 continue;
             }
-            let carries = document.faces().carried(&document.body(), from);
+            let carries = document.interfaces().carried(&document.body(), from);
             let takes = connections::input(document, &to).and_then(|port| port.ty);
             wires.push(Wire {
                 from: from.clone(),
@@ -98,10 +98,10 @@ pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<
 /// Place on the canvas where a wire from an output begins; at the title where there is no such output.
 pub(super) fn start_of(document: &OpenDocument, from: &OutputRef) -> Option<[f32; 2]> {
     let node = document.node(&from.node)?;
-    let face = document.face(&from.node)?;
+    let interface = document.interface(&from.node)?;
     let row = match &from.port {
-        Some(name) => face.outputs.iter().position(|port| port.name == *name),
-        None => (!face.outputs.is_empty()).then_some(0),
+        Some(name) => interface.outputs.iter().position(|port| port.name == *name),
+        None => (!interface.outputs.is_empty()).then_some(0),
     };
     let rows = rows_of(document, &from.node)?;
     let down = row.map_or(TITLE_HEIGHT / 2.0, |row| rows.output(row));
@@ -111,8 +111,8 @@ pub(super) fn start_of(document: &OpenDocument, from: &OutputRef) -> Option<[f32
 /// Place on the canvas where a wire into an input ends; at the title where there is no such input.
 pub(super) fn end_of(document: &OpenDocument, to: &SlotRef) -> Option<[f32; 2]> {
     let node = document.node(&to.node)?;
-    let face = document.face(&to.node)?;
-    let row = face.inputs.iter().position(|port| port.name == to.name);
+    let interface = document.interface(&to.node)?;
+    let row = interface.inputs.iter().position(|port| port.name == to.name);
     let rows = rows_of(document, &to.node)?;
     let down = row.map_or(TITLE_HEIGHT / 2.0, |row| rows.input(row));
     Some([node.pos[0], node.pos[1] + down])

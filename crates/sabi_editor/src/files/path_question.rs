@@ -35,7 +35,7 @@ pub(crate) struct PathQuestion {
     text: String,
     /// Part of a name that was typed, which narrows the list. A name that is chosen in the list does not.
     typed: String,
-    /// Entry that was clicked last.
+    /// Interface that was clicked last.
     clicked: Option<PathBuf>,
     /// True before it was drawn.
     is_new: bool,

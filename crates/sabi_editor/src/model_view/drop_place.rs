@@ -4,7 +4,7 @@ use egui::Pos2;
 use sabi_editing::dropped_layers::DroppedOn;
 use sabi_editing::stack::{self, StackEnd};
 use sabi_editing::{OpenDocument, node_paths};
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_engine::{LiveModel, ViewSubject};
 use sabi_graph::PortType;
 
@@ -27,10 +27,10 @@ impl ModelView {
         document: &OpenDocument,
         evaluation: &Evaluation,
         shown: &ViewSubject,
-        face: &Entry,
+        interface: &Interface,
         at: Pos2,
     ) -> Option<DropPlace> {
-        let gives_material = face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+        let gives_material = interface.outputs.iter().any(|port| port.ty == Some(PortType::Material));
         if !gives_material || !self.area.is_some_and(|area| area.contains(at)) {
             return None;
         }

@@ -66,7 +66,7 @@ impl InputHistogram {
         let Some((_, histogram)) = &self.shown else { return };
         histogram.draw_in(ui.painter(), rect, context.theme);
         let value = |name: &&&str| {
-            let knob = document.face(id)?.knob(name)?;
+            let knob = document.interface(id)?.knob(name)?;
             let set = document.node(id)?.params.get(**name);
             set.unwrap_or(&knob.ty.default).as_number()
         };

@@ -5,7 +5,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::OpenDocument;
 use sabi_editing::command::GroupCommand;
 use sabi_editing::random_knobs::SEED;
-use sabi_engine::catalog::{Entry, KnobRole, label_of};
+use sabi_engine::catalog::{Interface, KnobRole, label_of};
 use sabi_graph::{GROUP_KIND, INSTANCE_KNOBS, LibrarySource, NodeId};
 
 use super::card::{Card, CardSize};
@@ -30,11 +30,11 @@ pub(super) fn random_values(
     ui: &mut Ui,
     context: &ViewContext<'_>,
     id: &NodeId,
-    face: &Entry,
+    interface: &Interface,
     state: &mut InstanceState,
 ) -> Option<Action> {
     group_of(context.document, id)?;
-    let own = face
+    let own = interface
         .knobs
         .iter()
         .filter(|knob| knob.name == SEED || !INSTANCE_KNOBS.contains(&knob.name.as_str()));
@@ -48,7 +48,7 @@ pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
     id: &NodeId,
-    face: &Entry,
+    interface: &Interface,
     state: &mut InstanceState,
 ) -> Vec<Action> {
     let document = context.document;
@@ -56,7 +56,7 @@ pub(super) fn show(
         return Vec::new();
     };
     let mut commands = Vec::new();
-    commands.extend(variants(ui, context, id, face, &mut state.cards));
+    commands.extend(variants(ui, context, id, interface, &mut state.cards));
     let linked = document
         .contents()
         .groups
@@ -82,10 +82,10 @@ fn variants(
     ui: &mut Ui,
     context: &ViewContext<'_>,
     id: &NodeId,
-    face: &Entry,
+    interface: &Interface,
     size: &mut CardSize,
 ) -> Option<GroupCommand> {
-    let knob = face.knobs.iter().find(|knob| knob.name == VARIANT)?;
+    let knob = interface.knobs.iter().find(|knob| knob.name == VARIANT)?;
     let KnobRole::Choice(words) = &knob.ty.role else {
         return None;
     };

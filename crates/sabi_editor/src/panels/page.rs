@@ -9,7 +9,7 @@ use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use egui_phosphor::regular as icon;
 use sabi_editing::OpenDocument;
 use sabi_engine::NodeDraft;
-use sabi_engine::catalog::{Entry, Port, picture_of};
+use sabi_engine::catalog::{Interface, Port, picture_of};
 
 use crate::action::Action;
 use crate::context::{View, ViewContext};
@@ -111,15 +111,15 @@ impl Page {
     }
 
     /// Picture of what a node does.
-    fn picture(&mut self, ui: &mut Ui, face: &Entry) {
-        if self.picture.as_ref().is_none_or(|(kind, _)| *kind != face.id) {
-            let picture = picture_of(&face.id, PICTURE_SIDE).map(|picture| {
+    fn picture(&mut self, ui: &mut Ui, interface: &Interface) {
+        if self.picture.as_ref().is_none_or(|(kind, _)| *kind != interface.id) {
+            let picture = picture_of(&interface.id, PICTURE_SIDE).map(|picture| {
                 let size = picture.size.map(|side| side as usize);
                 let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba);
-                let name = format!("what {} gives", face.id);
+                let name = format!("what {} gives", interface.id);
                 ui.ctx().load_texture(name, image, TextureOptions::LINEAR)
             });
-            self.picture = Some((face.id.clone(), picture));
+            self.picture = Some((interface.id.clone(), picture));
         }
         if let Some((_, Some(picture))) = &self.picture {
             let side = ui.available_width().min(PICTURE_SIDE as f32);
@@ -127,7 +127,7 @@ impl Page {
             ui.add(
                 image
                     .corner_radius(space::CORNER)
-                    .alt_text(format!("What {} gives", face.label)),
+                    .alt_text(format!("What {} gives", interface.label)),
             );
         }
     }
@@ -202,30 +202,30 @@ impl View for Page {
             return actions;
         }
         self.draft_buttons(ui);
-        let Some(face) = document.selected_one().and_then(|id| document.face(id)) else {
+        let Some(interface) = document.selected_one().and_then(|id| document.interface(id)) else {
             ui.colored_label(theme.quiet, "Select a node to read what it does.");
             return actions;
         };
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.horizontal(|ui| {
-                ui.heading(&face.label);
-                ui.colored_label(theme.quiet, RichText::new(&face.id).monospace());
+                ui.heading(&interface.label);
+                ui.colored_label(theme.quiet, RichText::new(&interface.id).monospace());
             });
-            ui.label(&face.summary);
-            if let Some(text) = &face.source {
-                let refused = self.file(ui, context, &face.id, text);
+            ui.label(&interface.summary);
+            if let Some(text) = &interface.source {
+                let refused = self.file(ui, context, &interface.id, text);
                 actions.extend(refused.map(Action::Notice));
             }
-            self.picture(ui, face);
-            if !face.description.is_empty() {
-                CommonMarkViewer::new().show(ui, &mut self.markdown, &face.description);
+            self.picture(ui, interface);
+            if !interface.description.is_empty() {
+                CommonMarkViewer::new().show(ui, &mut self.markdown, &interface.description);
             }
-            ports(ui, theme, "Inputs", &face.inputs);
-            ports(ui, theme, "Outputs", &face.outputs);
-            knobs(ui, theme, face);
-            if !face.aliases.is_empty() {
+            ports(ui, theme, "Inputs", &interface.inputs);
+            ports(ui, theme, "Outputs", &interface.outputs);
+            knobs(ui, theme, interface);
+            if !interface.aliases.is_empty() {
                 ui.add_space(8.0);
-                ui.colored_label(theme.quiet, format!("Also called {}", face.aliases.join(", ")));
+                ui.colored_label(theme.quiet, format!("Also called {}", interface.aliases.join(", ")));
             }
         });
         actions
@@ -248,8 +248,8 @@ fn ports(ui: &mut Ui, theme: &Theme, title: &str, ports: &[Port]) {
     }
 }
 
-fn knobs(ui: &mut Ui, theme: &Theme, face: &Entry) {
-    let own: Vec<_> = face.knobs.iter().filter(|knob| !knob.is_of_input).collect();
+fn knobs(ui: &mut Ui, theme: &Theme, interface: &Interface) {
+    let own: Vec<_> = interface.knobs.iter().filter(|knob| !knob.is_of_input).collect();
     if own.is_empty() {
         return;
     }

@@ -4,7 +4,7 @@ use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::painting::{PAINT, STROKES};
 use sabi_editing::{OpenDocument, connections, panel, ports as document_ports};
-use sabi_engine::catalog::{Entry, Knob};
+use sabi_engine::catalog::{Interface, Knob};
 use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 
 use super::input_histogram::InputHistogram;
@@ -71,21 +71,21 @@ impl Parameters {
             ..
         } = self;
         let (document, theme) = (context.document, context.theme);
-        let (Some(face), Some(node)) = (document.face(id), document.node(id)) else {
+        let (Some(interface), Some(node)) = (document.interface(id), document.node(id)) else {
             return Vec::new();
         };
         let count = document.selection().len();
-        heading(ui, context, id, face);
-        let randomized = instance::random_values(ui, context, id, face, instance);
+        heading(ui, context, id, interface);
+        let randomized = instance::random_values(ui, context, id, interface, instance);
         let mut actions: Vec<Action> = randomized.into_iter().collect();
         actions.extend(painting.show(ui, context, id));
         ui.separator();
-        let links: Vec<KnobLinks<'_>> = face
+        let links: Vec<KnobLinks<'_>> = interface
             .knobs
             .iter()
             .map(|knob| KnobLinks::of(document, id, knob))
             .collect();
-        let rows: Vec<KnobRow<'_>> = face
+        let rows: Vec<KnobRow<'_>> = interface
             .knobs
             .iter()
             .zip(&links)
@@ -97,14 +97,14 @@ impl Parameters {
                 wired: links.wired.as_deref(),
                 mask: match &links.mask {
                     Some(mask) => ParamMask::Of(mask),
-                    None if count == 1 && face.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
+                    None if count == 1 && interface.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
                     None => ParamMask::NotTaken,
                 },
                 exposed: links.exposed,
                 differs: differs(document, &knob.name, node.params.get(&knob.name)),
             })
             .collect();
-        let switches = channel_sections::switches(&face.knobs);
+        let switches = channel_sections::switches(&interface.knobs);
         let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             histogram.show(ui, context, id);
             let of_knobs = ui.push_id(id, |ui| {
@@ -116,7 +116,7 @@ impl Parameters {
                 });
                 actions.collect::<Vec<Action>>()
             });
-            let of_instance = instance::show(ui, context, id, face, instance);
+            let of_instance = instance::show(ui, context, id, interface, instance);
             of_knobs.inner.into_iter().chain(of_instance).collect::<Vec<Action>>()
         });
         actions.extend(shown.inner);
@@ -141,13 +141,13 @@ fn alike(document: &OpenDocument) -> Option<NodeId> {
 }
 
 /// Title, summary and fault of the selected node.
-fn heading(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) {
+fn heading(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, interface: &Interface) {
     let document = context.document;
     ui.heading(match document.selection().len() {
         1 => document.title(id),
-        count => format!("{count} × {}", face.label),
+        count => format!("{count} × {}", interface.label),
     });
-    ui.colored_label(context.theme.quiet, &face.summary);
+    ui.colored_label(context.theme.quiet, &interface.summary);
     if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
         ui.colored_label(context.theme.fault, context.said(fault));
     }
@@ -182,7 +182,7 @@ fn feeder<'n>(node: &'n Node, knob: &Knob) -> Option<&'n OutputRef> {
 
 /// Name of the mask that multiplies a parameter: the title of its node, or the input of the group that it comes from.
 pub(crate) fn mask_of(document: &OpenDocument, id: &NodeId, knob: &str) -> Option<String> {
-    document.face(id)?.param_mask(knob)?;
+    document.interface(id)?.param_mask(knob)?;
     let slot = SlotRef {
         node: id.clone(),
         name: knob.to_owned(),

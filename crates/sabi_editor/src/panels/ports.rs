@@ -60,7 +60,7 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut Ve
         ui.label(RichText::new("Inputs").color(theme.quiet));
     }
     for (name, input) in ports::inputs(document) {
-        let port = document.own_face().and_then(|face| face.input(name));
+        let port = document.own_interface().and_then(|interface| interface.input(name));
         ui.horizontal(|ui| {
             dot(ui, theme, port);
             let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
@@ -142,7 +142,9 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut V
         ui.label(RichText::new("Outputs").color(theme.quiet));
     }
     for (name, from) in ports::outputs(document) {
-        let port = document.own_face().and_then(|face| face.output(Some(name)));
+        let port = document
+            .own_interface()
+            .and_then(|interface| interface.output(Some(name)));
         ui.horizontal(|ui| {
             dot(ui, theme, port);
             let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
@@ -190,15 +192,15 @@ fn list<'l, T: 'l>(ui: &mut Ui, entries: impl Iterator<Item = (String, &'l T)>, 
 
 fn title_of_slot(document: &OpenDocument, slot: &SlotRef) -> String {
     let port = connections::input(document, slot).map_or(&slot.name, |port| &port.label);
-    let face = document.face(&slot.node);
-    let is_param_mask = face.is_some_and(|face| face.param_mask(&slot.name).is_some());
+    let interface = document.interface(&slot.node);
+    let is_param_mask = interface.is_some_and(|interface| interface.param_mask(&slot.name).is_some());
     let sign = if is_param_mask { "× " } else { "" };
     format!("{} · {sign}{port}", document.title(&slot.node))
 }
 
 fn title_of_result(document: &OpenDocument, from: &OutputRef) -> String {
-    let face = document.face(&from.node);
-    let port = face.and_then(|face| face.output(from.port.as_deref()));
+    let interface = document.interface(&from.node);
+    let port = interface.and_then(|interface| interface.output(from.port.as_deref()));
     match port {
         Some(port) => format!("{} · {}", document.title(&from.node), port.label),
         None => document.title(&from.node),

@@ -8,7 +8,7 @@ use sabi_editing::command::{KnobCommand, LayerCommand, PaintCommand};
 use sabi_editing::hand_layers::HandLayer;
 use sabi_editing::stack::{Layer, Stack, StackEnd};
 use sabi_editing::{OpenDocument, connections, layers, stack};
-use sabi_engine::catalog::{Entry, KnobRole, label_of};
+use sabi_engine::catalog::{Interface, KnobRole, label_of};
 use sabi_graph::{NodeId, NodeRef, Value};
 
 use super::reordering;
@@ -79,10 +79,10 @@ impl View for Layers {
 
 impl Layers {
     /// Layer under a place of the screen whose mask a node that is dropped there becomes.
-    pub(crate) fn mask_target(&self, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<NodeId> {
+    pub(crate) fn mask_target(&self, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<NodeId> {
         let (_, node) = self.rows.iter().find(|(rect, _)| rect.contains(at))?;
         let slot = layers::mask_input(document, node)?;
-        let fits = connections::input(document, &slot).is_some_and(|input| face.output_for(input).is_some());
+        let fits = connections::input(document, &slot).is_some_and(|input| interface.output_for(input).is_some());
         fits.then(|| node.clone())
     }
 
@@ -168,10 +168,10 @@ impl Layers {
 
 /// Menus of the blend modes of a layer's node.
 fn modes(ui: &mut Ui, document: &OpenDocument, layer: &Layer, actions: &mut Vec<Action>) {
-    let Some((face, node)) = document.face(&layer.node).zip(document.node(&layer.node)) else {
+    let Some((interface, node)) = document.interface(&layer.node).zip(document.node(&layer.node)) else {
         return;
     };
-    let modes = face.knobs.iter().filter_map(|knob| match &knob.ty.role {
+    let modes = interface.knobs.iter().filter_map(|knob| match &knob.ty.role {
         KnobRole::Choice(words) if knob.name.ends_with("mode") => Some((knob, words)),
         _ => None,
     });
@@ -204,8 +204,8 @@ fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Ve
     };
     // Nodes without required inputs give a mask at once.
     let gives = |candidate: &&Candidate| {
-        let face = &candidate.face;
-        face.output_for(input).is_some() && !face.inputs.iter().any(|port| port.is_required)
+        let interface = &candidate.interface;
+        interface.output_for(input).is_some() && !interface.inputs.iter().any(|port| port.is_required)
     };
     let found: Vec<&Candidate> = context.candidates.iter().filter(gives).collect();
     let mut sections: Vec<&str> = found.iter().map(|candidate| candidate.section.as_str()).collect();
@@ -213,7 +213,9 @@ fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Ve
     for section in sections {
         ui.menu_button(label_of(section), |ui| {
             for candidate in found.iter().filter(|candidate| candidate.section == section) {
-                let entry = ui.button(&candidate.face.label).on_hover_text(&candidate.face.summary);
+                let entry = ui
+                    .button(&candidate.interface.label)
+                    .on_hover_text(&candidate.interface.summary);
                 if entry.clicked() {
                     actions.push(Action::edit(LayerCommand::AddMask {
                         node: layer.node.clone(),

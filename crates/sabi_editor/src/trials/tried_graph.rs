@@ -16,7 +16,9 @@ pub(super) fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(Op
             let shown = instance.as_ref().filter(|_| !has_outputs(&graph.document.graph));
             let node = shown.map(|id| NodeRef {
                 node: document.full_id(id),
-                port: document.face(id).and_then(|face| material_port(&face.outputs)),
+                port: document
+                    .interface(id)
+                    .and_then(|interface| material_port(&interface.outputs)),
             });
             Some((graph, node))
         }
@@ -47,7 +49,7 @@ pub(super) fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(Op
             };
             let node = NodeRef {
                 node: EFFECT.to_owned(),
-                port: material_port(&group.face.outputs),
+                port: material_port(&group.interface.outputs),
             };
             Some((graph, Some(node)))
         }
@@ -62,10 +64,10 @@ fn has_outputs(graph: &Graph) -> bool {
 fn first_instance(document: &OpenDocument, groups: &[String]) -> Option<NodeRef> {
     let is_of = |node: &Node| node.group.as_ref().is_some_and(|group| groups.contains(group));
     let (id, node) = document.contents().graph.nodes().find(|(_, node)| is_of(node))?;
-    let face = document.faces().of_group(node.group.as_ref()?)?;
+    let interface = document.interfaces().of_group(node.group.as_ref()?)?;
     Some(NodeRef {
         node: id.to_string(),
-        port: material_port(&face.outputs),
+        port: material_port(&interface.outputs),
     })
 }
 

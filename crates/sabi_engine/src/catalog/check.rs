@@ -24,7 +24,7 @@ pub struct CheckReport {
     pub warnings: Vec<String>,
 }
 
-/// Entry of a graph in `sabi check --json`; docs/report.md lists the keys.
+/// Interface of a graph in `sabi check --json`; docs/report.md lists the keys.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CheckedGraph {
     graph: String,

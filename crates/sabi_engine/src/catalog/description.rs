@@ -3,7 +3,7 @@
 use sabi_graph::{PortType, Value};
 use serde::Serialize;
 
-use super::{Catalog, Entry, Knob, Port};
+use super::{Catalog, Interface, Knob, Port};
 use crate::opening::kinds::Kinds;
 
 /// A kind of node.
@@ -96,7 +96,7 @@ pub fn describe_nodes(kinds: &Kinds) -> Vec<NodeDescription> {
 }
 
 impl NodeDescription {
-    fn of(entry: &Entry) -> NodeDescription {
+    fn of(entry: &Interface) -> NodeDescription {
         let params = entry.knobs.iter().filter(|knob| !knob.is_of_input);
         NodeDescription {
             id: entry.id.clone(),
@@ -138,7 +138,7 @@ impl OutputDescription {
 }
 
 impl ParamDescription {
-    fn of(entry: &Entry, knob: &Knob) -> ParamDescription {
+    fn of(entry: &Interface, knob: &Knob) -> ParamDescription {
         let ty = &knob.ty;
         let ends = |ends: Option<[f64; 2]>| ends.map(|ends| ends.map(Value::Number));
         ParamDescription {

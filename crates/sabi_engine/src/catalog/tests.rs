@@ -1,6 +1,6 @@
 use sabi_graph::{Body, Document, PortType, Value};
 
-use super::{Catalog, Faces, KnobRole};
+use super::{Catalog, Interfaces, KnobRole};
 use crate::opening::kinds::Kinds;
 
 fn catalog() -> Catalog {
@@ -12,8 +12,8 @@ fn document(nodes: &str) -> Document {
     Document::from_json(&text).expect("the test's graph")
 }
 
-fn faces(document: &Document) -> Faces {
-    Faces::new(&catalog(), document, &mut |_| None)
+fn interfaces(document: &Document) -> Interfaces {
+    Interfaces::new(&catalog(), document, &mut |_| None)
 }
 
 #[test]
@@ -56,19 +56,19 @@ fn a_parameter_with_a_mask_is_an_input_of_its_node_only() {
             "masked": { "kind": "noise/simplex", "inputs": { "gain": "clouds" } }
         }"#,
     );
-    let faces = faces(&document);
-    let face = |node: &str| faces.of(&Body::Main, node).expect("a face").clone();
-    let names = |node: &str| -> Vec<String> { face(node).inputs.iter().map(|port| port.name.clone()).collect() };
+    let interfaces = interfaces(&document);
+    let interface = |node: &str| interfaces.of(&Body::Main, node).expect("an interface").clone();
+    let names = |node: &str| -> Vec<String> { interface(node).inputs.iter().map(|port| port.name.clone()).collect() };
     assert_eq!(names("clouds"), ["position"]);
     assert_eq!(names("masked"), ["position", "gain"]);
-    let gain = face("clouds")
+    let gain = interface("clouds")
         .input("gain")
         .expect("a parameter that takes a mask")
         .clone();
     assert_eq!(gain.ty, Some(PortType::Mask));
     assert!(!gain.is_required);
     assert!(
-        face("clouds").input("octaves").is_none(),
+        interface("clouds").input("octaves").is_none(),
         "a whole number takes no mask"
     );
 }
@@ -106,8 +106,8 @@ fn a_group_shows_its_exposed_ports_and_a_reroute_the_type_of_its_wire() {
             "bend": { "kind": "graph/reroute", "inputs": { "source": "worn_1" }, "pos": [0, 0] },
             "worn_1": { "kind": "graph/group", "group": "wear", "pos": [0, 0] } }"#,
     );
-    let faces = faces(&document);
-    let group = faces.of(&Body::Main, "worn_1").expect("an instance");
+    let interfaces = interfaces(&document);
+    let group = interfaces.of(&Body::Main, "worn_1").expect("an instance");
     assert_eq!(group.label, "wear");
     assert_eq!(group.input("where").and_then(|port| port.ty), Some(PortType::Mask));
     assert_eq!(group.output(None).and_then(|port| port.ty), Some(PortType::Mask));
@@ -118,7 +118,7 @@ fn a_group_shows_its_exposed_ports_and_a_reroute_the_type_of_its_wire() {
     );
     let names: Vec<&str> = group.knobs.iter().map(|knob| knob.name.as_str()).collect();
     assert_eq!(names, ["amount", "seed", "scale", "fit", "variant"]);
-    let bend = faces.of(&Body::Main, "bend").expect("a reroute");
+    let bend = interfaces.of(&Body::Main, "bend").expect("a reroute");
     assert_eq!(bend.outputs[0].ty, Some(PortType::Mask));
 }
 
@@ -129,8 +129,8 @@ fn unknown_kinds_and_groups_have_an_entry() {
             "lost": { "kind": "magic/wand", "pos": [0, 0] },
             "gone": { "kind": "graph/group", "group": "gone.sabi", "pos": [0, 0] } }"#,
     );
-    let faces = faces(&document);
-    let [lost, gone] = ["lost", "gone"].map(|id| faces.of(&Body::Main, id).expect("a placeholder"));
+    let interfaces = interfaces(&document);
+    let [lost, gone] = ["lost", "gone"].map(|id| interfaces.of(&Body::Main, id).expect("a placeholder"));
     assert_eq!(lost.label, "magic/wand");
     assert_eq!(gone.summary, "The group that this node names does not exist.");
 }

@@ -6,7 +6,7 @@ use sabi_graph::{Body, Document, Exposed, Fit, FlatGraph, Overrides, SlotRef, Va
 use serde::Serialize;
 
 use super::graph_files::{FileDescription, GraphFiles};
-use crate::catalog::{Catalog, Faces, KnobRole, label_of};
+use crate::catalog::{Catalog, Interfaces, KnobRole, label_of};
 use crate::evaluating::outputs::{missing_output, outputs};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
@@ -183,17 +183,17 @@ fn groups(document: &Document) -> Vec<GroupDescription> {
 
 fn knobs(open: &OpenGraph, kinds: &Kinds) -> Vec<KnobDescription> {
     let mut group_file = |name: &str| Some(open.open_group(name).ok()?.document);
-    let faces = Faces::new(&Catalog::new(kinds), &open.document, &mut group_file);
+    let interfaces = Interfaces::new(&Catalog::new(kinds), &open.document, &mut group_file);
     let panel = open.document.graph.panel().into_iter();
     panel
-        .map(|(name, exposed)| KnobDescription::of(name, exposed, &open.document, &faces))
+        .map(|(name, exposed)| KnobDescription::of(name, exposed, &open.document, &interfaces))
         .collect()
 }
 
 impl KnobDescription {
-    fn of(name: &str, exposed: &Exposed, document: &Document, faces: &Faces) -> KnobDescription {
+    fn of(name: &str, exposed: &Exposed, document: &Document, interfaces: &Interfaces) -> KnobDescription {
         // The knob is that of a node which is this graph, so its default is the value that the graph sets.
-        let knob = faces.of_whole().and_then(|whole| whole.knob(name));
+        let knob = interfaces.of_whole().and_then(|whole| whole.knob(name));
         let ty = knob.map(|knob| &knob.ty);
         let first = exposed.to.first();
         let set = || {
@@ -203,7 +203,7 @@ impl KnobDescription {
         let value = ty.map(|ty| ty.default.clone());
         let value = value.or_else(|| exposed.default.clone()).or_else(set);
         // The parameters accept other values than a knob with curves.
-        let of_param = || default_of_param(faces, first?);
+        let of_param = || default_of_param(interfaces, first?);
         let default = match exposed.curves.is_empty() {
             true => of_param(),
             false => exposed.default.clone(),
@@ -226,8 +226,8 @@ impl KnobDescription {
     }
 }
 
-fn default_of_param(faces: &Faces, slot: &SlotRef) -> Option<Value> {
-    let entry = faces.of(&Body::Main, slot.node.as_str())?;
+fn default_of_param(interfaces: &Interfaces, slot: &SlotRef) -> Option<Value> {
+    let entry = interfaces.of(&Body::Main, slot.node.as_str())?;
     Some(entry.knob(&slot.name)?.ty.default.clone())
 }
 

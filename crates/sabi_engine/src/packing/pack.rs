@@ -221,7 +221,7 @@ impl Found {
         let named = documents.filter_map(|(index, document)| Some((index, document, places.of(&document.path)?)));
         named
             .map(|(index, document, name)| match index {
-                0 => rewritten(document, name, places, &ShownModel::Entry(model, &self.reading)),
+                0 => rewritten(document, name, places, &ShownModel::Interface(model, &self.reading)),
                 _ => rewritten(document, name, places, &ShownModel::AsWritten),
             })
             .collect()

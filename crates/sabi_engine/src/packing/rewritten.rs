@@ -27,7 +27,7 @@ pub(super) enum ShownModel<'a> {
     /// As in its file. The preview model of a group file is not packed, and no bake needs it.
     AsWritten,
     /// This entry or no model, and the choices for reading the model.
-    Entry(Option<&'a str>, &'a SavedReading),
+    Interface(Option<&'a str>, &'a SavedReading),
 }
 
 /// Returns a document with the paths of its files in the archive. Paths of missing files are kept.
@@ -54,13 +54,13 @@ pub(super) fn rewritten(
         .and_then(|preview| preview.builtin_mesh().and(preview.mesh.clone()));
     let mesh = match model {
         ShownModel::AsWritten => shown.map(str::to_owned),
-        ShownModel::Entry(Some(entry), _) => Some(path_to(entry, name, shown.unwrap_or(""))),
-        ShownModel::Entry(None, _) => builtin,
+        ShownModel::Interface(Some(entry), _) => Some(path_to(entry, name, shown.unwrap_or(""))),
+        ShownModel::Interface(None, _) => builtin,
     };
     if mesh.is_some() || document.preview.is_some() {
         let preview = document.preview.get_or_insert_with(Preview::default);
         preview.mesh = mesh;
-        if let ShownModel::Entry(_, reading) = model {
+        if let ShownModel::Interface(_, reading) = model {
             // The model finds its files in the archive at the paths that it names.
             reading.put_into(preview, None);
         }

@@ -58,11 +58,12 @@ impl Hands {
 
     fn output(&mut self) -> OutputRef {
         let node = self.id();
-        let face = self.document.face(&node).cloned();
+        let interface = self.document.interface(&node).cloned();
         let mut ports: Vec<Option<String>> = vec![None];
         ports.extend(
-            face.iter()
-                .flat_map(|face| &face.outputs)
+            interface
+                .iter()
+                .flat_map(|interface| &interface.outputs)
                 .map(|port| Some(port.name.clone())),
         );
         if self.dice.one_in(40) {
@@ -74,10 +75,10 @@ impl Hands {
 
     fn input(&mut self) -> SlotRef {
         let node = self.id();
-        let face = self.document.face(&node).cloned();
-        let names: Vec<String> = face
+        let interface = self.document.interface(&node).cloned();
+        let names: Vec<String> = interface
             .iter()
-            .flat_map(|face| &face.inputs)
+            .flat_map(|interface| &interface.inputs)
             .map(|port| port.name.clone())
             .collect();
         let name = self.dice.pick(&names).unwrap_or_else(|| "nothing".to_owned());
@@ -86,10 +87,10 @@ impl Hands {
 
     fn knob(&mut self) -> (NodeId, String) {
         let node = self.id();
-        let face = self.document.face(&node).cloned();
-        let names: Vec<String> = face
+        let interface = self.document.interface(&node).cloned();
+        let names: Vec<String> = interface
             .iter()
-            .flat_map(|face| &face.knobs)
+            .flat_map(|interface| &interface.knobs)
             .map(|knob| knob.name.clone())
             .collect();
         let other = self

@@ -4,7 +4,7 @@ use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke,
 use sabi_editing::command::{LayerCommand, NodeSource};
 use sabi_editing::dropped_layers::DroppedOn;
 use sabi_editing::stack::StackEnd;
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::Interface;
 use sabi_graph::{NodeId, SlotRef};
 
 use crate::app::Editor;
@@ -29,33 +29,33 @@ const ABOVE_CAPTIONS: f32 = 52.0;
 
 impl Editor {
     /// Target of a node at a place of the screen; none where it cannot be dropped.
-    fn drop_target(&self, face: &Entry, at: Pos2) -> Option<DropTarget> {
+    fn drop_target(&self, interface: &Interface, at: Pos2) -> Option<DropTarget> {
         let document = &self.documents.document;
         // Places of panels that are not shown are those of their last frame.
         let is_shown = |panel: Panel| self.shell.dock.is_shown(panel);
         if is_shown(Panel::Stack)
-            && let Some(node) = self.views.layers.mask_target(document, face, at)
+            && let Some(node) = self.views.layers.mask_target(document, interface, at)
         {
             return Some(DropTarget::Mask(node));
         }
         if is_shown(Panel::Viewport) {
             let subject = self.looks.on_model(document, &self.shell.settings);
             let model = &self.views.model;
-            if let Some(place) = model.drop_place(document, &self.evaluation, &subject, face, at) {
+            if let Some(place) = model.drop_place(document, &self.evaluation, &subject, interface, at) {
                 return Some(DropTarget::Model(place));
             }
         }
         let canvas = is_shown(Panel::Canvas).then_some(&self.views.canvas)?;
-        if let Some(node) = canvas.node_for_dropped(document, face, at) {
+        if let Some(node) = canvas.node_for_dropped(document, interface, at) {
             return Some(DropTarget::Node(node));
         }
-        let (place, into) = canvas.place_for_dropped(document, face, at)?;
+        let (place, into) = canvas.place_for_dropped(document, interface, at)?;
         Some(DropTarget::Canvas(place, into))
     }
 
     /// Adds a node where it is dropped.
-    pub(super) fn drop_new(&mut self, source: NodeSource, face: &Entry, at: Pos2, ui: &Ui) {
-        match self.drop_target(face, at) {
+    pub(super) fn drop_new(&mut self, source: NodeSource, interface: &Interface, at: Pos2, ui: &Ui) {
+        match self.drop_target(interface, at) {
             Some(DropTarget::Mask(node)) => self.edit(LayerCommand::AddMask { node, source }, ui),
             Some(DropTarget::Model(place)) => {
                 let command = LayerCommand::AddOnModel {
@@ -72,18 +72,20 @@ impl Editor {
     }
 
     /// Draws a node that is dragged, and marks where it would be dropped.
-    pub(super) fn drag_new(&mut self, face: &Entry, at: Pos2, ui: &Ui) {
-        if let Some((place, words)) = self.marked_target(face, at) {
+    pub(super) fn drag_new(&mut self, interface: &Interface, at: Pos2, ui: &Ui) {
+        if let Some((place, words)) = self.marked_target(interface, at) {
             self.mark_target(ui, place, &words);
         }
         let document = &self.documents.document;
-        self.views.canvas.drag_new(ui, &self.shell.theme, document, face, at);
+        self.views
+            .canvas
+            .drag_new(ui, &self.shell.theme, document, interface, at);
     }
 
     /// Part of the window beside the canvas that a drop at a place goes to, and what it does there. The canvas marks its own.
-    fn marked_target(&self, face: &Entry, at: Pos2) -> Option<(Rect, String)> {
+    fn marked_target(&self, interface: &Interface, at: Pos2) -> Option<(Rect, String)> {
         let document = &self.documents.document;
-        match self.drop_target(face, at)? {
+        match self.drop_target(interface, at)? {
             DropTarget::Mask(node) => {
                 let row = self.views.layers.row_of(&node)?;
                 Some((row, format!("Mask of {}", document.title(&node))))

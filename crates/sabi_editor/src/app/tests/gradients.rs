@@ -88,7 +88,7 @@ fn a_file_that_is_no_picture_is_told_and_changes_nothing() {
 #[test]
 fn the_picker_knows_how_many_stops_a_gradient_has_room_for() {
     let window = Window::opened(COLORS);
-    let face = window.document().face(&id("colors")).expect("a kind");
-    let knob = face.knob("stops").expect("stops");
+    let interface = window.document().interface(&id("colors")).expect("a kind");
+    let knob = interface.knob("stops").expect("stops");
     assert_eq!(knob.ty.components(), MOST_STOPS);
 }

@@ -223,18 +223,22 @@ impl Window {
 
     /// Place on the screen of a node's input, or else of its output with the name.
     pub(super) fn port(&self, node: &NodeId, name: &str) -> Pos2 {
-        let face = self.document().face(node).expect("a node");
-        let side = if face.input(name).is_some() { "input" } else { "output" };
+        let interface = self.document().interface(node).expect("a node");
+        let side = if interface.input(name).is_some() {
+            "input"
+        } else {
+            "output"
+        };
         self.port_at(node, side, name)
     }
 
     /// Place of a port, found by its accessible name.
     pub(super) fn port_at(&self, node: &NodeId, side: &str, name: &str) -> Pos2 {
         let document = self.document();
-        let face = document.face(node).expect("a node");
+        let interface = document.interface(node).expect("a node");
         let port = match side {
-            "input" => face.input(name),
-            _ => face.output(Some(name)),
+            "input" => interface.input(name),
+            _ => interface.output(Some(name)),
         };
         let port = port.expect("a port");
         let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
@@ -248,8 +252,8 @@ impl Window {
 
     /// Drags a wire from one port to another.
     pub(super) fn wire(&mut self, from: &NodeId, output: &str, to: &NodeId, input: &str) {
-        let face = self.document().face(from).expect("a node");
-        let side = if face.output(Some(output)).is_some() {
+        let interface = self.document().interface(from).expect("a node");
+        let side = if interface.output(Some(output)).is_some() {
             "output"
         } else {
             "input"

@@ -124,7 +124,7 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
 /// Sections in which groups with a name are listed.
 fn sections_of(window: &Window, name: &str) -> Vec<String> {
     let candidates = window.editor().documents.candidates().iter();
-    let named = candidates.filter(|candidate| candidate.face.label == name);
+    let named = candidates.filter(|candidate| candidate.interface.label == name);
     named.map(|candidate| candidate.section.clone()).collect()
 }
 

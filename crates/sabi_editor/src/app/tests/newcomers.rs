@@ -28,7 +28,7 @@ impl Window {
         self.editor().shell.dock.rects[&Panel::Canvas]
     }
 
-    /// Entry of the library that is shown.
+    /// Interface of the library that is shown.
     pub(super) fn listed_entry(&self, name: &str) -> Rect {
         let library = self.editor().shell.dock.rects[&Panel::Library];
         let mut entries = self.harness.query_all_by_label(name).map(|node| node.rect());

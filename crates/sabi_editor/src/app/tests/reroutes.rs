@@ -105,12 +105,12 @@ fn titles_knobs_cards_and_reroutes_say_what_they_are_and_what_is_wrong() {
     let (mut window, reroute, _) = window_with_reroute();
     window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     let fault = window.fault_of("blur");
-    let face = |window: &Window, node: &str| window.document().face(&id(node)).expect("a node").clone();
-    let summary = face(&window, "invert").summary.clone();
+    let interface = |window: &Window, node: &str| window.document().interface(&id(node)).expect("a node").clone();
+    let summary = interface(&window, "invert").summary.clone();
     assert!(!window.says(&summary));
     window.rest_at(window.title(&id("invert")));
     assert!(window.says(&summary), "{summary}");
-    let clouds = face(&window, "clouds");
+    let clouds = interface(&window, "clouds");
     let knob = clouds.knobs.iter().find(|knob| knob.label == "Detail").expect("a knob");
     let first = knob.doc.split('`').next().expect("a text").to_owned();
     let near = window.rect(&id("clouds"));

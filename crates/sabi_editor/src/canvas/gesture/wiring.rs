@@ -112,8 +112,8 @@ pub(in crate::canvas) fn target(
 fn is_plain(document: &OpenDocument, place: &PortRef) -> bool {
     let PortRef::Input(slot) = place else { return true };
     document
-        .face(&slot.node)
-        .is_none_or(|face| face.param_mask(&slot.name).is_none())
+        .interface(&slot.node)
+        .is_none_or(|interface| interface.param_mask(&slot.name).is_none())
 }
 
 /// Inputs to choose from where the dragged wire is dropped on a node.

@@ -6,7 +6,7 @@ use egui::{
     pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::catalog::Entry as Face;
+use sabi_engine::catalog::Interface;
 
 use super::pictures::Side;
 use crate::action::{Action, SettingAction};
@@ -34,14 +34,14 @@ pub(super) struct Entry<'a> {
 }
 
 /// What an entry gives, each with the dot that stands for it in the list.
-fn outputs(ui: &mut Ui, face: &Face, theme: &Theme) {
-    if face.outputs.is_empty() {
+fn outputs(ui: &mut Ui, interface: &Interface, theme: &Theme) {
+    if interface.outputs.is_empty() {
         return;
     }
     ui.horizontal_wrapped(|ui| {
         let word = |text: &str| RichText::new(text).size(type_size::SMALL).color(theme.quiet);
         ui.label(word("Gives"));
-        for port in &face.outputs {
+        for port in &interface.outputs {
             let (place, _) = ui.allocate_exact_size(Vec2::splat(6.0), Sense::hover());
             ui.painter().circle_filled(place.center(), 3.0, theme.port(port.ty));
             ui.label(word(&port.label));
@@ -53,14 +53,14 @@ impl Entry<'_> {
     /// Shows the entry and returns the requested action.
     pub(super) fn show(&self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
-        let Candidate { new, face, .. } = self.candidate;
+        let Candidate { new, interface, .. } = self.candidate;
         let height = if self.has_picture { WITH_PICTURE } else { HEIGHT };
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &face.label));
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &interface.label));
         let star = rect.with_max_x(rect.left() + STAR);
         let star = ui.interact(star, response.id.with("star"), Sense::CLICK);
         star.widget_info(|| {
-            let name = format!("{} is a favorite", face.label);
+            let name = format!("{} is a favorite", interface.label);
             WidgetInfo::selected(WidgetType::Checkbox, true, self.number.is_some(), name)
         });
         if ui.is_rect_visible(rect) {
@@ -74,11 +74,11 @@ impl Entry<'_> {
         if response.clicked() {
             actions.push(Action::AddInMiddle(new.clone()));
         } else if let Some(at) = at.filter(|_| response.dragged()) {
-            let face = face.clone();
-            actions.push(Action::DragNew { face, at });
+            let interface = interface.clone();
+            actions.push(Action::DragNew { interface, at });
         } else if let Some(at) = at.filter(|_| response.drag_stopped() && !is_canceled) {
-            let (new, face) = (new.clone(), face.clone());
-            actions.push(Action::DropNew { new, face, at });
+            let (new, interface) = (new.clone(), interface.clone());
+            actions.push(Action::DropNew { new, interface, at });
         }
         if !response.dragged() {
             self.show_beside(&response, context);
@@ -99,18 +99,18 @@ impl Entry<'_> {
     /// Shows what the entry is beside the list, while the pointer rests on it: a large picture, its name, what it does, and the
     /// words that it is found by.
     fn show_beside(&self, response: &Response, context: &ViewContext<'_>) {
-        let face = &self.candidate.face;
+        let interface = &self.candidate.interface;
         let picture = || (self.picture)(Side::Large).or_else(|| (self.picture)(Side::Small));
         let picture: Option<&dyn Fn() -> Option<TextureId>> = match self.has_picture {
             true => Some(&picture),
             false => None,
         };
         enlarged::show(response, context.theme, picture, |ui| {
-            ui.strong(&face.label);
-            ui.label(&face.summary);
-            outputs(ui, face, context.theme);
-            if !face.aliases.is_empty() {
-                let words = RichText::new(face.aliases.join(", ")).size(type_size::SMALL);
+            ui.strong(&interface.label);
+            ui.label(&interface.summary);
+            outputs(ui, interface, context.theme);
+            if !interface.aliases.is_empty() {
+                let words = RichText::new(interface.aliases.join(", ")).size(type_size::SMALL);
                 ui.label(words.color(context.theme.quiet));
             }
         });
@@ -141,7 +141,7 @@ impl Entry<'_> {
             write(at, Align2::LEFT_CENTER, &keys, type_size::SMALL, theme.quiet);
         }
         let mut left = rect.left() + STAR;
-        let face = &self.candidate.face;
+        let interface = &self.candidate.interface;
         if self.has_picture {
             let place = Rect::from_min_size(pos2(left, rect.top() + 2.0), Vec2::splat(WITH_PICTURE - 4.0));
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -152,12 +152,12 @@ impl Entry<'_> {
             left = place.right() + space::USUAL;
         } else {
             let mark = Rect::from_center_size(pos2(left + 3.0, rect.center().y), vec2(4.0, 12.0));
-            painter.rect_filled(mark, 2.0, theme.category(face.category()));
+            painter.rect_filled(mark, 2.0, theme.category(interface.category()));
             left += 12.0;
         }
         let at = pos2(left, rect.center().y);
-        write(at, Align2::LEFT_CENTER, &face.label, type_size::BODY, theme.text);
-        for (at, port) in face.outputs.iter().take(4).enumerate() {
+        write(at, Align2::LEFT_CENTER, &interface.label, type_size::BODY, theme.text);
+        for (at, port) in interface.outputs.iter().take(4).enumerate() {
             let center = pos2(rect.right() - 10.0 - 10.0 * at as f32, rect.center().y);
             painter.circle_filled(center, 3.0, theme.port(port.ty));
         }

@@ -101,7 +101,11 @@ fn results(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
     let mut nodes: Vec<_> = nodes
         // Not of the paint itself, which a square has none of.
         .filter(|id| Some(*id) != document.selected_one())
-        .filter(|id| document.face(id).is_some_and(|face| !face.outputs.is_empty()))
+        .filter(|id| {
+            document
+                .interface(id)
+                .is_some_and(|interface| !interface.outputs.is_empty())
+        })
         .map(|id| (document.title(id), id))
         .collect();
     nodes.sort();

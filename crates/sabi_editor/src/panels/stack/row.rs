@@ -186,7 +186,10 @@ fn name_and_opacity(
     actions: &mut Vec<Action>,
 ) {
     let theme = context.theme;
-    let knob = context.document.face(&layer.node).and_then(|face| face.knob("opacity"));
+    let knob = context
+        .document
+        .interface(&layer.node)
+        .and_then(|interface| interface.knob("opacity"));
     let bar = knob.zip(layer.opacity).filter(|_| layer.opacity.is_some());
     let (name, below) = match bar {
         Some(_) => room.split_top_bottom_at_y(room.center().y - 2.0),

@@ -26,7 +26,7 @@ impl Window {
             .collect()
     }
 
-    /// Entry of a model on the strip.
+    /// Interface of a model on the strip.
     fn entry(&self, name: &str) -> Pos2 {
         let label = format!("{} {name}", icon::CUBE);
         self.harness.get_by_label(&label).rect().center()

@@ -2,20 +2,20 @@
 //! slider does not.
 
 use sabi_engine::Session;
-use sabi_engine::catalog::{Catalog, Faces, ReadGroup};
+use sabi_engine::catalog::{Catalog, Interfaces, ReadGroup};
 use sabi_graph::{Body, Document, Edit, SlotRef};
 
 /// Ports and knobs of the nodes of the open document.
 #[derive(Default)]
-pub(crate) struct CurrentFaces {
-    pub(crate) faces: Faces,
+pub(crate) struct CurrentInterfaces {
+    pub(crate) interfaces: Interfaces,
     /// Revisions of the document and of the kinds when they were listed; `None` if files have changed since.
     of: Option<(u64, u64)>,
     /// Increases each time they are listed. The numbers of different open documents are always different.
     pub(crate) number: u64,
 }
 
-impl CurrentFaces {
+impl CurrentInterfaces {
     /// Lets the next refresh list everything again, since files that the graph refers to have changed.
     pub(crate) fn look_again(&mut self) {
         self.of = None;
@@ -36,24 +36,24 @@ impl CurrentFaces {
         let document = session.document();
         let known = self.of.filter(|(_, kinds)| *kinds == kinds_revision);
         let edits = known.and_then(|(revision, _)| session.edits_since(revision));
-        let change = edits.map_or(FaceChange::Any, |edits| FaceChange::of(document, edits));
+        let change = edits.map_or(InterfaceChange::Any, |edits| InterfaceChange::of(document, edits));
         match change {
-            FaceChange::None => {}
-            FaceChange::Whole => self.faces.refresh_whole(document),
-            FaceChange::Any => {
-                self.faces = Faces::new(catalog, document, read);
+            InterfaceChange::None => {}
+            InterfaceChange::Whole => self.interfaces.refresh_whole(document),
+            InterfaceChange::Any => {
+                self.interfaces = Interfaces::new(catalog, document, read);
                 // Revisions of a session are unique in the process, so this number is unique, too.
                 self.number = session.revision().max(self.number + 1);
             }
         }
         self.of = Some(now);
-        change == FaceChange::Any
+        change == InterfaceChange::Any
     }
 }
 
 /// Effect of an edit on the ports and knobs of nodes. For two edits, the larger effect counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum FaceChange {
+enum InterfaceChange {
     /// No effect.
     None,
     /// Defaults of the exposed knobs of the main graph, for files that use it as a group.
@@ -62,24 +62,24 @@ enum FaceChange {
     Any,
 }
 
-impl FaceChange {
+impl InterfaceChange {
     /// Returns the effect of edits that were already applied to `document`.
-    fn of(document: &Document, edits: &[Edit]) -> FaceChange {
-        let changes = edits.iter().map(|edit| FaceChange::of_one(document, edit));
-        changes.max().unwrap_or(FaceChange::None)
+    fn of(document: &Document, edits: &[Edit]) -> InterfaceChange {
+        let changes = edits.iter().map(|edit| InterfaceChange::of_one(document, edit));
+        changes.max().unwrap_or(InterfaceChange::None)
     }
 
-    fn of_one(document: &Document, edit: &Edit) -> FaceChange {
+    fn of_one(document: &Document, edit: &Edit) -> InterfaceChange {
         match edit {
-            Edit::Batch(edits) => FaceChange::of(document, edits),
+            Edit::Batch(edits) => InterfaceChange::of(document, edits),
             Edit::SetParam { body, node, param, .. } => {
                 let is_set = |slot: &SlotRef| slot.node == *node && slot.name == *param;
                 let graph = document.body(body);
                 let mut exposed = graph.iter().flat_map(|graph| graph.exposed().values());
                 match body {
-                    _ if !exposed.any(|knob| knob.to.iter().any(is_set)) => FaceChange::None,
-                    Body::Main => FaceChange::Whole,
-                    Body::Group(_) => FaceChange::Any,
+                    _ if !exposed.any(|knob| knob.to.iter().any(is_set)) => InterfaceChange::None,
+                    Body::Main => InterfaceChange::Whole,
+                    Body::Group(_) => InterfaceChange::Any,
                 }
             }
             Edit::Move { .. }
@@ -90,8 +90,8 @@ impl FaceChange {
             | Edit::RemoveFrame { .. }
             | Edit::SetPreview { .. }
             | Edit::SetFit { .. }
-            | Edit::SetSeed { .. } => FaceChange::None,
-            _ => FaceChange::Any,
+            | Edit::SetSeed { .. } => InterfaceChange::None,
+            _ => InterfaceChange::Any,
         }
     }
 }

@@ -10,7 +10,7 @@ use sabi_graph::{
 };
 use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
 
-use super::{Catalog, Entry, Knob, Port, label_of, placeholder};
+use super::{Catalog, Interface, Knob, Port, label_of, placeholder};
 
 /// Maximum nesting of group files. Deeper ones are shown as missing.
 const DEEPEST_FILE: usize = 16;
@@ -22,35 +22,35 @@ pub type ReadGroup<'a> = &'a mut dyn FnMut(&str) -> Option<Document>;
 
 /// Catalog entries of the nodes of a document, by the graph that contains them and their id.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Faces {
-    of_nodes: BTreeMap<Body, BTreeMap<NodeId, Arc<Entry>>>,
-    /// Entry for a file that is used as a group.
-    of_whole: Option<Arc<Entry>>,
-    of_groups: BTreeMap<String, Arc<Entry>>,
+pub struct Interfaces {
+    of_nodes: BTreeMap<Body, BTreeMap<NodeId, Arc<Interface>>>,
+    /// Interface for a file that is used as a group.
+    of_whole: Option<Arc<Interface>>,
+    of_groups: BTreeMap<String, Arc<Interface>>,
 }
 
-impl Faces {
+impl Interfaces {
     /// Builds the entries for all nodes of a document.
-    pub fn new(catalog: &Catalog, document: &Document, read: ReadGroup<'_>) -> Faces {
-        Faces::within(catalog, document, read, 0)
+    pub fn new(catalog: &Catalog, document: &Document, read: ReadGroup<'_>) -> Interfaces {
+        Interfaces::within(catalog, document, read, 0)
     }
 
-    fn within(catalog: &Catalog, document: &Document, read: ReadGroup<'_>, depth: usize) -> Faces {
-        let mut builder = FacesBuilder {
+    fn within(catalog: &Catalog, document: &Document, read: ReadGroup<'_>, depth: usize) -> Interfaces {
+        let mut builder = InterfacesBuilder {
             catalog,
             document,
             read,
             depth,
-            faces: Faces::default(),
+            interfaces: Interfaces::default(),
             open: BTreeSet::new(),
         };
         for name in document.groups.keys() {
             builder.group(name);
         }
         builder.body(&Body::Main);
-        let FacesBuilder { mut faces, .. } = builder;
-        faces.refresh_whole(document);
-        faces
+        let InterfacesBuilder { mut interfaces, .. } = builder;
+        interfaces.refresh_whole(document);
+        interfaces
     }
 
     /// Rebuilds the entry for a file that is used as a group. Its knobs have the values of the main graph.
@@ -66,17 +66,17 @@ impl Faces {
     }
 
     /// Returns the entry of a node; `None` if there is no such node.
-    pub fn of(&self, body: &Body, node: &str) -> Option<&Arc<Entry>> {
+    pub fn of(&self, body: &Body, node: &str) -> Option<&Arc<Interface>> {
         self.of_nodes.get(body)?.get(node)
     }
 
     /// Returns the entry for instances of one of the document's own groups.
-    pub fn of_group(&self, name: &str) -> Option<&Arc<Entry>> {
+    pub fn of_group(&self, name: &str) -> Option<&Arc<Interface>> {
         self.of_groups.get(name)
     }
 
     /// Returns the entry for instances of the document itself, for other files that use it as a group.
-    pub fn of_whole(&self) -> Option<&Arc<Entry>> {
+    pub fn of_whole(&self) -> Option<&Arc<Interface>> {
         self.of_whole.as_ref()
     }
 
@@ -88,17 +88,17 @@ impl Faces {
 }
 
 /// Builder of the entries of a document.
-struct FacesBuilder<'a, 'r> {
+struct InterfacesBuilder<'a, 'r> {
     catalog: &'a Catalog,
     document: &'a Document,
     read: ReadGroup<'r>,
     depth: usize,
-    faces: Faces,
+    interfaces: Interfaces,
     /// Groups whose entries are being built. A group inside itself has no entry.
     open: BTreeSet<String>,
 }
 
-impl FacesBuilder<'_, '_> {
+impl InterfacesBuilder<'_, '_> {
     /// Builds the entries of all nodes of one graph.
     fn body(&mut self, body: &Body) {
         let document = self.document;
@@ -115,16 +115,20 @@ impl FacesBuilder<'_, '_> {
             let Some(node) = graph.node(id.as_str()) else {
                 continue;
             };
-            let face = self.face(body, node, |name| {
+            let interface = self.interface(body, node, |name| {
                 let (node, name) = (id.clone(), name.to_owned());
                 fed.contains(&SlotRef { node, name })
             });
-            self.faces.of_nodes.entry(body.clone()).or_default().insert(id, face);
+            self.interfaces
+                .of_nodes
+                .entry(body.clone())
+                .or_default()
+                .insert(id, interface);
         }
     }
 
     /// Builds the entry for a node. `is_fed` returns true if an input of the group leads to that input of the node.
-    fn face(&mut self, body: &Body, node: &Node, is_fed: impl Fn(&str) -> bool) -> Arc<Entry> {
+    fn interface(&mut self, body: &Body, node: &Node, is_fed: impl Fn(&str) -> bool) -> Arc<Interface> {
         let catalog = self.catalog;
         let kind = node.kind.as_str();
         if kind == GROUP_KIND {
@@ -140,8 +144,8 @@ impl FacesBuilder<'_, '_> {
         let carried = node
             .inputs
             .get("source")
-            .and_then(|from| self.faces.carried(body, from));
-        let mut reroute = Entry::clone(entry);
+            .and_then(|from| self.interfaces.carried(body, from));
+        let mut reroute = Interface::clone(entry);
         for port in reroute.inputs.iter_mut().chain(&mut reroute.outputs) {
             port.ty = carried;
         }
@@ -149,8 +153,8 @@ impl FacesBuilder<'_, '_> {
     }
 
     /// Returns the entry for instances of a group, and builds it on first use.
-    fn group(&mut self, name: &str) -> Option<Arc<Entry>> {
-        if let Some(known) = self.faces.of_groups.get(name) {
+    fn group(&mut self, name: &str) -> Option<Arc<Interface>> {
+        if let Some(known) = self.interfaces.of_groups.get(name) {
             return Some(known.clone());
         }
         if self.open.len() == DEEPEST_GROUP || !self.open.insert(name.to_owned()) {
@@ -167,18 +171,18 @@ impl FacesBuilder<'_, '_> {
                     inputs: &group.inputs,
                     outputs: &group.outputs,
                 };
-                Some(Arc::new(exposed.entry(&self.faces, &body)))
+                Some(Arc::new(exposed.entry(&self.interfaces, &body)))
             }
             None => self.file(name),
         };
         self.open.remove(name);
         if let Some(made) = &made {
-            self.faces.of_groups.insert(name.to_owned(), made.clone());
+            self.interfaces.of_groups.insert(name.to_owned(), made.clone());
         }
         made
     }
 
-    fn file(&mut self, name: &str) -> Option<Arc<Entry>> {
+    fn file(&mut self, name: &str) -> Option<Arc<Interface>> {
         if self.depth >= DEEPEST_FILE {
             return None;
         }
@@ -190,18 +194,18 @@ impl FacesBuilder<'_, '_> {
             "" => read(inner),
             folder => read(&format!("{folder}/{inner}")),
         };
-        Faces::within(self.catalog, &document, &mut beside, self.depth + 1).of_whole
+        Interfaces::within(self.catalog, &document, &mut beside, self.depth + 1).of_whole
     }
 }
 
 /// Returns the entry with inputs for the masks that are linked to parameters of a node.
-fn with_param_masks(entry: &Arc<Entry>, is_linked: impl Fn(&str) -> bool) -> Arc<Entry> {
+fn with_param_masks(entry: &Arc<Interface>, is_linked: impl Fn(&str) -> bool) -> Arc<Interface> {
     let masks = entry.param_masks.iter();
     let linked: Vec<Port> = masks.filter(|port| is_linked(&port.name)).cloned().collect();
     if linked.is_empty() {
         return entry.clone();
     }
-    let mut with = Entry::clone(entry);
+    let mut with = Interface::clone(entry);
     with.inputs.extend(linked);
     Arc::new(with)
 }
@@ -216,12 +220,12 @@ struct GroupBody<'a> {
 }
 
 impl GroupBody<'_> {
-    fn entry(&self, faces: &Faces, body: &Body) -> Entry {
+    fn entry(&self, interfaces: &Interfaces, body: &Body) -> Interface {
         let inputs = self.inputs.iter().map(|(name, input)| {
             let targets: Vec<&Port> = input
                 .to
                 .iter()
-                .filter_map(|slot| target_port(faces, body, slot))
+                .filter_map(|slot| target_port(interfaces, body, slot))
                 .collect();
             Port {
                 name: name.clone(),
@@ -234,7 +238,7 @@ impl GroupBody<'_> {
             }
         });
         let outputs = self.outputs.iter().map(|(name, from)| {
-            let inner = faces.of(body, from.node.as_str());
+            let inner = interfaces.of(body, from.node.as_str());
             let port = inner.and_then(|entry| entry.output(from.port.as_deref()));
             Port {
                 name: name.clone(),
@@ -247,10 +251,10 @@ impl GroupBody<'_> {
             }
         });
         let exposed = self.graph.panel().into_iter();
-        let knobs = exposed.filter_map(|(name, knob)| self.knob(faces, body, name, knob));
+        let knobs = exposed.filter_map(|(name, knob)| self.knob(interfaces, body, name, knob));
         let instance = any_group();
         let about = self.description.about.as_deref();
-        Entry {
+        Interface {
             label: if self.name.is_empty() {
                 instance.label
             } else {
@@ -266,9 +270,9 @@ impl GroupBody<'_> {
     }
 
     /// Builds an exposed knob, which looks like the first knob that it sets.
-    fn knob(&self, faces: &Faces, body: &Body, name: &str, exposed: &Exposed) -> Option<Knob> {
+    fn knob(&self, interfaces: &Interfaces, body: &Body, name: &str, exposed: &Exposed) -> Option<Knob> {
         let slot = exposed.to.first()?;
-        let entry = faces.of(body, slot.node.as_str())?;
+        let entry = interfaces.of(body, slot.node.as_str())?;
         let inner = entry.knob(&slot.name)?;
         let set = self.graph.node(slot.node.as_str())?.params.get(&slot.name);
         let default = exposed.default.as_ref().or(set).unwrap_or(&inner.ty.default).clone();
@@ -306,11 +310,11 @@ impl GroupBody<'_> {
 }
 
 /// Returns the entry of group instances without a known group.
-pub(super) fn any_group() -> Entry {
+pub(super) fn any_group() -> Interface {
     let none = ParamValue::Text("none".to_owned());
     let variant = ParamType::new(Role::Text, Memory::Text, &none);
     let doc = "Variant of the group to start from; its exposed knobs are parameters, too.";
-    Entry {
+    Interface {
         id: GROUP_KIND.to_owned(),
         version: 1,
         label: "Group".to_owned(),
@@ -363,6 +367,6 @@ fn instance_knob(name: &str, doc: &str, ty: ParamType) -> Knob {
     }
 }
 
-fn target_port<'f>(faces: &'f Faces, body: &Body, slot: &SlotRef) -> Option<&'f Port> {
-    faces.of(body, slot.node.as_str())?.input(&slot.name)
+fn target_port<'f>(interfaces: &'f Interfaces, body: &Body, slot: &SlotRef) -> Option<&'f Port> {
+    interfaces.of(body, slot.node.as_str())?.input(&slot.name)
 }
