@@ -11,7 +11,7 @@ use std::sync::Arc;
 use sabi_engine::paint::{Step, Stroke};
 use sabi_graph::{Fit, NodeId, OutputRef, SavedView, SlotRef};
 
-pub use exposing_commands::{PanelCommand, PortCommand, VariantCommand};
+pub use exposing_commands::{ExposedCommand, PortCommand, VariantCommand};
 pub use node_commands::{ArrangeCommand, GroupCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource};
 pub use perform::perform;
 
@@ -43,9 +43,9 @@ pub enum EditCommand {
     Group(GroupCommand),
     /// The clipboard.
     Clipboard(ClipboardCommand),
-    /// The panel of exposed knobs.
-    Panel(PanelCommand),
-    /// Variants of the panel.
+    /// Exposed knobs.
+    Exposed(ExposedCommand),
+    /// Variants.
     Variant(VariantCommand),
     /// Inputs and outputs of the shown graph.
     Port(PortCommand),
@@ -80,7 +80,7 @@ groups! {
     Note: NoteCommand,
     Group: GroupCommand,
     Clipboard: ClipboardCommand,
-    Panel: PanelCommand,
+    Exposed: ExposedCommand,
     Variant: VariantCommand,
     Port: PortCommand,
     Layer: LayerCommand,

@@ -1,9 +1,9 @@
-//! Knobs that receive a value from outside of their node or panel.
+//! Knobs that receive a value from outside of their node or graph.
 
 use sabi_graph::{NodeId, Value};
 
 use crate::open_document::OpenDocument;
-use crate::{nodes, panel_values};
+use crate::{exposed_values, nodes};
 
 /// Knob that receives a value from a file dialog or an eyedropper.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum KnobTarget {
         knob: String,
     },
     /// An exposed knob, by its name.
-    Panel(String),
+    Exposed(String),
 }
 
 impl KnobTarget {
@@ -33,6 +33,6 @@ impl KnobTarget {
 pub fn set(document: &mut OpenDocument, knob: &KnobTarget, value: Value) -> bool {
     match knob {
         KnobTarget::Node { node, knob } => nodes::set_knob_of_selected(document, node, knob, Some(value)),
-        KnobTarget::Panel(name) => panel_values::set(document, name, &value),
+        KnobTarget::Exposed(name) => exposed_values::set(document, name, &value),
     }
 }

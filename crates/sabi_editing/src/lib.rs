@@ -2,7 +2,7 @@
 //! undo step. It needs no window, also for tests.
 //!
 //! [`OpenDocument`] holds what all edits need. The edits are functions over it, in a module for each thing that is edited:
-//! [`nodes`], [`wires`], [`frames`], [`groups`], [`ports`], [`panel`], [`variants`], [`layers`]. A front end performs them
+//! [`nodes`], [`wires`], [`frames`], [`groups`], [`ports`], [`exposed_knobs`], [`variants`], [`layers`]. A front end performs them
 //! as values, with [`command::perform`].
 //!
 //! Invariants:
@@ -43,6 +43,8 @@ mod document_trust;
 pub mod dropped_layers;
 pub mod duplication;
 mod evaluability;
+pub mod exposed_knobs;
+pub mod exposed_values;
 mod follow_up;
 pub mod frames;
 mod group_files;
@@ -68,8 +70,6 @@ pub mod nodes;
 pub mod notes;
 mod open_document;
 pub mod painting;
-pub mod panel;
-pub mod panel_values;
 pub mod ports;
 pub mod random_knobs;
 mod reconnection;

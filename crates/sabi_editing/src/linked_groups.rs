@@ -8,7 +8,7 @@ use sabi_graph::{Body, Document, Edit, GroupDef, INSTANCE_KNOBS, LibrarySource, 
 
 use crate::bundled_groups::{as_group, bundled};
 use crate::open_document::OpenDocument;
-use crate::{group_import, instances, panel_values, relative_paths};
+use crate::{exposed_values, group_import, instances, relative_paths};
 
 /// Returns a link to a library file: with the name of the library, or relative to the document if the file is in no library folder.
 pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySource> {
@@ -142,7 +142,7 @@ fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut V
         let Some(knob) = made.graph.exposed().get(*name) else {
             return INSTANCE_KNOBS.contains(&name.as_str());
         };
-        panel_values::range_fault(knob.range, value).is_none()
+        exposed_values::range_fault(knob.range, value).is_none()
     };
     let mut edits = Vec::new();
     for (name, _) in node.params.iter().filter(|param| !fits(param)) {

@@ -12,7 +12,7 @@ use crate::names::{FILE_ENDING, is_file, knob_label};
 use crate::node_size::GRID;
 use crate::open_document::OpenDocument;
 use crate::variants::NO_VARIANT;
-use crate::{connections, new_nodes, node_size, panel_values, reconnection};
+use crate::{connections, exposed_values, new_nodes, node_size, reconnection};
 
 /// Space between a node and one that was moved aside for it, canvas points.
 const GAP: f32 = 2.0 * GRID;
@@ -293,7 +293,7 @@ fn set_knob_of(
     let ids: Vec<NodeId> = ids.into_iter().collect();
     // All of these nodes have the same kind, so a value that means no variant is a reset for all of them.
     let value = value.filter(|value| !ids.iter().any(|node| means_no_variant(document, node, knob, value)));
-    let mut edits = panel_values::exposed_values(document, &ids, knob, value.as_ref());
+    let mut edits = exposed_values::values_of_exposed(document, &ids, knob, value.as_ref());
     let step = match ids.as_slice() {
         [id] => format!(
             "{} of '{}'",
@@ -304,7 +304,7 @@ fn set_knob_of(
         [] => return false,
     };
     for node in ids {
-        if panel_values::is_of_variant_only(document, &node, knob, value.as_ref()) {
+        if exposed_values::is_of_variant_only(document, &node, knob, value.as_ref()) {
             continue;
         }
         edits.push(Edit::SetParam {

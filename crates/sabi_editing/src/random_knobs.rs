@@ -1,4 +1,4 @@
-//! Random values of exposed knobs, near their current values: of a group instance, and of the document's own panel.
+//! Random values of exposed knobs, near their current values: of a group instance, and of those that the document exposes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use sabi_engine::catalog::{Knob, KnobRole, Memory};
 use sabi_graph::{Body, Edit, GROUP_KIND, INSTANCE_KNOBS, NodeId, Value};
 
 use crate::open_document::OpenDocument;
-use crate::{document_settings, panel, panel_values};
+use crate::{document_settings, exposed_knobs, exposed_values};
 
 /// Name of the seed in lists of knobs that keep their values.
 pub const SEED: &str = "seed";
@@ -65,9 +65,9 @@ pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<Strin
 
 /// Gives the document another seed and the exposed knobs of the shown graph other values, like [`randomize`]. If a
 /// variant is shown, its values are changed. Values stay near those that a reset restores.
-pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> bool {
-    let panel = panel::knobs(document);
-    if panel.is_empty() {
+pub fn randomize_exposed(document: &mut OpenDocument, kept: &BTreeSet<String>) -> bool {
+    let knobs = exposed_knobs::knobs(document);
+    if knobs.is_empty() {
         return document.refuse("there are no exposed parameters to give random values to");
     }
     document.session.begin("Random values");
@@ -76,23 +76,23 @@ pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> 
         let seed = document.ids.seed();
         is_changed |= document_settings::set_seed(document, seed);
     }
-    for known in panel.into_iter().filter(|known| !kept.contains(&known.name)) {
+    for known in knobs.into_iter().filter(|known| !kept.contains(&known.name)) {
         let value = match known.knob.ty.role {
             KnobRole::Seed => Some(Value::from(document.ids.seed())),
             // A knob that was exposed since the graph was opened has no other value than its current one.
             _ => near(&known.knob, home_of(&known), &known.value, || signed(document)),
         };
         if let Some(value) = value {
-            is_changed |= panel_values::set(document, &known.name, &value);
+            is_changed |= exposed_values::set(document, &known.name, &value);
         }
     }
     document.session.end();
     is_changed
 }
 
-/// Returns the value that a panel knob stays near: the one that a reset restores, if the knob accepts it.
-fn home_of(known: &panel::PanelKnob) -> &Value {
-    match panel_values::range_fault(known.knob.ty.range, &known.at_first) {
+/// Returns the value that an exposed knob stays near: the one that a reset restores, if the knob accepts it.
+fn home_of(known: &exposed_knobs::ExposedKnob) -> &Value {
+    match exposed_values::range_fault(known.knob.ty.range, &known.at_first) {
         None => &known.at_first,
         Some(_) => &known.value,
     }

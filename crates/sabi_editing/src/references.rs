@@ -1,4 +1,4 @@
-//! Transfer of references to removed nodes: knobs on the panel, inputs and outputs of the group, and frames that referred
+//! Transfer of references to removed nodes: exposed knobs, inputs and outputs of the group, and frames that referred
 //! to a removed node refer to its successors instead.
 
 use std::collections::BTreeSet;

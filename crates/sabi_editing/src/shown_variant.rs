@@ -7,7 +7,7 @@ use sabi_graph::{Edit, Value};
 use crate::navigation;
 use crate::open_document::OpenDocument;
 
-/// Returns the variant with whose values the shown graph is evaluated, and that edits of the panel change: the variant of
+/// Returns the variant with whose values the shown graph is evaluated, and that edits of exposed knobs change: the variant of
 /// the preview, or inside a group the variant of the entered instance. `None` means the graph's own values.
 pub fn name(document: &OpenDocument) -> Option<&str> {
     chosen(document).filter(|name| document.graph().variants().contains_key(*name))

@@ -6,6 +6,7 @@ mod copying;
 mod dropping;
 mod effect_library;
 mod entering;
+mod exposed_variants;
 mod exposing;
 mod finding;
 mod framing;
@@ -16,7 +17,6 @@ mod inserting;
 mod layering;
 mod node_edits;
 mod node_titles;
-mod panel_variants;
 mod param_masks;
 mod random;
 mod random_values;
@@ -43,9 +43,9 @@ use crate::open_document::OpenDocument;
 use crate::stack::StackEnd;
 use crate::wires::MaskMerge;
 use crate::{
-    arrangement, clipboard, connections, duplication, frames, groups, instance_variants, layers, library, navigation,
-    node_paths, node_replacement, node_size, nodes, panel, panel_values, ports, selection, shown_variant, stack,
-    texture_sets, variants, wires,
+    arrangement, clipboard, connections, duplication, exposed_knobs, exposed_values, frames, groups, instance_variants,
+    layers, library, navigation, node_paths, node_replacement, node_size, nodes, ports, selection, shown_variant,
+    stack, texture_sets, variants, wires,
 };
 
 /// The built-in kinds, read once for all tests.

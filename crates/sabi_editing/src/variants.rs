@@ -7,27 +7,27 @@ use sabi_graph::{Body, Edit, NodeId, Value};
 
 use crate::document_settings::changed_preview;
 use crate::open_document::OpenDocument;
-use crate::{instance_variants, instances, navigation, panel, panel_values, shown_variant};
+use crate::{exposed_knobs, exposed_values, instance_variants, instances, navigation, shown_variant};
 
 /// Value of an instance's variant parameter that selects no variant.
 pub(crate) const NO_VARIANT: &str = "none";
 
-/// Saves the current values of the panel as a variant with this name, and replaces an existing one. If a variant is shown,
+/// Saves the current values of the exposed knobs as a variant with this name, and replaces an existing one. If a variant is shown,
 /// the new one is shown instead.
 pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     let name = match checked_name(name) {
         Ok(name) => name,
         Err(why) => return document.refuse(why),
     };
-    let panel = panel::knobs(document);
-    if panel.is_empty() {
+    let knobs = exposed_knobs::knobs(document);
+    if knobs.is_empty() {
         return document.refuse("a variant stores the exposed parameters, and there are none; expose some first");
     }
     // An instance without a variant does not store the value of its variant knob.
-    let is_none = |knob: &panel::PanelKnob| {
+    let is_none = |knob: &exposed_knobs::ExposedKnob| {
         knob.exposed.to.iter().any(|slot| slot.name == "variant") && knob.value.as_text() == Some(NO_VARIANT)
     };
-    let values = panel.into_iter().filter(|knob| !is_none(knob));
+    let values = knobs.into_iter().filter(|knob| !is_none(knob));
     let values: BTreeMap<String, Value> = values.map(|knob| (knob.name, knob.value)).collect();
     let mut edits = vec![shown_variant::setting(document, &name, Some(values))];
     // If a variant is shown, further edits are meant for the copy.
@@ -37,7 +37,7 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Save variant", edits)
 }
 
-/// Returns a text that identifies the values that the panel shows, in the form of [`as_text`]: the shown variant, or the
+/// Returns a text that identifies the values that are shown, in the form of [`as_text`]: the shown variant, or the
 /// graph's own values.
 pub fn shown_as_text(document: &OpenDocument) -> String {
     match shown_variant::values(document) {
@@ -46,7 +46,7 @@ pub fn shown_as_text(document: &OpenDocument) -> String {
     }
 }
 
-/// Returns a text that identifies the graph's own values of the panel.
+/// Returns a text that identifies the graph's own values of the exposed knobs.
 pub fn own_as_text(document: &OpenDocument) -> String {
     let own = document
         .own_interface()
@@ -73,7 +73,7 @@ pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
             return document.refuse(format!("there is no variant '{name}'"));
         };
         let mut faults = values.iter();
-        let why = faults.find_map(|(knob, value)| panel_values::why_not_set(document, knob, value));
+        let why = faults.find_map(|(knob, value)| exposed_values::why_not_set(document, knob, value));
         if let Some(why) = why {
             return document.refuse(why);
         }

@@ -55,7 +55,7 @@ impl Looks {
             Some(ColorTarget::Parameter(KnobTarget::Node { node, .. })) => document.full_id(node) == result.node,
             // A paint node is a mask most of the time, which has no colors.
             Some(ColorTarget::Brush) => true,
-            Some(ColorTarget::Parameter(KnobTarget::Panel(_))) | None => false,
+            Some(ColorTarget::Parameter(KnobTarget::Exposed(_))) | None => false,
         };
         let followed = self
             .followed

@@ -1,9 +1,9 @@
 //! Applies edits and gives their exact inverses.
 
+mod exposed;
 mod groups;
 mod no_effect;
 mod nodes;
-mod panel;
 
 use std::collections::BTreeMap;
 

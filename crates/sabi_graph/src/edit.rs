@@ -67,7 +67,7 @@ pub enum Edit {
     SetNote { body: Body, id: String, note: Option<Note> },
     /// Exposes a knob, or replaces the one of that name.
     Expose { body: Body, name: String, knob: Exposed },
-    /// Removes a knob from the panel and from all variants.
+    /// Removes a knob from the exposed ones and from all variants.
     Unexpose { body: Body, name: String },
     /// Sets the knob values of a variant, or removes the variant (`None`).
     SetVariant {

@@ -93,7 +93,7 @@ const WORDS: Key = key(
     Shape::Texts,
     "Words that it is found by, besides those of its name and text.",
 );
-const EXPOSED_KEY: Key = key("exposed", Shape::Objects(&EXPOSED), "Knobs on its panel, by name.");
+const EXPOSED_KEY: Key = key("exposed", Shape::Objects(&EXPOSED), "Knobs that it exposes, by name.");
 const VARIANTS: Key = key(
     "variants",
     Shape::Map(&Shape::Map(&Shape::Any)),
@@ -199,7 +199,7 @@ pub(crate) static NODE: ObjectKeys = ObjectKeys {
 /// A knob.
 pub(crate) static EXPOSED: ObjectKeys = ObjectKeys {
     name: "exposed",
-    about: "A knob on the panel of a graph or group.",
+    about: "A knob that a graph or group exposes.",
     keys: &[
         key("to", Shape::References, "Parameters that it sets, `node.param`."),
         key(
@@ -209,12 +209,8 @@ pub(crate) static EXPOSED: ObjectKeys = ObjectKeys {
         ),
         key("label", Shape::Text, "Display name."),
         key("about", Shape::Text, "Its effect, a sentence."),
-        key(
-            "section",
-            Shape::Text,
-            "Title of the part of the panel that it stands in.",
-        ),
-        key("order", Shape::Whole, "Place on the panel."),
+        key("section", Shape::Text, "Title of the section that it stands in."),
+        key("order", Shape::Whole, "Place among the exposed knobs."),
         key("range", Shape::Numbers(2), "Lowest and highest number taken."),
         key("default", Shape::Any, "Value until it is set."),
     ],

@@ -10,7 +10,7 @@ use petgraph::visit::EdgeRef;
 use crate::problem::{Problem, hint, quoted};
 use crate::{KnobCurve, NodeDisplay, NodeId, Note, OutputRef, SlotRef, Value};
 
-/// A knob on a graph's control panel.
+/// A knob that a graph exposes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exposed {
     /// The parameters it sets, written `node.param`.
@@ -22,9 +22,9 @@ pub struct Exposed {
     pub label: Option<String>,
     /// One sentence about its effect, for artists.
     pub about: Option<String>,
-    /// Title of the panel section that contains the knob.
+    /// Title of the section that contains the knob.
     pub section: Option<String>,
-    /// Position on the panel. Knobs without one come last, sorted by name.
+    /// Position among the exposed knobs. Knobs without one come last, sorted by name.
     pub order: Option<u32>,
     /// Accepted numbers, lowest and highest. Numbers outside are refused.
     pub range: Option<[f64; 2]>,
@@ -188,8 +188,8 @@ impl Graph {
         &self.exposed
     }
 
-    /// Returns the exposed knobs in the order of the panel, by position and name. A section is placed where its first knob is.
-    pub fn panel(&self) -> Vec<(&str, &Exposed)> {
+    /// Returns the exposed knobs in their order, by position and name. A section is placed where its first knob is.
+    pub fn exposed_in_order(&self) -> Vec<(&str, &Exposed)> {
         let mut knobs: Vec<(&str, &Exposed)> = self.exposed.iter().map(|(name, knob)| (name.as_str(), knob)).collect();
         knobs.sort_by_key(|(_, knob)| knob.order.unwrap_or(u32::MAX));
         let mut sections: Vec<Option<&str>> = Vec::new();

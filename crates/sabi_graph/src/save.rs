@@ -22,7 +22,7 @@ impl Document {
         }
         object.put_some("fit", Some(self.fit).filter(|fit| *fit != Fit::Unit).map(fit_value));
         object.put_some("seed", Some(self.seed).filter(|seed| *seed != 0));
-        put_panel(&mut object, &self.graph);
+        put_exposed(&mut object, &self.graph);
         object.put_map("groups", &self.groups, group_item);
         put_ports(&mut object, &self.inputs, &self.outputs);
         put_nodes(&mut object, &self.graph);
@@ -39,7 +39,7 @@ fn group_item(group: &GroupDef) -> Item {
         object.push("library".to_owned(), library_item(library));
     }
     object.put_some("fit", group.fit.map(fit_value));
-    put_panel(&mut object, &group.graph);
+    put_exposed(&mut object, &group.graph);
     put_ports(&mut object, &group.inputs, &group.outputs);
     put_nodes(&mut object, &group.graph);
     object.put_extra(&group.extra, |key| format::GROUP.has(key));
@@ -65,7 +65,7 @@ fn library_item(library: &LibrarySource) -> Item {
     Item::Object(object)
 }
 
-fn put_panel(object: &mut OrderedObject, graph: &Graph) {
+fn put_exposed(object: &mut OrderedObject, graph: &Graph) {
     object.put_map("exposed", &graph.exposed, exposed_item);
     object.put_map("variants", &graph.variants, |values| {
         Item::Value(Value::Object(values.clone()))

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 
 use sabi_graph::{OutputRef, SlotRef, Value};
 
-/// Change of the panel of exposed knobs.
+/// Change of an exposed knob.
 #[derive(Clone, Debug, PartialEq)]
-pub enum PanelCommand {
+pub enum ExposedCommand {
     /// Set the value of a knob.
     Set {
         /// Name of the knob.
@@ -31,7 +31,7 @@ pub enum PanelCommand {
         /// Current name.
         to: String,
     },
-    /// Set the section of the panel that contains a knob. An empty title removes the knob from its section.
+    /// Set the section that contains a knob. An empty title removes the knob from its section.
     SetSection {
         /// Name of the knob.
         name: String,
@@ -59,7 +59,7 @@ pub enum PanelCommand {
         /// Name of the knob that comes after it.
         before: Option<String>,
     },
-    /// Take a knob off the panel.
+    /// Expose a knob no longer.
     Remove(String),
     /// Give the knobs values near their current ones, and the document another seed.
     Randomize {
@@ -68,10 +68,10 @@ pub enum PanelCommand {
     },
 }
 
-/// Change of the variants of the panel.
+/// Change of the variants.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum VariantCommand {
-    /// Save the current values of the panel as a variant.
+    /// Save the current values of the exposed knobs as a variant.
     Save(String),
     /// Show a variant, which further edits of the panel then change. `None` shows the graph's own values.
     Show(Option<String>),

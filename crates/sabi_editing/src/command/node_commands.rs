@@ -111,7 +111,7 @@ pub enum KnobCommand {
         /// Name of the knob.
         knob: String,
     },
-    /// Take a knob of a node off the panel.
+    /// Expose a knob of a node no longer.
     Unexpose {
         /// Node that has the knob.
         node: NodeId,

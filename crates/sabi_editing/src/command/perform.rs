@@ -6,17 +6,17 @@ use sabi_engine::catalog::label_of;
 use sabi_graph::{GROUP_KIND, NodeId, Value};
 
 use super::{
-    ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand,
-    KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, NoteCommand, Outcome, PaintCommand,
-    PanelCommand, PortCommand, SelectionCommand, VariantCommand, WireCommand,
+    ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, ExposedCommand, FrameCommand, GroupCommand,
+    HistoryCommand, KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, NoteCommand, Outcome,
+    PaintCommand, PortCommand, SelectionCommand, VariantCommand, WireCommand,
 };
 use crate::connections::PendingWire;
 use crate::names::FILE_ENDING;
 use crate::open_document::OpenDocument;
 use crate::{
-    arrangement, clipboard, document_settings, dropped_layers, duplication, frames, groups, hand_layers,
-    instance_variants, knob_target, layers, library, linked_groups, navigation, node_replacement, nodes, notes,
-    painting, panel, panel_values, ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
+    arrangement, clipboard, document_settings, dropped_layers, duplication, exposed_knobs, exposed_values, frames,
+    groups, hand_layers, instance_variants, knob_target, layers, library, linked_groups, navigation, node_replacement,
+    nodes, notes, painting, ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
 };
 
 /// Performs a command on the open document.
@@ -33,7 +33,7 @@ pub fn perform(document: &mut OpenDocument, command: EditCommand) -> Outcome {
         EditCommand::Note(command) => note(document, command),
         EditCommand::Group(command) => group(document, &command),
         EditCommand::Clipboard(command) => clip(document, &command),
-        EditCommand::Panel(command) => exposed(document, command),
+        EditCommand::Exposed(command) => exposed(document, command),
         EditCommand::Variant(command) => variant(document, &command),
         EditCommand::Port(command) => port(document, command),
         EditCommand::Layer(command) => layer(document, command),
@@ -173,8 +173,8 @@ fn knob(document: &mut OpenDocument, command: KnobCommand) -> Outcome {
     let is_done = match command {
         KnobCommand::Set { node, knob, value } => nodes::set_knob_of_selected(document, &node, &knob, value),
         KnobCommand::SetTarget { target, value } => knob_target::set(document, &target, value),
-        KnobCommand::Expose { node, knob } => panel::expose_of_selected(document, &node, &knob),
-        KnobCommand::Unexpose { node, knob } => panel::unexpose_knob(document, &node, &knob),
+        KnobCommand::Expose { node, knob } => exposed_knobs::expose_of_selected(document, &node, &knob),
+        KnobCommand::Unexpose { node, knob } => exposed_knobs::unexpose_knob(document, &node, &knob),
     };
     is_done.into()
 }
@@ -266,18 +266,18 @@ fn clip(document: &mut OpenDocument, command: &ClipboardCommand) -> Outcome {
     copied.map_or(Outcome::Unchanged, Outcome::Copied)
 }
 
-fn exposed(document: &mut OpenDocument, command: PanelCommand) -> Outcome {
+fn exposed(document: &mut OpenDocument, command: ExposedCommand) -> Outcome {
     let is_done = match command {
-        PanelCommand::Set { name, value } => panel_values::set(document, &name, &value),
-        PanelCommand::Reset(name) => panel_values::reset(document, &name),
-        PanelCommand::SetLabel { name, label } => panel::set_label(document, &name, &label),
-        PanelCommand::Rename { name, to } => panel::rename(document, &name, &to),
-        PanelCommand::SetSection { name, section } => panel::set_section(document, &name, &section),
-        PanelCommand::SetRange { name, range } => panel_values::set_range(document, &name, range),
-        PanelCommand::SetDefault { name, default } => panel_values::set_default(document, &name, default),
-        PanelCommand::Move { name, before } => panel::move_knob(document, &name, before.as_deref()),
-        PanelCommand::Remove(name) => panel::unexpose(document, &name),
-        PanelCommand::Randomize { kept } => random_knobs::randomize_panel(document, &kept),
+        ExposedCommand::Set { name, value } => exposed_values::set(document, &name, &value),
+        ExposedCommand::Reset(name) => exposed_values::reset(document, &name),
+        ExposedCommand::SetLabel { name, label } => exposed_knobs::set_label(document, &name, &label),
+        ExposedCommand::Rename { name, to } => exposed_knobs::rename(document, &name, &to),
+        ExposedCommand::SetSection { name, section } => exposed_knobs::set_section(document, &name, &section),
+        ExposedCommand::SetRange { name, range } => exposed_values::set_range(document, &name, range),
+        ExposedCommand::SetDefault { name, default } => exposed_values::set_default(document, &name, default),
+        ExposedCommand::Move { name, before } => exposed_knobs::move_knob(document, &name, before.as_deref()),
+        ExposedCommand::Remove(name) => exposed_knobs::unexpose(document, &name),
+        ExposedCommand::Randomize { kept } => random_knobs::randomize_exposed(document, &kept),
     };
     is_done.into()
 }

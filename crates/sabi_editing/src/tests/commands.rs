@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::command::{
-    ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand,
-    KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand,
+    ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, ExposedCommand, FrameCommand, GroupCommand,
+    HistoryCommand, KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, Outcome, PortCommand,
     SelectionCommand, VariantCommand, WireCommand, perform,
 };
 
@@ -130,7 +130,7 @@ fn a_refused_command_changes_nothing_and_gives_the_reason() {
             off: None,
         }),
         EditCommand::Frame(FrameCommand::Recolor(lost())),
-        EditCommand::Panel(PanelCommand::Reset(lost())),
+        EditCommand::Exposed(ExposedCommand::Reset(lost())),
         EditCommand::Variant(VariantCommand::Show(Some(lost()))),
         EditCommand::Port(PortCommand::Feed {
             name: lost(),

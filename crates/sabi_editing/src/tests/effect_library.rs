@@ -144,8 +144,8 @@ fn faults_of(document: &Document) -> Vec<String> {
         "has lengths that are no shares of the piece",
     );
     let graph = &document.graph;
-    let panel = graph.panel();
-    let names: Vec<&str> = panel.iter().map(|(name, _)| *name).collect();
+    let exposed = graph.exposed_in_order();
+    let names: Vec<&str> = exposed.iter().map(|(name, _)| *name).collect();
     expect(names.len() <= MOST_KNOBS, "exposes more than nine knobs");
     // A group with random values for whole parts has no size; use its choice of parts instead.
     let second = if names.contains(&"by") { "by" } else { "size" };
@@ -153,7 +153,7 @@ fn faults_of(document: &Document) -> Vec<String> {
         names.starts_with(&["amount", second, "age"]),
         "does not begin with amount, size and age",
     );
-    for (name, knob) in &panel {
+    for (name, knob) in &exposed {
         let is_told = knob.about.as_deref().is_some_and(|about| about.ends_with('.'));
         expect(
             is_told && knob.label.is_some(),

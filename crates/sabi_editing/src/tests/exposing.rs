@@ -8,11 +8,14 @@ const NODES: &str = r#"
     "out": { "kind": "output/mask", "inputs": { "source": "m" } }"#;
 
 fn names(document: &OpenDocument) -> Vec<String> {
-    panel::knobs(document).into_iter().map(|knob| knob.name).collect()
+    exposed_knobs::knobs(document)
+        .into_iter()
+        .map(|knob| knob.name)
+        .collect()
 }
 
 fn value(document: &OpenDocument, name: &str) -> Option<Value> {
-    panel::knobs(document)
+    exposed_knobs::knobs(document)
         .into_iter()
         .find(|knob| knob.name == name)
         .map(|knob| knob.value)
@@ -21,71 +24,81 @@ fn value(document: &OpenDocument, name: &str) -> Option<Value> {
 #[test]
 fn a_knob_is_exposed_and_unexposed() {
     let mut document = opened("", NODES);
-    step(&mut document, |document| panel::expose(document, &id("n"), "size"));
-    step(&mut document, |document| panel::expose(document, &id("w"), "size"));
+    step(&mut document, |document| {
+        exposed_knobs::expose(document, &id("n"), "size")
+    });
+    step(&mut document, |document| {
+        exposed_knobs::expose(document, &id("w"), "size")
+    });
     assert_eq!(names(&document), ["size", "size_2"]);
     assert_eq!(
         [value(&document, "size"), value(&document, "size_2")],
         [number(0.5), number(0.25)]
     );
-    assert_eq!(panel::exposed_as(&document, &id("w"), "size"), Some("size_2"));
-    let said = refused(&mut document, |document| panel::expose(document, &id("w"), "size"));
+    assert_eq!(exposed_knobs::exposed_as(&document, &id("w"), "size"), Some("size_2"));
+    let said = refused(&mut document, |document| {
+        exposed_knobs::expose(document, &id("w"), "size")
+    });
     assert_eq!(said, "this parameter is exposed already, as 'size_2'");
-    let said = refused(&mut document, |document| panel::expose(document, &id("w"), "nothing"));
+    let said = refused(&mut document, |document| {
+        exposed_knobs::expose(document, &id("w"), "nothing")
+    });
     assert_eq!(said, "'Cells' has no parameter 'nothing'");
-    step(&mut document, |document| panel::unexpose(document, "size"));
+    step(&mut document, |document| exposed_knobs::unexpose(document, "size"));
     assert_eq!(names(&document), ["size_2"]);
-    let said = refused(&mut document, |document| panel::unexpose(document, "size"));
+    let said = refused(&mut document, |document| exposed_knobs::unexpose(document, "size"));
     assert!(said.starts_with("there is no knob \"size\""), "{said}");
 }
 
 #[test]
 fn one_exposed_knob_can_control_several_knobs_of_the_same_type() {
     let mut document = opened("", NODES);
-    panel::expose(&mut document, &id("n"), "size");
+    exposed_knobs::expose(&mut document, &id("n"), "size");
     step(&mut document, |document| {
-        panel::expose_also(document, &id("w"), "size", "size")
+        exposed_knobs::expose_also(document, &id("w"), "size", "size")
     });
     step(&mut document, |document| {
-        panel_values::set(document, "size", &Value::Number(0.75))
+        exposed_values::set(document, "size", &Value::Number(0.75))
     });
     assert_eq!(
         ["n", "w"].map(|id| param(&document, id, "size")),
         [number(0.75), number(0.75)]
     );
     let said = refused(&mut document, |document| {
-        panel::expose_also(document, &id("n"), "mode", "size")
+        exposed_knobs::expose_also(document, &id("n"), "mode", "size")
     });
     assert_eq!(said, "'Size' holds values of another sort than 'Mode'");
     step(&mut document, |document| {
-        panel::unexpose_knob(document, &id("n"), "size")
+        exposed_knobs::unexpose_knob(document, &id("n"), "size")
     });
     assert_eq!(document.graph().exposed()["size"].to, [to("w.size")]);
     step(&mut document, |document| {
-        panel::unexpose_knob(document, &id("w"), "size")
+        exposed_knobs::unexpose_knob(document, &id("w"), "size")
     });
-    assert!(panel::knobs(&document).is_empty() && !panel::unexpose_knob(&mut document, &id("w"), "size"));
+    assert!(
+        exposed_knobs::knobs(&document).is_empty() && !exposed_knobs::unexpose_knob(&mut document, &id("w"), "size")
+    );
 }
 
 #[test]
 fn an_exposed_knob_is_reset_to_its_value_when_the_graph_was_opened() {
     let mut document = opened(r#""exposed": { "size": { "to": ["n.size", "w.size"] } },"#, NODES);
-    panel_values::set(&mut document, "size", &Value::Number(0.75));
-    assert_eq!(panel::knobs(&document)[0].at_first, Value::Number(0.5));
-    step(&mut document, |document| panel_values::reset(document, "size"));
+    exposed_values::set(&mut document, "size", &Value::Number(0.75));
+    assert_eq!(exposed_knobs::knobs(&document)[0].at_first, Value::Number(0.5));
+    step(&mut document, |document| exposed_values::reset(document, "size"));
     assert_eq!(
         ["n", "w"].map(|id| param(&document, id, "size")),
         [number(0.5), number(0.5)]
     );
-    panel::expose(&mut document, &id("n"), "gain");
-    panel_values::set(&mut document, "gain", &Value::Number(0.125));
-    step(&mut document, |document| panel_values::reset(document, "gain"));
+    exposed_knobs::expose(&mut document, &id("n"), "gain");
+    exposed_values::set(&mut document, "gain", &Value::Number(0.125));
+    step(&mut document, |document| exposed_values::reset(document, "gain"));
     assert_eq!(
         value(&document, "gain"),
         number(0.5),
         "that of the kind, since it was not there then"
     );
-    let said = refused(&mut document, |document| panel_values::reset(document, "nothing"));
+    let said = refused(&mut document, |document| exposed_values::reset(document, "nothing"));
     assert_eq!(said, "there is no exposed parameter 'nothing'");
 }
 
@@ -97,9 +110,13 @@ fn an_exposed_seed_does_not_take_the_reserved_name_of_the_instance_seed() {
     groups::make(&mut document);
     let group = document.selected_one().cloned().expect("the instance");
     navigation::enter(&mut document, &group);
-    step(&mut document, |document| panel::expose(document, &id("n"), "seed"));
+    step(&mut document, |document| {
+        exposed_knobs::expose(document, &id("n"), "seed")
+    });
     assert_eq!(names(&document), ["n_seed"]);
-    let said = refused(&mut document, |document| panel::rename(document, "n_seed", "seed"));
+    let said = refused(&mut document, |document| {
+        exposed_knobs::rename(document, "n_seed", "seed")
+    });
     assert_eq!(said, "every group has a parameter 'seed'; choose another name");
     flat(&document);
 }
@@ -116,16 +133,18 @@ fn a_renamed_knob_is_renamed_in_variants_instances_and_enclosing_panels() {
     let mut document = opened(groups, nodes);
     let before = evaluated(&document);
     navigation::enter(&mut document, &id("i"));
-    step(&mut document, |document| panel::rename(document, "size", "grain size"));
     step(&mut document, |document| {
-        panel::set_label(document, "grain size", "Grain")
+        exposed_knobs::rename(document, "size", "grain size")
+    });
+    step(&mut document, |document| {
+        exposed_knobs::set_label(document, "grain size", "Grain")
     });
     assert_eq!(evaluated(&document), before);
-    assert_eq!(panel::knobs(&document)[0].knob.label, "Grain");
+    assert_eq!(exposed_knobs::knobs(&document)[0].knob.label, "Grain");
     navigation::leave(&mut document);
     assert_eq!(document.graph().exposed()["outer"].to, [to("i.grain size")]);
     assert_eq!(param(&document, "i", "grain size"), number(2.0));
-    let mut said = |name: &str, to: &str| refused(&mut document, |document| panel::rename(document, name, to));
+    let mut said = |name: &str, to: &str| refused(&mut document, |document| exposed_knobs::rename(document, name, to));
     assert_eq!(said("lost", "x"), "there is no exposed parameter 'lost'");
     assert_eq!(
         said("outer", "a=b"),
@@ -137,41 +156,47 @@ fn a_renamed_knob_is_renamed_in_variants_instances_and_enclosing_panels() {
 fn knobs_keep_the_order_and_sections_that_were_set() {
     let mut document = opened("", NODES);
     for (node, knob) in [("n", "size"), ("n", "gain"), ("m", "opacity"), ("w", "jitter")] {
-        panel::expose(&mut document, &id(node), knob);
+        exposed_knobs::expose(&mut document, &id(node), knob);
     }
     assert_eq!(names(&document), ["gain", "jitter", "opacity", "size"]);
     step(&mut document, |document| {
-        panel::move_knob(document, "size", Some("gain"))
+        exposed_knobs::move_knob(document, "size", Some("gain"))
     });
     assert_eq!(names(&document), ["size", "gain", "jitter", "opacity"]);
     step(&mut document, |document| {
-        panel::set_section(document, "gain", " Noise ")
+        exposed_knobs::set_section(document, "gain", " Noise ")
     });
     step(&mut document, |document| {
-        panel::move_knob(document, "opacity", Some("gain"))
+        exposed_knobs::move_knob(document, "opacity", Some("gain"))
     });
     assert_eq!(names(&document), ["size", "jitter", "opacity", "gain"]);
-    let sections: Vec<_> = panel::knobs(&document)
+    let sections: Vec<_> = exposed_knobs::knobs(&document)
         .into_iter()
         .map(|knob| knob.exposed.section)
         .collect();
     let noise = Some("Noise".to_owned());
     assert_eq!(sections, [None, None, noise.clone(), noise]);
-    step(&mut document, |document| panel::move_knob(document, "size", None));
+    step(&mut document, |document| {
+        exposed_knobs::move_knob(document, "size", None)
+    });
     assert_eq!(names(&document), ["jitter", "opacity", "gain", "size"]);
     refused(&mut document, |document| {
-        panel::move_knob(document, "size", Some("size"))
+        exposed_knobs::move_knob(document, "size", Some("size"))
     });
-    refused(&mut document, |document| panel::move_knob(document, "lost", None));
-    refused(&mut document, |document| panel::move_knob(document, "size", None));
+    refused(&mut document, |document| {
+        exposed_knobs::move_knob(document, "lost", None)
+    });
+    refused(&mut document, |document| {
+        exposed_knobs::move_knob(document, "size", None)
+    });
 }
 
 #[test]
 fn a_knob_with_a_default_overrides_nodes_and_setting_a_node_changes_the_default() {
     let mut document = opened("", NODES);
-    panel::expose(&mut document, &id("n"), "size");
+    exposed_knobs::expose(&mut document, &id("n"), "size");
     step(&mut document, |document| {
-        panel_values::set_default(document, "size", number(0.125))
+        exposed_values::set_default(document, "size", number(0.125))
     });
     assert_eq!(
         (value(&document, "size"), param(&document, "n", "size")),
@@ -186,7 +211,7 @@ fn a_knob_with_a_default_overrides_nodes_and_setting_a_node_changes_the_default(
     };
     assert_eq!(size(&document), number(0.125));
     step(&mut document, |document| {
-        panel_values::set(document, "size", &Value::Number(0.25))
+        exposed_values::set(document, "size", &Value::Number(0.25))
     });
     assert_eq!(size(&document), number(0.25));
     step(&mut document, |document| {
@@ -218,7 +243,7 @@ fn a_range_applies_to_the_default_the_variants_and_the_instances() {
     navigation::enter(&mut document, &id("i"));
     let mut said = |range: [f64; 2]| {
         refused(&mut document, |document| {
-            panel_values::set_range(document, "size", Some(range))
+            exposed_values::set_range(document, "size", Some(range))
         })
     };
     assert_eq!(
@@ -234,18 +259,18 @@ fn a_range_applies_to_the_default_the_variants_and_the_instances() {
         "the variant 'v' would lie outside: 'Size' takes 1 to 0, and this is 0.5"
     );
     step(&mut document, |document| {
-        panel_values::set_range(document, "size", Some([0.5, 0.75]))
+        exposed_values::set_range(document, "size", Some([0.5, 0.75]))
     });
     let said = refused(&mut document, |document| {
-        panel_values::set_default(document, "size", number(2.0))
+        exposed_values::set_default(document, "size", number(2.0))
     });
     assert_eq!(said, "'Size' takes 0.5 to 0.75, and this is 2");
     let said = refused(&mut document, |document| {
-        panel_values::set(document, "size", &Value::from("much"))
+        exposed_values::set(document, "size", &Value::from("much"))
     });
     assert_eq!(said, "'Size' takes numbers from 0.5 to 0.75, and this is none");
     step(&mut document, |document| {
-        panel_values::set_range(document, "size", None)
+        exposed_values::set_range(document, "size", None)
     });
 }
 
@@ -254,7 +279,7 @@ fn an_instance_refuses_values_out_of_range_and_unknown_knobs() {
     let mut document = dust();
     navigation::enter(&mut document, &id("i"));
     step(&mut document, |document| {
-        panel_values::set_range(document, "size", Some([0.5, 0.75]))
+        exposed_values::set_range(document, "size", Some([0.5, 0.75]))
     });
     navigation::leave(&mut document);
     let mut said = |knob: &str, value: Value| {

@@ -190,7 +190,7 @@ fn references_of_an_instance_that_were_broken_before_are_not_changed() {
         r#""i": { "kind": "graph/group", "group": "g", "params": { "of_old": 1 } }"#,
     );
     navigation::enter(&mut document, &id("i"));
-    step(&mut document, |document| panel::unexpose(document, "size"));
+    step(&mut document, |document| exposed_knobs::unexpose(document, "size"));
     navigation::leave(&mut document);
     assert_eq!(
         param(&document, "i", "of_old"),

@@ -141,7 +141,7 @@ fn edits_of_a_missing_node_are_refused_with_a_sentence() {
         refused(&mut document, |document| {
             wires::connect(document, &from("a"), &to("lost.source"))
         }),
-        refused(&mut document, |document| panel::expose(document, &lost, "gain")),
+        refused(&mut document, |document| exposed_knobs::expose(document, &lost, "gain")),
     ];
     for said in refused_all {
         assert!(!said.is_empty());

@@ -40,7 +40,7 @@ impl Hands {
             &listed,
             "what is followed edit by edit is what would be listed anew"
         );
-        panel::knobs(&self.document);
+        exposed_knobs::knobs(&self.document);
         for overrides in [Overrides::default(), Overrides::of_preview(self.document.contents())] {
             if let Err(error) = self.document.session.graph().flatten(&overrides) {
                 panic!("{error}\n{text}");

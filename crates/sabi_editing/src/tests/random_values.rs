@@ -6,7 +6,7 @@ use sabi_engine::catalog::KnobRole;
 
 use super::effect_library::all_files;
 use super::*;
-use crate::random_knobs::{randomize, randomize_panel};
+use crate::random_knobs::{randomize, randomize_exposed};
 
 /// Number of draws for each knob.
 const DRAWS: usize = 120;
@@ -126,7 +126,7 @@ fn random_values_of_the_panel_are_one_step_and_keep_the_given_knobs() {
         "share": { "to": ["n.jitter"], "range": [0, 1], "default": 0.5 } },"#;
     let mut document = opened(exposed, r#""n": { "kind": "noise/cells" }"#);
     let values = |document: &OpenDocument| {
-        let knobs = panel::knobs(document).into_iter();
+        let knobs = exposed_knobs::knobs(document).into_iter();
         let values: BTreeMap<String, f64> = knobs
             .filter_map(|knob| Some((knob.name, knob.value.as_number()?)))
             .collect();
@@ -134,16 +134,16 @@ fn random_values_of_the_panel_are_one_step_and_keep_the_given_knobs() {
     };
     let before = values(&document);
     let kept: BTreeSet<String> = ["share".to_owned(), "seed".to_owned()].into();
-    step(&mut document, |document| assert!(randomize_panel(document, &kept)));
+    step(&mut document, |document| assert!(randomize_exposed(document, &kept)));
     let now = values(&document);
     assert!(now.0 != before.0 && now.1 == before.1 && now.2 == before.2, "{now:?}");
     step(&mut document, |document| {
-        assert!(randomize_panel(document, &BTreeSet::new()))
+        assert!(randomize_exposed(document, &BTreeSet::new()))
     });
     let now = values(&document);
     assert!(now.1 != before.1 && now.2 != before.2, "{now:?}");
     let mut bare = opened("", r#""n": { "kind": "noise/cells" }"#);
-    let said = refused(&mut bare, |document| randomize_panel(document, &BTreeSet::new()));
+    let said = refused(&mut bare, |document| randomize_exposed(document, &BTreeSet::new()));
     assert_eq!(said, "there are no exposed parameters to give random values to");
 }
 
@@ -152,7 +152,7 @@ fn random_values_of_the_panel_change_the_shown_variant() {
     let exposed = r#""exposed": { "size": { "to": ["n.size"], "range": [0.02, 1], "default": 0.3 } },
         "variants": { "fine": { "size": 0.05 } }, "preview": { "variant": "fine" },"#;
     let mut document = opened(exposed, r#""n": { "kind": "noise/cells" }"#);
-    assert!(randomize_panel(&mut document, &BTreeSet::new()));
+    assert!(randomize_exposed(&mut document, &BTreeSet::new()));
     let default = &document.graph().exposed()["size"].default;
     assert_eq!(default.as_ref().and_then(Value::as_number), Some(0.3));
     let fine = document.graph().variants()["fine"]["size"]

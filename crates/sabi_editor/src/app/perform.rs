@@ -11,8 +11,8 @@ use std::path::Path;
 
 use egui::{Color32, Rgba, Ui};
 use sabi_editing::command::{
-    EditCommand, KnobCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand, VariantCommand, WireCommand,
-    perform,
+    EditCommand, ExposedCommand, KnobCommand, NodeCommand, NodeSource, Outcome, PortCommand, VariantCommand,
+    WireCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{knob_target, navigation, nodes, variants};
@@ -279,14 +279,14 @@ impl Editor {
     /// Changes the value of an exposed parameter.
     fn change_exposed_value(&mut self, event: KnobEvent, ui: &Ui) {
         match event {
-            KnobEvent::Set { knob: name, value } => self.edit(PanelCommand::Set { name, value }, ui),
-            KnobEvent::Reset { knob } => self.edit(PanelCommand::Reset(knob), ui),
-            KnobEvent::Unexpose { knob } => self.edit(PanelCommand::Remove(knob), ui),
+            KnobEvent::Set { knob: name, value } => self.edit(ExposedCommand::Set { name, value }, ui),
+            KnobEvent::Reset { knob } => self.edit(ExposedCommand::Reset(knob), ui),
+            KnobEvent::Unexpose { knob } => self.edit(ExposedCommand::Remove(knob), ui),
             KnobEvent::Eyedropper { knob } => {
-                self.toggle_color_target(ColorTarget::Parameter(KnobTarget::Panel(knob)));
+                self.toggle_color_target(ColorTarget::Parameter(KnobTarget::Exposed(knob)));
             }
-            KnobEvent::Browse { knob } => self.browse(KnobTarget::Panel(knob)),
-            KnobEvent::PickGradient { knob } => self.ask_for_gradient(KnobTarget::Panel(knob)),
+            KnobEvent::Browse { knob } => self.browse(KnobTarget::Exposed(knob)),
+            KnobEvent::PickGradient { knob } => self.ask_for_gradient(KnobTarget::Exposed(knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::Canceled => self.cancel_drag(),

@@ -9,7 +9,7 @@ use egui_node_graph::{
     DataTypeTrait, InputParamKind, NodeDataTrait, NodeResponse, UserResponseTrait, WidgetValueTrait,
 };
 use sabi_editing::node_size::{ShownRows, own_knobs};
-use sabi_editing::{OpenDocument, panel};
+use sabi_editing::{OpenDocument, exposed_knobs};
 use sabi_engine::catalog::Interface;
 use sabi_graph::{Body, Edit, NodeId, PortType};
 
@@ -203,8 +203,8 @@ impl Snapshot {
             shown.user_data.is_muted = node.muted;
             shown.user_data.values.clone_from(&node.params);
             let knobs = interface.knobs.iter().map(|knob| &knob.name);
-            let exposed =
-                knobs.filter_map(|knob| Some((knob.clone(), panel::exposed_as(document, id, knob)?.to_owned())));
+            let exposed = knobs
+                .filter_map(|knob| Some((knob.clone(), exposed_knobs::exposed_as(document, id, knob)?.to_owned())));
             shown.user_data.exposed = exposed.collect();
             let knobs = interface.knobs.iter().map(|knob| &knob.name);
             let masks = knobs.filter_map(|knob| Some((knob.clone(), mask_of(document, id, knob)?)));

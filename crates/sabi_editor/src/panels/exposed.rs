@@ -4,10 +4,10 @@ mod editing;
 
 use egui::{RichText, Ui};
 use egui_phosphor::regular as icon;
-use sabi_editing::command::PanelCommand;
-use sabi_editing::panel::PanelKnob;
+use sabi_editing::command::ExposedCommand;
+use sabi_editing::exposed_knobs::ExposedKnob;
 use sabi_editing::random_knobs::SEED;
-use sabi_editing::{OpenDocument, groups, panel};
+use sabi_editing::{OpenDocument, exposed_knobs, groups};
 use sabi_graph::Body;
 
 use super::random::{self, Kept};
@@ -28,7 +28,7 @@ impl ExposedParameters {
     /// Shows the parameters and returns the requested actions.
     pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>, memory: &mut KnobMemory) -> Vec<Action> {
         let (document, theme) = (context.document, context.theme);
-        let panel = panel::knobs(document);
+        let panel = exposed_knobs::knobs(document);
         let mut actions = Vec::new();
         ui.horizontal(|ui| {
             let name = groups::graph_name(document);
@@ -82,7 +82,7 @@ impl ExposedParameters {
 
 impl ExposedParameters {
     /// Random values of the parameters.
-    fn random(&mut self, ui: &mut Ui, document: &OpenDocument, panel: &[PanelKnob]) -> Option<PanelCommand> {
+    fn random(&mut self, ui: &mut Ui, document: &OpenDocument, panel: &[ExposedKnob]) -> Option<ExposedCommand> {
         let body = document.body();
         let of_graph = (body == Body::Main).then_some((SEED, "Seed of the graph"));
         let knobs = panel
@@ -90,18 +90,18 @@ impl ExposedParameters {
             .map(|known| (known.name.as_str(), known.knob.label.as_str()));
         let knobs: Vec<(&str, &str)> = of_graph.into_iter().chain(knobs).collect();
         let kept = random::show(ui, &body, &knobs, &mut self.kept)?;
-        Some(PanelCommand::Randomize { kept })
+        Some(ExposedCommand::Randomize { kept })
     }
 }
 
 /// A parameter as a row shows it: it counts as changed where its value is not that of when the graph was opened.
-fn shown(knob: &PanelKnob) -> sabi_engine::catalog::Knob {
+fn shown(knob: &ExposedKnob) -> sabi_engine::catalog::Knob {
     let mut shown = knob.knob.clone();
     shown.ty.default = knob.at_first.clone();
     shown
 }
 
-fn sections<'p>(panel: &'p [PanelKnob], knobs: &'p [sabi_engine::catalog::Knob]) -> Vec<KnobSection<'p>> {
+fn sections<'p>(panel: &'p [ExposedKnob], knobs: &'p [sabi_engine::catalog::Knob]) -> Vec<KnobSection<'p>> {
     let mut sections: Vec<KnobSection<'p>> = Vec::new();
     for (exposed, knob) in panel.iter().zip(knobs) {
         let title = exposed.exposed.section.as_deref();

@@ -3,7 +3,7 @@
 use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::painting::{PAINT, STROKES};
-use sabi_editing::{OpenDocument, connections, panel, ports as document_ports};
+use sabi_editing::{OpenDocument, connections, exposed_knobs, ports as document_ports};
 use sabi_engine::catalog::{Interface, Knob};
 use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 
@@ -169,7 +169,7 @@ impl<'d> KnobLinks<'d> {
         KnobLinks {
             wired: wire.map(|from| document.title(&from.node)),
             mask: mask_of(document, id, &knob.name),
-            exposed: panel::exposed_as(document, id, &knob.name),
+            exposed: exposed_knobs::exposed_as(document, id, &knob.name),
         }
     }
 }

@@ -4,7 +4,7 @@
 use egui::{Key, RichText, TextureId, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::VariantCommand;
-use sabi_editing::{OpenDocument, panel, shown_variant, variants};
+use sabi_editing::{OpenDocument, exposed_knobs, shown_variant, variants};
 use sabi_engine::catalog::label_of;
 
 use super::card::{Card, CardSize};
@@ -33,7 +33,7 @@ impl Variants {
     /// Shows the variants of the shown graph and returns the requested action.
     pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
         let (document, theme) = (context.document, context.theme);
-        let panel = panel::knobs(document);
+        let panel = exposed_knobs::knobs(document);
         if panel.is_empty() {
             return None;
         }

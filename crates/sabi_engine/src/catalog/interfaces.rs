@@ -250,7 +250,7 @@ impl GroupBody<'_> {
                 starts: None,
             }
         });
-        let exposed = self.graph.panel().into_iter();
+        let exposed = self.graph.exposed_in_order().into_iter();
         let knobs = exposed.filter_map(|(name, knob)| self.knob(interfaces, body, name, knob));
         let instance = any_group();
         let about = self.description.about.as_deref();

@@ -31,7 +31,7 @@ pub struct GraphDescription {
     pub seed: u32,
     /// Number of nodes after groups are inlined; `None` if they cannot be.
     pub nodes: Option<usize>,
-    /// Exposed knobs in the order of the panel.
+    /// Exposed knobs in the order in which they are shown.
     pub knobs: Vec<KnobDescription>,
     /// Variants by name.
     pub variants: Vec<VariantDescription>,
@@ -54,7 +54,7 @@ pub struct KnobDescription {
     pub label: String,
     /// Description of its effect, for artists.
     pub doc: String,
-    /// Title of the section of the panel that contains it.
+    /// Title of the section that contains it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<String>,
     /// Parameters that it sets, `node.param`.
@@ -184,8 +184,8 @@ fn groups(document: &Document) -> Vec<GroupDescription> {
 fn knobs(open: &OpenGraph, kinds: &Kinds) -> Vec<KnobDescription> {
     let mut group_file = |name: &str| Some(open.open_group(name).ok()?.document);
     let interfaces = Interfaces::new(&Catalog::new(kinds), &open.document, &mut group_file);
-    let panel = open.document.graph.panel().into_iter();
-    panel
+    let exposed = open.document.graph.exposed_in_order().into_iter();
+    exposed
         .map(|(name, exposed)| KnobDescription::of(name, exposed, &open.document, &interfaces))
         .collect()
 }

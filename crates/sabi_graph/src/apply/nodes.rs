@@ -85,7 +85,7 @@ impl Document {
             knob.to.retain(|slot| slot.node != *id);
             if knob.to.len() < before {
                 let (body, name) = (body.clone(), name.clone());
-                // A knob that sets nothing is removed from the panel.
+                // A knob that sets nothing is no longer exposed.
                 edits.push(match knob.to.is_empty() {
                     true => Edit::Unexpose { body, name },
                     false => Edit::Expose { body, name, knob },

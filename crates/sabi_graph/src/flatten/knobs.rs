@@ -17,26 +17,26 @@ const AS_MADE: &str = "as_made";
 /// Parameters that knobs set, in order. Later entries win.
 pub(super) type Settings = Vec<(SlotRef, Value)>;
 
-/// Control panel of a graph with the settings made so far. `of` describes the graph in messages: empty, or ` of "instance"`.
-pub(super) struct Panel<'a> {
+/// The exposed knobs of a graph with the settings made so far. `of` describes the graph in messages: empty, or ` of "instance"`.
+pub(super) struct ExposedSettings<'a> {
     graph: &'a Graph,
     of: String,
     settings: Settings,
 }
 
-impl<'a> Panel<'a> {
-    /// Creates a panel with all knobs at their defaults, and applies the variant.
+impl<'a> ExposedSettings<'a> {
+    /// Starts with all knobs at their defaults, and applies the variant.
     pub(super) fn new(graph: &'a Graph, of: String, variant: Option<&str>) -> Result<Self, FlattenError> {
-        let mut panel = Panel {
+        let mut exposed = ExposedSettings {
             graph,
             of,
             settings: Vec::new(),
         };
-        let variant = variant.map(|name| panel.variant(name)).transpose()?;
+        let variant = variant.map(|name| exposed.variant(name)).transpose()?;
         for (name, value) in graph.knob_values(variant) {
-            panel.set(name, value)?;
+            exposed.set(name, value)?;
         }
-        Ok(panel)
+        Ok(exposed)
     }
 
     /// Sets an exposed knob. Returns false if there is no knob with this name.
@@ -105,22 +105,22 @@ impl<'a> Panel<'a> {
 
 /// Settings of the overrides in the main graph.
 pub(super) fn of_overrides(graph: &Graph, overrides: &Overrides) -> Result<Settings, FlattenError> {
-    let mut panel = Panel::new(graph, String::new(), overrides.variant.as_deref())?;
+    let mut exposed = ExposedSettings::new(graph, String::new(), overrides.variant.as_deref())?;
     for (name, value) in &overrides.set {
         let bad = || Problem::BadValue { name: quoted(name) };
         let value = value.clone().canonical().ok_or_else(bad)?;
-        if panel.set(name, &value)? {
+        if exposed.set(name, &value)? {
             continue;
         }
         let slot = name
             .parse::<SlotRef>()
             .ok()
             .filter(|slot| graph.node(slot.node.as_str()).is_some());
-        panel
+        exposed
             .settings
             .push((slot.ok_or_else(|| no_such_knob(graph, name))?, value));
     }
-    Ok(panel.into_settings())
+    Ok(exposed.into_settings())
 }
 
 fn no_such_knob(graph: &Graph, name: &str) -> FlattenError {
@@ -185,9 +185,9 @@ pub(super) fn of_instance(
         Some(Value::Text(name)) => Some(name.as_str()),
         Some(value) => return Err(bad("variant", "the name of a variant of the group", value)),
     };
-    let mut panel = Panel::new(graph, format!(" of {}", quoted(id)), variant)?;
+    let mut exposed = ExposedSettings::new(graph, format!(" of {}", quoted(id)), variant)?;
     for (name, value) in params {
-        if !INSTANCE_KNOBS.contains(&name.as_str()) && !panel.set(name, value)? {
+        if !INSTANCE_KNOBS.contains(&name.as_str()) && !exposed.set(name, value)? {
             let knobs = || graph.exposed().keys().map(String::as_str).chain(INSTANCE_KNOBS);
             return Err(FlattenError::NoSuchInstanceKnob {
                 instance: quoted(id),
@@ -197,7 +197,7 @@ pub(super) fn of_instance(
             });
         }
     }
-    let settings = panel.into_settings();
+    let settings = exposed.into_settings();
     Ok(InstanceKnobs {
         settings,
         seed,

@@ -248,8 +248,8 @@ fn a_node_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Generates an edit of the panel, the variants, the ports or the frames.
-fn a_panel_edit() -> impl Strategy<Value = Edit> {
+/// Generates an edit of exposed knobs, the variants, the ports or the frames.
+fn an_exposed_edit() -> impl Strategy<Value = Edit> {
     let place = || (a_body(), a_name());
     let settings = || prop::option::of(prop::collection::btree_map(a_name(), a_value(), 0..3));
     prop_oneof![
@@ -288,7 +288,7 @@ fn a_panel_edit() -> impl Strategy<Value = Edit> {
 
 /// Generates any edit. Many of them do not fit a given document.
 pub(super) fn an_edit() -> impl Strategy<Value = Edit> {
-    let one = || prop_oneof![3 => a_node_edit(), 2 => a_panel_edit()];
+    let one = || prop_oneof![3 => a_node_edit(), 2 => an_exposed_edit()];
     prop_oneof![8 => one(), 1 => prop::collection::vec(one(), 0..4).prop_map(Edit::Batch)]
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::*;
 use super::dice::Dice;
-use crate::command::{LayerCommand, NodeSource, PanelCommand, perform};
+use crate::command::{ExposedCommand, LayerCommand, NodeSource, perform};
 use crate::dropped_layers::DroppedOn;
 
 /// A document, and a source of random actions on it.
@@ -194,7 +194,7 @@ impl Hands {
                 }
                 .into()
             }
-            _ => PanelCommand::Randomize { kept: BTreeSet::new() }.into(),
+            _ => ExposedCommand::Randomize { kept: BTreeSet::new() }.into(),
         };
         perform(&mut self.document, command);
     }
@@ -346,15 +346,21 @@ impl Hands {
         let variant = self.dice.pick(&variants).unwrap_or_default();
         let document = &mut self.document;
         match self.dice.below(16) {
-            0..=3 => panel::expose(document, &node, &knob),
-            4 => panel::unexpose(document, &exposed),
-            5 => panel::expose_also(document, &node, &knob, &exposed) || panel::unexpose_knob(document, &node, &knob),
-            6 => panel::rename(document, &exposed, &name),
-            7 => panel::set_label(document, &exposed, &name) && panel::set_section(document, &exposed, &name),
-            8 => panel::move_knob(document, &exposed, Some(&name)),
-            9 => panel_values::set_range(document, &exposed, Some([0.0, end]).filter(|_| end > 0.0)),
-            10 => panel_values::set_default(document, &exposed, value),
-            11 | 12 => panel_values::set(document, &exposed, &value.unwrap_or(Value::Null)),
+            0..=3 => exposed_knobs::expose(document, &node, &knob),
+            4 => exposed_knobs::unexpose(document, &exposed),
+            5 => {
+                exposed_knobs::expose_also(document, &node, &knob, &exposed)
+                    || exposed_knobs::unexpose_knob(document, &node, &knob)
+            }
+            6 => exposed_knobs::rename(document, &exposed, &name),
+            7 => {
+                exposed_knobs::set_label(document, &exposed, &name)
+                    && exposed_knobs::set_section(document, &exposed, &name)
+            }
+            8 => exposed_knobs::move_knob(document, &exposed, Some(&name)),
+            9 => exposed_values::set_range(document, &exposed, Some([0.0, end]).filter(|_| end > 0.0)),
+            10 => exposed_values::set_default(document, &exposed, value),
+            11 | 12 => exposed_values::set(document, &exposed, &value.unwrap_or(Value::Null)),
             13 => variants::save(document, &name),
             14 => variants::show(document, Some(&*variant).filter(|name| !name.is_empty())),
             _ => variants::rename(document, &variant, &name) || variants::remove(document, &variant),

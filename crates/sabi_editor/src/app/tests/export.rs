@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::Window;
 use super::hands::id;
-use sabi_editing::{nodes, panel, panel_values, variants};
+use sabi_editing::{exposed_knobs, exposed_values, nodes, variants};
 use sabi_graph::Value;
 
 use crate::dock::Panel;
@@ -256,10 +256,10 @@ fn textures_of_another_model_are_not_put_in_the_place_of_those_that_are_there() 
 fn the_base_and_every_variant_are_exported_to_folders_of_their_own() {
     let mut window = ready();
     let document = &mut window.harness.state_mut().documents.document;
-    panel::expose(document, &id("clouds"), "size");
-    panel_values::set(document, "size", &Value::Number(0.5));
+    exposed_knobs::expose(document, &id("clouds"), "size");
+    exposed_values::set(document, "size", &Value::Number(0.5));
     variants::save(document, "coarse/1");
-    panel_values::set(document, "size", &Value::Number(0.1));
+    exposed_values::set(document, "size", &Value::Number(0.1));
     window.settle();
     let switch = window.harness.get_by_role_and_label(Role::CheckBox, "All variants");
     let switch = switch.rect().center();

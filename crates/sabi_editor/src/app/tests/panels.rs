@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
-use sabi_editing::{panel, variants};
+use sabi_editing::{exposed_knobs, variants};
 use sabi_engine::Session;
 use sabi_graph::Value;
 
@@ -93,7 +93,7 @@ impl Window {
     }
 
     pub(super) fn held(&self, knob: &str) -> Option<Value> {
-        let panel = panel::knobs(&self.editor().documents.document);
+        let panel = exposed_knobs::knobs(&self.editor().documents.document);
         panel
             .into_iter()
             .find(|known| known.name == knob)
@@ -198,7 +198,7 @@ fn exposed_knobs_are_put_into_order_by_dragging() {
         PointerButton::Primary,
         Modifiers::NONE,
     );
-    let names: Vec<String> = panel::knobs(&window.editor().documents.document)
+    let names: Vec<String> = exposed_knobs::knobs(&window.editor().documents.document)
         .into_iter()
         .map(|knob| knob.name)
         .collect();

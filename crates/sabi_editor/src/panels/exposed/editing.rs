@@ -2,8 +2,8 @@
 
 use egui::{DragValue, Rect, RichText, Sense, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_editing::command::PanelCommand;
-use sabi_editing::panel::PanelKnob;
+use sabi_editing::command::ExposedCommand;
+use sabi_editing::exposed_knobs::ExposedKnob;
 use sabi_graph::Value;
 
 use crate::panels::field::Field;
@@ -13,7 +13,7 @@ use crate::theme::{Theme, space};
 /// Dragged parameter, by its name.
 struct Dragged(String);
 
-pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], commands: &mut Vec<PanelCommand>) {
+pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[ExposedKnob], commands: &mut Vec<ExposedCommand>) {
     let rows: Vec<Rect> = panel.iter().map(|knob| card(ui, theme, knob, commands)).collect();
     let title = |dragged: &Dragged| {
         let knob = panel.iter().find(|knob| knob.name == dragged.0)?;
@@ -22,11 +22,11 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], commands: &m
     if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
         let before = panel.get(gap).map(|knob| knob.name.clone());
         let name = dragged.0.clone();
-        commands.push(PanelCommand::Move { name, before });
+        commands.push(ExposedCommand::Move { name, before });
     }
 }
 
-fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) -> Rect {
+fn card(ui: &mut Ui, theme: &Theme, knob: &ExposedKnob, commands: &mut Vec<ExposedCommand>) -> Rect {
     let frame = egui::Frame::new()
         .fill(theme.raised)
         .corner_radius(space::CORNER)
@@ -45,7 +45,7 @@ fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCo
 }
 
 /// Handle for dragging, label, and the button that removes the parameter from the panel.
-fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
+fn head(ui: &mut Ui, theme: &Theme, knob: &ExposedKnob, commands: &mut Vec<ExposedCommand>) {
     ui.horizontal(|ui| {
         let sign = RichText::new(icon::DOTS_SIX_VERTICAL).color(theme.quiet);
         let handle = ui.add(egui::Label::new(sign).sense(Sense::drag()));
@@ -61,7 +61,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCo
         };
         if let Some(label) = label.show(ui, ("label", &knob.name)) {
             let name = knob.name.clone();
-            commands.push(PanelCommand::SetLabel { name, label });
+            commands.push(ExposedCommand::SetLabel { name, label });
         }
         let off = ui.small_button(icon::TRASH);
         off.widget_info(|| {
@@ -69,13 +69,13 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCo
             WidgetInfo::labeled(WidgetType::Button, true, name)
         });
         if off.on_hover_text("Stop exposing").clicked() {
-            commands.push(PanelCommand::Remove(knob.name.clone()));
+            commands.push(ExposedCommand::Remove(knob.name.clone()));
         }
     });
 }
 
 /// Name in files, and section.
-fn names(ui: &mut Ui, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
+fn names(ui: &mut Ui, knob: &ExposedKnob, commands: &mut Vec<ExposedCommand>) {
     ui.horizontal(|ui| {
         let half = ((ui.available_width() - space::USUAL) / 2.0 - space::USUAL).floor();
         let name = Field {
@@ -86,7 +86,7 @@ fn names(ui: &mut Ui, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
         };
         if let Some(to) = name.show(ui, ("name", &knob.name)) {
             let name = knob.name.clone();
-            commands.push(PanelCommand::Rename { name, to });
+            commands.push(ExposedCommand::Rename { name, to });
         }
         let section = Field {
             name: "Section",
@@ -96,13 +96,13 @@ fn names(ui: &mut Ui, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
         };
         if let Some(section) = section.show(ui, ("section", &knob.name)) {
             let name = knob.name.clone();
-            commands.push(PanelCommand::SetSection { name, section });
+            commands.push(ExposedCommand::SetSection { name, section });
         }
     });
 }
 
 /// Range of the parameter.
-fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
+fn range(ui: &mut Ui, theme: &Theme, knob: &ExposedKnob, commands: &mut Vec<ExposedCommand>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "Range");
         let own = knob.exposed.range;
@@ -119,22 +119,22 @@ fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelC
         let name = knob.name.clone();
         if has_changed {
             let range = Some([low.min(high), high.max(low)]);
-            commands.push(PanelCommand::SetRange { name, range });
+            commands.push(ExposedCommand::SetRange { name, range });
         } else if own.is_some() && sign(ui, icon::X, "Reset to the range of the node").clicked() {
-            commands.push(PanelCommand::SetRange { name, range: None });
+            commands.push(ExposedCommand::SetRange { name, range: None });
         }
     });
 }
 
 /// Default of the parameter.
-fn default_value(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
+fn default_value(ui: &mut Ui, theme: &Theme, knob: &ExposedKnob, commands: &mut Vec<ExposedCommand>) {
     ui.horizontal(|ui| {
         let name = knob.name.clone();
         match &knob.exposed.default {
             Some(held) => {
                 ui.colored_label(theme.quiet, format!("Default {}", held.to_json()));
                 if sign(ui, icon::X, "Reset the default to the node's value").clicked() {
-                    commands.push(PanelCommand::SetDefault { name, default: None });
+                    commands.push(ExposedCommand::SetDefault { name, default: None });
                 }
             }
             None => {
@@ -142,7 +142,7 @@ fn default_value(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Ve
                 let tooltip = "Uses the present value as the default, whatever its nodes are set to";
                 if keep.on_hover_text(tooltip).clicked() {
                     let default = Some(knob.value.clone());
-                    commands.push(PanelCommand::SetDefault { name, default });
+                    commands.push(ExposedCommand::SetDefault { name, default });
                 }
             }
         }

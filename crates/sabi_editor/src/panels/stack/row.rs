@@ -6,7 +6,7 @@ use egui::{
 };
 use egui_phosphor::regular as icon;
 use sabi_editing::command::{LayerCommand, NodeCommand};
-use sabi_editing::panel;
+use sabi_editing::exposed_knobs;
 use sabi_editing::stack::Layer;
 use sabi_graph::Value;
 
@@ -215,7 +215,7 @@ fn name_and_opacity(
         value: Some(&value),
         wired: None,
         mask: ParamMask::NotTaken,
-        exposed: panel::exposed_as(context.document, &layer.node, "opacity"),
+        exposed: exposed_knobs::exposed_as(context.document, &layer.node, "opacity"),
         differs: false,
     };
     let builder = egui::UiBuilder::new()

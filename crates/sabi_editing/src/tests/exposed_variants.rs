@@ -1,28 +1,28 @@
-//! Named settings of the panel.
+//! Named settings of the exposed knobs.
 
 use super::*;
 
-fn panel() -> OpenDocument {
+fn two_exposed_knobs() -> OpenDocument {
     let mut document = opened(
         "",
         r#""n": { "kind": "noise/simplex", "params": { "size": 0.5 } }, "m": { "kind": "blend/mask", "inputs": { "below": "n" } },
            "out": { "kind": "output/mask", "inputs": { "source": "m" } }"#,
     );
-    panel::expose(&mut document, &id("n"), "size");
-    panel::expose(&mut document, &id("m"), "mode");
+    exposed_knobs::expose(&mut document, &id("n"), "size");
+    exposed_knobs::expose(&mut document, &id("m"), "mode");
     document
 }
 
 #[test]
 fn a_variant_stores_the_values_of_the_panel_and_restores_them() {
-    let mut document = panel();
+    let mut document = two_exposed_knobs();
     step(&mut document, |document| variants::save(document, " fine "));
     let kept: Vec<String> = document.graph().variants()["fine"]
         .iter()
         .map(|(name, value)| format!("{name} {value:?}"))
         .collect();
     assert_eq!(kept, ["mode Text(\"multiply\")", "size Number(0.5)"]);
-    panel_values::set_default(&mut document, "size", number(0.25));
+    exposed_values::set_default(&mut document, "size", number(0.25));
     nodes::set_knob(&mut document, &id("m"), "mode", Some(Value::from("add")));
     step(&mut document, |document| variants::save(document, "coarse"));
     let with = |document: &OpenDocument, variant: Option<&str>| {
@@ -76,12 +76,12 @@ fn every_variant_is_shown_as_it_is_baked_whatever_was_shown_before() {
 
 #[test]
 fn knobs_change_the_shown_variant_and_a_reset_restores_the_graphs_value() {
-    let mut document = panel();
+    let mut document = two_exposed_knobs();
     variants::save(&mut document, "fine");
     variants::show(&mut document, Some("fine"));
     let own = evaluated(&document);
     step(&mut document, |document| {
-        panel_values::set(document, "size", &Value::Number(0.75))
+        exposed_values::set(document, "size", &Value::Number(0.75))
     });
     // Setting the knob of the node also changes the variant, which would override it otherwise.
     step(&mut document, |document| {
@@ -90,17 +90,17 @@ fn knobs_change_the_shown_variant_and_a_reset_restores_the_graphs_value() {
     assert_eq!(document.graph().variants()["fine"]["size"], Value::Number(0.125));
     assert_eq!(evaluated(&document), own, "the graph's own values stay");
     step(&mut document, |document| {
-        panel_values::set(document, "size", &Value::Number(2.0))
+        exposed_values::set(document, "size", &Value::Number(2.0))
     });
-    step(&mut document, |document| panel_values::reset(document, "size"));
-    let size = panel::knobs(&document)
+    step(&mut document, |document| exposed_values::reset(document, "size"));
+    let size = exposed_knobs::knobs(&document)
         .into_iter()
         .find(|knob| knob.name == "size")
         .expect("a knob");
     assert_eq!((size.value, size.at_first), (Value::Number(0.5), Value::Number(0.5)));
     assert!(!document.graph().variants()["fine"].contains_key("size"));
     let before = document.contents().clone();
-    assert!(panel_values::reset(&mut document, "size"));
+    assert!(exposed_values::reset(&mut document, "size"));
     assert_eq!(document.contents(), &before, "a reset of what is not set sets nothing");
     // After saving under another name, the copy is shown.
     step(&mut document, |document| variants::save(document, "copy"));
@@ -126,7 +126,7 @@ fn inside_a_group_the_variant_of_the_entered_instance_is_shown() {
         (Some("big"), None)
     );
     step(&mut document, |document| {
-        panel_values::set(document, "size", &Value::Number(0.5))
+        exposed_values::set(document, "size", &Value::Number(0.5))
     });
     assert_eq!(document.graph().variants()["big"]["size"], Value::Number(0.5));
     step(&mut document, |document| variants::show(document, None));
@@ -158,7 +158,7 @@ fn renaming_or_removing_a_variant_also_changes_all_instances() {
 
 #[test]
 fn invalid_variant_names_are_reported() {
-    let mut document = panel();
+    let mut document = two_exposed_knobs();
     variants::save(&mut document, "one");
     variants::save(&mut document, "two");
     let mut said = |does: &dyn Fn(&mut OpenDocument) -> bool| refused(&mut document, |document| does(document));
@@ -186,7 +186,7 @@ fn invalid_variant_names_are_reported() {
         said(&|document| variants::rename(document, "one", "two")),
         "there is a variant 'two' already; choose another name"
     );
-    panel_values::set_range(&mut document, "size", Some([0.0, 1.0]));
+    exposed_values::set_range(&mut document, "size", Some([0.0, 1.0]));
     let wide =
         r#""exposed": { "size": { "to": ["n.size"], "range": [0, 1] } }, "variants": { "wide": { "size": 2 } },"#;
     let mut document = opened(wide, r#""n": { "kind": "noise/white" }"#);
@@ -194,7 +194,7 @@ fn invalid_variant_names_are_reported() {
         refused(&mut document, |document| variants::show(document, Some("wide"))),
         "'Size' takes 0 to 1, and this is 2"
     );
-    panel::unexpose(&mut document, "size");
+    exposed_knobs::unexpose(&mut document, "size");
     assert_eq!(
         refused(&mut document, |document| variants::save(document, "empty")),
         "a variant stores the exposed parameters, and there are none; expose some first"
@@ -228,9 +228,9 @@ fn a_missing_variant_is_cleared_by_showing_the_graphs_own_values() {
 
 #[test]
 fn trying_a_variant_gives_the_same_result_as_showing_it_and_changes_nothing() {
-    let mut document = panel();
+    let mut document = two_exposed_knobs();
     variants::save(&mut document, "fine");
-    panel_values::set_default(&mut document, "size", number(0.25));
+    exposed_values::set_default(&mut document, "size", number(0.25));
     let before = document.session.text().to_owned();
     let tried = |document: &OpenDocument, name| {
         let graph = variants::tried(document, None, name).expect("a graph");

@@ -1,4 +1,4 @@
-//! The panel, names of groups, and edits that change nothing.
+//! Exposed knobs, names of groups, and edits that change nothing.
 
 use proptest::prelude::*;
 
@@ -17,7 +17,12 @@ fn knobs_are_sorted_by_order_then_name_and_sections_stay_together() {
              "e": { "to": ["n.e"], "order": 1 } },"#,
         r#""n": { "kind": "noise/white" }"#,
     );
-    let names: Vec<&str> = document.graph.panel().into_iter().map(|(name, _)| name).collect();
+    let names: Vec<&str> = document
+        .graph
+        .exposed_in_order()
+        .into_iter()
+        .map(|(name, _)| name)
+        .collect();
     assert_eq!(names, ["e", "c", "a", "b", "d"]);
     assert_eq!(Document::from_json(&document.to_json()), Ok(document));
 }

@@ -6,7 +6,7 @@ use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
 
 use crate::names::knob_label;
 use crate::open_document::OpenDocument;
-use crate::{instances, panel, shown_variant};
+use crate::{exposed_knobs, instances, shown_variant};
 
 /// Sets an exposed knob. If a variant is shown, the value is stored in the variant; otherwise in the knob's default if it
 /// has one, or else in the nodes that it controls.
@@ -28,8 +28,8 @@ pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
         let edit = shown_variant::setting(document, variant, Some(values));
         return document.edit(&step_name(document, name), vec![edit]);
     }
-    let mut panel = panel::knobs(document).into_iter();
-    match panel.find(|knob| knob.name == name) {
+    let mut knobs = exposed_knobs::knobs(document).into_iter();
+    match knobs.find(|knob| knob.name == name) {
         Some(knob) => set(document, name, &knob.at_first),
         None => document.refuse(format!("there is no exposed parameter '{name}'")),
     }
@@ -64,7 +64,7 @@ fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
     };
     if exposed.default.is_some() {
         let default = Some(value.clone());
-        return vec![panel::exposing(
+        return vec![exposed_knobs::exposing(
             document,
             name,
             Exposed {
@@ -85,7 +85,7 @@ fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
 /// Returns whether a new value of a node's knob belongs only in the shown variant: the variant sets this knob, and the
 /// value is within the exposed range, or a reset.
 pub(crate) fn is_of_variant_only(document: &OpenDocument, id: &NodeId, knob: &str, value: Option<&Value>) -> bool {
-    let Some(name) = panel::exposed_as(document, id, knob) else {
+    let Some(name) = exposed_knobs::exposed_as(document, id, knob) else {
         return false;
     };
     let is_set = shown_variant::values(document).is_some_and(|(_, values)| values.contains_key(name));
@@ -96,10 +96,15 @@ pub(crate) fn is_of_variant_only(document: &OpenDocument, id: &NodeId, knob: &st
 
 /// Returns the edits of exposed knobs that must accompany new values of the nodes' knobs, since the shown variant or a
 /// default would override these.
-pub(crate) fn exposed_values(document: &OpenDocument, ids: &[NodeId], knob: &str, value: Option<&Value>) -> Vec<Edit> {
+pub(crate) fn values_of_exposed(
+    document: &OpenDocument,
+    ids: &[NodeId],
+    knob: &str,
+    value: Option<&Value>,
+) -> Vec<Edit> {
     let exposed: BTreeSet<&str> = ids
         .iter()
-        .filter_map(|id| panel::exposed_as(document, id, knob))
+        .filter_map(|id| exposed_knobs::exposed_as(document, id, knob))
         .collect();
     let variant = shown_variant::values(document);
     let mut of_variant = variant.map(|(_, values)| values.clone()).unwrap_or_default(); // Without a shown variant, it has no values.
@@ -134,7 +139,7 @@ pub(crate) fn exposed_values(document: &OpenDocument, ids: &[NodeId], knob: &str
                 default,
                 ..exposed.clone()
             };
-            edits.push(panel::exposing(document, name, exposed));
+            edits.push(exposed_knobs::exposing(document, name, exposed));
         }
     }
     if let Some((name, values)) = variant
@@ -154,7 +159,7 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
         let label = knob_label(document.own_interface(), name);
         return document.refuse(format!("'{label}' {why}"));
     }
-    let edit = panel::exposing(document, name, Exposed { default, ..exposed });
+    let edit = exposed_knobs::exposing(document, name, Exposed { default, ..exposed });
     document.edit("Set default", vec![edit])
 }
 
@@ -174,7 +179,7 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     if let Some(why) = outside {
         return document.refuse(why);
     }
-    let edit = panel::exposing(document, name, Exposed { range, ..exposed });
+    let edit = exposed_knobs::exposing(document, name, Exposed { range, ..exposed });
     document.edit("Set range", vec![edit])
 }
 

@@ -1,4 +1,4 @@
-//! The panel of the shown graph: its exposed knobs.
+//! The exposed knobs of the shown graph.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use crate::names::{free_name, knob_label};
 use crate::open_document::OpenDocument;
 use crate::{instances, shown_variant};
 
-/// A knob on the panel.
+/// A knob that the shown graph exposes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PanelKnob {
+pub struct ExposedKnob {
     /// Name in files and on command lines.
     pub name: String,
     /// Definition of the exposed knob in the graph.
@@ -26,36 +26,40 @@ pub struct PanelKnob {
     pub at_first: Value,
 }
 
-/// Returns the exposed knobs in the order of the panel. A knob that controls only unknown knobs is left out.
-pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
+/// Returns the exposed knobs in the order in which they are shown. A knob that controls only unknown knobs is left out.
+pub fn knobs(document: &OpenDocument) -> Vec<ExposedKnob> {
     let interface = document.own_interface();
     let opened = document.own_interface_when_opened();
     let variant = shown_variant::values(document).map(|(_, values)| values);
     let set: BTreeMap<&str, &Value> = document.graph().knob_values(variant).collect();
-    let knobs = document.graph().panel().into_iter().filter_map(|(name, exposed)| {
-        let knob = interface?.knob(name)?.clone();
-        let first = exposed.to.first()?;
-        let inner = document.interface(&first.node)?.knob(&first.name)?;
-        // If an exposed knob has a default, that is its value.
-        let own = &knob.ty.default;
-        let opened_with = match opened.map(|interface| interface.knob(name)) {
-            Some(Some(before)) => &before.ty.default,
-            Some(None) => &inner.ty.default,
-            // A group that came later, as an effect of the library does, begins with its own values.
-            None => own,
-        };
-        Some(PanelKnob {
-            at_first: if variant.is_some() { own } else { opened_with }.clone(),
-            name: name.to_owned(),
-            exposed: exposed.clone(),
-            value: set.get(name).map_or(own, |value| *value).clone(),
-            knob,
-        })
-    });
+    let knobs = document
+        .graph()
+        .exposed_in_order()
+        .into_iter()
+        .filter_map(|(name, exposed)| {
+            let knob = interface?.knob(name)?.clone();
+            let first = exposed.to.first()?;
+            let inner = document.interface(&first.node)?.knob(&first.name)?;
+            // If an exposed knob has a default, that is its value.
+            let own = &knob.ty.default;
+            let opened_with = match opened.map(|interface| interface.knob(name)) {
+                Some(Some(before)) => &before.ty.default,
+                Some(None) => &inner.ty.default,
+                // A group that came later, as an effect of the library does, begins with its own values.
+                None => own,
+            };
+            Some(ExposedKnob {
+                at_first: if variant.is_some() { own } else { opened_with }.clone(),
+                name: name.to_owned(),
+                exposed: exposed.clone(),
+                value: set.get(name).map_or(own, |value| *value).clone(),
+                knob,
+            })
+        });
     knobs.collect()
 }
 
-/// Exposes a knob of a node under a free name on the panel of the shown graph.
+/// Exposes a knob of a node under a name of the shown graph that is free.
 pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     if let Some(name) = exposed_as(document, id, knob) {
         let why = format!("this parameter is exposed already, as '{name}'");
@@ -148,7 +152,7 @@ pub fn exposed_as<'d>(document: &'d OpenDocument, id: &NodeId, knob: &str) -> Op
         .map(|(name, _)| name.as_str())
 }
 
-/// Takes a knob off the panel.
+/// Exposes a knob no longer.
 pub fn unexpose(document: &mut OpenDocument, name: &str) -> bool {
     let edit = Edit::Unexpose {
         body: document.body(),
@@ -157,7 +161,7 @@ pub fn unexpose(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Stop exposing", vec![edit])
 }
 
-/// Takes a knob of a node off the panel. Other knobs that the same exposed knob controls stay.
+/// Exposes a knob of a node no longer. Other knobs that the same exposed knob controls stay.
 pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     let Some(name) = exposed_as(document, id, knob).map(str::to_owned) else {
         return false;
@@ -252,7 +256,7 @@ pub fn set_section(document: &mut OpenDocument, name: &str, section: &str) -> bo
 /// Moves an exposed knob before another one and into its section, or to the end.
 pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) -> bool {
     let graph = document.graph();
-    let mut names: Vec<&str> = graph.panel().into_iter().map(|(name, _)| name).collect();
+    let mut names: Vec<&str> = graph.exposed_in_order().into_iter().map(|(name, _)| name).collect();
     if !names.contains(&name) {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
     }
