@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use sabi_cancel::look;
 
 use crate::address::leads_to_network;
+use crate::named::folded;
 use crate::read::Unread;
 use crate::refusal::Refusal;
 use crate::trusted::TrustedPaths;
@@ -43,8 +44,8 @@ impl FolderSearch {
             Ok(files_below(&self.folder))
         });
         let files = listed.as_ref().map_err(Clone::clone)?;
-        let name = written.rsplit(['/', '\\']).next().unwrap_or(written).to_lowercase();
-        let place = files.get(&name).ok_or(Unread::Missing)?;
+        let name = written.rsplit(['/', '\\']).next().unwrap_or(written);
+        let place = files.get(&folded(name)).ok_or(Unread::Missing)?;
         trusted.check_found(place)?;
         Ok(place.clone())
     }
@@ -59,7 +60,7 @@ fn check(folder: &Path, trusted: &TrustedPaths) -> Result<(), Unread> {
     trusted.check_found(folder).map(drop)
 }
 
-/// Files in a folder and below it by their names in lower case. Links to folders are not followed, and folders that cannot be listed
+/// Files in a folder and below it by their names without differences of case and composition. Links to folders are not followed, and folders that cannot be listed
 /// have no files.
 fn files_below(folder: &Path) -> BTreeMap<String, PathBuf> {
     let mut files = BTreeMap::new();
@@ -78,7 +79,7 @@ fn files_below(folder: &Path) -> BTreeMap<String, PathBuf> {
                 if is_folder {
                     below.push(entry.path());
                 } else if let Ok(name) = entry.file_name().into_string() {
-                    files.entry(name.to_lowercase()).or_insert_with(|| entry.path());
+                    files.entry(folded(&name)).or_insert_with(|| entry.path());
                 }
             }
         }

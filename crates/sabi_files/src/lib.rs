@@ -59,5 +59,5 @@ pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
 pub use temporary::{is_temporary_name, sweep};
 pub use trusted::TrustedPaths;
-pub use uri::{Uri, data_uri};
+pub use uri::{Uri, data_uri, find_beside};
 pub use whole::{WholeFile, write_whole};

@@ -6,6 +6,7 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use icu_normalizer::ComposingNormalizerBorrowed;
 use thiserror::Error;
 
 use crate::address::is_local;
@@ -75,7 +76,7 @@ impl PathBase {
         })
     }
 
-    /// Returns the place below the folder of this base to which a path leads in another case of letters, with the path in that case;
+    /// Returns the place below the folder of this base to which a path leads in another case or composition of letters, with the path as it is there;
     /// `None` where there is none, or where it leads above the folder. Systems that tell no cases apart write any.
     pub fn place_in_other_case(&self, written: &str) -> Option<(String, PathBuf)> {
         let (mut text, mut place) = (String::new(), self.folder.clone());
@@ -181,10 +182,15 @@ fn name_in_other_case(folder: &Path, name: &str) -> Option<String> {
     } else {
         folder
     };
-    let lower = name.to_lowercase();
+    let alike = folded(name);
     let entries = fs::read_dir(folder).ok()?.take(MOST_ENTRIES).flatten();
     let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-    names.filter(|other| other.to_lowercase() == lower).min()
+    names.filter(|other| folded(other) == alike).min()
+}
+
+/// Returns a name without its differences of case and of composition: systems write `é` as one letter or as `e` and an accent.
+pub(crate) fn folded(name: &str) -> String {
+    ComposingNormalizerBorrowed::new_nfc().normalize(name).to_lowercase()
 }
 
 fn with_forward_slashes(written: &str) -> String {

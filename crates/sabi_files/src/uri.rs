@@ -43,6 +43,20 @@ impl<'a> Uri<'a> {
     }
 }
 
+/// Looks for the file of a [`Uri::Beside`] under its decoded path, then as the URI is written, since names may contain `%`, `?` and `#`,
+/// then without the query and the fragment of the URI, which say nothing to a file system.
+///
+/// # Errors
+/// The first of the reasons of `find`.
+pub fn find_beside<T, E>(uri: &str, decoded: &str, mut find: impl FnMut(&str) -> Result<T, E>) -> Result<T, E> {
+    find(decoded).or_else(|reason| {
+        find(uri).or_else(|_| match uri.find(['?', '#']).map(|end| Uri::parse(&uri[..end])) {
+            Some(Uri::Beside(path)) => find(&path).map_err(|_| reason),
+            _ => Err(reason),
+        })
+    })
+}
+
 /// Returns the URI that contains `bytes`, in base64 (RFC 2397).
 pub fn data_uri(media_type: &str, bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

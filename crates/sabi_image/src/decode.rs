@@ -264,7 +264,16 @@ fn sample_bytes(depth: png::BitDepth) -> u64 {
     if depth == png::BitDepth::Sixteen { 2 } else { 1 }
 }
 
+/// Decodes a PNG. One whose last chunk (`IEND`, which is always the same) is missing and whose pixels are all there is read as a whole one.
 fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
+    const END: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
+    decode_png_with_end(name, bytes).or_else(|error| match bytes.ends_with(END) {
+        true => Err(error),
+        false => decode_png_with_end(name, &[bytes, END].concat()).map_err(|_| error),
+    })
+}
+
+fn decode_png_with_end(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     let mut reader = open_png(name, bytes)?;
     let (width, height) = (reader.info().width, reader.info().height);
     let color_space = declared_by_png(reader.info(), has_profile(bytes));

@@ -40,7 +40,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
 use sabi_cancel::look;
-use sabi_files::{PathBase, TrustedPaths, Unread, Uri};
+use sabi_files::{PathBase, TrustedPaths, Unread, Uri, find_beside};
 use serde::{Deserialize, Serialize};
 
 use self::beside::FilesBeside;
@@ -230,7 +230,7 @@ pub fn named_file(path: &Path, model: &Model, uri: &str) -> Option<Result<(Vec<u
     match Uri::parse(uri) {
         Uri::Data(_) => None,
         Uri::Damaged(reason) | Uri::Unusable(reason) => Some(Err(reason)),
-        Uri::Beside(decoded) => Some(read(&decoded).or_else(|reason| read(uri).map_err(|_| reason))),
+        Uri::Beside(decoded) => Some(find_beside(uri, &decoded, read)),
     }
 }
 

@@ -138,9 +138,11 @@ fn a_truncated_file_gives_an_error_that_names_it() {
         bits: 8,
         srgb_chunk: true,
     };
+    // Gray levels that do not compress, so that the last chunk, without which a PNG is whole, is less than a tenth of the file.
+    let levels: Vec<u8> = (0..256_u32).map(|i| (i * i * 31 % 251) as u8).collect();
     files.push((
         "a.png",
-        crate::encode_png(64, 2, crate::PngData::U8(&[5; 128]), options).unwrap(),
+        crate::encode_png(64, 4, crate::PngData::U8(&levels), options).unwrap(),
     ));
     let values: Vec<f32> = (0..900).map(|i| i as f32).collect();
     files.push((
@@ -219,6 +221,27 @@ fn errors_are_clear_sentences() {
         "{checksum}"
     );
     assert!(says("a.png", b"\x89PNG\r\n\x1a\n").starts_with("a.png is a damaged PNG file ("));
+}
+
+#[test]
+fn a_png_without_its_last_chunk_is_read_and_one_without_its_last_pixels_is_not() {
+    let options = crate::PngOptions {
+        channels: 1,
+        bits: 8,
+        srgb_chunk: false,
+    };
+    let whole = crate::encode_png(2, 2, crate::PngData::U8(&[1, 2, 3, 4]), options).unwrap();
+    let without_end = &whole[..whole.len() - 12];
+    assert_eq!(
+        decode("a.png", without_end).unwrap().pixels,
+        Pixels::U8(vec![1, 2, 3, 4])
+    );
+    for cut in [1, 5, 10] {
+        let told = decode("a.png", &without_end[..without_end.len() - cut])
+            .unwrap_err()
+            .to_string();
+        assert!(told.starts_with("a.png is a damaged PNG file ("), "{cut}: {told}");
+    }
 }
 
 #[test]

@@ -227,3 +227,21 @@ fn files_are_found_in_another_case_of_letters() {
     let model = load(&written(folder.path(), &text), &LoadOptions::default()).unwrap();
     assert_eq!(model.mesh.triangles.len(), 1);
 }
+
+#[test]
+fn a_file_is_found_whether_its_accents_are_letters_or_marks_and_without_the_query_of_its_address() {
+    for (named, there) in [
+        ("t\u{f4}le.bin", "to\u{302}le.bin"),
+        ("To\u{302}le.bin", "t\u{f4}le.bin"),
+        ("leaf.bin?v=2", "leaf.bin"),
+        ("my%20leaf.bin?v=2#top", "my leaf.bin"),
+        ("c#.bin", "c#.bin"),
+        ("100%.bin", "100%.bin"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let (text, bytes) = spelled(&[named.to_owned()]);
+        fs::write(folder.path().join(there), &bytes).unwrap();
+        let model = load(&written(folder.path(), &text), &LoadOptions::default());
+        assert_eq!(model.unwrap().mesh.triangles.len(), 1, "{named}");
+    }
+}

@@ -375,5 +375,20 @@ fn each_fault_has_its_sentence() {
         assert_eq!(said("thing.dae", text.as_bytes()), format!("thing.dae: {sentence}"));
     }
     let bomb = whole.replace("<COLLADA", "<!DOCTYPE a [<!ENTITY b \"c\">]><COLLADA");
-    assert!(said("thing.dae", bomb.as_bytes()).contains("its XML cannot be read"));
+    assert!(said("thing.dae", bomb.as_bytes()).contains("it defines entities"));
+}
+
+#[test]
+fn a_document_type_without_entities_changes_nothing() {
+    let plain = file("", "", FACE, NODE);
+    let typed = plain.replace("<COLLADA", "<!DOCTYPE COLLADA SYSTEM \"collada_schema.dtd\">\n<COLLADA");
+    let read = |text: &str| {
+        load_bytes(
+            "a.dae",
+            text.as_bytes(),
+            &mut crate::builder::nothing,
+            &LoadOptions::default(),
+        )
+    };
+    assert_eq!(read(&typed).unwrap().mesh, read(&plain).unwrap().mesh);
 }

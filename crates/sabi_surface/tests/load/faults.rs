@@ -337,6 +337,12 @@ fn each_fault_of_the_container_has_its_sentence() {
             edit(20, b"]"),
             "the file is damaged: its JSON cannot be read (expected value at line 1 column 1)".into(),
         ),
+        (
+            br#"{"asset": {"version": "2.0"}, "materials": [{"alphaCutoff": NaN}]}"#.to_vec(),
+            "the file is damaged: its JSON has `NaN` for a number at line 1 column 61, which JSON does not know; put a number there, or \
+             export it anew"
+                .into(),
+        ),
         (Vec::new(), "the file is damaged: it is empty".into()),
     ] {
         assert_eq!(said("a.glb", &bytes), format!("a.glb: {sentence}"));

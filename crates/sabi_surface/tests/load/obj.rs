@@ -44,6 +44,7 @@ fn faces_read_the_same_however_they_are_written() {
         format!("{SQUARE}f 1/0/0 2/0/0 3/0/0 4/0/0\n"),
         format!("{SQUARE}f 1// 2// 3// 4//\n"),
         format!("{SQUARE}f 1, 2, 3, 4\n"),
+        format!("{SQUARE}f 1.0 2.000 3. 4\n"),
     ] {
         assert_eq!(read(&text).unwrap().mesh, plain.mesh, "{text:?}");
     }
@@ -379,6 +380,7 @@ fn each_fault_has_its_sentence() {
             "the file is damaged: line 1: the corner `/1` names no vertex",
         ),
         ("f a b c\n", "the file is damaged: line 1: `a` is not an index"),
+        ("f 1.5 2 3\n", "the file is damaged: line 1: `1.5` is not an index"),
         (
             "hello\n",
             "it has no triangles; The file has statements that are not known and are left out, the first in line 1: `hello`",

@@ -33,8 +33,12 @@ pub(super) fn parsed(text: &str, memory_bytes: u64) -> Result<roxmltree::Documen
     if needed > memory_bytes {
         return Err(Fault::memory(needed, memory_bytes));
     }
+    if text.contains("<!ENTITY") {
+        return damaged("it defines entities (`<!ENTITY`), which a COLLADA file has no use for");
+    }
     let options = ParsingOptions {
-        allow_dtd: false,
+        // A document type without entities is a mere name, and nothing is fetched for it.
+        allow_dtd: true,
         ..ParsingOptions::default()
     };
     roxmltree::Document::parse_with_options(text, options)

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use sabi_files::Uri;
+use sabi_files::{Uri, find_beside};
 
 use super::Resolve;
 use super::document::Document;
@@ -219,7 +219,7 @@ fn fetch<'a>(
         Uri::Unusable(reason) => Err(fault(reason)),
         Uri::Beside(path) => fetched
             .entry(path.to_string())
-            .or_insert_with(|| resolve(&path).or_else(|reason| resolve(uri).map_err(|_| fault(reason))))
+            .or_insert_with(|| find_beside(uri, &path, resolve).map_err(fault))
             .clone()
             .map(Bytes::Shared),
     }

@@ -83,7 +83,7 @@ impl Document {
             (bytes, None)
         };
         check_json(text, memory_bytes)?;
-        let root = gltf_json(text).map_err(|error| Fault::Damaged(format!("its JSON cannot be read ({error})")))?;
+        let root = gltf_json(text).map_err(|error| Fault::Damaged(json_fault(text, &error)))?;
         let Value::Object(mut root) = root else {
             return damaged("its JSON is not an object");
         };
@@ -297,5 +297,26 @@ fn chunks<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(&'a [u8], Opt
     match text {
         Some(text) => Ok((text, binary)),
         None => damaged("it has no JSON chunk"),
+    }
+}
+
+/// Returns the sentence for JSON that cannot be parsed. Some programs write numbers into it that JSON does not have.
+fn json_fault(text: &[u8], error: &serde_json::Error) -> String {
+    const NO_NUMBERS: [&str; 6] = ["NaN", "nan", "Infinity", "-Infinity", "inf", "-inf"];
+    let line = text.split(|byte| *byte == b'\n').nth(error.line().saturating_sub(1));
+    let from = error.column().saturating_sub(2);
+    let near = line.and_then(|line| line.get(from..)).map(String::from_utf8_lossy);
+    let starts = |near: &str, at: usize| {
+        let rest = near.get(at..)?;
+        NO_NUMBERS.into_iter().find(|word| rest.starts_with(word))
+    };
+    match near.and_then(|near| starts(&near, 0).or_else(|| starts(&near, 1))) {
+        Some(word) => {
+            let place = format!("line {} column {}", error.line(), error.column());
+            format!(
+                "its JSON has `{word}` for a number at {place}, which JSON does not know; put a number there, or export it anew"
+            )
+        }
+        None => format!("its JSON cannot be read ({error})"),
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sabi_files::Uri;
+use sabi_files::{Uri, find_beside};
 
 use super::Resolve;
 use super::source::Source;
@@ -42,9 +42,8 @@ impl PictureCache {
             (Some(extension), ..) => Err(format!("it is stored with {extension}, which is not read here")),
             (_, Some((_, Uri::Data(bytes))), _) => Ok(bytes.into()),
             (_, Some((raw, Uri::Beside(path))), _) => {
-                let mut read = || resolve(&path).or_else(|reason| resolve(raw).map_err(|_| reason));
                 let known = self.beside.entry(raw.to_string());
-                known.or_insert_with(&mut read).clone()
+                known.or_insert_with(|| find_beside(raw, &path, resolve)).clone()
             }
             (_, Some((_, Uri::Damaged(reason) | Uri::Unusable(reason))), _) => Err(reason),
             (_, None, Some(view)) => self.in_view(source, view.value()),

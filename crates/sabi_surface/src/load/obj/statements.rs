@@ -258,7 +258,12 @@ impl Statements {
 
 /// Converts an index of the file, which counts from 1, or backward from the `count` so far.
 fn from_zero(word: &str, count: usize) -> Result<u32, String> {
-    let index: i64 = word.parse().map_err(|_| format!("`{word}` is not an index"))?;
+    // Some programs write indices as numbers with a fraction of zero.
+    let whole = word
+        .split_once('.')
+        .filter(|(_, fraction)| fraction.bytes().all(|digit| digit == b'0'))
+        .map_or(word, |(whole, _)| whole);
+    let index: i64 = whole.parse().map_err(|_| format!("`{word}` is not an index"))?;
     let from_zero = match index {
         0 => return Err("an index is 0, and they count from 1".into()),
         1.. => index - 1,
