@@ -8,17 +8,24 @@ pub(crate) mod encoded_cache;
 mod fault_tests;
 pub(crate) mod folder;
 mod losses;
-pub(crate) mod made_of;
+pub mod made_of;
 mod map_encoder;
 pub(crate) mod maps;
 mod memory_budget;
 mod mesh_maps;
 pub(crate) mod model_copy;
-pub(crate) mod preset_description;
-pub(crate) mod preset_pictures;
-pub(crate) mod presets;
-pub(crate) mod recorded;
-pub(crate) mod report;
+pub mod preset_description;
+pub mod preset_pictures;
+pub mod presets;
+pub mod recorded;
+pub mod report;
 pub(crate) mod seams;
 mod set_works;
 pub(crate) mod sheet_results;
+
+pub use bake::{bake, bake_graph, check_bake, needs_force};
+pub use bake_request::{
+    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
+};
+pub use report::BakeReport;
+pub use seams::Seams;

@@ -1,11 +1,11 @@
 //! Catalog of the node kinds as artists see them: names, ports and knobs, independent of the implementation of a kind.
 
-pub(crate) mod check;
-pub(crate) mod description;
-pub(crate) mod diagnosis;
+pub mod check;
+pub mod description;
+pub mod diagnosis;
 mod interfaces;
 mod knob;
-pub(crate) mod node_file;
+pub mod node_file;
 mod picture;
 #[cfg(test)]
 mod tests;

@@ -9,3 +9,9 @@ pub(crate) mod shared_texels;
 pub(crate) mod texture_sets;
 pub(crate) mod texture_space;
 pub(crate) mod thumbnail;
+
+pub use evaluator::{Evaluator, EvaluatorOptions, RaySettings};
+pub use looks::{LooksIdentity, ModelLooks, evaluate_looks};
+pub use texture_sets::TextureSet;
+pub use texture_space::{PlaneKind, ResultPlane};
+pub use thumbnail::{load_thumbnail, store_thumbnail, thumbnail_of};

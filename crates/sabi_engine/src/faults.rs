@@ -9,15 +9,16 @@ const MOST_KEPT: usize = 1000;
 
 /// Sentences about several faults, without repeats.
 #[derive(Debug, Default)]
-pub(crate) struct Faults {
+pub struct FaultList {
     messages: Vec<String>,
     kinds: Vec<ErrorKind>,
     /// True if trust in a file helps.
     is_refusal: bool,
 }
 
-impl Faults {
-    pub(crate) fn add(&mut self, error: EngineError) {
+impl FaultList {
+    /// Adds the sentences of an error that are not known yet.
+    pub fn add(&mut self, error: EngineError) {
         self.kinds.push(error.kind);
         self.is_refusal |= error.remedies.contains(&Remedy::TrustFile);
         for message in error.messages {
@@ -28,7 +29,7 @@ impl Faults {
     }
 
     /// Returns true without any fault.
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.messages.is_empty()
     }
 
@@ -43,7 +44,7 @@ impl Faults {
 
     /// Returns one error with all sentences. Its kind is missing input if all faults are about missing files, otherwise bad
     /// input, since the mistakes are in a file here.
-    pub(crate) fn into_result(self) -> Result<(), EngineError> {
+    pub fn into_result(self) -> Result<(), EngineError> {
         if self.kinds.contains(&ErrorKind::Interrupted) {
             return Err(interrupted());
         }

@@ -27,28 +27,27 @@
 //! # Ok::<(), sabi_engine::EngineError>(())
 //! ```
 
-mod baking;
-mod batch;
+pub mod baking;
 pub mod catalog;
 #[cfg(test)]
 mod documented;
-mod effect_library;
+pub mod effect_library;
 mod error;
-mod evaluating;
-mod faults;
-mod graph_info;
-mod live;
-mod opening;
-mod packing;
-mod phases;
-mod picked_gradient;
-mod program;
+pub mod evaluating;
+pub mod faults;
+pub mod graph_info;
+pub mod live;
+pub mod opening;
+pub mod packing;
+pub mod phases;
+pub mod picked_gradient;
+pub mod program;
 mod program_cache;
-mod remedy;
-mod rendering;
-mod session;
-mod source;
-mod stroke_chores;
+pub mod remedy;
+pub mod rendering;
+pub mod session;
+pub mod source;
+pub mod stroke_chores;
 mod warning;
 
 // Progress, times, errors, warnings and what helps against them.
@@ -104,9 +103,6 @@ pub use baking::recorded::manifest::{FinishedBake, finished_bake};
 pub use baking::recorded::recorded_bake::RecordedBake;
 pub use baking::recorded::verification::{Finding, FindingKind, Verification, verify_folder};
 pub use program::Build;
-
-// Baking many sets: a matrix, the plan that it becomes, and its items.
-pub use batch::{BakeItem, BakePlan, InputHashes, ItemInput, ItemMachine, PlannedBakes, plan_bakes};
 
 // Rendering pictures.
 pub use rendering::density::Softness;

@@ -5,6 +5,7 @@ mod entries;
 mod manifest;
 pub(crate) mod model_files;
 pub(crate) mod named_files;
+mod named_inputs;
 mod needs;
 pub(crate) mod own_nodes;
 mod pack;
@@ -12,6 +13,7 @@ mod places;
 mod rewritten;
 mod unpack;
 
+pub use named_inputs::{NamedInputs, inputs_of_graph, inputs_of_model};
 pub use pack::{PackReport, PackRequest, PackedFile, PackedModel, pack_graph};
 pub use unpack::{UnpackReport, unpack_graph};
 

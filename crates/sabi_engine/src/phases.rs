@@ -134,7 +134,7 @@ impl SharedActivity {
 }
 
 /// Returns an error of kind `Interrupted` if the work was canceled.
-pub(crate) fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineError> {
+pub fn stop_if_canceled(progress: &dyn Progress) -> Result<(), EngineError> {
     if progress.is_canceled() {
         return Err(interrupted());
     }
@@ -164,7 +164,7 @@ pub(crate) struct Stopped {
 ///
 /// # Errors
 /// The work was canceled, or the system has no thread for it.
-pub(crate) fn unless_canceled<T: Send + 'static>(
+pub fn unless_canceled<T: Send + 'static>(
     progress: &dyn Progress,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, EngineError> {

@@ -37,7 +37,7 @@ impl Build {
 }
 
 /// Returns length and BLAKE3 of a file's bytes; `None` if it is not a plain file that can be read.
-pub(crate) fn digest(path: &Path) -> Option<(u64, String)> {
+pub fn digest(path: &Path) -> Option<(u64, String)> {
     let read = |mut file: File| -> io::Result<(u64, String)> {
         let mut hasher = blake3::Hasher::new();
         let mut part = vec![0; PART_BYTES];

@@ -11,7 +11,7 @@ mod stroke_files;
 #[cfg(test)]
 mod tests;
 mod trust;
-pub(crate) mod watch;
+pub mod watch;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};

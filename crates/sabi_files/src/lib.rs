@@ -42,6 +42,7 @@ mod test_folder;
 mod trusted;
 mod uri;
 mod whole;
+mod whole_path;
 
 pub use address::is_local;
 pub use append::append_durably;
@@ -61,3 +62,4 @@ pub use temporary::{is_temporary_name, sweep};
 pub use trusted::TrustedPaths;
 pub use uri::{Uri, data_uri, find_beside};
 pub use whole::{WholeFile, write_whole};
+pub use whole_path::{named_path, whole_path};

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sabi_engine::{ItemMachine, TrustedPaths, default_cache_dir, default_memory_bytes};
+use sabi_batch::ItemMachine;
+use sabi_engine::{TrustedPaths, default_cache_dir, default_memory_bytes};
 
 use super::evaluation::MachineArguments;
 

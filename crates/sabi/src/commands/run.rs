@@ -1,27 +1,26 @@
 //! `sabi run`: bakes the items of a plan, each in a separate process.
-//!
-//! If a driver crashes or the system ends a process for lack of memory, only one item fails; the memory of an item is free
-//! once it has ended. Starting a process and opening the device for each takes tenths of a second.
 
 mod alone;
 mod item_process;
 mod item_progress;
-mod queue;
 mod summary;
 
 use std::collections::BTreeSet;
+use std::io::{self, Write as _};
 
-use sabi_engine::{BakeItem, BakePlan, InputHashes, PathBase, TrustedPaths, advised};
+use sabi_batch::running::{ItemEvent, ItemStatus, Queue};
+use sabi_batch::{BakeItem, BakePlan, InputHashes};
+use sabi_engine::{PathBase, TrustedPaths, advised};
 
 use crate::arguments::{ProgressChoice, RunArguments};
 use crate::exit::{Exit, Failure};
 use crate::failure_report::ErrorReport;
+use crate::printable::printable;
 use crate::stopping::{is_canceled, listen_for_signals};
 use crate::terminal::Terminal;
-use item_process::{BakedItem, Ended};
+use item_process::{BakedItem, Ended, command, end_of, is_event, step_of};
 use item_progress::ItemProgress;
-use queue::{Happened, Queue};
-use summary::{ItemStatus, Summary};
+use summary::Summary;
 
 pub(crate) fn run(arguments: &RunArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let plan = BakePlan::open(&arguments.plan)?;
@@ -108,18 +107,34 @@ impl Run<'_> {
     }
 
     fn bake(&mut self, waiting: &[usize]) -> Result<(), Failure> {
-        let mut queue = Queue::new(self.arguments, self.trusted, waiting);
-        while let Some((at, happened)) = queue.next(is_canceled) {
-            match happened {
-                Happened::Step { phase, done, of } => self.progress.step(at, phase, done, of)?,
-                Happened::Ended(Ended::Baked(baked)) => self.baked(at, baked)?,
-                Happened::Ended(Ended::Failed(failure)) => self.failed(at, &failure)?,
-                Happened::Ended(Ended::Stopped) if is_canceled() => {}
-                Happened::Ended(Ended::Stopped) => {
-                    let why = "the process of the item was stopped by another one".to_owned();
-                    self.failed(at, &Failure::new(Exit::Interrupted, why))?;
-                }
+        let (arguments, trusted) = (self.arguments, self.trusted);
+        let command = |item| command(arguments, trusted, item);
+        let mut queue = Queue::new(waiting.iter().copied(), arguments.jobs as usize, command);
+        while let Some((at, event)) = queue.next(is_canceled) {
+            match event {
+                ItemEvent::Line(line) => self.line(at, &line)?,
+                ItemEvent::Ended(Err(error)) => self.failed(at, &error.into())?,
+                ItemEvent::Ended(Ok(process)) => match end_of(&process) {
+                    Ended::Baked(baked) => self.baked(at, baked)?,
+                    Ended::Failed(failure) => self.failed(at, &failure)?,
+                    Ended::Stopped if is_canceled() => {}
+                    Ended::Stopped => {
+                        let why = "the process of the item was stopped by another one".to_owned();
+                        self.failed(at, &Failure::new(Exit::Interrupted, why))?;
+                    }
+                },
             }
+        }
+        Ok(())
+    }
+
+    /// Shows the progress of an item, or prints another line of its process.
+    fn line(&mut self, at: usize, line: &str) -> Result<(), Failure> {
+        match step_of(line) {
+            Some((phase, done, of)) => return self.progress.step(at, phase, done, of),
+            None if is_event(line) => {}
+            // Standard error may be closed; then the line is lost.
+            None => drop(writeln!(io::stderr().lock(), "{}", printable(line))),
         }
         Ok(())
     }

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use sabi_batch::shell_word::shell_word;
 use sabi_engine::{UnpackReport, unpack_graph};
 
-use super::plan::shell_word;
 use crate::arguments::UnpackArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::ShownProgress;

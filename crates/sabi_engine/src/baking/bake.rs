@@ -67,7 +67,7 @@ pub fn bake_graph(
 }
 
 /// Checks a request in the same way as a bake before it reads the model.
-pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
+pub fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
     // An unknown preset is reported before the graph's faults.
     set_options(request)?;
     let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;

@@ -14,7 +14,7 @@ use crate::baking::presets::find_preset;
 use crate::baking::seams::Seams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::EvaluatorOptions;
-use crate::faults::Faults;
+use crate::faults::FaultList;
 use crate::opening::linked_model::ModelOptions;
 
 /// Default pattern of map names.
@@ -68,7 +68,7 @@ impl BakeRequest {
     }
 
     /// Creates a request without options, and without a folder for the maps.
-    pub(crate) fn plain(graph: &Path, model: &Path, size: u32) -> BakeRequest {
+    pub fn plain(graph: &Path, model: &Path, size: u32) -> BakeRequest {
         BakeRequest {
             graph: graph.to_owned(),
             evaluator: EvaluatorOptions {
@@ -230,7 +230,7 @@ pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineErr
         &request.presets
     };
     let words = Words::of(request);
-    let (mut presets, mut faults) = (Vec::new(), Faults::default());
+    let (mut presets, mut faults) = (Vec::new(), FaultList::default());
     for name in wanted {
         let preset = find_preset(name, request.preset_folder.as_deref());
         match preset.and_then(|preset| with_channels(preset, &request.channels)) {

@@ -4,10 +4,12 @@ pub(crate) mod inputs;
 pub(crate) mod recipe;
 mod recorded_fit;
 
+pub use inputs::InputRecord;
+pub use recipe::{ModelRecipe, Recipe, SetRecipe, is_preset_file, moved};
+
 use std::path::PathBuf;
 
-use self::inputs::{InputRecord, node_files, records};
-use self::recipe::Recipe;
+use self::inputs::{node_files, records};
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::presets::preset_files;
 use crate::error::EngineError;

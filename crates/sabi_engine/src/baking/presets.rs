@@ -63,7 +63,7 @@ pub fn find_preset(name: &str, folder: Option<&Path>) -> Result<Preset, EngineEr
 }
 
 /// Returns the files of these presets, which are given as for [`find_preset`]. Built-in presets have no file.
-pub(crate) fn preset_files(names: &[String], folder: Option<&Path>) -> Result<Vec<PathBuf>, EngineError> {
+pub fn preset_files(names: &[String], folder: Option<&Path>) -> Result<Vec<PathBuf>, EngineError> {
     let own = names.iter().filter(|name| builtin_text(name).is_none());
     own.map(|name| file_of(name, folder)).collect()
 }

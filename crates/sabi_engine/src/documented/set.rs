@@ -9,9 +9,8 @@ use sabi_graph::Value;
 use super::keys::{documented, written};
 use super::{constant, decoded_uvs, document, output, overlap, text, unwrapped};
 use crate::{
-    BakeAdapter, BakeItem, BakeReport, BakedMesh, Build, Conventions, CopiedFileReport, CopyOptions, Finding,
-    FindingKind, Fit, InputRecord, ItemInput, ModelCopyReport, ModelRecipe, Overlap, PhaseTimes, Recipe, Seams,
-    SetRecipe, Udim, Up, Verification,
+    BakeAdapter, BakeReport, BakedMesh, Build, Conventions, CopiedFileReport, CopyOptions, Finding, FindingKind, Fit,
+    InputRecord, ModelCopyReport, ModelRecipe, Overlap, PhaseTimes, Recipe, Seams, SetRecipe, Udim, Up, Verification,
 };
 
 fn build() -> Build {
@@ -161,26 +160,4 @@ fn a_verified_folder_has_the_documented_keys() {
         error: Some(text()),
     };
     assert_eq!(written(&[verification]), documented("Verified folders"));
-}
-
-#[test]
-fn a_line_of_a_plan_has_the_documented_keys() {
-    let item = BakeItem {
-        item: 0,
-        key: text(),
-        out: text(),
-        recipe: recipe(),
-        inputs: vec![ItemInput {
-            name: text(),
-            path: text(),
-            blake3: text(),
-        }],
-        build: build(),
-    };
-    // The recipe is that of a report.
-    let keys = written(&item).into_iter().filter(|key| !key.starts_with("recipe."));
-    assert_eq!(
-        keys.collect::<std::collections::BTreeSet<_>>(),
-        documented("Line of a plan")
-    );
 }

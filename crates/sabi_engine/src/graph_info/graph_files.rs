@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use sabi_files::{absolute, is_local};
+use sabi_files::{absolute, is_local, whole_path};
 use sabi_graph::Node;
 use serde::Serialize;
 
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::packing::named_files::{NamedDocument, NamedFiles, whole_path};
+use crate::packing::named_files::{NamedDocument, NamedFiles};
 use crate::packing::own_nodes::own_nodes;
 use crate::source::paint::NAME as PAINT;
 use crate::source::strokes::{files_beside, paint_folder};

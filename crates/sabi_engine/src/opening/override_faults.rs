@@ -4,7 +4,7 @@ use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{FileContents, PlanError, Problem};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::faults::Faults;
+use crate::faults::FaultList;
 use crate::opening::document::OpenGraph;
 use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
 use crate::opening::kinds::Kinds;
@@ -51,7 +51,7 @@ pub(crate) fn all_override_faults(
         set: Vec::new(),
         ..overrides.clone()
     };
-    let mut faults = Faults::default();
+    let mut faults = FaultList::default();
     if let Err(error) = open.flatten(&good) {
         good.variant = None;
         if open.flatten(&good).is_err() {

@@ -67,7 +67,7 @@ fn unknown_key(key: &str) -> String {
 
 /// Adds the values of a table. Returns a clause for each value that no parameter could accept. Without quotes, `node.param
 /// = 1` is a table in a table.
-pub(crate) fn add_values(set: &mut Vec<(String, Value)>, prefix: &str, values: Table) -> Vec<String> {
+pub fn add_values(set: &mut Vec<(String, Value)>, prefix: &str, values: Table) -> Vec<String> {
     let mut faults = Vec::new();
     for (key, value) in values {
         let name = format!("{prefix}{key}");

@@ -15,7 +15,7 @@ const SIZE_LIMIT_BYTES: u64 = 16 << 20;
 ///
 /// # Errors
 /// It cannot be read, or is no TOML.
-pub(crate) fn read_table(path: &Path, plural: &str) -> Result<Table, EngineError> {
+pub fn read_table(path: &Path, plural: &str) -> Result<Table, EngineError> {
     let said = |why: &str| format!("{}: {why}", path.display());
     let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
         let why = why_unread(&unread, ".toml", plural, SIZE_LIMIT_BYTES);

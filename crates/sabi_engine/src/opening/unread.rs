@@ -5,7 +5,7 @@ use sabi_files::Unread;
 use crate::error::ErrorKind;
 
 /// Returns the kind of the error for a file that could not be read.
-pub(crate) fn kind_of_unread(unread: &Unread) -> ErrorKind {
+pub fn kind_of_unread(unread: &Unread) -> ErrorKind {
     match unread {
         Unread::TooLarge(_) => ErrorKind::BadInput,
         _ => ErrorKind::MissingInput,
@@ -14,7 +14,7 @@ pub(crate) fn kind_of_unread(unread: &Unread) -> ErrorKind {
 
 /// Returns the reason why a file was not read. `ending` and `plural` are the extension and the name of the expected files,
 /// and `limit_bytes` is their maximum size.
-pub(crate) fn why_unread(unread: &Unread, ending: &str, plural: &str, limit_bytes: u64) -> String {
+pub fn why_unread(unread: &Unread, ending: &str, plural: &str, limit_bytes: u64) -> String {
     match unread {
         Unread::Missing => "there is no such file; check the path".to_owned(),
         Unread::Folder => format!("this is a folder; name a {ending} file"),

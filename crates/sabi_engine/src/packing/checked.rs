@@ -1,8 +1,9 @@
 //! Proof that the documents of an archive name the same files as the originals.
 
+use sabi_files::whole_path;
 use sabi_graph::{FlatNode, flatten};
 
-use super::named_files::{NamedDocument, all_variants, whole_path};
+use super::named_files::{NamedDocument, all_variants};
 use super::places::Places;
 use super::rewritten::{RewrittenDocument, entry_of};
 use crate::error::{EngineError, ErrorKind};

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use sabi_files::{PathBase, Refusal, Unread, absolute, canonical, is_local, without_detours};
+use sabi_files::{PathBase, Refusal, Unread, named_path, whole_path};
 use sabi_graph::{Document, Graph, Node, NodeId, Overrides, Value};
 
 use crate::error::{EngineError, ErrorKind};
@@ -175,29 +175,6 @@ fn graphs(document: &Document) -> impl Iterator<Item = (Option<&str>, &Graph)> {
         .iter()
         .map(|(name, group)| (Some(name.as_str()), &group.graph));
     std::iter::once((None, &document.graph)).chain(groups)
-}
-
-/// Returns the absolute path of a file that a document names, without `.` and `..`.
-pub(crate) fn whole_path(base: &PathBase, written: &str) -> PathBuf {
-    let read = base.resolve(written);
-    let direct = without_detours(&absolute(&read));
-    if !is_local(written) {
-        return direct;
-    }
-    match (canonical(&direct), canonical(&read)) {
-        // Behind a link to a folder, `..` may lead elsewhere than its text suggests.
-        (there, Ok(real)) if there.as_ref().ok() != Some(&real) => real,
-        _ => direct,
-    }
-}
-
-/// Returns the absolute path of a file that the user names. Links to its folder are resolved, but not the file itself, whose name matters.
-pub(crate) fn named_path(path: &Path) -> PathBuf {
-    let folder = path.parent().unwrap_or(Path::new("")); // A bare name refers to the current folder.
-    match (canonical(folder), path.file_name()) {
-        (Ok(folder), Some(name)) => folder.join(name),
-        _ => absolute(path),
-    }
 }
 
 /// Returns the overrides for the graph's own values, and for each of its variants.

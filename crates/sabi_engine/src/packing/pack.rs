@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_files::archive::{EntryContent, write_archive};
-use sabi_files::{TrustedPaths, Unread, canonical};
+use sabi_files::{TrustedPaths, Unread, canonical, named_path, whole_path};
 use sabi_graph::Value;
 use serde::Serialize;
 
 use super::checked::check;
 use super::manifest::{self, Manifest};
 use super::model_files::ModelFiles;
-use super::named_files::{NamedDocument, named_path, whole_path};
+use super::named_files::NamedDocument;
 use super::needs::Needs;
 use super::own_nodes::own_nodes;
 use super::places::Places;

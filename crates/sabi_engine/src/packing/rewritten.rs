@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use sabi_files::PathBase;
+use sabi_files::{PathBase, whole_path};
 use sabi_graph::{Document, Preview};
 
-use super::named_files::{NamedDocument, whole_path, without_model};
+use super::named_files::{NamedDocument, without_model};
 use super::places::Places;
 use crate::opening::linked_model::SavedReading;
 use crate::session::path_rewrite::document_with_paths;

@@ -42,13 +42,16 @@ use sabi_surface::model::Model;
 use crate::phases::{Progress, watched};
 use crate::program_cache::ProgramCache;
 
+pub use paint::without_paint;
+pub use pictures::Pictures;
+pub use strokes::{FlattenedFile, Strokes, paint_folder};
+
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_map::map_output;
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 use paint::PaintedNode;
-use pictures::{OpenPicture, Pictures, allowed_path};
+use pictures::{OpenPicture, allowed_path};
 use ray_cache::RayCache;
-use strokes::Strokes;
 pub(crate) use texels::SourceSurface;
 
 /// Source or output kinds by id.

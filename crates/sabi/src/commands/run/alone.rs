@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakePlan, TrustedPaths, bake};
+use sabi_batch::BakePlan;
+use sabi_engine::{TrustedPaths, bake};
 
 use super::item_process::BakedItem;
 use crate::advice::with_flags;

@@ -1,16 +1,15 @@
-//! Process of one item: its messages and its result.
+//! Process of one item: its command line, its messages and its result.
 
-use std::io::{self, BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
-use std::{env, thread};
+use std::process::Command;
+use std::{env, io};
 
-use sabi_engine::{Phase, TrustedPaths, io_reason};
+use sabi_batch::running::ProcessEnd;
+use sabi_engine::{Phase, TrustedPaths};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
 use crate::arguments::RunArguments;
 use crate::exit::{Exit, Failure};
-use crate::printable::printable;
 
 /// Result of an item that was baked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,12 +31,8 @@ pub(crate) enum Ended {
     Stopped,
 }
 
-/// Starts the process of an item. It stops once its standard input is closed; the system closes it if this process ends.
-pub(super) fn start(
-    arguments: &RunArguments,
-    trusted: &TrustedPaths,
-    item: usize,
-) -> io::Result<(Child, Option<ChildStdin>)> {
+/// Returns the command that bakes an item. Its process stops once its standard input is closed.
+pub(super) fn command(arguments: &RunArguments, trusted: &TrustedPaths, item: usize) -> io::Result<Command> {
     let mut command = Command::new(env::current_exe()?);
     command.arg("run").arg(&arguments.plan);
     command.args([
@@ -64,55 +59,16 @@ pub(super) fn start(
     for (is_set, flag) in [(arguments.no_cache, "--no-cache"), (arguments.force, "--force")] {
         command.args(is_set.then_some(flag));
     }
-    command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let mut child = command.spawn()?;
-    let input = child.stdin.take();
-    Ok((child, input))
+    Ok(command)
 }
 
-/// Waits for the end of an item. Calls `step` for its progress, and prints its other lines on standard error.
-pub(super) fn ended(mut child: Child, step: impl Fn(Phase, usize, usize)) -> Ended {
-    let errors = child.stderr.take();
-    let out = child.stdout.take();
-    let read = thread::scope(|scope| {
-        // Both streams are read at the same time, since a full pipe would block the process.
-        let said = scope.spawn(move || {
-            let mut said = String::new();
-            let read = out.map_or(Ok(0), |mut out| out.read_to_string(&mut said));
-            read.map(|_| said)
-        });
-        for line in errors
-            .into_iter()
-            .flat_map(|errors| BufReader::new(errors).lines())
-            .map_while(Result::ok)
-        {
-            match step_of(&line) {
-                Some((phase, done, of)) => step(phase, done, of),
-                None if is_event(&line) => {}
-                // Standard error may be closed; then the line is lost.
-                None => drop(writeln!(io::stderr().lock(), "{}", printable(&line))),
-            }
-        }
-        said.join()
-            .unwrap_or_else(|_| Err(io::Error::other("its output cannot be read")))
-    });
-    match (read, child.wait()) {
-        (Ok(said), Ok(status)) => end_of(&said, status),
-        (Err(error), _) | (_, Err(error)) => {
-            unknown(&format!("it cannot be told how the item ended: {}", io_reason(&error)))
-        }
-    }
-}
-
-fn is_event(line: &str) -> bool {
+/// Returns true for a line that is an event of a process.
+pub(super) fn is_event(line: &str) -> bool {
     line.starts_with("{\"event\":")
 }
 
 /// Returns the step that an event describes.
-fn step_of(line: &str) -> Option<(Phase, usize, usize)> {
+pub(super) fn step_of(line: &str) -> Option<(Phase, usize, usize)> {
     let event: Json = is_event(line).then(|| serde_json::from_str(line).ok()).flatten()?;
     let phase = event.get("phase")?.as_str()?;
     let phase = Phase::ALL.into_iter().find(|known| known.name() == phase)?;
@@ -120,26 +76,22 @@ fn step_of(line: &str) -> Option<(Phase, usize, usize)> {
     Some((phase, number("done")?, number("of")?))
 }
 
-fn end_of(said: &str, status: ExitStatus) -> Ended {
+/// Returns the result that a process reported.
+pub(super) fn end_of(process: &ProcessEnd) -> Ended {
     if [Exit::Interrupted, Exit::Terminated]
         .iter()
-        .any(|exit| status.code() == Some(*exit as i32))
+        .any(|exit| process.status.code() == Some(*exit as i32))
     {
         return Ended::Stopped;
     }
-    if status.success()
-        && let Ok(baked) = serde_json::from_str(said)
+    if process.status.success()
+        && let Ok(baked) = serde_json::from_str(&process.output)
     {
         return Ended::Baked(baked);
     }
-    match serde_json::from_str(said).ok().and_then(|json: Json| failure(&json)) {
-        Some(failure) => Ended::Failed(failure),
-        None => unknown(&sentence(status)),
-    }
-}
-
-fn unknown(sentence: &str) -> Ended {
-    Ended::Failed(Failure::new(Exit::Defect, sentence.to_owned()))
+    let report = serde_json::from_str(&process.output).ok();
+    let failure = report.and_then(|json: Json| failure(&json));
+    Ended::Failed(failure.unwrap_or_else(|| Failure::new(Exit::Defect, process.without_report())))
 }
 
 /// Returns the failure in a report that a command prints.
@@ -158,20 +110,6 @@ fn failure(json: &Json) -> Option<Failure> {
     }
     failure.tips = error.get("remedies").and_then(texts)?;
     Some(failure)
-}
-
-/// Returns a sentence about a process that ended without a result.
-fn sentence(status: ExitStatus) -> String {
-    #[cfg(unix)]
-    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        let why = match signal {
-            9 => ": it was killed, by somebody or because memory ran out",
-            6 | 11 => ": it crashed, perhaps in the driver of the adapter",
-            _ => "",
-        };
-        return format!("signal {signal} ended the process of the item{why}");
-    }
-    format!("the process of the item ended with {status} and without a report")
 }
 
 #[cfg(test)]
@@ -202,21 +140,14 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_process_that_says_nothing_is_described_by_its_end() {
-        let status = |raw: i32| std::os::unix::process::ExitStatusExt::from_raw(raw);
-        let told = |raw: i32| match end_of("", status(raw)) {
-            Ended::Failed(failure) => failure.messages.concat(),
-            other => panic!("{other:?}"),
+    fn a_process_without_a_report_has_stopped_or_failed() {
+        let end = |raw: i32| {
+            end_of(&ProcessEnd {
+                output: String::new(),
+                status: std::os::unix::process::ExitStatusExt::from_raw(raw),
+            })
         };
-        assert_eq!(
-            told(9),
-            "signal 9 ended the process of the item: it was killed, by somebody or because memory ran out"
-        );
-        assert_eq!(told(1), "signal 1 ended the process of the item");
-        assert_eq!(
-            told(70 << 8),
-            "the process of the item ended with exit status: 70 and without a report"
-        );
-        assert!(matches!(end_of("", status(130 << 8)), Ended::Stopped));
+        assert!(matches!(end(130 << 8), Ended::Stopped));
+        assert!(matches!(end(70 << 8), Ended::Failed(failure) if failure.exit == Exit::Defect));
     }
 }

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use sabi_engine::BakePlan;
+use sabi_batch::BakePlan;
+use sabi_batch::running::ItemStatus;
 use serde::Serialize;
 
 use super::item_process::BakedItem;
@@ -35,29 +36,6 @@ struct ItemSummary {
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<ErrorReport>,
-}
-
-/// Status of an item.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum ItemStatus {
-    /// The item was finished by an earlier run.
-    Finished,
-    Baked,
-    Failed,
-    /// The item is not baked, because it was not requested or the run was stopped.
-    Waiting,
-}
-
-impl ItemStatus {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            ItemStatus::Finished => "finished",
-            ItemStatus::Baked => "baked",
-            ItemStatus::Failed => "failed",
-            ItemStatus::Waiting => "waiting",
-        }
-    }
 }
 
 impl Summary {

@@ -133,7 +133,7 @@ impl ModelRecipe {
 
 impl Recipe {
     /// Returns the recipe of a request, with absolute paths.
-    pub(crate) fn of(request: &BakeRequest, document: Option<String>) -> Recipe {
+    pub fn of(request: &BakeRequest, document: Option<String>) -> Recipe {
         let (evaluator, model) = (&request.evaluator, &request.evaluator.model);
         let overrides = &evaluator.overrides;
         let set = overrides.set.iter().map(|(name, value)| SetRecipe {
@@ -239,7 +239,7 @@ impl Recipe {
     }
 
     /// Returns the recipe without options that may differ from machine to machine, on which the maps depend only by rounding.
-    pub(crate) fn on_any_machine(&self) -> Recipe {
+    pub fn on_any_machine(&self) -> Recipe {
         Recipe {
             adapter: AdapterChoice::Auto,
             caster: CasterChoice::Auto,
@@ -264,12 +264,12 @@ impl Recipe {
     }
 
     /// Converts the paths of a recipe in a file of the base `from` to the base `to`.
-    pub(crate) fn moved(self, from: &PathBase, to: &PathBase) -> Recipe {
+    pub fn moved(self, from: &PathBase, to: &PathBase) -> Recipe {
         self.with_paths(|path| moved(path, from, to))
     }
 
     /// Converts the paths of a recipe in a file of this base to absolute paths.
-    pub(crate) fn with_absolute_paths(self, base: &PathBase) -> Recipe {
+    pub fn with_absolute_paths(self, base: &PathBase) -> Recipe {
         self.with_paths(|path| made_absolute(path, base))
     }
 
@@ -283,7 +283,7 @@ impl Recipe {
 }
 
 /// Converts a path in a file of one base to another base. A path that is not text stays absolute.
-pub(crate) fn moved(written: &str, from: &PathBase, to: &PathBase) -> String {
+pub fn moved(written: &str, from: &PathBase, to: &PathBase) -> String {
     let rewritten = to.rewrite(written, from, AbsolutePaths::Shorten);
     rewritten.unwrap_or_else(|_| written.to_owned())
 }
@@ -314,7 +314,7 @@ fn preset_text(name: &str) -> String {
 }
 
 /// Returns true if a preset is given as a file: names of presets have no extension.
-pub(crate) fn is_preset_file(preset: &str) -> bool {
+pub fn is_preset_file(preset: &str) -> bool {
     Path::new(preset)
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))

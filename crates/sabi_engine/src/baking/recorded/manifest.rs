@@ -249,10 +249,7 @@ pub fn finished_bake(request: &BakeRequest) -> Option<FinishedBake> {
 
 /// Returns true if the output folder of a request has exactly the files that it would write, made on any adapter. `digest`
 /// returns the present hashes of files.
-pub(crate) fn is_finished_on_any_machine(
-    request: &BakeRequest,
-    mut digest: impl FnMut(&Path) -> Option<String>,
-) -> bool {
+pub fn is_finished_on_any_machine(request: &BakeRequest, mut digest: impl FnMut(&Path) -> Option<String>) -> bool {
     let wanted = Recipe::of(request, None).on_any_machine();
     let manifest = Manifest::read(&request.output).unwrap_or_default(); // A damaged manifest counts as empty.
     let is_wanted = |bake: &RecordedBake| bake.recipe.on_any_machine() == wanted && bake.is_up_to_date(&mut digest);

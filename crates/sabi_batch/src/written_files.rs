@@ -5,20 +5,19 @@ use std::fs::{self, DirEntry};
 use std::path::{Path, PathBuf};
 
 use glob::{MatchOptions, Pattern};
+use sabi_engine::phases::Progress;
 use sabi_files::PathBase;
-
-use crate::phases::Progress;
 
 /// Maximum number of folder entries that are examined for all patterns of a matrix together.
 const MOST_LOOKED_AT: usize = 1_000_000;
 
 /// A file as a matrix names it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct WrittenFile {
+pub(crate) struct WrittenFile {
     /// Path from the folder of the matrix, with `/` between folders.
-    pub(super) written: String,
+    pub(crate) written: String,
     /// Path.
-    pub(super) path: PathBuf,
+    pub(crate) path: PathBuf,
 }
 
 /// Rules for file names in a pattern, as in shells.
@@ -30,7 +29,7 @@ const SHELL: MatchOptions = MatchOptions {
 
 impl WrittenFile {
     /// Returns the file's name without folder and extension.
-    pub(super) fn stem(&self) -> String {
+    pub(crate) fn stem(&self) -> String {
         let stem = self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         // A file has a name. A path without one is refused when it is read.
         stem.unwrap_or_default()
@@ -42,7 +41,7 @@ impl WrittenFile {
 ///
 /// # Errors
 /// A clause: a pattern fits no file, or is none.
-pub(super) fn written_files(
+pub(crate) fn written_files(
     base: &PathBase,
     patterns: &[String],
     looked_at: &mut usize,
@@ -222,7 +221,7 @@ impl<'p, 'l> Walk<'p, 'l> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phases::{NoProgress, Phase};
+    use sabi_engine::phases::{NoProgress, Phase};
 
     #[test]
     fn a_pattern_gives_its_files_by_name_and_each_file_once() {

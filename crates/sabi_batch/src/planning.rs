@@ -4,26 +4,26 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use sabi_files::{PathBase, TrustedPaths, canonical, stored_path};
+use sabi_engine::baking::BakeRequest;
+use sabi_engine::baking::check_bake;
+use sabi_engine::baking::made_of::{Recipe, is_preset_file, moved};
+use sabi_engine::baking::presets::preset_files;
+use sabi_engine::faults::FaultList;
+use sabi_engine::packing::{NamedInputs, inputs_of_graph, inputs_of_model};
+use sabi_engine::phases::{Phase, Progress, stop_if_canceled};
+use sabi_engine::program::Build;
+use sabi_engine::{EngineError, ErrorKind};
+use sabi_files::{PathBase, TrustedPaths, canonical, named_path, stored_path, whole_path};
 use sabi_graph::Value;
 
-use super::expansion::{Draft, GraphWithKinds, Graphs, expanded};
-use super::inputs::{InputHashes, ItemInput, NamedInputs, inputs_of_graph, inputs_of_model};
-use super::item::BakeItem;
-use super::matrix::Matrix;
-use super::matrix_row::Exclusion;
-use super::options::apply_options;
-use super::out_folders::{first_clash, out_folder};
-use super::plan_file::BakePlan;
-use crate::baking::bake::check_bake;
-use crate::baking::bake_request::BakeRequest;
-use crate::baking::made_of::recipe::{Recipe, is_preset_file, moved};
-use crate::baking::presets::preset_files;
-use crate::error::{EngineError, ErrorKind};
-use crate::faults::Faults;
-use crate::packing::named_files::{named_path, whole_path};
-use crate::phases::{Phase, Progress, stop_if_canceled};
-use crate::program::Build;
+use crate::expansion::{Draft, GraphWithKinds, Graphs, expanded};
+use crate::inputs::{InputHashes, ItemInput};
+use crate::item::BakeItem;
+use crate::matrix::Matrix;
+use crate::matrix_row::Exclusion;
+use crate::options::apply_options;
+use crate::out_folders::{first_clash, out_folder};
+use crate::plan_file::BakePlan;
 
 /// A plan with warnings about its matrix.
 #[derive(Debug)]
@@ -50,7 +50,7 @@ pub fn plan_bakes(
 ) -> Result<PlannedBakes, EngineError> {
     let mut graphs = Graphs::new(trusted.clone().with_file(matrix));
     let matrix = Matrix::open(matrix)?;
-    let mut faults = Faults::default();
+    let mut faults = FaultList::default();
     let drafts = expanded(&matrix, &mut graphs, &mut faults, progress)?;
     if drafts.is_empty() && faults.is_empty() {
         let why = format!("{}: 'exclude' leaves nothing to bake", matrix.path.display());
@@ -170,7 +170,7 @@ impl ItemPlanner<'_> {
         let graph = self.graphs.open(&draft.graph.path)?;
         let bad = |why: String| EngineError::new(ErrorKind::BadInput, why);
         let mut request = BakeRequest::plain(&draft.graph.path, &draft.model.path, draft.size);
-        let mut faults = Faults::default();
+        let mut faults = FaultList::default();
         if let Err(why) = apply_options(&mut request, &draft.row.options) {
             faults.add(bad(format!(
                 "{}: {}: {why}",
@@ -228,7 +228,7 @@ impl ItemPlanner<'_> {
 
     /// Returns the presets of a draft as they are shown: names of built-in presets, and files of all others. Adds the
     /// faults of missing presets.
-    fn presets(&self, draft: &Draft<'_>, faults: &mut Faults) -> Vec<(String, Option<PathBuf>)> {
+    fn presets(&self, draft: &Draft<'_>, faults: &mut FaultList) -> Vec<(String, Option<PathBuf>)> {
         let found = draft.presets.iter().map(|name| {
             let shown = match is_preset_file(name) {
                 true => self.matrix.base().resolve(name).to_string_lossy().into_owned(),

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 /// Quotes a word so that a shell does not change it.
-pub(in crate::commands) fn shell_word(word: &str) -> Cow<'_, str> {
+pub fn shell_word(word: &str) -> Cow<'_, str> {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./:=+,@".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
         return Cow::Borrowed(word);

@@ -2,19 +2,18 @@
 
 use std::path::Path;
 
+use sabi_engine::baking::BakeRequest;
+use sabi_engine::baking::Seams;
+use sabi_engine::opening::linked_model::Overlap;
+use sabi_engine::source::without_paint;
 use sabi_export::CopyOptions;
 use sabi_graph::{Fit, nearest};
 use sabi_surface::atlas::Udim;
 use sabi_surface::load::{Up, is_smoothing_angle};
 use serde_json::{Map, Value as Json};
 
-use crate::baking::bake_request::BakeRequest;
-use crate::baking::seams::Seams;
-use crate::opening::linked_model::Overlap;
-use crate::source::paint::without_paint;
-
 /// Options that are set, by name.
-pub(super) type ItemOptions = Map<String, Json>;
+pub(crate) type ItemOptions = Map<String, Json>;
 
 /// Sets an option of a request. Returns `None` for a value that it does not accept.
 type Apply = fn(&mut BakeRequest, &Json) -> Option<()>;
@@ -164,7 +163,7 @@ const OPTIONS: [ItemOption; 22] = [
 ];
 
 /// Names of all options.
-pub(super) fn option_names() -> impl Iterator<Item = &'static str> {
+pub(crate) fn option_names() -> impl Iterator<Item = &'static str> {
     OPTIONS.iter().map(|option| option.name)
 }
 
@@ -172,7 +171,7 @@ pub(super) fn option_names() -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// A clause about an unknown name or a value that the option does not take.
-pub(super) fn check_option(name: &str, value: &Json) -> Result<(), String> {
+pub(crate) fn check_option(name: &str, value: &Json) -> Result<(), String> {
     apply(&mut BakeRequest::plain(Path::new(""), Path::new(""), 16), name, value)
 }
 
@@ -183,7 +182,7 @@ const OF_COPIES: [&str; 2] = ["embed", "keep_look"];
 ///
 /// # Errors
 /// As of [`check_option`], or an option of a copy of the model stands without a copy.
-pub(super) fn apply_options(request: &mut BakeRequest, options: &ItemOptions) -> Result<(), String> {
+pub(crate) fn apply_options(request: &mut BakeRequest, options: &ItemOptions) -> Result<(), String> {
     // The copy of the model comes first, since other options apply to the copy.
     let is_copy = |name: &str| name == "with_model";
     let copy = options.iter().filter(|(name, _)| is_copy(name));

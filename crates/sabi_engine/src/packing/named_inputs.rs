@@ -1,46 +1,25 @@
-//! Files that a bake of a graph on a model reads, and their hashes.
+//! Files that a bake of a graph on a model reads.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{PathBase, TrustedPaths};
-use serde::{Deserialize, Serialize};
+use sabi_files::{PathBase, TrustedPaths, named_path};
 
-use crate::error::{EngineError, ErrorKind};
+use super::model_files::files_of_model;
+use super::named_files::NamedFiles;
+use super::own_nodes::own_nodes;
+use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::packing::model_files::files_of_model;
-use crate::packing::named_files::{NamedFiles, named_path};
-use crate::packing::own_nodes::own_nodes;
 use crate::phases::{Progress, unless_canceled};
-use crate::program::digest;
 use crate::source::strokes::{files_beside, paint_folder};
 
-/// File that a bake reads.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct ItemInput {
-    /// Name that does not depend on the location of the project: the path from the folder of the graph, or below `mesh/`
-    /// from the folder of the model.
-    pub name: String,
-    /// Path.
-    pub path: String,
-    /// BLAKE3 of the bytes, hexadecimal.
-    pub blake3: String,
-}
-
-impl ItemInput {
-    /// Returns the fields that identify the content, independent of the location of the file.
-    pub(super) fn identity(&self) -> [&str; 2] {
-        [&self.name, &self.blake3]
-    }
-}
-
 /// Files by names that do not depend on the location of the project.
-pub(super) type NamedInputs = BTreeMap<String, PathBuf>;
+pub type NamedInputs = BTreeMap<String, PathBuf>;
 
 /// Lists the files of a graph: itself, group files, pictures, strokes, and node files of the artist. Files that are missing are
 /// left out.
-pub(super) fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
+pub fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
     let named = NamedFiles::of(open.clone(), kinds);
     let graph = named_path(&open.path);
     let base = PathBase::of_file(&graph);
@@ -70,7 +49,7 @@ pub(super) fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
 ///
 /// # Errors
 /// It cannot be loaded.
-pub(super) fn inputs_of_model(
+pub fn inputs_of_model(
     model: &Path,
     trusted: &TrustedPaths,
     progress: &dyn Progress,
@@ -80,32 +59,4 @@ pub(super) fn inputs_of_model(
     Ok(files
         .map(|(place, path)| (format!("mesh/{place}"), named_path(&path)))
         .collect())
-}
-
-/// Hashes of files, each read once.
-#[derive(Debug, Default)]
-pub struct InputHashes(BTreeMap<PathBuf, String>);
-
-impl InputHashes {
-    /// Returns the hash of a file, hexadecimal.
-    ///
-    /// # Errors
-    /// A sentence: the file cannot be read.
-    pub(super) fn of(&mut self, path: &Path) -> Result<String, EngineError> {
-        if let Some(known) = self.0.get(path) {
-            return Ok(known.clone());
-        }
-        let Some((_, hash)) = digest(path) else {
-            let why = match path.exists() {
-                true => "the file cannot be read",
-                false => "there is no such file; check the path",
-            };
-            return Err(EngineError::new(
-                ErrorKind::MissingInput,
-                format!("{}: {why}", path.display()),
-            ));
-        };
-        self.0.insert(path.to_owned(), hash.clone());
-        Ok(hash)
-    }
 }

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use sabi_export::folder_name;
 
-use super::expansion::Draft;
+use crate::expansion::Draft;
 
 /// Returns the folder of a draft as written in the matrix. The error is a clause.
-pub(super) fn out_folder(draft: &Draft<'_>) -> Result<String, String> {
+pub(crate) fn out_folder(draft: &Draft<'_>) -> Result<String, String> {
     let Some(pattern) = &draft.row.out else {
         return Err("there is no 'out'; write, for example, out = \"export/$mesh/$graph(_$variant)\"".to_owned());
     };
@@ -34,7 +34,7 @@ pub(super) fn out_folder(draft: &Draft<'_>) -> Result<String, String> {
 
 /// Returns two items of which one would write into the folder of the other, or below it; `None` if there are no such items.
 /// Names that differ only in case count as the same, as on some disks.
-pub(super) fn first_clash(folders: &[PathBuf]) -> Option<(usize, usize)> {
+pub(crate) fn first_clash(folders: &[PathBuf]) -> Option<(usize, usize)> {
     let mut sorted: Vec<(PathBuf, usize)> = folders
         .iter()
         .enumerate()

@@ -1,15 +1,20 @@
 //! Files of bake plans: one item a line, as JSON.
 
+use std::fs::{self, File};
+use std::io::Read as _;
 use std::path::Path;
 
-use sabi_files::{PathBase, canonical, io_reason, read_plain};
+use sabi_engine::opening::unread::{kind_of_unread, why_unread};
+use sabi_engine::{EngineError, ErrorKind};
+use sabi_files::{PathBase, canonical, io_reason, read_plain, write_whole};
 
-use super::item::BakeItem;
-use crate::error::{EngineError, ErrorKind};
-use crate::opening::unread::{kind_of_unread, why_unread};
+use crate::item::BakeItem;
 
 /// Maximum size. Larger files are refused before they are read.
 const SIZE_LIMIT_BYTES: u64 = 1 << 30;
+
+/// First bytes of a plan.
+const START: &[u8] = b"{\"item\":0,\"key\":";
 
 /// Bakes that belong together.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +56,35 @@ impl BakePlan {
         }
     }
 
+    /// Refuses to replace a file that is not a plan.
+    ///
+    /// # Errors
+    /// There is such a file. Other reasons why a plan cannot be written are found by [`BakePlan::write`].
+    pub fn refuse_other_file(path: &Path) -> Result<(), EngineError> {
+        let refused = |why: &str| Err(unwritten(path, why));
+        let Ok(found) = fs::metadata(path) else {
+            return Ok(());
+        };
+        // Opening a pipe could block forever.
+        if !found.is_file() {
+            return refused("it is no ordinary file");
+        }
+        let mut start = Vec::new();
+        let read = File::open(path).and_then(|file| file.take(START.len() as u64).read_to_end(&mut start));
+        match read.is_ok() && (start.is_empty() || start == START) {
+            true => Ok(()),
+            false => refused("there is a file that is no plan"),
+        }
+    }
+
+    /// Writes its file, as a whole.
+    ///
+    /// # Errors
+    /// An item cannot be written as JSON, or the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), EngineError> {
+        write_whole(path, self.to_text()?.as_bytes()).map_err(|error| unwritten(path, &io_reason(&error.source)))
+    }
+
     /// Returns the text of its file.
     ///
     /// # Errors
@@ -64,6 +98,11 @@ impl BakePlan {
         }
         Ok(text)
     }
+}
+
+fn unwritten(path: &Path, why: &str) -> EngineError {
+    let why = format!("cannot write the plan {}: {why}; name another file", path.display());
+    EngineError::new(ErrorKind::CannotWrite, why)
 }
 
 impl BakeItem {

@@ -2,19 +2,19 @@
 
 use std::path::PathBuf;
 
+use sabi_engine::baking::BakeRequest;
+use sabi_engine::baking::made_of::{Recipe, is_preset_file};
+use sabi_engine::baking::recorded::is_finished_on_any_machine;
+use sabi_engine::faults::FaultList;
+use sabi_engine::opening::default_memory_bytes;
+use sabi_engine::program::Build;
+use sabi_engine::{EngineError, ErrorKind};
 use sabi_files::{PathBase, TrustedPaths, path_from_stored, without_detours};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::inputs::{InputHashes, ItemInput};
-use crate::baking::bake_request::BakeRequest;
-use crate::baking::made_of::recipe::{Recipe, is_preset_file};
-use crate::baking::recorded::manifest::is_finished_on_any_machine;
-use crate::error::{EngineError, ErrorKind};
-use crate::faults::Faults;
-use crate::opening::memory::default_memory_bytes;
-use crate::program::Build;
+use crate::inputs::{InputHashes, ItemInput};
 
 /// A bake of a plan. Paths start from the folder of the plan's file, with `/` between folders; docs/report.md lists the keys of its
 /// line.
@@ -70,7 +70,7 @@ impl Default for ItemMachine {
 
 impl BakeItem {
     /// Returns a hash of everything that can change the maps. It contains the names of files but not their locations.
-    pub(super) fn hashed(&self) -> Result<String, EngineError> {
+    pub(crate) fn hashed(&self) -> Result<String, EngineError> {
         let mut inputs: Vec<[&str; 2]> = self.inputs.iter().map(ItemInput::identity).collect();
         inputs.sort_unstable();
         let content =
@@ -123,7 +123,7 @@ impl BakeItem {
             };
             return Err(EngineError::new(ErrorKind::BadInput, why));
         }
-        let mut faults = Faults::default();
+        let mut faults = FaultList::default();
         for input in &self.inputs {
             let path = base.resolve(&input.path);
             match hashes.of(&path) {

@@ -5,45 +5,45 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use glob::Pattern;
+use sabi_engine::Kinds;
+use sabi_engine::OpenGraph;
+use sabi_engine::faults::FaultList;
+use sabi_engine::opening::SetFile;
+use sabi_engine::phases::{Progress, stop_if_canceled};
+use sabi_engine::{EngineError, ErrorKind};
 use sabi_files::{PathBase, TrustedPaths};
 use sabi_graph::Value;
 
-use super::matrix::Matrix;
-use super::matrix_row::{Condition, Exclusion, ExclusionKey, MatrixRow, SeedChoice, VariantChoice};
-use super::written_files::{WrittenFile, written_files};
-use crate::error::{EngineError, ErrorKind};
-use crate::faults::Faults;
-use crate::opening::document::OpenGraph;
-use crate::opening::kinds::Kinds;
-use crate::opening::set_file::SetFile;
-use crate::phases::{Progress, stop_if_canceled};
+use crate::matrix::Matrix;
+use crate::matrix_row::{Condition, Exclusion, ExclusionKey, MatrixRow, SeedChoice, VariantChoice};
+use crate::written_files::{WrittenFile, written_files};
 
 /// A combination of a table of the matrix.
 #[derive(Clone, Debug)]
-pub(super) struct Draft<'m> {
-    pub(super) row: &'m MatrixRow,
-    pub(super) graph: WrittenFile,
-    pub(super) model: WrittenFile,
+pub(crate) struct Draft<'m> {
+    pub(crate) row: &'m MatrixRow,
+    pub(crate) graph: WrittenFile,
+    pub(crate) model: WrittenFile,
     /// Variant of the graph; `None` for its own values.
-    pub(super) variant: Option<String>,
+    pub(crate) variant: Option<String>,
     /// Name of the variant in folders.
-    pub(super) variant_name: Option<String>,
-    pub(super) seed: Option<u32>,
-    pub(super) set: Vec<(String, Value)>,
-    pub(super) size: u32,
-    pub(super) presets: &'m [String],
+    pub(crate) variant_name: Option<String>,
+    pub(crate) seed: Option<u32>,
+    pub(crate) set: Vec<(String, Value)>,
+    pub(crate) size: u32,
+    pub(crate) presets: &'m [String],
 }
 
 /// A graph with the kinds of its nodes.
 #[derive(Debug)]
-pub(super) struct GraphWithKinds {
-    pub(super) open: OpenGraph,
-    pub(super) kinds: Rc<Kinds>,
+pub(crate) struct GraphWithKinds {
+    pub(crate) open: OpenGraph,
+    pub(crate) kinds: Rc<Kinds>,
 }
 
 /// Graphs that have been opened, without repeats.
 #[derive(Default)]
-pub(super) struct Graphs {
+pub(crate) struct Graphs {
     graphs: BTreeMap<PathBuf, Result<Rc<GraphWithKinds>, EngineError>>,
     /// Kinds by the folder of the graph.
     kinds: BTreeMap<PathBuf, Rc<Kinds>>,
@@ -54,18 +54,18 @@ pub(super) struct Graphs {
 }
 
 impl Graphs {
-    pub(super) fn new(trusted: TrustedPaths) -> Graphs {
+    pub(crate) fn new(trusted: TrustedPaths) -> Graphs {
         Graphs {
             trusted,
             ..Graphs::default()
         }
     }
 
-    pub(super) fn trusted(&self) -> &TrustedPaths {
+    pub(crate) fn trusted(&self) -> &TrustedPaths {
         &self.trusted
     }
 
-    pub(super) fn open(&mut self, path: &Path) -> Result<Rc<GraphWithKinds>, EngineError> {
+    pub(crate) fn open(&mut self, path: &Path) -> Result<Rc<GraphWithKinds>, EngineError> {
         if let Some(known) = self.graphs.get(path) {
             return known.clone();
         }
@@ -95,10 +95,10 @@ struct RowValues {
 ///
 /// # Errors
 /// There are more items than the matrix allows, or the work was canceled.
-pub(super) fn expanded<'m>(
+pub(crate) fn expanded<'m>(
     matrix: &'m Matrix,
     graphs: &mut Graphs,
-    faults: &mut Faults,
+    faults: &mut FaultList,
     progress: &dyn Progress,
 ) -> Result<Vec<Draft<'m>>, EngineError> {
     let mut drafts = Vec::new();
@@ -143,7 +143,7 @@ impl<'m> Expansion<'m> {
         matrix: &Matrix,
         row: &'m MatrixRow,
         graphs: &mut Graphs,
-        faults: &mut Faults,
+        faults: &mut FaultList,
         progress: &dyn Progress,
     ) -> Result<Expansion<'m>, EngineError> {
         let base = matrix.base();
@@ -254,7 +254,7 @@ impl<'m> Expansion<'m> {
 
 impl RowValues {
     /// Returns the values of a table and of its files. Adds the faults of files.
-    fn of(row: &MatrixRow, base: &PathBase, faults: &mut Faults) -> RowValues {
+    fn of(row: &MatrixRow, base: &PathBase, faults: &mut FaultList) -> RowValues {
         let mut values = RowValues {
             variant: None,
             seed: None,

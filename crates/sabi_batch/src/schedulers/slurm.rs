@@ -2,18 +2,21 @@
 
 use std::path::Path;
 
-use sabi_engine::BakePlan;
+use sabi_engine::EngineError;
 
-use super::names;
-use super::shell_word::shell_word;
-use crate::exit::Failure;
+use super::{RunFlags, names};
+use crate::plan_file::BakePlan;
+use crate::shell_word::shell_word;
 
 /// Greatest number of jobs in an array: by default, Slurm accepts indices below 1001.
 const MOST_JOBS: usize = 1000;
 
-/// Returns a script that is submitted from the folder of the plan.
-pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
-    let (name, stem) = names(file)?;
+/// Returns a script for the plan in this file, to be submitted from its folder.
+///
+/// # Errors
+/// The name of the file is no text.
+pub fn slurm_script(file: &Path, plan: &BakePlan, flags: RunFlags) -> Result<String, EngineError> {
+    let [name, stem] = names(file)?;
     let job: String = stem
         .chars()
         .map(|c| {
@@ -38,7 +41,8 @@ pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
          #SBATCH --output={job}-%A_%a.log\n\
          set -euo pipefail\n\
          {items}\
-         exec \"${{SABI:-sabi}}\" run {name} --items \"$items\"\n"
+         exec \"${{SABI:-sabi}}\" run {name} {} \"$items\"\n",
+        flags.items
     ))
 }
 

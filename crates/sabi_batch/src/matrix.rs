@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
+use sabi_engine::opening::toml_file::read_table;
+use sabi_engine::{EngineError, ErrorKind};
 use sabi_files::PathBase;
 use sabi_graph::nearest;
 use toml::{Table, Value as Toml};
 
-use super::matrix_row::{Exclusion, MatrixRow, all, exclusions};
-use crate::error::{EngineError, ErrorKind};
-use crate::opening::toml_file::read_table;
+use crate::matrix_row::{Exclusion, MatrixRow, all, exclusions};
 
 /// Version of the format.
 const VERSION: i64 = 1;
 
 /// Maximum number of items, unless the matrix allows more.
-pub(super) const DEFAULT_LIMIT: usize = 10_000;
+pub(crate) const DEFAULT_LIMIT: usize = 10_000;
 /// Maximum number of items that a matrix can allow.
 const LARGEST_LIMIT: usize = 100_000;
 
@@ -22,15 +22,15 @@ const KEYS: [&str; 6] = ["bake", "defaults", "exclude", "limit", "out", "version
 
 /// A matrix of bakes.
 #[derive(Debug)]
-pub(super) struct Matrix {
+pub(crate) struct Matrix {
     /// Its file.
-    pub(super) path: PathBuf,
+    pub(crate) path: PathBuf,
     /// Most items.
-    pub(super) limit: usize,
+    pub(crate) limit: usize,
     /// Its `[[bake]]` tables, with the defaults.
-    pub(super) rows: Vec<MatrixRow>,
+    pub(crate) rows: Vec<MatrixRow>,
     /// Conditions for leaving out items of any table.
-    pub(super) exclusions: Vec<Exclusion>,
+    pub(crate) exclusions: Vec<Exclusion>,
 }
 
 impl Matrix {
@@ -38,7 +38,7 @@ impl Matrix {
     ///
     /// # Errors
     /// It cannot be read, is no TOML, or has keys or values that no matrix has.
-    pub(super) fn open(path: &Path) -> Result<Matrix, EngineError> {
+    pub(crate) fn open(path: &Path) -> Result<Matrix, EngineError> {
         let table = read_table(path, "matrix files")?;
         let said = |faults: Vec<String>| {
             let sentences = faults.into_iter().map(|why| format!("{}: {why}", path.display()));
@@ -48,7 +48,7 @@ impl Matrix {
     }
 
     /// Base of the paths in it.
-    pub(super) fn base(&self) -> PathBase {
+    pub(crate) fn base(&self) -> PathBase {
         PathBase::of_file(&self.path)
     }
 

@@ -4,13 +4,13 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use glob::Pattern;
+use sabi_engine::baking::DEFAULT_PRESET;
+use sabi_engine::opening::add_values;
 use sabi_graph::{Value, nearest};
 use serde_json::Value as Json;
 use toml::{Table, Value as Toml};
 
-use super::options::{ItemOptions, check_option, option_names};
-use crate::baking::bake_request::DEFAULT_PRESET;
-use crate::opening::set_file::add_values;
+use crate::options::{ItemOptions, check_option, option_names};
 
 const DEFAULT_SIZE: u32 = 1024;
 
@@ -20,49 +20,49 @@ const KEYS: [&str; 11] = [
 
 /// A `[[bake]]` table, or the defaults of all.
 #[derive(Clone, Debug)]
-pub(super) struct MatrixRow {
+pub(crate) struct MatrixRow {
     /// Words for it in messages.
-    pub(super) words: String,
+    pub(crate) words: String,
     /// Its name.
-    pub(super) name: Option<String>,
+    pub(crate) name: Option<String>,
     /// Paths of models, with `*` and `?`.
-    pub(super) models: Vec<String>,
+    pub(crate) models: Vec<String>,
     /// Paths of graphs, with `*` and `?`.
-    pub(super) graphs: Vec<String>,
+    pub(crate) graphs: Vec<String>,
     /// Variants; empty for the graph's own values.
-    pub(super) variants: Vec<VariantChoice>,
+    pub(crate) variants: Vec<VariantChoice>,
     /// Seeds; empty for that of the graph.
-    pub(super) seeds: Vec<SeedChoice>,
+    pub(crate) seeds: Vec<SeedChoice>,
     /// Texels along a side of the maps.
-    pub(super) sizes: Vec<u32>,
+    pub(crate) sizes: Vec<u32>,
     /// Presets. Those of an inner list are baked together.
-    pub(super) presets: Vec<Vec<String>>,
+    pub(crate) presets: Vec<Vec<String>>,
     /// Values by knob or `node.param`. Later values override earlier ones.
-    pub(super) set: Vec<(String, Value)>,
+    pub(crate) set: Vec<(String, Value)>,
     /// Files of values, which are overridden by the table's own values.
-    pub(super) set_files: Vec<String>,
+    pub(crate) set_files: Vec<String>,
     /// Other options.
-    pub(super) options: ItemOptions,
+    pub(crate) options: ItemOptions,
     /// Pattern of folders.
-    pub(super) out: Option<String>,
+    pub(crate) out: Option<String>,
     /// Items that are left out.
-    pub(super) exclusions: Vec<Exclusion>,
+    pub(crate) exclusions: Vec<Exclusion>,
 }
 
 /// Variant of a graph, with values on top of it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct VariantChoice {
+pub(crate) struct VariantChoice {
     /// Name in folder names; `None` for the name of the variant.
-    pub(super) name: Option<String>,
+    pub(crate) name: Option<String>,
     /// Variant, or a pattern for several; `None` for the graph's own values.
-    pub(super) variant: Option<String>,
+    pub(crate) variant: Option<String>,
     /// Values on top of all others.
-    pub(super) set: Vec<(String, Value)>,
+    pub(crate) set: Vec<(String, Value)>,
 }
 
 /// Seed of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SeedChoice {
+pub(crate) enum SeedChoice {
     Number(u32),
     /// A seed for each model, computed from its path.
     PerModel,
@@ -70,14 +70,14 @@ pub(super) enum SeedChoice {
 
 /// Condition for leaving out items: those to which all parts of it apply.
 #[derive(Clone, Debug)]
-pub(super) struct Exclusion {
-    pub(super) conditions: Vec<(ExclusionKey, Condition)>,
+pub(crate) struct Exclusion {
+    pub(crate) conditions: Vec<(ExclusionKey, Condition)>,
     /// True once it has left out an item. A condition of the defaults may have done so in any table.
-    pub(super) is_used: Rc<Cell<bool>>,
+    pub(crate) is_used: Rc<Cell<bool>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ExclusionKey {
+pub(crate) enum ExclusionKey {
     Graph,
     Model,
     Preset,
@@ -87,7 +87,7 @@ pub(super) enum ExclusionKey {
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum Condition {
+pub(crate) enum Condition {
     Number(u32),
     Text(Pattern),
 }
@@ -102,7 +102,7 @@ const EXCLUSION_KEYS: [(&str, ExclusionKey); 6] = [
 ];
 
 impl MatrixRow {
-    pub(super) fn new(words: &str) -> MatrixRow {
+    pub(crate) fn new(words: &str) -> MatrixRow {
         MatrixRow {
             words: words.to_owned(),
             name: None,
@@ -121,7 +121,7 @@ impl MatrixRow {
     }
 
     /// Reads a `[[bake]]` table with this index.
-    pub(super) fn read(values: Table, index: usize, defaults: &MatrixRow) -> Result<MatrixRow, Vec<String>> {
+    pub(crate) fn read(values: Table, index: usize, defaults: &MatrixRow) -> Result<MatrixRow, Vec<String>> {
         let mut row = defaults.clone();
         row.words = match values.get("name").and_then(Toml::as_str) {
             Some(name) => format!("bake '{name}'"),
@@ -143,7 +143,7 @@ impl MatrixRow {
     }
 
     /// Takes all values of a table.
-    pub(super) fn take_all(&mut self, values: Table) -> Result<(), Vec<String>> {
+    pub(crate) fn take_all(&mut self, values: Table) -> Result<(), Vec<String>> {
         let mut faults = Vec::new();
         for (key, value) in values {
             if let Err(clauses) = self.take(&key, value) {
@@ -157,7 +157,7 @@ impl MatrixRow {
     }
 
     /// Sets a value for a key, in place of the default. The errors are clauses.
-    pub(super) fn take(&mut self, key: &str, value: Toml) -> Result<(), Vec<String>> {
+    pub(crate) fn take(&mut self, key: &str, value: Toml) -> Result<(), Vec<String>> {
         match (key, value) {
             ("set", Toml::Table(values)) => {
                 let faults = add_values(&mut self.set, "", values);
@@ -228,7 +228,7 @@ impl MatrixRow {
 }
 
 /// Reads tables of conditions.
-pub(super) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, Vec<String>> {
+pub(crate) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, Vec<String>> {
     let takes = "'exclude' takes a list of tables, such as [{ size = 2048, preset = \"gltf\" }]";
     let Toml::Array(tables) = value else {
         return Err(vec![takes.to_owned()]);
@@ -254,7 +254,7 @@ pub(super) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, Vec<String>> {
 }
 
 /// Collects values, or the faults of all that cannot be read.
-pub(super) fn all<T>(read: impl Iterator<Item = Result<T, Vec<String>>>) -> Result<Vec<T>, Vec<String>> {
+pub(crate) fn all<T>(read: impl Iterator<Item = Result<T, Vec<String>>>) -> Result<Vec<T>, Vec<String>> {
     let (mut values, mut faults) = (Vec::new(), Vec::new());
     for read in read {
         match read {
