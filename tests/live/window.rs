@@ -213,7 +213,7 @@ pub(crate) fn bytes(shown: &ModelLooks) -> Vec<u8> {
         let node = look.node.iter().map(|node| &node.texture);
         for texture in maps.into_iter().flatten().chain(node) {
             for page in 0..texture.depth_or_array_layers() {
-                gpu.read_layer(texture, page, 0, &mut bytes).expect("a page");
+                sabi_gpu::read_layer(&gpu, texture, page, 0, &mut bytes).expect("a page");
             }
         }
     }

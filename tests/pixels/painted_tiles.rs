@@ -6,7 +6,10 @@ use std::time::Duration;
 
 use sabi_engine::paint::{Action, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
 use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress, Strokes};
-use sabi_gpu::{Exported, MaterialSlots, ResultCache, RunOptions, Shares, TextureBudget};
+use sabi_gpu::{
+    Exported, MaterialSlots, ResultCache, RunOptions, Shares, ShownMaps, TextureBudget, read_slot, read_texels,
+    result_extents,
+};
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Mode, PlannedResult, SlotRef};
@@ -123,7 +126,7 @@ fn evaluated(on_mesh: &mut OnMesh, mut cache: Option<&mut ResultCache>, node: &s
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let result = &plan.results[0];
     let read = |slot: &SlotRef| {
-        gpu.read(surface, &plan, &run, *slot)
+        read_slot(gpu, surface, &plan, &run, *slot)
             .expect("a result")
             .bytes()
             .to_vec()
@@ -132,20 +135,19 @@ fn evaluated(on_mesh: &mut OnMesh, mut cache: Option<&mut ResultCache>, node: &s
     let options = RunOptions::new(SUBMISSION, TextureBudget::Textures(DEFAULT_BUDGET_BYTES));
     let slots = slots(result);
     if let Some(height) = slots.height {
-        let extents = gpu
-            .result_extents(surface, &run, &[(height, 0)], &options, cache.as_deref_mut())
-            .expect("extents");
+        let extents =
+            result_extents(gpu, surface, &run, &[(height, 0)], &options, cache.as_deref_mut()).expect("extents");
         all.push(format!("{extents:?}").into_bytes());
         for shares in [None, Some(&shares)] {
             let exported = Exported {
                 shares,
                 ..Exported::default()
             };
-            let maps = gpu
-                .device_maps(surface, &mut run, slots, exported, &options, cache.as_deref_mut())
+            let maps = ShownMaps { gpu, surface, exported }
+                .material(&mut run, slots, &options, cache.as_deref_mut())
                 .expect("maps");
             for map in [maps.normal, maps.color] {
-                let map = gpu.read_texels(&map.expect("a map")).expect("a map");
+                let map = read_texels(gpu, &map.expect("a map")).expect("a map");
                 all.push(map.bytes().to_vec());
             }
         }
@@ -225,11 +227,8 @@ fn an_evaluation_shows_the_strokes_that_it_began_with_however_far_the_brush_is_b
         }
         let run = late.evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
         let slot = plan.results[0].slots[0];
-        let found = late
-            .evaluator
-            .gpu()
-            .read(late.evaluator.surface(), &plan, &run, slot)
-            .expect("a result");
+        let (gpu, surface) = (late.evaluator.gpu(), late.evaluator.surface());
+        let found = read_slot(gpu, surface, &plan, &run, slot).expect("a result");
         assert!(found.bytes() == expected);
     });
     assert!(last.is_some());

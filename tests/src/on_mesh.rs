@@ -7,7 +7,7 @@ use sabi_engine::{
     CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
     OpenGraph, Overrides, Pictures, Strokes, TrustedPaths,
 };
-use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables, TextureBudget};
+use sabi_gpu::{Normals, PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables, TextureBudget, read_slot};
 use sabi_graph::{Document, FlatGraph, PortType};
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
@@ -157,7 +157,7 @@ impl OnMesh {
             .planes()
             .into_iter()
             .zip(&result.slots)
-            .map(|(plane, slot)| (plane, gpu.read(surface, &plan, &run, *slot).expect("a result")))
+            .map(|(plane, slot)| (plane, read_slot(gpu, surface, &plan, &run, *slot).expect("a result")))
             .collect();
         let slot = |channel| {
             let at = planes
@@ -169,8 +169,14 @@ impl OnMesh {
         let options = RunOptions::new(SUBMISSION, TextureBudget::Textures(DEFAULT_BUDGET_BYTES));
         let has_relief = height.is_some() || slope.is_some();
         let normals = has_relief.then(|| {
-            gpu.normals(surface, &mut run, height, slope, &options)
-                .expect("normals")
+            let normals = Normals {
+                gpu,
+                surface,
+                height,
+                slope,
+                options: &options,
+            };
+            normals.read(&mut run).expect("normals")
         });
         Evaluated {
             ty: result.stored.ty,

@@ -5,7 +5,7 @@ use std::time::Duration;
 use half::f16;
 use sabi_engine::{ModelOptions, NoProgress, Seams};
 use sabi_export::{BorderRule, ChartBorders, STEEPER};
-use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported, ResultCache};
+use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported, ResultCache, ShownMaps, read_layer, read_slot};
 use sabi_plan::Mode as Plans;
 use sabi_tests::{Baked, MadeMesh, MeshFile, OnMesh, Pictured, even_light, project};
 use sabi_view::{Mode, Viewpoint};
@@ -140,22 +140,22 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
     let planes = result.stored.planes();
     assert!(planes.len() >= 3, "{planes:?}");
     for (plane, slot) in planes.into_iter().zip(result.slots.clone()) {
-        let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
+        let before = read_slot(gpu, surface, &plan, &run, slot).expect("a plane");
         let mut shown_of = |exported: Exported<'_>| {
-            let shown = gpu.shown_result(surface, &mut run, slot, plane, exported, Some(&mut cache));
+            let shown = ShownMaps { gpu, surface, exported }.plane(&mut run, slot, plane, Some(&mut cache));
             shown.expect("a map")
         };
         let shown = shown_of(exported);
         assert_eq!(shown_of(exported), shown, "a cache keeps the copy");
         assert_eq!(
-            gpu.read(surface, &plan, &run, slot).expect("a plane"),
+            read_slot(gpu, surface, &plan, &run, slot).expect("a plane"),
             before,
             "the result stays as it is"
         );
         let read = |texture: &_| {
             let mut bytes = Vec::new();
             for page in 0..atlas.pages {
-                gpu.read_layer(texture, page, 0, &mut bytes).expect("a page");
+                read_layer(gpu, texture, page, 0, &mut bytes).expect("a page");
             }
             bytes
         };
@@ -193,9 +193,12 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             .filter(|(one, other)| one.to_bits() != other.to_bits())
             .count();
         assert_eq!(differing, 0, "{plane:?}");
-        let changed = gpu
-            .shown_result(surface, &mut run, slot, plane, changes, None)
-            .expect("a map");
+        let changing = ShownMaps {
+            gpu,
+            surface,
+            exported: changes,
+        };
+        let changed = changing.plane(&mut run, slot, plane, None).expect("a map");
         assert_eq!(changed, run.texture(slot).expect("the result"), "it is changed itself");
         assert!(read(&changed) == bytes, "{plane:?}");
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress};
-use sabi_gpu::{RunOptions, TextureBudget, ValueExtent};
+use sabi_gpu::{RunOptions, TextureBudget, ValueExtent, read_slot, texture_extents};
 use sabi_plan::Mode;
 use sabi_surface::atlas::GHOST_BIT;
 use sabi_tests::{OnMesh, extent, project};
@@ -23,10 +23,8 @@ fn extents(nodes: &str, node: &str, plane: usize, component: u32, mesh: &Path) -
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let texture = run.texture(slot).expect("a result");
     let options = RunOptions::new(SUBMISSION, TextureBudget::Textures(DEFAULT_BUDGET_BYTES));
-    let found = gpu
-        .extents(surface, &[(&texture, component)], &options)
-        .expect("extents");
-    let data = gpu.read(surface, &plan, &run, slot).expect("a result");
+    let found = texture_extents(gpu, surface, &[(&texture, component)], &options).expect("extents");
+    let data = read_slot(gpu, surface, &plan, &run, slot).expect("a result");
     let owners = evaluator.linked().atlas.owners.iter().enumerate();
     let owned = owners.filter(|(_, owner)| **owner & GHOST_BIT == 0);
     let values: Vec<f32> = owned.map(|(index, _)| data.texel(index)[component as usize]).collect();

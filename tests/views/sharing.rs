@@ -5,7 +5,7 @@ use std::time::Duration;
 use glam::Vec2;
 use sabi_engine::{Kinds, LinkedModel, ModelOptions, NoProgress, Overlap, Seams};
 use sabi_export::{NONE, SetLayout, layouts};
-use sabi_gpu::{Exported, Shares};
+use sabi_gpu::{Exported, Shares, ShownMaps, read_layer, read_slot};
 use sabi_image::{LinearPicture, decode};
 use sabi_plan::Mode as Plans;
 use sabi_tests::{Baked, Evaluated, MadeMesh, MeshFile, OnMesh, Pictured, Quad, even_light, project};
@@ -165,18 +165,19 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     };
     let planes = plan.results[0].stored.planes().into_iter();
     for (plane, slot) in planes.zip(plan.results[0].slots.clone()) {
-        let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
-        let shown = gpu
-            .shown_result(surface, &mut run, slot, plane, exported, None)
-            .expect("a copy");
-        let after = gpu.read(surface, &plan, &run, slot).expect("a plane");
+        let before = read_slot(gpu, surface, &plan, &run, slot).expect("a plane");
+        let sharing = ShownMaps { gpu, surface, exported };
+        let shown = sharing.plane(&mut run, slot, plane, None).expect("a copy");
+        let after = read_slot(gpu, surface, &plan, &run, slot).expect("a plane");
         assert_eq!(before, after);
         let mut bytes = Vec::new();
-        gpu.read_layer(&shown, 0, 0, &mut bytes).expect("a layer");
+        read_layer(gpu, &shown, 0, 0, &mut bytes).expect("a layer");
         assert_ne!(bytes, after.bytes()[..bytes.len()]);
-        let same = gpu
-            .shown_result(surface, &mut run, slot, plane, Exported::default(), None)
-            .expect("the texture");
+        let plain = ShownMaps {
+            exported: Exported::default(),
+            ..sharing
+        };
+        let same = plain.plane(&mut run, slot, plane, None).expect("the texture");
         assert_eq!(
             same,
             run.texture(slot).expect("the texture"),

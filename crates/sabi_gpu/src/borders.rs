@@ -8,7 +8,10 @@ use crate::bindings::{read_entry, texture_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
+use crate::ghosts::encode_scattered_ghosts;
+use crate::pipelines::fixed_kernel;
 use crate::pool::array_view;
+use crate::readback::StagingBuffer;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
 use crate::uploads::storage_buffer;
@@ -125,21 +128,19 @@ impl Borders {
             pad: [0; 2],
         }
     }
-}
 
-impl Gpu {
     /// Returns for each texture on the atlas whether it has ghosts beyond a jump.
     pub(crate) fn find_jumps(
         &self,
+        gpu: &Gpu,
         surface: &GpuSurface,
-        borders: &Borders,
         of: &[(&wgpu::Texture, BorderKind)],
     ) -> Result<Vec<bool>, GpuError> {
         if surface.ghosts.all.count == 0 || of.is_empty() {
             return Ok(vec![false; of.len()]);
         }
         let bytes = (of.len() * size_of::<u32>()) as u64;
-        let found = self.guarded("the jumps of maps", |device| {
+        let found = gpu.guarded("the jumps of maps", |device| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("jumps"),
                 size: bytes,
@@ -147,9 +148,9 @@ impl Gpu {
                 mapped_at_creation: false,
             })
         })?;
-        self.queue.write_buffer(&found, 0, &vec![0; bytes as usize]);
+        gpu.queue.write_buffer(&found, 0, &vec![0; bytes as usize]);
         for (place, (texture, kind)) in of.iter().enumerate() {
-            let constants = borders.constants(surface, *kind, place);
+            let constants = self.constants(surface, *kind, place);
             let entries = [uniform_entry(0), read_entry(1), texture_entry(2), write_entry(3)];
             let dispatch = BorderDispatch {
                 shader: FixedShader::FindJumps,
@@ -157,11 +158,11 @@ impl Gpu {
                 constants,
                 output: found.as_entire_binding(),
             };
-            self.submit_compute_pass(|pass| self.encode_borders(pass, surface, borders, texture, dispatch))?;
+            gpu.submit_compute_pass(|pass| self.encode(gpu, pass, surface, texture, dispatch))?;
         }
-        let readback = self.readback_buffer(bytes)?;
-        let mapping = self.start_mapping(&found, &readback, bytes);
-        self.finish_mapping(mapping, &readback, |bytes| {
+        let staging = StagingBuffer::new(gpu, bytes)?;
+        let copy = staging.copy_buffer(gpu, &found, bytes);
+        staging.read(gpu, copy, |bytes| {
             let (words, _) = bytes.as_chunks::<4>();
             words.iter().map(|word| *word != [0; 4]).collect()
         })
@@ -170,8 +171,8 @@ impl Gpu {
     /// Writes the ghosts of a texture on the atlas into a copy of it, or into the texture itself. Ghosts beyond a jump repeat their chart.
     pub(crate) fn repeat_charts(
         &self,
+        gpu: &Gpu,
         surface: &GpuSurface,
-        borders: &Borders,
         [texture, shown]: [&wgpu::Texture; 2],
         kind: BorderKind,
     ) -> Result<(), GpuError> {
@@ -183,39 +184,39 @@ impl Gpu {
         let dispatch = BorderDispatch {
             shader: FixedShader::GatherBorders,
             entries: &entries,
-            constants: borders.constants(surface, kind, 0),
+            constants: self.constants(surface, kind, 0),
             output: links.values.as_entire_binding(),
         };
         let format = format_of(texture)?;
         // All textures share the buffer of values, so the work is one submission.
-        self.submit_compute_pass(|pass| {
-            self.encode_borders(pass, surface, borders, texture, dispatch)?;
-            self.encode_scattered_ghosts(pass, surface, shown, format)
+        gpu.submit_compute_pass(|pass| {
+            self.encode(gpu, pass, surface, texture, dispatch)?;
+            encode_scattered_ghosts(gpu, pass, surface, shown, format)
         })
     }
 
-    fn encode_borders(
+    fn encode(
         &self,
+        gpu: &Gpu,
         pass: &mut wgpu::ComputePass<'_>,
         surface: &GpuSurface,
-        borders: &Borders,
         texture: &wgpu::Texture,
         dispatch: BorderDispatch<'_>,
     ) -> Result<(), GpuError> {
-        let kernel = self.fixed_kernel(dispatch.shader, dispatch.entries)?;
-        let constants = self.uniform(bytemuck::bytes_of(&dispatch.constants));
+        let kernel = fixed_kernel(gpu, dispatch.shader, dispatch.entries)?;
+        let constants = gpu.uniform(bytemuck::bytes_of(&dispatch.constants));
         let view = array_view(texture);
-        let group = self.bind(
+        let group = gpu.bind(
             &kernel.layout,
             [
                 constants.as_entire_binding(),
-                borders.ghosts.as_entire_binding(),
+                self.ghosts.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&view),
                 dispatch.output,
             ],
         );
         let links = &surface.ghosts.all;
-        let bound = links.surface_group.get_or_init(|| self.surface_group(surface, links));
+        let bound = links.bindings(gpu, surface);
         let groups = links.count.div_ceil(GROUP);
         pass.set_pipeline(&kernel.pipeline);
         pass.set_bind_group(0, bound, &[]);

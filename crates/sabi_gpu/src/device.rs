@@ -1,58 +1,26 @@
-//! The device with its queue and pipelines, and errors that the driver reports.
+//! The device with its queue and pipelines.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::{Arc, Mutex};
 
 use crate::adapter::{
     AdapterChoice, AdapterSummary, device_descriptor, enumerate_adapters, first_of_choice, missing_limit, unsuitable,
 };
 use crate::bindings::surface_texture_count;
+use crate::driver_errors::{DriverErrors, driver_error};
 use crate::error::GpuError;
 use crate::pace::InFlight;
 use crate::pipeline_cache::PipelineCache;
 use crate::waiting::{OF_A_SLICE, Patience, STEP};
 
-/// First error that the driver reported outside of a call, and the function to call if the device is lost.
-#[derive(Default)]
-pub(crate) struct DriverErrors {
-    first: Mutex<Option<GpuError>>,
-    /// Called once the device is lost.
-    when_lost: Mutex<Option<Box<dyn FnOnce() + Send>>>,
-}
-
-impl DriverErrors {
-    fn record(&self, error: GpuError) {
-        if matches!(error, GpuError::Lost(_)) {
-            let call = self.when_lost.lock().ok().and_then(|mut when_lost| when_lost.take());
-            call.into_iter().for_each(|call| call());
-        }
-        if let Ok(mut first) = self.first.lock() {
-            // The loss of a device is the cause of the errors that follow it.
-            if first.is_none() || matches!(error, GpuError::Lost(_)) {
-                *first = Some(error);
-            }
-        }
-    }
-
-    /// Takes the first error since the last call. A loss is returned by every call, since a lost device stays lost.
-    fn take(&self) -> Result<(), GpuError> {
-        let Ok(mut first) = self.first.lock() else {
-            return Ok(());
-        };
-        let error = match &*first {
-            Some(GpuError::Lost(message)) => Some(GpuError::Lost(message.clone())),
-            _ => first.take(),
-        };
-        error.map_or(Ok(()), Err)
-    }
-}
-
-/// A device with its queue and pipelines.
+/// A device with its queue, the pipelines compiled on it, and the work that is waited for.
+///
+/// What is computed on it, and what is read back, are functions of other modules that borrow it.
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     pub(crate) pipelines: PipelineCache,
-    pub(crate) driver_errors: Arc<DriverErrors>,
+    driver_errors: Arc<DriverErrors>,
     /// Kernels that were submitted without a wait.
     pub(crate) in_flight: InFlight,
     /// True after a wait was given up, until the device has finished the work that was waited for.
@@ -123,24 +91,17 @@ impl Gpu {
     }
 
     fn loss_after(&self, poll: wgpu::PollType) -> Option<GpuError> {
-        self.recorded_loss().or_else(|| {
+        self.driver_errors.loss().or_else(|| {
             // The loss callback runs when the device is polled.
             let _ = self.device.poll(poll);
-            self.recorded_loss()
+            self.driver_errors.loss()
         })
     }
 
     /// Sets the function to call if the device is lost, in place of the one set before. It is called on the thread that
     /// notices the loss first. It is not called for a loss that was noticed before.
     pub fn when_lost(&self, call: impl FnOnce() + Send + 'static) {
-        if let Ok(mut when_lost) = self.driver_errors.when_lost.lock() {
-            *when_lost = Some(Box::new(call));
-        }
-    }
-
-    fn recorded_loss(&self) -> Option<GpuError> {
-        let first = self.driver_errors.first.lock().ok()?;
-        first.clone().filter(|error| matches!(error, GpuError::Lost(_)))
+        self.driver_errors.when_lost(call);
     }
 
     /// The device.
@@ -151,6 +112,11 @@ impl Gpu {
     /// The device's queue.
     pub fn queue(&self) -> &wgpu::Queue {
         &self.queue
+    }
+
+    /// Bind group layout of a surface, which is the same in every kernel; see `shaders/lib/atlas.wgsl`.
+    pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.pipelines.surface_layout
     }
 
     /// Description of the adapter.
@@ -210,7 +176,7 @@ impl Gpu {
         let polled = patience.wait(|step| {
             // Polling a lost device makes wgpu 29 free all its resources, under locks that an uploading thread takes in the
             // opposite order: a deadlock.
-            if let Some(loss) = self.recorded_loss() {
+            if let Some(loss) = self.driver_errors.loss() {
                 return Some(Err(loss));
             }
             let until = wgpu::PollType::Wait {
@@ -281,13 +247,6 @@ impl Gpu {
         encode(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default()))?;
         self.queue.submit([encoder.finish()]);
         Ok(())
-    }
-}
-
-fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
-    match error {
-        wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory { what: what.to_owned() },
-        other => GpuError::Driver(other.to_string()),
     }
 }
 

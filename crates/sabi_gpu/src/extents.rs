@@ -7,7 +7,9 @@ use crate::bindings::{texture_entry, uniform_entry, write_entry};
 use crate::cache::{ResultCache, TileExtent};
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::pipelines::fixed_kernel;
 use crate::pool::array_view;
+use crate::readback::StagingBuffer;
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
@@ -41,134 +43,132 @@ const NOTHING: TileExtent = [u32::MAX, 0, 0];
 /// A component of a texture, and the tiles that are examined; `None` for all.
 type Asking<'a> = (&'a wgpu::Texture, u32, Option<&'a TileSet>);
 
-impl Gpu {
-    /// Returns the extents of components of textures on the atlas. Each texture is given with the number of its component.
-    pub fn extents(
-        &self,
-        surface: &GpuSurface,
-        of: &[(&wgpu::Texture, u32)],
-        options: &RunOptions<'_>,
-    ) -> Result<Vec<ValueExtent>, GpuError> {
-        let tiles = options.shown.map(ShownTiles::tiles);
-        let all: Vec<Asking<'_>> = of
-            .iter()
-            .map(|(texture, component)| (*texture, *component, tiles))
-            .collect();
-        let found = self.tile_extents(surface, &all, options)?;
-        Ok(found.iter().map(|tiles| extent(tiles)).collect())
-    }
+/// Returns the extents of components of textures on the atlas. Each texture is given with the number of its component.
+pub fn texture_extents(
+    gpu: &Gpu,
+    surface: &GpuSurface,
+    of: &[(&wgpu::Texture, u32)],
+    options: &RunOptions<'_>,
+) -> Result<Vec<ValueExtent>, GpuError> {
+    let tiles = options.shown.map(ShownTiles::tiles);
+    let all: Vec<Asking<'_>> = of
+        .iter()
+        .map(|(texture, component)| (*texture, *component, tiles))
+        .collect();
+    let found = tile_extents(gpu, surface, &all, options)?;
+    Ok(found.iter().map(|tiles| extent(tiles)).collect())
+}
 
-    /// Returns the extents of components of the results of a run. With a cache, only tiles that differ from the earlier
-    /// results are examined.
-    pub fn result_extents(
-        &self,
-        surface: &GpuSurface,
-        run: &Run,
-        of: &[(SlotRef, u32)],
-        options: &RunOptions<'_>,
-        cache: Option<&mut ResultCache>,
-    ) -> Result<Vec<ValueExtent>, GpuError> {
-        let textures = of
-            .iter()
-            .map(|(slot, _)| run.texture(*slot))
-            .collect::<Result<Vec<wgpu::Texture>, GpuError>>()?;
-        let Some(cache) = cache else {
-            let of: Vec<(&wgpu::Texture, u32)> = textures
-                .iter()
-                .zip(of)
-                .map(|(texture, (_, at))| (texture, *at))
-                .collect();
-            return self.extents(surface, &of, options);
-        };
-        let known: Vec<Option<(Vec<TileExtent>, TileSet)>> = of
-            .iter()
-            .map(|(slot, component)| known_extents(surface, run, cache, *slot, *component))
-            .collect();
-        let asked: Vec<Asking<'_>> = textures
+/// Returns the extents of components of the results of a run. With a cache, only tiles that differ from the earlier
+/// results are examined.
+pub fn result_extents(
+    gpu: &Gpu,
+    surface: &GpuSurface,
+    run: &Run,
+    of: &[(SlotRef, u32)],
+    options: &RunOptions<'_>,
+    cache: Option<&mut ResultCache>,
+) -> Result<Vec<ValueExtent>, GpuError> {
+    let textures = of
+        .iter()
+        .map(|(slot, _)| run.texture(*slot))
+        .collect::<Result<Vec<wgpu::Texture>, GpuError>>()?;
+    let Some(cache) = cache else {
+        let of: Vec<(&wgpu::Texture, u32)> = textures
             .iter()
             .zip(of)
-            .zip(&known)
-            .map(|((texture, (_, component)), known)| (texture, *component, known.as_ref().map(|(_, tiles)| tiles)))
+            .map(|(texture, (_, at))| (texture, *at))
             .collect();
-        let found = self.tile_extents(surface, &asked, options)?;
-        let mut extents = Vec::new();
-        for (((slot, component), known), found) in of.iter().zip(known).zip(found) {
-            let all = match known {
-                Some((mut all, tiles)) => {
-                    for (index, extent) in tiles.indices(&surface.tile_numbers).into_iter().zip(found) {
-                        all[index] = extent;
-                    }
-                    all
+        return texture_extents(gpu, surface, &of, options);
+    };
+    let known: Vec<Option<(Vec<TileExtent>, TileSet)>> = of
+        .iter()
+        .map(|(slot, component)| known_extents(surface, run, cache, *slot, *component))
+        .collect();
+    let asked: Vec<Asking<'_>> = textures
+        .iter()
+        .zip(of)
+        .zip(&known)
+        .map(|((texture, (_, component)), known)| (texture, *component, known.as_ref().map(|(_, tiles)| tiles)))
+        .collect();
+    let found = tile_extents(gpu, surface, &asked, options)?;
+    let mut extents = Vec::new();
+    for (((slot, component), known), found) in of.iter().zip(known).zip(found) {
+        let all = match known {
+            Some((mut all, tiles)) => {
+                for (index, extent) in tiles.indices(&surface.tile_numbers).into_iter().zip(found) {
+                    all[index] = extent;
                 }
-                None => found,
-            };
-            extents.push(match options.shown {
-                Some(shown) => {
-                    let indices = shown.tiles().indices(&surface.tile_numbers).into_iter();
-                    extent(&indices.map(|index| all[index]).collect::<Vec<TileExtent>>())
-                }
-                None => extent(&all),
-            });
-            if let Some(key) = run.keys.get(slot) {
-                cache.put_extents((*key, *component), all);
+                all
             }
+            None => found,
+        };
+        extents.push(match options.shown {
+            Some(shown) => {
+                let indices = shown.tiles().indices(&surface.tile_numbers).into_iter();
+                extent(&indices.map(|index| all[index]).collect::<Vec<TileExtent>>())
+            }
+            None => extent(&all),
+        });
+        if let Some(key) = run.keys.get(slot) {
+            cache.put_extents((*key, *component), all);
         }
-        Ok(extents)
     }
+    Ok(extents)
+}
 
-    /// Extents of tiles of components of textures, in the order of the tiles.
-    fn tile_extents(
-        &self,
-        surface: &GpuSurface,
-        of: &[Asking<'_>],
-        options: &RunOptions<'_>,
-    ) -> Result<Vec<Vec<TileExtent>>, GpuError> {
-        let counts: Vec<usize> = of
-            .iter()
-            .map(|(_, _, tiles)| tiles.map_or(surface.tile_count, TileSet::count) as usize)
-            .collect();
-        let total: usize = counts.iter().sum();
-        if total == 0 {
-            return Ok(counts.iter().map(|_| Vec::new()).collect());
-        }
-        let bytes = (total * size_of::<TileExtent>()) as u64;
-        let extents = self.guarded("the extents of results", |device| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("extents"),
-                size: bytes,
-                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
-                mapped_at_creation: false,
-            })
-        })?;
-        self.queue
-            .write_buffer(&extents, 0, bytemuck::cast_slice(&vec![NOTHING; total]));
-        let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
-        let kernel = self.fixed_kernel(FixedShader::Extent, &entries)?;
-        let mut first = 0;
-        for ((texture, component, tiles), count) in of.iter().zip(&counts) {
-            let constants = self.uniform(bytemuck::bytes_of(&ExtentConstants {
-                component: *component,
-                place: (first * NOTHING.len()) as u32,
-                pad: [0; 2],
-            }));
-            first += count;
-            let view = array_view(texture);
-            let resources = [
-                constants.as_entire_binding(),
-                wgpu::BindingResource::TextureView(&view),
-                extents.as_entire_binding(),
-            ];
-            let group = self.bind(&kernel.layout, resources);
-            let slices = match tiles {
-                Some(tiles) => Slices::over(self, surface, tiles, options.submission)?,
-                None => Slices::new(self, surface, options.submission),
-            };
-            slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
-        }
-        let readback = self.readback_buffer(bytes)?;
-        let mapping = self.start_mapping(&extents, &readback, bytes);
-        self.finish_mapping(mapping, &readback, |bytes| parted(bytes, &counts))
+/// Extents of tiles of components of textures, in the order of the tiles.
+fn tile_extents(
+    gpu: &Gpu,
+    surface: &GpuSurface,
+    of: &[Asking<'_>],
+    options: &RunOptions<'_>,
+) -> Result<Vec<Vec<TileExtent>>, GpuError> {
+    let counts: Vec<usize> = of
+        .iter()
+        .map(|(_, _, tiles)| tiles.map_or(surface.tile_count, TileSet::count) as usize)
+        .collect();
+    let total: usize = counts.iter().sum();
+    if total == 0 {
+        return Ok(counts.iter().map(|_| Vec::new()).collect());
     }
+    let bytes = (total * size_of::<TileExtent>()) as u64;
+    let extents = gpu.guarded("the extents of results", |device| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("extents"),
+            size: bytes,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })
+    })?;
+    gpu.queue
+        .write_buffer(&extents, 0, bytemuck::cast_slice(&vec![NOTHING; total]));
+    let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
+    let kernel = fixed_kernel(gpu, FixedShader::Extent, &entries)?;
+    let mut first = 0;
+    for ((texture, component, tiles), count) in of.iter().zip(&counts) {
+        let constants = gpu.uniform(bytemuck::bytes_of(&ExtentConstants {
+            component: *component,
+            place: (first * NOTHING.len()) as u32,
+            pad: [0; 2],
+        }));
+        first += count;
+        let view = array_view(texture);
+        let resources = [
+            constants.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&view),
+            extents.as_entire_binding(),
+        ];
+        let group = gpu.bind(&kernel.layout, resources);
+        let slices = match tiles {
+            Some(tiles) => Slices::over(gpu, surface, tiles, options.submission)?,
+            None => Slices::new(gpu, surface, options.submission),
+        };
+        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
+    }
+    let staging = StagingBuffer::new(gpu, bytes)?;
+    let copy = staging.copy_buffer(gpu, &extents, bytes);
+    staging.read(gpu, copy, |bytes| parted(bytes, &counts))
 }
 
 /// Splits words into the extents of tiles: for each count, that many tiles.

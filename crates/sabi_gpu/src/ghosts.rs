@@ -9,7 +9,7 @@ use crate::error::GpuError;
 use crate::links::{GROUP, GhostLinks, Links, ROW};
 use crate::pool::array_view;
 use crate::surface::GpuSurface;
-use kernels::FillDispatch;
+use kernels::{FillDispatch, fill_kernel};
 
 /// Round of filling linked texels, named by the texels from which values are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,73 +46,86 @@ impl FillRound {
     }
 }
 
-impl Gpu {
-    /// Fills the ghosts of one texture: plain ghosts once, coupled ghosts round by round, then all ghosts in the cubic rounds.
-    pub(crate) fn fill_ghosts(
-        &self,
-        surface: &GpuSurface,
-        texture: &wgpu::Texture,
-        format: Format,
-        rounds: &[FillRound],
-    ) -> Result<(), GpuError> {
-        let GhostLinks { all, plain, coupled } = &surface.ghosts;
-        let cubic = rounds.iter().position(|round| *round == FillRound::Cubic);
-        // Without a cubic round, all rounds are linear.
-        let (linear, cubic) = rounds.split_at(cubic.unwrap_or(rounds.len()));
-        let parts = [(plain, &[FillRound::Plain][..]), (coupled, linear), (all, cubic)];
-        self.submit_compute_pass(|pass| {
-            for (links, rounds) in parts {
-                let group = links.surface_group.get_or_init(|| self.surface_group(surface, links));
-                self.encode_links(pass, links, group, texture, format, rounds)?;
-            }
-            Ok(())
-        })
+/// Fills the ghosts of one texture: plain ghosts once, coupled ghosts round by round, then all ghosts in the cubic rounds.
+pub(crate) fn fill_ghosts(
+    gpu: &Gpu,
+    surface: &GpuSurface,
+    texture: &wgpu::Texture,
+    format: Format,
+    rounds: &[FillRound],
+) -> Result<(), GpuError> {
+    let GhostLinks { all, plain, coupled } = &surface.ghosts;
+    let cubic = rounds.iter().position(|round| *round == FillRound::Cubic);
+    // Without a cubic round, all rounds are linear.
+    let (linear, cubic) = rounds.split_at(cubic.unwrap_or(rounds.len()));
+    let parts = [(plain, &[FillRound::Plain][..]), (coupled, linear), (all, cubic)];
+    gpu.submit_compute_pass(|pass| {
+        for (links, rounds) in parts {
+            let filled = Filled::new(gpu, links, texture, format);
+            filled.encode(pass, links.bindings(gpu, surface), rounds)?;
+        }
+        Ok(())
+    })
+}
+
+/// Encodes the dispatch that writes the gathered values to all ghosts.
+pub(crate) fn encode_scattered_ghosts(
+    gpu: &Gpu,
+    pass: &mut wgpu::ComputePass<'_>,
+    surface: &GpuSurface,
+    texture: &wgpu::Texture,
+    format: Format,
+) -> Result<(), GpuError> {
+    let links = &surface.ghosts.all;
+    pass.set_bind_group(0, links.bindings(gpu, surface), &[]);
+    Filled::new(gpu, links, texture, format).encode_dispatch(pass, FillRound::Cubic, FillDispatch::Scatter)
+}
+
+/// Fills the linked texels of one texture on a surface.
+pub(crate) fn fill_links(
+    gpu: &Gpu,
+    surface: &GpuSurface,
+    links: &Links,
+    texture: &wgpu::Texture,
+    format: Format,
+    rounds: &[FillRound],
+) -> Result<(), GpuError> {
+    let bindings = surface.bindings_of_links(gpu, links);
+    gpu.submit_compute_pass(|pass| Filled::new(gpu, links, texture, format).encode(pass, &bindings, rounds))
+}
+
+/// Texture whose linked texels are filled.
+struct Filled<'a> {
+    gpu: &'a Gpu,
+    links: &'a Links,
+    view: wgpu::TextureView,
+    format: Format,
+}
+
+impl<'a> Filled<'a> {
+    fn new(gpu: &'a Gpu, links: &'a Links, texture: &wgpu::Texture, format: Format) -> Filled<'a> {
+        Filled {
+            gpu,
+            links,
+            view: array_view(texture),
+            format,
+        }
     }
 
-    /// Encodes the dispatch that writes the gathered values to all ghosts.
-    pub(crate) fn encode_scattered_ghosts(
+    /// Encodes rounds. `bindings` is the bind group of the surface with the links.
+    fn encode(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
-        surface: &GpuSurface,
-        texture: &wgpu::Texture,
-        format: Format,
-    ) -> Result<(), GpuError> {
-        let links = &surface.ghosts.all;
-        let group = links.surface_group.get_or_init(|| self.surface_group(surface, links));
-        pass.set_bind_group(0, group, &[]);
-        let view = array_view(texture);
-        self.encode_dispatch(pass, links, &view, format, FillRound::Cubic, FillDispatch::Scatter)
-    }
-
-    /// Fills the linked texels of one texture. `surface_group` is the bind group of the surface with these links.
-    pub(crate) fn fill_links(
-        &self,
-        links: &Links,
-        surface_group: &wgpu::BindGroup,
-        texture: &wgpu::Texture,
-        format: Format,
+        bindings: &wgpu::BindGroup,
         rounds: &[FillRound],
     ) -> Result<(), GpuError> {
-        self.submit_compute_pass(|pass| self.encode_links(pass, links, surface_group, texture, format, rounds))
-    }
-
-    fn encode_links(
-        &self,
-        pass: &mut wgpu::ComputePass<'_>,
-        links: &Links,
-        surface_group: &wgpu::BindGroup,
-        texture: &wgpu::Texture,
-        format: Format,
-        rounds: &[FillRound],
-    ) -> Result<(), GpuError> {
-        if links.count == 0 || rounds.is_empty() {
+        if self.links.count == 0 || rounds.is_empty() {
             return Ok(());
         }
-        let view = array_view(texture);
-        pass.set_bind_group(0, surface_group, &[]);
+        pass.set_bind_group(0, bindings, &[]);
         for round in rounds {
-            for dispatch in FillDispatch::of_round(*round, format) {
-                self.encode_dispatch(pass, links, &view, format, *round, *dispatch)?;
+            for dispatch in FillDispatch::of_round(*round, self.format) {
+                self.encode_dispatch(pass, *round, *dispatch)?;
             }
         }
         Ok(())
@@ -121,20 +134,19 @@ impl Gpu {
     fn encode_dispatch(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
-        links: &Links,
-        view: &wgpu::TextureView,
-        format: Format,
         round: FillRound,
         dispatch: FillDispatch,
     ) -> Result<(), GpuError> {
+        let links = self.links;
         let groups = links.count.div_ceil(GROUP);
         let with_ghosts = usize::from(matches!(round, FillRound::WithGhosts | FillRound::Settled));
-        let kernel = self.fill_kernel(round, dispatch, format)?;
+        let kernel = fill_kernel(self.gpu, round, dispatch, self.format)?;
         let constants = links.constants[with_ghosts].as_entire_binding();
-        let view = wgpu::BindingResource::TextureView(view);
+        let view = wgpu::BindingResource::TextureView(&self.view);
         // All textures share the buffer of values, so gathering and scattering are one submission.
         let values = (dispatch != FillDispatch::InPlace).then(|| links.values.as_entire_binding());
-        let group = self.bind(&kernel.layout, [constants, view].into_iter().chain(values));
+        let resources = [constants, view].into_iter().chain(values);
+        let group = self.gpu.bind(&kernel.layout, resources);
         pass.set_pipeline(&kernel.pipeline);
         pass.set_bind_group(1, &group, &[]);
         pass.dispatch_workgroups(ROW.min(groups), groups.div_ceil(ROW), 1);

@@ -1,25 +1,21 @@
-//! Coarser levels of the surface, and kernels that move a plane between levels.
+//! Coarser levels of the surface.
 
+mod plane_move;
 mod points;
 
 use std::collections::BTreeMap;
 
+pub(crate) use plane_move::PlaneMove;
 pub use points::{CellLevel, PointSurface};
 use sabi_nodes::wgsl_struct;
-use sabi_plan::{Level, MoveStep};
+use sabi_plan::Level;
 use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 
-use crate::bindings::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::ghosts::FillRound;
 use crate::links::Links;
-use crate::pool::array_view;
-use crate::run_options::RunOptions;
-use crate::shaders::FixedShader;
 use crate::surface::{GpuSurface, Measures};
 use crate::tables::SurfaceTables;
-use crate::tiles::Slices;
 use crate::uploads::texel_texture;
 
 /// A coarser level on the device.
@@ -126,98 +122,5 @@ wgsl_struct! {
         pub(crate) factor: u32,
         pub(crate) spacing: f32,
         pub(crate) pad: [u32; 2],
-    }
-}
-
-impl Gpu {
-    /// Moves a plane from one level to another, and fills the linked texels of the target.
-    pub(crate) fn move_plane(
-        &self,
-        surfaces: Surfaces<'_>,
-        step: &MoveStep,
-        textures: [&wgpu::Texture; 2],
-        options: &RunOptions<'_>,
-    ) -> Result<(), GpuError> {
-        match step.levels {
-            [Level::Texels(from), Level::Texels(to)] => self.move_texels(surfaces, [from, to], step, textures, options),
-            [Level::Texels(_), Level::Points(number)] => {
-                let points = surfaces.points_of(number)?;
-                self.gather_to_points(points, step.format, textures, options)
-            }
-            [Level::Points(number), Level::FINEST] => {
-                let points = surfaces.points_of(number)?;
-                self.spread_from_points(surfaces, points, step, textures, options)
-            }
-            [from, to] => Err(GpuError::Defect(format!(
-                "nothing moves from level {from} to level {to}"
-            ))),
-        }
-    }
-
-    /// Moves a plane between the finest texels and coarser ones.
-    fn move_texels(
-        &self,
-        surfaces: Surfaces<'_>,
-        [from, to]: [u32; 2],
-        step: &MoveStep,
-        [source, target]: [&wgpu::Texture; 2],
-        options: &RunOptions<'_>,
-    ) -> Result<(), GpuError> {
-        let format = step.format;
-        let coarse = surfaces.coarse(from.max(to))?;
-        let fine = surfaces.finest;
-        // Both kernels look up owners or charts on the level that is read. They also need the chart position of each triangle.
-        let (shader, target_surface, orphans, owners_or_charts, frames) = if to > from {
-            let coarse_orphans = &coarse.coarse_orphans;
-            (
-                FixedShader::Restrict(format),
-                &coarse.surface,
-                coarse_orphans,
-                &fine.owners,
-                &fine.frames,
-            )
-        } else {
-            let frames = &coarse.surface.frames;
-            (
-                FixedShader::Prolong(format),
-                fine,
-                &coarse.fine_orphans,
-                &coarse.charts,
-                frames,
-            )
-        };
-        let entries = [
-            uniform_entry(0),
-            owners_entry(1),
-            table_entry(2),
-            texture_entry(3),
-            storage_entry(4, format),
-        ];
-        let kernel = self.fixed_kernel(shader, &entries)?;
-        let scale = coarse.scale(self);
-        let (source, written) = (array_view(source), array_view(target));
-        let views = [owners_or_charts, frames, &source, &written].map(wgpu::BindingResource::TextureView);
-        let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
-        let slices = Slices::new(self, target_surface, options.submission);
-        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
-        self.fill_moved(target_surface, Some(orphans), target, step, options)
-    }
-
-    /// Fills the linked texels of a plane that was moved to a level of texels: first those without a counterpart, then ghosts.
-    fn fill_moved(
-        &self,
-        surface: &GpuSurface,
-        orphans: Option<&Links>,
-        target: &wgpu::Texture,
-        step: &MoveStep,
-        options: &RunOptions<'_>,
-    ) -> Result<(), GpuError> {
-        if let Some(orphans) = orphans {
-            let of_orphans = Slices::with_links(self, surface, orphans, options.submission);
-            let group = of_orphans.surface_group();
-            self.fill_links(orphans, group, target, step.format, &[FillRound::Owned])?;
-        }
-        let rounds = FillRound::sequence(step.result.is_some());
-        self.fill_ghosts(surface, target, step.format, rounds)
     }
 }

@@ -1,6 +1,6 @@
 //! The device: adapter choice, textures, pipelines, running a plan, readback.
 //!
-//! [`Gpu::open`] opens an adapter, or [`Gpu::adopt_device`] takes a window's device; [`Gpu::run`] runs a plan on a surface.
+//! [`Gpu::open`] opens an adapter, or [`Gpu::adopt_device`] takes a window's device; [`run_plan`] runs a plan on a surface.
 //!
 //! Invariants:
 //! * Only this crate and the viewport create pipelines; all earlier stages produce plain data.
@@ -17,6 +17,7 @@
 //! ```
 
 mod adapter;
+mod anisotropy;
 mod bindings;
 mod blocks;
 mod borders;
@@ -24,6 +25,7 @@ mod cache;
 mod changes;
 mod coverage;
 mod device;
+mod driver_errors;
 mod error;
 mod extents;
 mod formats;
@@ -67,27 +69,31 @@ mod uploads;
 mod waiting;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters, choose_adapter, device_descriptor};
+pub use anisotropy::read_anisotropy;
 pub use borders::{BorderGhost, BorderKind, Borders};
 pub use cache::ResultCache;
 pub use device::Gpu;
 pub use error::GpuError;
-pub use extents::ValueExtent;
+pub use extents::{ValueExtent, result_extents, texture_extents};
 pub use levels::{CellLevel, CoarseSurface, PointSurface, Surfaces};
 pub use made_map::ResultsIdentity;
 pub use maps::{DeviceMaps, MaterialSlots};
 pub use mirrors::mirrors;
+pub use normals::Normals;
+pub use pipelines::shader_module;
 pub use pool::{DEFAULT_BUDGET_BYTES, PoolReport};
 pub use rays::{CasterChoice, DeviceHierarchy, Hits, RayScene};
-pub use readback::PlaneData;
-pub use readback::bands::BandData;
+pub use readback::bands::{BandData, read_slot_in_bands};
+pub use readback::{PlaneData, read_layer, read_numbers, read_slot, read_texels};
 pub use result_key::ResultKey;
+pub use run::run_plan;
 pub use run_options::{DEFAULT_KEEPS_FROM, DEFAULT_WRITES_OVER_FROM, RunOptions};
 pub use run_result::{Run, RunReport, StepTime};
 pub use sabi_nodes::link::{Given, LinkedModule, Mirror, MirrorValue, MirrorsWgsl, ModuleSpec};
 pub use sabi_nodes::wgsl_struct;
 pub use shaders::fixed_modules;
 pub use shares::{Mean, Shares};
-pub use shown_maps::Exported;
+pub use shown_maps::{Exported, ShownMaps};
 pub use shown_tiles::ShownTiles;
 pub use source_canvas::{DeviceTable, SourceCanvas, SourceDraw};
 pub use source_constants::{

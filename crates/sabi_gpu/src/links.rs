@@ -10,6 +10,7 @@ use sabi_surface::atlas::{Atlas, Orphan};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::surface::GpuSurface;
 use crate::uploads::{storage_buffer, table_texture};
 pub(crate) use rows::{GHOST_ROWS, GhostLinkRow, GhostReadRow};
 use rows::{LinkRow, coupled_slots, fill_rows, orphan_rows};
@@ -70,7 +71,7 @@ pub(crate) struct Links {
     /// Constants of rounds over owned texels only, and of rounds with ghosts.
     pub(crate) constants: [wgpu::Buffer; 2],
     /// Bind group of the surface with these links; made at its first use.
-    pub(crate) surface_group: OnceLock<wgpu::BindGroup>,
+    surface_bindings: OnceLock<wgpu::BindGroup>,
     /// One value per link, between gathering and scattering.
     pub(crate) values: wgpu::Buffer,
 }
@@ -97,6 +98,12 @@ impl Links {
         Links::upload(gpu, &rows, 2)
     }
 
+    /// Bind group of `surface`, whose ghosts these are, with these links.
+    pub(crate) fn bindings(&self, gpu: &Gpu, surface: &GpuSurface) -> &wgpu::BindGroup {
+        self.surface_bindings
+            .get_or_init(|| surface.bindings_of_links(gpu, self))
+    }
+
     fn upload<Row: Pod>(gpu: &Gpu, rows: &[Row], link_rows: u32) -> Result<Links, GpuError> {
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let constants = [0, 1].map(|with_ghosts| {
@@ -110,7 +117,7 @@ impl Links {
         });
         Ok(Links {
             constants,
-            surface_group: OnceLock::new(),
+            surface_bindings: OnceLock::new(),
             rows: table_texture(gpu, "the links over seams", bytemuck::cast_slice(rows))?,
             count: rows.len() as u32,
             values: storage_buffer(gpu, "the values over seams", 16 * rows.len() as u64, limit)?,

@@ -1,4 +1,4 @@
-//! Kernels of tangent-space maps: normals of height and slope, and anisotropy.
+//! Tangent-space normals of height and slope.
 
 use std::ops::Range;
 
@@ -13,12 +13,14 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::layer_rows::LayerRows;
 use crate::made_map::MadeMap;
+use crate::pipelines::fixed_kernel;
 use crate::pool::{array_view, texture};
-use crate::readback::bands::BandData;
-use crate::readback::{BAND_BYTES, PlaneData};
+use crate::readback::bands::{BandData, read_rows};
+use crate::readback::{BAND_BYTES, PlaneData, StagingBuffer, read_texture};
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
+use crate::stencils::stencils;
 use crate::surface::GpuSurface;
 use crate::tiles::Slices;
 
@@ -34,91 +36,87 @@ wgsl_struct! {
     }
 }
 
-/// Returns the map of the normals of a run. Each normal depends on the heights around it.
-pub(crate) fn normals_of(run: &Run, slots: [Option<SlotRef>; 2], surface: &GpuSurface) -> Option<MadeMap> {
-    MadeMap::of(run, "normals", &slots).map(|made| made.grown(surface))
+/// Tangent-space normals of the height and slope of a run: unit vectors, Y up, in the model's MikkTSpace frame. Those of
+/// ghosts are in the frame of their own chart.
+#[derive(Clone, Copy)]
+pub struct Normals<'a> {
+    /// Device of the run.
+    pub gpu: &'a Gpu,
+    /// Surface of the run.
+    pub surface: &'a GpuSurface,
+    /// Slot of the height, working units; `None` for a flat one.
+    pub height: Option<SlotRef>,
+    /// Slot of the slope; `None` for none beside that of the height.
+    pub slope: Option<SlotRef>,
+    /// Options of the run.
+    pub options: &'a RunOptions<'a>,
 }
 
-impl Gpu {
-    /// Computes the tangent-space normals of a run's height and slope and reads them back: unit vectors, Y up, in the
-    /// model's MikkTSpace frame. Those of ghosts are in the frame of their own chart.
-    pub fn normals(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        height: Option<SlotRef>,
-        slope: Option<SlotRef>,
-        options: &RunOptions<'_>,
-    ) -> Result<PlaneData, GpuError> {
-        let normals = self.normal_texture(surface, run, height, slope, options)?;
-        let data = self.read_texture(&normals, surface.extent, Format::Rgba32Float)?;
+impl Normals<'_> {
+    /// Slots of height and slope.
+    pub(crate) fn slots(&self) -> [Option<SlotRef>; 2] {
+        [self.height, self.slope]
+    }
+
+    /// Computes the normals and reads them back.
+    pub fn read(&self, run: &mut Run) -> Result<PlaneData, GpuError> {
+        let normals = self.texture(run)?;
+        let data = read_texture(self.gpu, &normals, self.surface.extent, Format::Rgba32Float)?;
         run.pool.release(Format::Rgba32Float, normals);
         run.report.pool = run.pool.report();
         Ok(data)
     }
 
-    /// Computes and reads back the normals of a run, like [`Gpu::normals`], in bands of whole rows. Bands without texels of `range` are
-    /// left out. `visit` receives the texels of each band, counted page by page and row by row, and their normals.
-    pub fn normals_in_bands(
+    /// Computes the normals and reads them back in bands of whole rows. Bands without texels of `texels` are left out. `visit` receives
+    /// the texels of each band, counted page by page and row by row, and their normals.
+    pub fn read_in_bands(
         &self,
-        surface: &GpuSurface,
         run: &mut Run,
-        slots: [Option<SlotRef>; 2],
         texels: &Range<usize>,
-        options: &RunOptions<'_>,
         mut visit: impl FnMut(&Range<usize>, &BandData<'_>),
     ) -> Result<(), GpuError> {
+        let Normals {
+            gpu, surface, options, ..
+        } = *self;
         let format = Format::Rgba32Float;
         let width = surface.extent[0];
         let row_bytes = u64::from(width) * format.texel_bytes();
         let tile_rows = (BAND_BYTES / (row_bytes * u64::from(TILE))).max(1) as u32;
-        let staging = self.readback_buffer(row_bytes * u64::from(tile_rows * TILE))?;
+        let staging = StagingBuffer::new(gpu, row_bytes * u64::from(tile_rows * TILE))?;
         for band in surface.bands(tile_rows * TILE) {
             let band_texels = surface.texels_of_rows(&band);
             if band_texels.start >= texels.end || band_texels.end <= texels.start {
                 continue;
             }
             // A new texture for each band makes texels without a normal the same in all bands.
-            let normals = texture(self, [width, band.rows.len() as u32, 1], format)?;
+            let normals = texture(gpu, [width, band.rows.len() as u32, 1], format)?;
             let tiles = surface.tiles_of_rows(&band, options.shown);
-            let slices = Slices::over(self, surface, &tiles, options.submission)?;
+            let slices = Slices::over(gpu, surface, &tiles, options.submission)?;
             let origin = [band.layer, band.rows.start];
-            self.draw_normals(&slices, run, slots, &normals, origin, options)?;
+            self.draw(&slices, run, &normals, origin)?;
             let rows = LayerRows::of_whole(&normals);
-            self.read_rows(&normals, format, &rows, &staging, |data| visit(&band_texels, data))?;
+            read_rows(gpu, &normals, format, &rows, &staging, |data| visit(&band_texels, data))?;
             normals.destroy();
         }
-        staging.destroy();
+        staging.free();
         run.report.pool = run.pool.report();
         Ok(())
     }
 
-    /// Returns the tangent-space normals of a run as a texture; see [`Gpu::normals`].
-    pub(crate) fn normal_texture(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        height: Option<SlotRef>,
-        slope: Option<SlotRef>,
-        options: &RunOptions<'_>,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
-        let slices = Slices::shown(self, surface, options.shown, options.submission)?;
-        self.draw_normals(&slices, run, [height, slope], &normals, [0; 2], options)?;
+    /// Computes the normals as a texture.
+    pub(crate) fn texture(&self, run: &mut Run) -> Result<wgpu::Texture, GpuError> {
+        let normals = run.pool.take(self.gpu, Format::Rgba32Float, self.surface.extent)?;
+        let slices = Slices::shown(self.gpu, self.surface, self.options.shown, self.options.submission)?;
+        self.draw(&slices, run, &normals, [0; 2])?;
         Ok(normals)
     }
 
-    /// Returns the tangent-space normals of a run as a texture that a cache keeps. Only normals near changed texels are computed again.
-    pub(crate) fn kept_normals(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        [height, slope]: [Option<SlotRef>; 2],
-        options: &RunOptions<'_>,
-        cache: &mut ResultCache,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let Some(made) = normals_of(run, [height, slope], surface) else {
-            return self.normal_texture(surface, run, height, slope, options);
+    /// Returns the normals as a texture that a cache keeps. Only normals near changed texels are computed again.
+    pub(crate) fn kept(&self, run: &mut Run, cache: &mut ResultCache) -> Result<wgpu::Texture, GpuError> {
+        // Each normal depends on the heights around it.
+        let made = MadeMap::of(run, "normals", &self.slots()).map(|made| made.grown(self.surface));
+        let Some(made) = made else {
+            return self.texture(run);
         };
         if let Some(known) = cache.get(&made.key) {
             return Ok(known);
@@ -126,32 +124,30 @@ impl Gpu {
         let before = made.before.and_then(|(key, tiles)| Some((cache.take(&key)?, tiles)));
         let normals = match before {
             Some((normals, tiles)) => {
-                let slices = Slices::over(self, surface, &tiles, options.submission)?;
-                self.draw_normals(&slices, run, [height, slope], &normals, [0; 2], options)?;
+                let slices = Slices::over(self.gpu, self.surface, &tiles, self.options.submission)?;
+                self.draw(&slices, run, &normals, [0; 2])?;
                 normals
             }
-            None => self.normal_texture(surface, run, height, slope, options)?,
+            None => self.texture(run)?,
         };
         cache.put(
             made.key,
             normals.clone(),
-            Format::Rgba32Float.texel_bytes() * surface.texels(),
+            Format::Rgba32Float.texel_bytes() * self.surface.texels(),
         );
         Ok(normals)
     }
 
-    /// Computes the normals of some tiles.
-    fn draw_normals(
+    /// Computes the normals of some tiles into a texture that begins at this page and row.
+    fn draw(
         &self,
         slices: &Slices<'_>,
         run: &mut Run,
-        [height, slope]: [Option<SlotRef>; 2],
         normals: &wgpu::Texture,
         [first_page, first_row]: [u32; 2],
-        options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
-        let surface = slices.surface();
-        let stencils = self.stencils(surface, run, options)?;
+        let (gpu, [height, slope]) = (self.gpu, self.slots());
+        let stencils = stencils(gpu, self.surface, run, self.options)?;
         let entries = [
             uniform_entry(0),
             texture_entry(1),
@@ -159,8 +155,8 @@ impl Gpu {
             owners_entry(3),
             storage_entry(4, Format::Rgba32Float),
         ];
-        let kernel = self.fixed_kernel(FixedShader::Normal, &entries)?;
-        let unused = texture(self, [1, 1, 1], Format::R32Float)?;
+        let kernel = fixed_kernel(gpu, FixedShader::Normal, &entries)?;
+        let unused = texture(gpu, [1, 1, 1], Format::R32Float)?;
         let bound = |slot: Option<SlotRef>| match slot {
             Some(slot) => Ok::<_, GpuError>(array_view(&run.texture(slot)?)),
             // The kernel does not read the texture of a missing input.
@@ -173,9 +169,9 @@ impl Gpu {
             first_page,
             first_row,
         };
-        let constants = self.uniform(bytemuck::bytes_of(&values));
+        let constants = gpu.uniform(bytemuck::bytes_of(&values));
         let view = array_view(normals);
-        let group = self.bind(
+        let group = gpu.bind(
             &kernel.layout,
             [
                 constants.as_entire_binding(),
@@ -185,44 +181,7 @@ impl Gpu {
                 wgpu::BindingResource::TextureView(&view),
             ],
         );
-        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
+        slices.run(&kernel.pipeline, &kernel.pace, &group, self.options.is_canceled)?;
         Ok(())
-    }
-
-    /// Computes the anisotropy of a run in the model's tangent frame and reads it back: the unit direction in which
-    /// highlights are stretched, as two components in −1..1, and the strength.
-    pub fn anisotropy(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        slot: SlotRef,
-        options: &RunOptions<'_>,
-    ) -> Result<PlaneData, GpuError> {
-        let made = self.anisotropy_texture(surface, run, slot, options)?;
-        let data = self.read_texture(&made, surface.extent, Format::Rgba32Float)?;
-        run.pool.release(Format::Rgba32Float, made);
-        run.report.pool = run.pool.report();
-        Ok(data)
-    }
-
-    /// Anisotropy of a run as a texture, see [`Gpu::anisotropy`].
-    pub(crate) fn anisotropy_texture(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        slot: SlotRef,
-        options: &RunOptions<'_>,
-    ) -> Result<wgpu::Texture, GpuError> {
-        let stencils = self.stencils(surface, run, options)?;
-        let entries = [texture_entry(0), owners_entry(1), storage_entry(2, Format::Rgba32Float)];
-        let kernel = self.fixed_kernel(FixedShader::Anisotropy, &entries)?;
-        let scratches = array_view(&run.texture(slot)?);
-        let made = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
-        let view = array_view(&made);
-        let views = [&scratches, &stencils, &view].map(wgpu::BindingResource::TextureView);
-        let group = self.bind(&kernel.layout, views);
-        let slices = Slices::shown(self, surface, options.shown, options.submission)?;
-        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
-        Ok(made)
     }
 }

@@ -63,22 +63,107 @@ impl PlaneData {
 /// Number of bytes that are read back at once, unless a single row has more.
 pub(crate) const BAND_BYTES: u64 = 16 << 20;
 
-/// Pending mapping of a buffer.
-pub(crate) struct Mapping {
+/// Copy into a [`StagingBuffer`] that the device may not have finished.
+pub(crate) struct PendingCopy {
     submitted: wgpu::SubmissionIndex,
     bytes: u64,
     answer: Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
-/// Requests the mapping of the first bytes of a buffer after a submission.
-fn mapping_of(submitted: wgpu::SubmissionIndex, buffer: &wgpu::Buffer, bytes: u64) -> Mapping {
-    let (sender, answer) = channel();
-    // The receiver has been dropped only if waiting failed before.
-    buffer.map_async(wgpu::MapMode::Read, ..bytes, move |mapped| drop(sender.send(mapped)));
-    Mapping {
-        submitted,
-        bytes,
-        answer,
+/// Mappable buffer through which bytes are read back, one copy at a time.
+pub(crate) struct StagingBuffer {
+    buffer: wgpu::Buffer,
+}
+
+impl StagingBuffer {
+    pub(crate) fn new(gpu: &Gpu, bytes: u64) -> Result<StagingBuffer, GpuError> {
+        let buffer = gpu.guarded("a readback buffer", |device| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size: bytes,
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        })?;
+        Ok(StagingBuffer { buffer })
+    }
+
+    /// Submits a copy of the first bytes of a buffer without waiting.
+    pub(crate) fn copy_buffer(&self, gpu: &Gpu, source: &wgpu::Buffer, bytes: u64) -> PendingCopy {
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(source, 0, &self.buffer, 0, bytes);
+        self.pending(gpu.queue.submit([encoder.finish()]), bytes)
+    }
+
+    /// Submits a copy of rows of a texture of uncompressed pixels without waiting.
+    pub(crate) fn copy_rows(
+        &self,
+        gpu: &Gpu,
+        texture: &wgpu::Texture,
+        rows: &LayerRows,
+    ) -> Result<PendingCopy, GpuError> {
+        let padded = RowBytes::of(texture, rows.level)?.padded;
+        let height = rows.rows.len() as u32;
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut source = texture.as_image_copy();
+        source.origin = wgpu::Origin3d {
+            x: 0,
+            y: rows.rows.start,
+            z: rows.layer,
+        };
+        source.mip_level = rows.level;
+        encoder.copy_texture_to_buffer(
+            source,
+            wgpu::TexelCopyBufferInfo {
+                buffer: &self.buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded as u32),
+                    rows_per_image: Some(height),
+                },
+            },
+            wgpu::Extent3d {
+                width: (texture.width() >> rows.level).max(1),
+                height,
+                depth_or_array_layers: 1,
+            },
+        );
+        let submitted = gpu.queue.submit([encoder.finish()]);
+        Ok(self.pending(submitted, padded * u64::from(height)))
+    }
+
+    /// Requests the mapping of the first bytes after a submission.
+    fn pending(&self, submitted: wgpu::SubmissionIndex, bytes: u64) -> PendingCopy {
+        let (sender, answer) = channel();
+        // The receiver has been dropped only if waiting failed before.
+        self.buffer
+            .map_async(wgpu::MapMode::Read, ..bytes, move |mapped| drop(sender.send(mapped)));
+        PendingCopy {
+            submitted,
+            bytes,
+            answer,
+        }
+    }
+
+    /// Waits for a copy into this buffer, but for no later submission, and calls `look` with its bytes.
+    pub(crate) fn read<T>(&self, gpu: &Gpu, copy: PendingCopy, look: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
+        gpu.wait_for(copy.submitted)?;
+        // If several threads wait for one device, another thread may be running the callback now.
+        mapped(copy.answer.recv_timeout(ANSWER_LIMIT))?;
+        let view = self.buffer.get_mapped_range(..copy.bytes);
+        let seen = look(&view);
+        drop(view);
+        self.buffer.unmap();
+        Ok(seen)
+    }
+
+    /// Frees the memory now, since the next buffer may be created before the device would free this one.
+    pub(crate) fn free(self) {
+        self.buffer.destroy();
     }
 }
 
@@ -93,153 +178,79 @@ fn mapped(answer: Result<Result<(), wgpu::BufferAsyncError>, RecvTimeoutError>) 
     }
 }
 
-impl Gpu {
-    /// Reads a slot of a run.
-    pub fn read(&self, surface: &GpuSurface, plan: &Plan, run: &Run, slot: SlotRef) -> Result<PlaneData, GpuError> {
-        self.read_texture(&run.texture(slot)?, surface.extent, plan.slots[slot].format)
-    }
+/// Reads a slot of a run.
+pub fn read_slot(
+    gpu: &Gpu,
+    surface: &GpuSurface,
+    plan: &Plan,
+    run: &Run,
+    slot: SlotRef,
+) -> Result<PlaneData, GpuError> {
+    read_texture(gpu, &run.texture(slot)?, surface.extent, plan.slots[slot].format)
+}
 
-    /// Submits a copy of the first bytes of a buffer into a mappable one, and requests its mapping without waiting.
-    pub(crate) fn start_mapping(&self, source: &wgpu::Buffer, staging: &wgpu::Buffer, bytes: u64) -> Mapping {
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(source, 0, staging, 0, bytes);
-        mapping_of(self.queue.submit([encoder.finish()]), staging, bytes)
+/// Reads a whole texture.
+pub(crate) fn read_texture(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    [width, height, pages]: Extent,
+    format: Format,
+) -> Result<PlaneData, GpuError> {
+    let texels = u64::from(width) * u64::from(height) * u64::from(pages);
+    let mut bytes = Vec::with_capacity((texels * format.texel_bytes()) as usize);
+    for page in 0..pages {
+        read_layer(gpu, texture, page, 0, &mut bytes)?;
     }
+    Ok(PlaneData { format, bytes })
+}
 
-    /// Waits for a mapping, but for no later submission, and calls `look` with its bytes.
-    pub(crate) fn finish_mapping<T>(
-        &self,
-        mapping: Mapping,
-        staging: &wgpu::Buffer,
-        look: impl FnOnce(&[u8]) -> T,
-    ) -> Result<T, GpuError> {
-        self.wait_for(mapping.submitted)?;
-        // If several threads wait for one device, another thread may be running the callback now.
-        mapped(mapping.answer.recv_timeout(ANSWER_LIMIT))?;
-        let view = staging.get_mapped_range(..mapping.bytes);
-        let seen = look(&view);
-        drop(view);
-        staging.unmap();
-        Ok(seen)
+/// Reads the texels of a texture on the atlas, page by page and row by row.
+pub fn read_texels(gpu: &Gpu, texture: &wgpu::Texture) -> Result<PlaneData, GpuError> {
+    let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
+    read_texture(gpu, texture, extent, format_of(texture)?)
+}
+
+/// Reads the texels of an R32 float texture, page by page and row by row.
+pub fn read_numbers(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<f32>, GpuError> {
+    if texture.format() != wgpu::TextureFormat::R32Float {
+        let reason = "numbers were to be read from a texture of another format";
+        return Err(GpuError::Defect(reason.into()));
     }
+    let plane = read_texels(gpu, texture)?;
+    let (numbers, _) = plane.bytes.as_chunks::<4>();
+    Ok(numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
+}
 
-    /// Buffer that can be mapped for reading.
-    pub(crate) fn readback_buffer(&self, bytes: u64) -> Result<wgpu::Buffer, GpuError> {
-        self.guarded("a readback buffer", |device| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("readback"),
-                size: bytes,
-                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-                mapped_at_creation: false,
-            })
-        })
+/// Appends one layer of one level of a texture of uncompressed pixels to `bytes`, row by row without padding.
+pub fn read_layer(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    layer: u32,
+    level: u32,
+    bytes: &mut Vec<u8>,
+) -> Result<(), GpuError> {
+    let height = (texture.height() >> level).max(1);
+    let row_bytes = u64::from((texture.width() >> level).max(1)) * u64::from(texel_bytes_of(texture)?);
+    let rows = (BAND_BYTES / row_bytes).clamp(1, u64::from(height)) as u32;
+    for first in (0..height).step_by(rows as usize) {
+        let rows = first..(first + rows).min(height);
+        append_rows(gpu, texture, LayerRows { layer, level, rows }, bytes)?;
     }
+    Ok(())
+}
 
-    /// Reads a whole texture.
-    pub(crate) fn read_texture(
-        &self,
-        texture: &wgpu::Texture,
-        [width, height, pages]: Extent,
-        format: Format,
-    ) -> Result<PlaneData, GpuError> {
-        let texels = u64::from(width) * u64::from(height) * u64::from(pages);
-        let mut bytes = Vec::with_capacity((texels * format.texel_bytes()) as usize);
-        for page in 0..pages {
-            self.read_layer(texture, page, 0, &mut bytes)?;
+/// Appends rows of a texture of uncompressed pixels, without padding.
+fn append_rows(gpu: &Gpu, texture: &wgpu::Texture, rows: LayerRows, bytes: &mut Vec<u8>) -> Result<(), GpuError> {
+    let row = RowBytes::of(texture, rows.level)?;
+    let staging = StagingBuffer::new(gpu, row.padded * rows.rows.len() as u64)?;
+    let copy = staging.copy_rows(gpu, texture, &rows)?;
+    staging.read(gpu, copy, |mapped| {
+        for line in mapped.chunks_exact(row.padded as usize) {
+            bytes.extend_from_slice(&line[..row.used as usize]);
         }
-        Ok(PlaneData { format, bytes })
-    }
-
-    /// Texels of a texture on the atlas, page by page and row by row.
-    pub fn read_texels(&self, texture: &wgpu::Texture) -> Result<PlaneData, GpuError> {
-        let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
-        self.read_texture(texture, extent, format_of(texture)?)
-    }
-
-    /// Texels of an R32 float texture, page by page and row by row.
-    pub fn read_numbers(&self, texture: &wgpu::Texture) -> Result<Vec<f32>, GpuError> {
-        if texture.format() != wgpu::TextureFormat::R32Float {
-            let reason = "numbers were to be read from a texture of another format";
-            return Err(GpuError::Defect(reason.into()));
-        }
-        let plane = self.read_texels(texture)?;
-        let (numbers, _) = plane.bytes.as_chunks::<4>();
-        Ok(numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
-    }
-
-    /// Appends one layer of one level of a texture of uncompressed pixels, row by row without padding.
-    pub fn read_layer(
-        &self,
-        texture: &wgpu::Texture,
-        layer: u32,
-        level: u32,
-        bytes: &mut Vec<u8>,
-    ) -> Result<(), GpuError> {
-        let height = (texture.height() >> level).max(1);
-        let row_bytes = u64::from((texture.width() >> level).max(1)) * u64::from(texel_bytes_of(texture)?);
-        let rows = (BAND_BYTES / row_bytes).clamp(1, u64::from(height)) as u32;
-        for first in (0..height).step_by(rows as usize) {
-            let rows = first..(first + rows).min(height);
-            self.append_rows(texture, LayerRows { layer, level, rows }, bytes)?;
-        }
-        Ok(())
-    }
-
-    /// Appends rows of a texture of uncompressed pixels, without padding.
-    fn append_rows(&self, texture: &wgpu::Texture, rows: LayerRows, bytes: &mut Vec<u8>) -> Result<(), GpuError> {
-        let row = RowBytes::of(texture, rows.level)?;
-        let buffer = self.readback_buffer(row.padded * rows.rows.len() as u64)?;
-        let mapping = self.start_reading(texture, &rows, &buffer)?;
-        self.finish_mapping(mapping, &buffer, |mapped| {
-            for line in mapped.chunks_exact(row.padded as usize) {
-                bytes.extend_from_slice(&line[..row.used as usize]);
-            }
-        })?;
-        // Frees the memory now, since the next buffer may be created before the device would free this one.
-        buffer.destroy();
-        Ok(())
-    }
-
-    /// Submits a copy of rows of a texture of uncompressed pixels into a mappable buffer, and requests its mapping.
-    fn start_reading(
-        &self,
-        texture: &wgpu::Texture,
-        rows: &LayerRows,
-        buffer: &wgpu::Buffer,
-    ) -> Result<Mapping, GpuError> {
-        let padded = RowBytes::of(texture, rows.level)?.padded;
-        let height = rows.rows.len() as u32;
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut source = texture.as_image_copy();
-        source.origin = wgpu::Origin3d {
-            x: 0,
-            y: rows.rows.start,
-            z: rows.layer,
-        };
-        source.mip_level = rows.level;
-        encoder.copy_texture_to_buffer(
-            source,
-            wgpu::TexelCopyBufferInfo {
-                buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(padded as u32),
-                    rows_per_image: Some(height),
-                },
-            },
-            wgpu::Extent3d {
-                width: (texture.width() >> rows.level).max(1),
-                height,
-                depth_or_array_layers: 1,
-            },
-        );
-        let submitted = self.queue.submit([encoder.finish()]);
-        Ok(mapping_of(submitted, buffer, padded * u64::from(height)))
-    }
+    })?;
+    staging.free();
+    Ok(())
 }
 
 /// Sizes of a row of texels in bytes.

@@ -14,7 +14,7 @@ use sabi_nodes::Library;
 use sabi_nodes::link::{Domain, Format, SURVEY_GROUPS};
 use sabi_plan::{KernelStep, MoveStep, Plan, SlotExtent, SlotRef, Step};
 
-use self::kept::KeptResults;
+use self::kept::{KeptResults, kept_slots};
 use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
 use crate::changes::{Changes, Part};
@@ -22,17 +22,18 @@ use crate::coverage::Coverages;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
-use crate::levels::Surfaces;
+use crate::levels::{PlaneMove, Surfaces};
 use crate::needed_steps::{
     dead_after, free_after_first_run, last_of_kernels, most_alive, needed_steps, reads, written_by,
 };
 use crate::pipeline_cache::CompiledKernel;
+use crate::pipelines::node_kernel;
 use crate::pool::{TexturePool, bytes_of, texture};
 use crate::rays::{HitCache, Hits};
 use crate::run_options::RunOptions;
 use crate::run_result::{Run, RunReport, StepTime};
 use crate::source_fill::SourceFill;
-use crate::survey::BINS;
+use crate::survey::{BINS, survey};
 use crate::tile_set::TileSet;
 use crate::waiting::Patience;
 
@@ -54,93 +55,91 @@ impl Repetition {
     }
 }
 
-impl Gpu {
-    /// Runs a plan. With a cache, steps whose results are cached are skipped and new results are cached. Without one,
-    /// results that `sources` keeps are not computed; in that case no slot of the plan may be reused for a second result.
-    pub fn run(
-        &self,
-        surfaces: Surfaces<'_>,
-        library: &Library,
-        plan: &Plan,
-        options: &RunOptions<'_>,
-        sources: &mut dyn SourceFill,
-        cache: Option<&mut ResultCache>,
-    ) -> Result<Run, GpuError> {
-        let kept = match cache {
-            None if sources.keeps_results() => self.kept_slots(plan, options, sources),
-            _ => BTreeSet::new(),
-        };
-        if !kept.is_empty() {
-            match self.run_with(surfaces, library, plan, options, sources, None, kept) {
-                // The kept result was removed or is damaged, so everything is computed.
-                Err(GpuError::ResultGone) => {}
-                run => return run,
-            }
+/// Runs a plan. With a cache, steps whose results are cached are skipped and new results are cached. Without one,
+/// results that `sources` keeps are not computed; in that case no slot of the plan may be reused for a second result.
+pub fn run_plan(
+    gpu: &Gpu,
+    surfaces: Surfaces<'_>,
+    library: &Library,
+    plan: &Plan,
+    options: &RunOptions<'_>,
+    sources: &mut dyn SourceFill,
+    cache: Option<&mut ResultCache>,
+) -> Result<Run, GpuError> {
+    let kept = match cache {
+        None if sources.keeps_results() => kept_slots(gpu, plan, options, sources),
+        _ => BTreeSet::new(),
+    };
+    if !kept.is_empty() {
+        match run_with(gpu, surfaces, library, plan, options, sources, None, kept) {
+            // The kept result was removed or is damaged, so everything is computed.
+            Err(GpuError::ResultGone) => {}
+            run => return run,
         }
-        self.run_with(surfaces, library, plan, options, sources, cache, BTreeSet::new())
     }
+    run_with(gpu, surfaces, library, plan, options, sources, cache, BTreeSet::new())
+}
 
-    /// Runs a plan, given known results: in a cache, or in slots whose results are kept elsewhere.
-    fn run_with(
-        &self,
-        surfaces: Surfaces<'_>,
-        library: &Library,
-        plan: &Plan,
-        options: &RunOptions<'_>,
-        sources: &mut dyn SourceFill,
-        mut cache: Option<&mut ResultCache>,
-        kept: BTreeSet<SlotRef>,
-    ) -> Result<Run, GpuError> {
-        self.wait_for_overrun(options.is_canceled)?;
-        let started = Instant::now();
-        let coverages = Coverages::of(plan, options.shown);
-        let keys = coverages.slot_keys(plan);
-        let cached = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
-        let keeps_all = cache.is_some();
-        let known = cached.keys().copied().chain(kept.iter().copied()).collect();
-        let steps = needed_steps(plan, &known);
-        let mut changes = match cache.as_deref_mut() {
-            Some(cache) if !steps.is_empty() => Changes::find(plan, &coverages, &steps, &keys, cache, sources),
-            _ => Changes::default(),
-        };
-        let hit_cache = cache
-            .as_deref_mut()
-            .map(|cache| &mut cache.hits)
-            .filter(|_| options.hits == Hits::Cached);
-        let mut runner = Runner::new(self, surfaces, library, plan, options, coverages, hit_cache);
-        runner.take_known(&steps, cached, std::mem::take(&mut changes.parts));
-        if !keeps_all && sources.keeps_results() {
-            runner.kept = Some(KeptResults::new(keys.clone(), kept));
-        }
-        let ended = runner.run(&steps, sources, !keeps_all);
-        if matches!(ended, Err(GpuError::Canceled)) && self.wait_with(Patience::for_a_moment()).is_ok() {
-            runner.done = runner.report.steps.len();
-        }
-        let (done, textures, pool, mut report) = runner.into_results();
-        report.run = started.elapsed().saturating_sub(report.compile);
-        if let Some(cache) = cache
-            && !report.has_cached_hits
-            && !matches!(ended, Err(GpuError::Lost(_)))
-        {
-            // Results of finished steps are cached even if a later step failed or was canceled.
-            let unfinished = written_by(plan, &steps[done..]);
-            let finished = keys
-                .iter()
-                .filter(|(slot, _)| !unfinished.contains(slot))
-                .map(|(slot, key)| (*slot, *key));
-            cache.insert(&finished.collect(), &textures, plan, surfaces.finest.texels());
-            if ended.is_ok() {
-                cache.remember(plan);
-            }
-        }
-        ended.map(|()| Run {
-            textures,
-            report,
-            pool,
-            keys,
-            changed: changes.results,
-        })
+/// Runs a plan, given known results: in a cache, or in slots whose results are kept elsewhere.
+fn run_with(
+    gpu: &Gpu,
+    surfaces: Surfaces<'_>,
+    library: &Library,
+    plan: &Plan,
+    options: &RunOptions<'_>,
+    sources: &mut dyn SourceFill,
+    mut cache: Option<&mut ResultCache>,
+    kept: BTreeSet<SlotRef>,
+) -> Result<Run, GpuError> {
+    gpu.wait_for_overrun(options.is_canceled)?;
+    let started = Instant::now();
+    let coverages = Coverages::of(plan, options.shown);
+    let keys = coverages.slot_keys(plan);
+    let cached = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
+    let keeps_all = cache.is_some();
+    let known = cached.keys().copied().chain(kept.iter().copied()).collect();
+    let steps = needed_steps(plan, &known);
+    let mut changes = match cache.as_deref_mut() {
+        Some(cache) if !steps.is_empty() => Changes::find(plan, &coverages, &steps, &keys, cache, sources),
+        _ => Changes::default(),
+    };
+    let hit_cache = cache
+        .as_deref_mut()
+        .map(|cache| &mut cache.hits)
+        .filter(|_| options.hits == Hits::Cached);
+    let mut runner = Runner::new(gpu, surfaces, library, plan, options, coverages, hit_cache);
+    runner.take_known(&steps, cached, std::mem::take(&mut changes.parts));
+    if !keeps_all && sources.keeps_results() {
+        runner.kept = Some(KeptResults::new(keys.clone(), kept));
     }
+    let ended = runner.run(&steps, sources, !keeps_all);
+    if matches!(ended, Err(GpuError::Canceled)) && gpu.wait_with(Patience::for_a_moment()).is_ok() {
+        runner.done = runner.report.steps.len();
+    }
+    let (done, textures, pool, mut report) = runner.into_results();
+    report.run = started.elapsed().saturating_sub(report.compile);
+    if let Some(cache) = cache
+        && !report.has_cached_hits
+        && !matches!(ended, Err(GpuError::Lost(_)))
+    {
+        // Results of finished steps are cached even if a later step failed or was canceled.
+        let unfinished = written_by(plan, &steps[done..]);
+        let finished = keys
+            .iter()
+            .filter(|(slot, _)| !unfinished.contains(slot))
+            .map(|(slot, key)| (*slot, *key));
+        cache.insert(&finished.collect(), &textures, plan, surfaces.finest.texels());
+        if ended.is_ok() {
+            cache.remember(plan);
+        }
+    }
+    ended.map(|()| Run {
+        textures,
+        report,
+        pool,
+        keys,
+        changed: changes.results,
+    })
 }
 
 /// State of a run.
@@ -307,8 +306,7 @@ impl Runner<'_> {
             }
             Step::Survey(step) => {
                 let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
-                self.gpu
-                    .survey(self.surfaces.finest, step.each, [&from, &to], self.options)?;
+                survey(self.gpu, self.surfaces.finest, step.each, [&from, &to], self.options)?;
                 vec![(step.node.clone(), 1.0)]
             }
             Step::Kernel(kernel) => {
@@ -396,7 +394,7 @@ impl Runner<'_> {
     /// Runs a kernel as often as it is repeated. Returns the time that it takes, if it is known.
     fn kernel(&mut self, step: &KernelStep, sources: &mut dyn SourceFill) -> Result<Option<Duration>, GpuError> {
         let compiling = Instant::now();
-        let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
+        let compiled = node_kernel(self.gpu, &step.spec, self.library, &step.nodes)?;
         self.report.compile += compiling.elapsed();
         let block = block_buffer(self.gpu, &compiled, step, None);
         let over = self.slots_written_over(step);
@@ -447,7 +445,14 @@ impl Runner<'_> {
 
     fn move_plane(&mut self, step: &MoveStep) -> Result<(), GpuError> {
         let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
-        let (gpu, surfaces) = (self.gpu, self.surfaces);
-        gpu.move_plane(surfaces, step, [&from, &to], self.options)
+        let moving = PlaneMove {
+            gpu: self.gpu,
+            surfaces: self.surfaces,
+            step,
+            source: &from,
+            target: &to,
+            options: self.options,
+        };
+        moving.run()
     }
 }

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use sabi_plan::{Plan, SlotRef};
 
+use crate::error::GpuError;
 use crate::pool::{PoolReport, TexturePool};
 use crate::result_key::{ChangedResults, ResultKey};
 
@@ -24,6 +25,13 @@ impl Run {
     /// Bytes of all its textures and of the surface.
     pub fn bytes(&self) -> u64 {
         self.pool.report().bytes
+    }
+
+    /// Returns the texture of a result that the plan kept. It is an array of pages.
+    pub fn texture(&self, slot: SlotRef) -> Result<wgpu::Texture, GpuError> {
+        let found = self.textures.get(slot).and_then(Option::as_ref);
+        let missing = || GpuError::Defect("a result was requested that the plan did not keep".into());
+        found.cloned().ok_or_else(missing)
     }
 
     /// Frees the textures that hold no results.

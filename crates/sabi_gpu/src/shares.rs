@@ -9,6 +9,7 @@ use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
+use crate::pipelines::fixed_kernel;
 use crate::pool::array_view;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
@@ -98,6 +99,19 @@ impl Shares {
         let targets: Vec<[u32; 3]> = shown.map(|[_, target]| *target).collect();
         tiles.and(&TileSet::new(targets))
     }
+
+    /// Sets all targets in a copy of a texture on the atlas. The texture itself is not changed, since it may be cached.
+    pub(crate) fn apply(
+        &self,
+        gpu: &Gpu,
+        surface: &GpuSurface,
+        textures: [&wgpu::Texture; 2],
+        mean: Mean,
+    ) -> Result<(), GpuError> {
+        let format = format_of(textures[0])?;
+        let mut parts = self.parts.iter();
+        parts.try_for_each(|part| part.apply(gpu, surface, textures, format, mean))
+    }
 }
 
 impl Part {
@@ -114,31 +128,18 @@ impl Part {
             texels: buffer(texels)?,
         })
     }
-}
 
-impl Gpu {
-    /// Sets all targets in a copy of a texture on the atlas. The texture itself is not changed, since it may be cached.
-    pub(crate) fn share(
+    /// Sets the targets of these groups.
+    fn apply(
         &self,
+        gpu: &Gpu,
         surface: &GpuSurface,
-        shares: &Shares,
-        textures: [&wgpu::Texture; 2],
-        mean: Mean,
-    ) -> Result<(), GpuError> {
-        let format = format_of(textures[0])?;
-        let mut parts = shares.parts.iter();
-        parts.try_for_each(|part| self.share_part(surface, part, textures, format, mean))
-    }
-
-    fn share_part(
-        &self,
-        surface: &GpuSurface,
-        part: &Part,
         [texture, shown]: [&wgpu::Texture; 2],
         format: Format,
         mean: Mean,
     ) -> Result<(), GpuError> {
-        let kernel = self.fixed_kernel(
+        let kernel = fixed_kernel(
+            gpu,
             FixedShader::Share(format),
             &[
                 uniform_entry(0),
@@ -148,26 +149,26 @@ impl Gpu {
                 storage_entry(4, format),
             ],
         )?;
-        let groups = part.count.div_ceil(GROUP);
-        let constants = self.uniform(bytemuck::bytes_of(&ShareConstants {
-            group_count: part.count,
+        let groups = self.count.div_ceil(GROUP);
+        let constants = gpu.uniform(bytemuck::bytes_of(&ShareConstants {
+            group_count: self.count,
             row_length: ROW.min(groups),
             has_unit_vectors: u32::from(mean == Mean::Unit),
             pad: 0,
         }));
         let [texture, shown] = [texture, shown].map(array_view);
-        let group = self.bind(
+        let group = gpu.bind(
             &kernel.layout,
             [
                 constants.as_entire_binding(),
-                part.starts.as_entire_binding(),
-                part.texels.as_entire_binding(),
+                self.starts.as_entire_binding(),
+                self.texels.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&texture),
                 wgpu::BindingResource::TextureView(&shown),
             ],
         );
-        let bound = self.surface_group(surface, &surface.ghosts.all);
-        self.submit_compute_pass(|pass| {
+        let bound = surface.bindings(gpu);
+        gpu.submit_compute_pass(|pass| {
             pass.set_pipeline(&kernel.pipeline);
             pass.set_bind_group(0, &bound, &[]);
             pass.set_bind_group(1, &group, &[]);

@@ -4,6 +4,7 @@ use sabi_nodes::link::Format;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::pipelines::fixed_kernel;
 use crate::pool::array_view;
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
@@ -83,9 +84,8 @@ impl SourceCanvas<'_> {
             Some(tiles) => Slices::over(self.gpu, self.surface, tiles, self.options.submission)?,
             None => Slices::new(self.gpu, self.surface, self.options.submission),
         };
-        let kernel = self
-            .gpu
-            .fixed_kernel(FixedShader::Source(shader, self.format), &shader.entries(self.format))?;
+        let fixed = FixedShader::Source(shader, self.format);
+        let kernel = fixed_kernel(self.gpu, fixed, &shader.entries(self.format))?;
         let bytes = bytemuck::bytes_of(&draw.constants);
         let constants = (!bytes.is_empty()).then(|| self.gpu.uniform(bytes));
         let inputs: Vec<wgpu::TextureView> = (0..shader.inputs())

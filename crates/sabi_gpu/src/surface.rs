@@ -10,11 +10,12 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::layer_rows::LayerRows;
 use crate::leaps::leaps;
-use crate::links::GhostLinks;
+use crate::links::{GhostLinks, Links};
 use crate::pool::Extent;
 use crate::shown_tiles::ShownTiles;
 use crate::tables::{SurfaceTables, texel_area_vector};
 use crate::tile_set::{TileSet, tile_number};
+use crate::tiles::PassConstants;
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
 
 /// Texel widths and extent of a surface, working units.
@@ -167,6 +168,38 @@ impl GpuSurface {
     /// Number of 8 × 8 tiles that are not empty.
     pub fn tile_count(&self) -> u32 {
         self.tile_count
+    }
+
+    /// Returns the bind group of the surface with the links of all its ghosts. Its layout is [`Gpu::surface_layout`].
+    pub fn bindings(&self, gpu: &Gpu) -> wgpu::BindGroup {
+        self.bindings_of_links(gpu, &self.ghosts.all)
+    }
+
+    /// Returns the bind group of the surface with `links` in place of the links of all ghosts, for kernels over links.
+    pub(crate) fn bindings_of_links(&self, gpu: &Gpu, links: &Links) -> wgpu::BindGroup {
+        let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
+        self.bindings_with(gpu, &self.tiles, links, &constants)
+    }
+
+    /// Returns the bind group of the surface with these tiles, links and constants.
+    pub(crate) fn bindings_with(
+        &self,
+        gpu: &Gpu,
+        tiles: &wgpu::Buffer,
+        links: &Links,
+        constants: &wgpu::Buffer,
+    ) -> wgpu::BindGroup {
+        let resources = [
+            constants.as_entire_binding(),
+            tiles.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&self.owners),
+            wgpu::BindingResource::TextureView(&self.geometry),
+            wgpu::BindingResource::TextureView(&self.frames),
+            wgpu::BindingResource::TextureView(&links.rows),
+            self.pieces.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&self.leaps),
+        ];
+        gpu.bind(gpu.surface_layout(), resources)
     }
 }
 

@@ -8,7 +8,6 @@ use sabi_nodes::wgsl_struct;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::layer_rows::LayerRows;
-use crate::links::Links;
 use crate::pace::{MARGIN, Pace};
 use crate::shown_tiles::ShownTiles;
 use crate::surface::GpuSurface;
@@ -53,12 +52,7 @@ pub(crate) struct Slices<'a> {
 
 impl<'a> Slices<'a> {
     pub(crate) fn new(gpu: &'a Gpu, surface: &'a GpuSurface, target: Duration) -> Slices<'a> {
-        Slices::with_links(gpu, surface, &surface.ghosts.all, target)
-    }
-
-    /// Creates slices with `links` in place of the links of the ghosts.
-    pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
-        Slices::of(gpu, surface, &surface.tiles, surface.tile_count, links, target)
+        Slices::of(gpu, surface, &surface.tiles, surface.tile_count, target)
     }
 
     /// Creates slices of the shown tiles of a surface, or of all tiles if any texel may be read.
@@ -82,14 +76,7 @@ impl<'a> Slices<'a> {
         target: Duration,
     ) -> Result<Slices<'a>, GpuError> {
         let list = tiles.upload(gpu)?;
-        Ok(Slices::of(
-            gpu,
-            surface,
-            &list,
-            tiles.count(),
-            &surface.ghosts.all,
-            target,
-        ))
+        Ok(Slices::of(gpu, surface, &list, tiles.count(), target))
     }
 
     fn of(
@@ -97,11 +84,10 @@ impl<'a> Slices<'a> {
         surface: &'a GpuSurface,
         tiles: &wgpu::Buffer,
         tile_count: u32,
-        links: &Links,
         target: Duration,
     ) -> Slices<'a> {
         let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
-        let group = gpu.surface_group_with(surface, tiles, links, &constants);
+        let group = surface.bindings_with(gpu, tiles, &surface.ghosts.all, &constants);
         Slices {
             gpu,
             surface,
@@ -132,11 +118,6 @@ impl<'a> Slices<'a> {
         self
     }
 
-    /// The surface that the tiles are of.
-    pub(crate) fn surface(&self) -> &'a GpuSurface {
-        self.surface
-    }
-
     /// Target time of a slice.
     pub(crate) fn target(&self) -> Duration {
         self.target
@@ -145,11 +126,6 @@ impl<'a> Slices<'a> {
     /// Number of tiles.
     pub(crate) fn tile_count(&self) -> u32 {
         self.tile_count
-    }
-
-    /// Bind group of the surface.
-    pub(crate) fn surface_group(&self) -> &wgpu::BindGroup {
-        &self.group
     }
 
     /// Runs one workgroup over no tiles, since some drivers compile a kernel at its first use.
@@ -257,43 +233,5 @@ impl<'a> Slices<'a> {
             pass.dispatch_workgroups(x, y, 1);
         }
         self.gpu.queue.submit([encoder.finish()]);
-    }
-}
-
-impl Gpu {
-    /// Returns the bind group layout of a surface, which is the same in every kernel; see `shaders/lib/atlas.wgsl`.
-    pub fn surface_layout(&self) -> &wgpu::BindGroupLayout {
-        &self.pipelines.surface_layout
-    }
-
-    /// Returns the bind group of a surface with the links of all its ghosts.
-    pub fn surface_bindings(&self, surface: &GpuSurface) -> wgpu::BindGroup {
-        self.surface_group(surface, &surface.ghosts.all)
-    }
-
-    /// Returns the bind group of a surface with `links` in place of the links of all ghosts, for kernels over links.
-    pub(crate) fn surface_group(&self, surface: &GpuSurface, links: &Links) -> wgpu::BindGroup {
-        let constants = self.uniform(&[0; size_of::<PassConstants>()]);
-        self.surface_group_with(surface, &surface.tiles, links, &constants)
-    }
-
-    fn surface_group_with(
-        &self,
-        surface: &GpuSurface,
-        tiles: &wgpu::Buffer,
-        links: &Links,
-        constants: &wgpu::Buffer,
-    ) -> wgpu::BindGroup {
-        let resources = [
-            constants.as_entire_binding(),
-            tiles.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&surface.owners),
-            wgpu::BindingResource::TextureView(&surface.geometry),
-            wgpu::BindingResource::TextureView(&surface.frames),
-            wgpu::BindingResource::TextureView(&links.rows),
-            surface.pieces.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&surface.leaps),
-        ];
-        self.bind(&self.pipelines.surface_layout, resources)
     }
 }

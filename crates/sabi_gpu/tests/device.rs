@@ -21,7 +21,7 @@ use std::time::Duration;
 
 use sabi_gpu::{
     AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, PlaneData, RayScene, ResultCache, Run,
-    RunOptions, SourceFill, SurfaceTables, Surfaces, TextureBudget, TileSet,
+    RunOptions, SourceFill, SurfaceTables, Surfaces, TextureBudget, TileSet, read_slot, run_plan,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
@@ -150,7 +150,8 @@ impl Bench {
     }
 
     fn run(&self, plan: &Plan, options: &RunOptions<'_>, cache: Option<&mut ResultCache>) -> Result<Run, GpuError> {
-        self.gpu.run(
+        run_plan(
+            &self.gpu,
             Surfaces::only(&self.surface),
             &self.library,
             plan,
@@ -162,7 +163,10 @@ impl Bench {
 
     fn bytes(&self, plan: &Plan, run: &Run) -> Vec<u8> {
         let slot = plan.results[0].slots[0];
-        self.gpu.read(&self.surface, plan, run, slot).unwrap().bytes().to_vec()
+        read_slot(&self.gpu, &self.surface, plan, run, slot)
+            .unwrap()
+            .bytes()
+            .to_vec()
     }
 }
 
@@ -311,10 +315,7 @@ fn kernels_of_points_write_over_what_they_read_last_and_give_the_same() {
                 ..options()
             };
             let run = bench.run(&plan, &options, None).unwrap();
-            let plane = bench
-                .gpu
-                .read(&bench.surface, &plan, &run, plan.results[0].slots[0])
-                .unwrap();
+            let plane = read_slot(&bench.gpu, &bench.surface, &plan, &run, plan.results[0].slots[0]).unwrap();
             (run.report.pool.peak_bytes, plane)
         });
         let covered = (0..atlas.owners.len()).filter(|texel| atlas.owners[*texel] != sabi_surface::atlas::EMPTY);
@@ -429,7 +430,8 @@ fn a_source_of_many_planes_can_be_canceled_between_planes() {
         ..options()
     };
     let run = |options: &RunOptions<'_>, source: &mut Counted| {
-        let run = bench.gpu.run(
+        let run = run_plan(
+            &bench.gpu,
             Surfaces::only(&bench.surface),
             &bench.library,
             &plan,
@@ -454,7 +456,8 @@ fn a_source_that_returns_too_few_bytes_is_an_error_and_no_panic() {
         bytes: 12,
         asked: Rc::default(),
     };
-    let run = bench.gpu.run(
+    let run = run_plan(
+        &bench.gpu,
         Surfaces::only(&bench.surface),
         &bench.library,
         &plan,

@@ -270,7 +270,7 @@ impl ViewModel {
             )?,
             index_count: mesh.indices.len() as u32,
             ranges: mesh.ranges,
-            surface: gpu.surface_bindings(surface),
+            surface: surface.bindings(gpu),
             view_from_working: (model_from_working * placement.scale) as f32,
             charts: table_of(gpu, "the charts of the model", &rows)?,
             edges: [line_buffer(&edges)?, line_buffer(&seams)?],

@@ -8,7 +8,7 @@ mod switches;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
-use sabi_gpu::{Gpu, GpuError};
+use sabi_gpu::{Gpu, GpuError, shader_module};
 
 use crate::edges::Line;
 use crate::model::Vertex;
@@ -110,7 +110,7 @@ impl Pipelines {
         {
             return Ok(known.clone());
         }
-        let compiled = gpu.shader_module(&shader.spec())?;
+        let compiled = shader_module(gpu, &shader.spec())?;
         if let Ok(mut modules) = self.modules.lock() {
             modules.insert(shader, compiled.clone());
         }

@@ -2,7 +2,7 @@
 
 mod bloom_levels;
 
-use sabi_gpu::Gpu;
+use sabi_gpu::{Gpu, read_layer};
 
 pub(crate) use self::bloom_levels::BloomLevels;
 use crate::error::ViewError;
@@ -98,14 +98,14 @@ impl Target {
     /// Reads the picture back.
     pub fn read(&self, gpu: &Gpu) -> Result<Pixels, ViewError> {
         let mut rgba = Vec::new();
-        gpu.read_layer(&self.shown, 0, 0, &mut rgba)?;
+        read_layer(gpu, &self.shown, 0, 0, &mut rgba)?;
         Ok(Pixels { size: self.size, rgba })
     }
 
     /// Reads back the light of the last sample: linear, scene-referred RGB and coverage, row by row from the top.
     pub fn read_light(&self, gpu: &Gpu) -> Result<Vec<[f32; 4]>, ViewError> {
         let mut bytes = Vec::new();
-        gpu.read_layer(&self.light, 0, 0, &mut bytes)?;
+        read_layer(gpu, &self.light, 0, 0, &mut bytes)?;
         let pixel = |pixel: &[u8; 8]| {
             let half = |at: usize| half::f16::from_le_bytes([pixel[at], pixel[at + 1]]).to_f32();
             [half(0), half(2), half(4), half(6)]

@@ -14,7 +14,7 @@ use sabi_export::{
     BakeWriter, BandGather, Channel, ChannelPixels, ChartBorders, Padding, PaddingMap, SeamSamples, SetKey, SetLayout,
     SetOptions,
 };
-use sabi_gpu::{AdapterKind, PlaneData, Run, RunOptions};
+use sabi_gpu::{AdapterKind, PlaneData, Run, RunOptions, read_slot};
 use sabi_graph::PortType;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
@@ -137,10 +137,8 @@ impl MapWriter<'_> {
 
     fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
         let _span = tracing::debug_span!("read back").entered();
-        Ok(self
-            .evaluator
-            .gpu()
-            .read(self.evaluator.surface(), self.plan, run, slot)?)
+        let (gpu, surface) = (self.evaluator.gpu(), self.evaluator.surface());
+        Ok(read_slot(gpu, surface, self.plan, run, slot)?)
     }
 }
 

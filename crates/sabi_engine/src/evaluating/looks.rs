@@ -5,7 +5,9 @@ use std::time::Duration;
 
 use glam::DVec3;
 use sabi_export::Channel;
-use sabi_gpu::{DeviceMaps, Exported, MaterialSlots, ResultCache, ResultsIdentity, Run, RunOptions};
+use sabi_gpu::{
+    DeviceMaps, Exported, MaterialSlots, ResultCache, ResultsIdentity, Run, RunOptions, ShownMaps, result_extents,
+};
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
@@ -176,7 +178,7 @@ fn value_extents(
     }
     let components: Vec<(SlotRef, u32)> = asked.iter().map(|(_, slot, component)| (*slot, *component)).collect();
     let gpu = evaluator.gpu();
-    let extents = gpu.result_extents(evaluator.surface(), run, &components, options, cache)?;
+    let extents = result_extents(gpu, evaluator.surface(), run, &components, options, cache)?;
     let mut are_opaque = vec![true; plan.results.len()];
     let mut heights = [f32::INFINITY, f32::NEG_INFINITY];
     for ((at, _, component), extent) in asked.iter().zip(extents) {
@@ -199,25 +201,22 @@ fn look(
     options: &RunOptions<'_>,
     mut cache: Option<&mut ResultCache>,
 ) -> Result<MaterialLook, EngineError> {
-    let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
+    let shown = ShownMaps {
+        gpu: evaluator.gpu(),
+        surface: evaluator.surface(),
+        exported,
+    };
     let value_type = match result.stored.ty {
         PortType::Mask => NodeType::Mask,
         PortType::Color => NodeType::Color,
         PortType::Vector => NodeType::Vector,
         PortType::Material => {
-            let maps = gpu.device_maps(
-                surface,
-                run,
-                material_slots(result),
-                exported,
-                options,
-                cache.as_deref_mut(),
-            )?;
+            let maps = shown.material(run, material_slots(result), options, cache.as_deref_mut())?;
             return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };
     let (slot, plane) = (result.slots[0], result.stored.planes()[0]);
-    let texture = gpu.shown_result(surface, run, slot, plane, exported, cache)?;
+    let texture = shown.plane(run, slot, plane, cache)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, value_type }),
         ..neutral_look()

@@ -1,7 +1,7 @@
 //! Results in texture space: values laid out like the maps of a texture set.
 
 use sabi_export::{BorderRule, Channel, ChartBorders, Cover, NONE, Padding, PaddingMap, SetKey, SetLayout};
-use sabi_gpu::{BorderKind, Run};
+use sabi_gpu::{BorderKind, Run, read_slot};
 use sabi_graph::PortType;
 use sabi_image::{quantize_u8, srgb8_from_linear};
 use sabi_nodes::kind::Channel as Stored;
@@ -97,7 +97,7 @@ impl TextureSpace {
     ) -> Result<Vec<ResultPlane>, EngineError> {
         let planes = result.stored.planes().into_iter().zip(&result.slots);
         let laid_out = planes.map(|(plane, &slot)| {
-            let data = evaluator.gpu().read(evaluator.surface(), plan, run, slot)?;
+            let data = read_slot(evaluator.gpu(), evaluator.surface(), plan, run, slot)?;
             let (name, holds, components) = shape_of(plane);
             let one = |first| {
                 let channel = Channel::Mask(String::new());

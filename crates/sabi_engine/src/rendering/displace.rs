@@ -1,6 +1,6 @@
 //! Displacement of a model by the heights of its looks.
 
-use sabi_gpu::AdapterKind;
+use sabi_gpu::{AdapterKind, read_numbers};
 use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::{DisplaceOptions, HeightPlane, displaced, texel_length};
 use sabi_view::{MaterialLook, ViewModel};
@@ -84,7 +84,7 @@ fn heights_of(
     let Some(map) = &look.maps.height else {
         return Ok(None);
     };
-    let mut heights = evaluator.gpu().read_numbers(map)?;
+    let mut heights = read_numbers(evaluator.gpu(), map)?;
     for height in &mut heights {
         *height = (f64::from(*height) * model_from_working) as f32;
     }

@@ -9,6 +9,7 @@ use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry, u
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipeline_cache::FixedKernel;
+use crate::pipelines::fixed_kernel;
 use crate::shaders::FixedShader;
 
 /// Dispatch that is part of a round.
@@ -49,24 +50,22 @@ impl FillDispatch {
     }
 }
 
-impl Gpu {
-    /// Kernel of one dispatch of a round over textures of a format.
-    pub(super) fn fill_kernel(
-        &self,
-        round: FillRound,
-        dispatch: FillDispatch,
-        format: Format,
-    ) -> Result<Arc<FixedKernel>, GpuError> {
-        let shader = match (round, dispatch) {
-            (FillRound::Cubic, FillDispatch::Scatter) => FixedShader::ScatterGhosts(format),
-            (FillRound::Cubic, _) => FixedShader::RefineGhosts,
-            (_, FillDispatch::Scatter) => FixedShader::ScatterFilled(format),
-            (FillRound::Plain, FillDispatch::InPlace) => FixedShader::PlainInPlace,
-            (FillRound::Plain, _) => FixedShader::GatherPlain(format),
-            (_, FillDispatch::InPlace) => FixedShader::CoupledInPlace,
-            (_, FillDispatch::Settle) => FixedShader::SettleCoupled,
-            (_, FillDispatch::Gather) => FixedShader::GatherCoupled(format),
-        };
-        self.fixed_kernel(shader, &dispatch.entries(format))
-    }
+/// Kernel of one dispatch of a round over textures of a format.
+pub(super) fn fill_kernel(
+    gpu: &Gpu,
+    round: FillRound,
+    dispatch: FillDispatch,
+    format: Format,
+) -> Result<Arc<FixedKernel>, GpuError> {
+    let shader = match (round, dispatch) {
+        (FillRound::Cubic, FillDispatch::Scatter) => FixedShader::ScatterGhosts(format),
+        (FillRound::Cubic, _) => FixedShader::RefineGhosts,
+        (_, FillDispatch::Scatter) => FixedShader::ScatterFilled(format),
+        (FillRound::Plain, FillDispatch::InPlace) => FixedShader::PlainInPlace,
+        (FillRound::Plain, _) => FixedShader::GatherPlain(format),
+        (_, FillDispatch::InPlace) => FixedShader::CoupledInPlace,
+        (_, FillDispatch::Settle) => FixedShader::SettleCoupled,
+        (_, FillDispatch::Gather) => FixedShader::GatherCoupled(format),
+    };
+    fixed_kernel(gpu, shader, &dispatch.entries(format))
 }

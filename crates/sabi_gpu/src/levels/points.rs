@@ -1,44 +1,37 @@
-//! Points spread over the surface as a level that kernels run on, and kernels that move planes to it and back.
+//! Points spread over the surface as a level that kernels run on.
 //!
 //! Points lie side by side in a texture, in no order. The table that holds the links of ghosts on a level of texels holds
 //! the flow between points here; see `shaders/lib/surface.wgsl`, which reads it.
 
 use std::sync::OnceLock;
 
-use sabi_nodes::link::Format;
-use sabi_plan::MoveStep;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE};
 use sabi_surface::points::{CellTexel, Flow, Lists, SurfacePoint, SurfacePoints};
 
-use super::{Scale, Surfaces};
-use crate::bindings::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::links::GhostLinks;
-use crate::pool::{Extent, array_view};
-use crate::run_options::RunOptions;
-use crate::shaders::FixedShader;
+use crate::pool::Extent;
 use crate::surface::{GpuSurface, Measures};
 use crate::tables::{FRAME_ROWS, GEOMETRY_ROWS, SurfaceTables};
 use crate::tile_set::{TileSet, tile_number};
-use crate::tiles::Slices;
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
 
 /// Points on the device.
 pub struct PointSurface {
     pub(crate) surface: GpuSurface,
     /// Number of the level of texels that the cells of the points consist of.
-    cells_level: u32,
+    pub(super) cells_level: u32,
     /// Texels of the finest level along a side of one texel of that level.
-    factor: u32,
+    pub(super) factor: u32,
     /// Triangles on that level.
-    cell_frames: wgpu::TextureView,
+    pub(super) cell_frames: wgpu::TextureView,
     /// The point of each texel of that level.
-    point_of_texel: wgpu::TextureView,
+    pub(super) point_of_texel: wgpu::TextureView,
     /// The texels of each cell.
-    cells: wgpu::TextureView,
+    pub(super) cells: wgpu::TextureView,
     /// The points around each.
-    around: wgpu::TextureView,
+    pub(super) around: wgpu::TextureView,
 }
 
 /// Level of texels that the cells of points consist of.
@@ -286,67 +279,4 @@ fn labels(points: &SurfacePoints, atlas: &Atlas) -> Vec<u32> {
             _ => *point,
         })
         .collect()
-}
-
-impl Gpu {
-    /// Moves a plane from the texels of the cells to their points.
-    pub(crate) fn gather_to_points(
-        &self,
-        points: &PointSurface,
-        format: Format,
-        [source, target]: [&wgpu::Texture; 2],
-        options: &RunOptions<'_>,
-    ) -> Result<(), GpuError> {
-        let entries = [table_entry(0), texture_entry(1), storage_entry(2, format)];
-        let kernel = self.fixed_kernel(FixedShader::ToPoints(format), &entries)?;
-        let (source, written) = (array_view(source), array_view(target));
-        let views = [&points.cells, &source, &written].map(wgpu::BindingResource::TextureView);
-        let group = self.bind(&kernel.layout, views);
-        let slices = Slices::new(self, &points.surface, options.submission);
-        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
-        Ok(())
-    }
-
-    /// Moves a plane from points to the finest texels, and fills the linked texels there.
-    pub(crate) fn spread_from_points(
-        &self,
-        surfaces: Surfaces<'_>,
-        points: &PointSurface,
-        step: &MoveStep,
-        [source, target]: [&wgpu::Texture; 2],
-        options: &RunOptions<'_>,
-    ) -> Result<(), GpuError> {
-        let format = step.format;
-        let entries = [
-            uniform_entry(0),
-            owners_entry(1),
-            table_entry(2),
-            table_entry(3),
-            texture_entry(4),
-            storage_entry(5, format),
-        ];
-        let kernel = self.fixed_kernel(FixedShader::FromPoints(format), &entries)?;
-        let scale = self.uniform(bytemuck::bytes_of(&Scale {
-            factor: points.factor,
-            spacing: points.surface.measures.texel as f32,
-            pad: [0; 2],
-        }));
-        let (source, written) = (array_view(source), array_view(target));
-        let views = [
-            &points.point_of_texel,
-            &points.cell_frames,
-            &points.around,
-            &source,
-            &written,
-        ]
-        .map(wgpu::BindingResource::TextureView);
-        let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
-        let slices = Slices::new(self, surfaces.finest, options.submission);
-        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
-        let orphans = match points.cells_level {
-            0 => None,
-            level => Some(&surfaces.coarse(level)?.fine_orphans),
-        };
-        self.fill_moved(surfaces.finest, orphans, target, step, options)
-    }
 }

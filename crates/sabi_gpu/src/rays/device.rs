@@ -11,6 +11,7 @@ use crate::bindings::{read_entry, table_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipeline_cache::FixedKernel;
+use crate::pipelines::fixed_kernel;
 use crate::shaders::FixedShader;
 use crate::tiles::Slices;
 
@@ -59,7 +60,7 @@ impl<'a> DeviceCaster<'a> {
         Ok(DeviceCaster {
             hierarchy,
             working_from_model: scene.working_from_model,
-            kernel: gpu.fixed_kernel(FixedShader::Cast, &entries)?,
+            kernel: fixed_kernel(gpu, FixedShader::Cast, &entries)?,
             constants: gpu.uniform(&[0; size_of::<CastConstants>()]),
         })
     }

@@ -16,6 +16,7 @@ use sabi_surface::atlas::TILE;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::readback::StagingBuffer;
 use crate::tiles::Slices;
 use crate::waiting::Patience;
 
@@ -81,8 +82,8 @@ const TILE_TEXELS: usize = (TILE * TILE) as usize;
 pub(crate) struct RayBufferSet {
     pub(crate) rays: wgpu::Buffer,
     pub(crate) hits: wgpu::Buffer,
-    /// Mappable buffer through which rays are read back.
-    staging: wgpu::Buffer,
+    /// Buffer through which rays are read back.
+    staging: StagingBuffer,
 }
 
 /// A slice of the surface's tiles.
@@ -149,7 +150,7 @@ impl<'a> RayBuffers<'a> {
             Ok::<_, GpuError>(RayBufferSet {
                 rays: buffer("the rays", size_of::<RayRow>())?,
                 hits: buffer("what rays hit", size_of::<HitRow>())?,
-                staging: gpu.readback_buffer((tiles * of_tile * size_of::<RayRow>()) as u64)?,
+                staging: StagingBuffer::new(gpu, (tiles * of_tile * size_of::<RayRow>()) as u64)?,
             })
         };
         Ok(RayBuffers {

@@ -10,15 +10,15 @@ use super::tile_caster::TileCaster;
 use super::{CastRays, HitRow, RayBufferSet, RayRow};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::readback::Mapping;
+use crate::readback::PendingCopy;
 
 /// Rays that a thread casts at a time.
 const RAYS_PER_TASK: usize = 1024;
 /// Ray caster on the processor. It reads the rays in the mapped buffer, since copying hundreds of megabytes would take long.
 pub(crate) struct ProcessorCaster<'a> {
     scene: RayScene<'a>,
-    /// Pending mappings of slices, oldest first.
-    pending: VecDeque<Mapping>,
+    /// Pending copies of the rays of slices, oldest first.
+    pending: VecDeque<PendingCopy>,
     hits: Vec<HitRow>,
     rays: CastRays,
 }
@@ -36,19 +36,18 @@ impl<'a> ProcessorCaster<'a> {
     /// Requests the readback of rays.
     pub(super) fn begin(&mut self, gpu: &Gpu, set: &RayBufferSet, rays: usize) -> Result<(), GpuError> {
         let bytes = (rays * size_of::<RayRow>()) as u64;
-        self.pending
-            .push_back(gpu.start_mapping(&set.rays, &set.staging, bytes));
+        self.pending.push_back(set.staging.copy_buffer(gpu, &set.rays, bytes));
         Ok(())
     }
 
     /// Casts the rays of the oldest slice and uploads their hits.
     pub(super) fn finish(&mut self, gpu: &Gpu, set: &RayBufferSet, rays: usize, finds: Finds) -> Result<(), GpuError> {
-        let Some(mapping) = self.pending.pop_front() else {
+        let Some(copy) = self.pending.pop_front() else {
             return Ok(());
         };
         self.hits.resize(rays, HitRow::MISS);
         let (scene, known, hits) = (&self.scene, self.rays, &mut self.hits);
-        gpu.finish_mapping(mapping, &set.staging, |bytes| {
+        set.staging.read(gpu, copy, |bytes| {
             cast(scene, bytemuck::cast_slice(bytes), known, finds, hits);
         })?;
         gpu.queue.write_buffer(&set.hits, 0, bytemuck::cast_slice(&self.hits));

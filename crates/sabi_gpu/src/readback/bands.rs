@@ -7,7 +7,7 @@ use half::slice::HalfFloatSliceExt;
 use sabi_nodes::link::Format;
 use sabi_plan::{Plan, SlotRef};
 
-use super::{BAND_BYTES, Mapping, RowBytes};
+use super::{BAND_BYTES, PendingCopy, RowBytes, StagingBuffer};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::layer_rows::LayerRows;
@@ -69,61 +69,56 @@ fn copy(bytes: &[u8], format: Format, out: &mut [[f32; 4]]) {
     }
 }
 
-impl Gpu {
-    /// Reads a slot of a run in bands of whole rows. Bands without texels of `range` are left out. `visit` receives the
-    /// texels of each band, counted page by page and row by row, and their data. The device copies one band while another
-    /// is processed; no more than two are in memory.
-    pub fn read_in_bands(
-        &self,
-        surface: &GpuSurface,
-        plan: &Plan,
-        run: &Run,
-        slot: SlotRef,
-        texels: &Range<usize>,
-        mut visit: impl FnMut(&Range<usize>, &BandData<'_>),
-    ) -> Result<(), GpuError> {
-        let (texture, format) = (run.texture(slot)?, plan.slots[slot].format);
-        let row = RowBytes::of(&texture, 0)?;
-        let band_rows = (BAND_BYTES / row.padded).max(1) as u32;
-        let staging = [
-            self.readback_buffer(row.padded * u64::from(band_rows))?,
-            self.readback_buffer(row.padded * u64::from(band_rows))?,
-        ];
-        let bands = surface
-            .bands(band_rows)
-            .map(|band| (surface.texels_of_rows(&band), band));
-        let read = bands.filter(|(of_band, _)| of_band.start < texels.end && of_band.end > texels.start);
-        let mut look = |(of_band, mapping, buffer): (Range<usize>, Mapping, &wgpu::Buffer)| {
-            self.finish_mapping(mapping, buffer, |bytes| {
-                visit(&of_band, &BandData { format, row, bytes })
-            })
-        };
-        let mut copied = None;
-        for ((of_band, band), buffer) in read.zip(staging.iter().cycle()) {
-            let mapping = self.start_reading(&texture, &band, buffer)?;
-            if let Some(before) = copied.replace((of_band, mapping, buffer)) {
-                look(before)?;
-            }
+/// Reads a slot of a run in bands of whole rows. Bands without texels of `texels` are left out. `visit` receives the
+/// texels of each band, counted page by page and row by row, and their data. The device copies one band while another
+/// is processed; no more than two are in memory.
+pub fn read_slot_in_bands(
+    gpu: &Gpu,
+    surface: &GpuSurface,
+    plan: &Plan,
+    run: &Run,
+    slot: SlotRef,
+    texels: &Range<usize>,
+    mut visit: impl FnMut(&Range<usize>, &BandData<'_>),
+) -> Result<(), GpuError> {
+    let (texture, format) = (run.texture(slot)?, plan.slots[slot].format);
+    let row = RowBytes::of(&texture, 0)?;
+    let band_rows = (BAND_BYTES / row.padded).max(1) as u32;
+    let staging = [
+        StagingBuffer::new(gpu, row.padded * u64::from(band_rows))?,
+        StagingBuffer::new(gpu, row.padded * u64::from(band_rows))?,
+    ];
+    let bands = surface
+        .bands(band_rows)
+        .map(|band| (surface.texels_of_rows(&band), band));
+    let read = bands.filter(|(of_band, _)| of_band.start < texels.end && of_band.end > texels.start);
+    let mut look = |(of_band, copy, buffer): (Range<usize>, PendingCopy, &StagingBuffer)| {
+        buffer.read(gpu, copy, |bytes| visit(&of_band, &BandData { format, row, bytes }))
+    };
+    let mut copied = None;
+    for ((of_band, band), buffer) in read.zip(staging.iter().cycle()) {
+        let copy = buffer.copy_rows(gpu, &texture, &band)?;
+        if let Some(before) = copied.replace((of_band, copy, buffer)) {
+            look(before)?;
         }
-        copied.map_or(Ok(()), look)?;
-        // Frees the memory now, since the next buffers may be created before the device would free these.
-        staging.iter().for_each(wgpu::Buffer::destroy);
-        Ok(())
     }
+    copied.map_or(Ok(()), look)?;
+    staging.into_iter().for_each(StagingBuffer::free);
+    Ok(())
+}
 
-    /// Reads rows of a texture and passes them to `look`.
-    pub(crate) fn read_rows(
-        &self,
-        texture: &wgpu::Texture,
-        format: Format,
-        rows: &LayerRows,
-        staging: &wgpu::Buffer,
-        look: impl FnOnce(&BandData<'_>),
-    ) -> Result<(), GpuError> {
-        let row = RowBytes::of(texture, rows.level)?;
-        let mapping = self.start_reading(texture, rows, staging)?;
-        self.finish_mapping(mapping, staging, |bytes| look(&BandData { format, row, bytes }))
-    }
+/// Reads rows of a texture through a buffer and passes them to `look`.
+pub(crate) fn read_rows(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    format: Format,
+    rows: &LayerRows,
+    staging: &StagingBuffer,
+    look: impl FnOnce(&BandData<'_>),
+) -> Result<(), GpuError> {
+    let row = RowBytes::of(texture, rows.level)?;
+    let copy = staging.copy_rows(gpu, texture, rows)?;
+    staging.read(gpu, copy, |bytes| look(&BandData { format, row, bytes }))
 }
 
 #[cfg(test)]

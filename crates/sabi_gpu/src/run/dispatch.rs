@@ -9,6 +9,7 @@ use sabi_surface::atlas::TILE;
 
 use super::{Repetition, Runner};
 use crate::error::GpuError;
+use crate::ghosts::fill_ghosts;
 use crate::pipeline_cache::CompiledKernel;
 use crate::pool::array_view;
 use crate::source_fill::SourceFill;
@@ -78,7 +79,7 @@ impl Runner<'_> {
             let rounds = repetition.fill_rounds(!step.keys.is_empty());
             let started = self.measured_time()?;
             for (texture, format) in &bound.written {
-                self.gpu.fill_ghosts(surface, texture, *format, rounds)?;
+                fill_ghosts(self.gpu, surface, texture, *format, rounds)?;
             }
             if let (Some(started), Some(ended)) = (started, self.measured_time()?) {
                 self.report.ghosts += ended - started;

@@ -11,6 +11,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::needed_steps::{reads, writes};
 use crate::rays::casts_on_device;
+use crate::readback::read_texture;
 use crate::result_key::ResultKey;
 use crate::run_options::RunOptions;
 use crate::source_fill::SourceFill;
@@ -45,37 +46,35 @@ impl KeptResults {
     }
 }
 
-impl Gpu {
-    /// Slots whose results an earlier run kept.
-    pub(super) fn kept_slots(
-        &self,
-        plan: &Plan,
-        options: &RunOptions<'_>,
-        sources: &dyn SourceFill,
-    ) -> BTreeSet<SlotRef> {
-        let keys = Coverages::of(plan, options.shown).slot_keys(plan).into_iter();
-        keys.filter(|(_, key)| sources.has_result(&self.key_of_kept(key, options)))
-            .map(|(slot, _)| slot)
-            .collect()
-    }
+/// Slots whose results an earlier run kept.
+pub(super) fn kept_slots(
+    gpu: &Gpu,
+    plan: &Plan,
+    options: &RunOptions<'_>,
+    sources: &dyn SourceFill,
+) -> BTreeSet<SlotRef> {
+    let keys = Coverages::of(plan, options.shown).slot_keys(plan).into_iter();
+    keys.filter(|(_, key)| sources.has_result(&key_of_kept(gpu, key, options)))
+        .map(|(slot, _)| slot)
+        .collect()
+}
 
-    /// Returns the key of a result for later runs: a hash of its content key and of everything that may change rounding.
-    fn key_of_kept(&self, result: &ResultKey, options: &RunOptions<'_>) -> [u8; 32] {
-        let adapter = self.summary();
-        let mut hash = blake3::Hasher::new_derive_key("sabi kept results");
-        for part in [
-            adapter.name.as_bytes(),
-            adapter.driver.as_bytes(),
-            format!("{:?}", result.plane).as_bytes(),
-        ] {
-            hash.update(&(part.len() as u64).to_le_bytes());
-            hash.update(part);
-        }
-        hash.update(&[u8::from(casts_on_device(self, options.caster))]);
-        hash.update(&result.content);
-        hash.update(result.tiles.as_ref().map_or(&[], <[u8; 32]>::as_slice));
-        *hash.finalize().as_bytes()
+/// Returns the key of a result for later runs: a hash of its content key and of everything that may change rounding.
+fn key_of_kept(gpu: &Gpu, result: &ResultKey, options: &RunOptions<'_>) -> [u8; 32] {
+    let adapter = gpu.summary();
+    let mut hash = blake3::Hasher::new_derive_key("sabi kept results");
+    for part in [
+        adapter.name.as_bytes(),
+        adapter.driver.as_bytes(),
+        format!("{:?}", result.plane).as_bytes(),
+    ] {
+        hash.update(&(part.len() as u64).to_le_bytes());
+        hash.update(part);
     }
+    hash.update(&[u8::from(casts_on_device(gpu, options.caster))]);
+    hash.update(&result.content);
+    hash.update(result.tiles.as_ref().map_or(&[], <[u8; 32]>::as_slice));
+    *hash.finalize().as_bytes()
 }
 
 impl Runner<'_> {
@@ -86,7 +85,7 @@ impl Runner<'_> {
             if self.textures[*slot].is_some() || !kept.slots.contains(slot) {
                 continue;
             }
-            let key = self.gpu.key_of_kept(&kept.keys[slot], self.options);
+            let key = key_of_kept(self.gpu, &kept.keys[slot], self.options);
             let bytes = sources.kept_result(&key).ok_or(GpuError::ResultGone)?;
             let (extent, format) = (self.extent(*slot)?, self.plan.slots[*slot].format);
             if bytes.len() as u64 != bytes_of(extent, format.texel_bytes()) {
@@ -143,8 +142,8 @@ impl Runner<'_> {
             return Ok(());
         };
         if let (Some(key), Some(texture)) = (kept.keys.get(&slot), &self.textures[slot]) {
-            let key = self.gpu.key_of_kept(key, self.options);
-            let plane = self.gpu.read_texture(texture, extent, format)?;
+            let key = key_of_kept(self.gpu, key, self.options);
+            let plane = read_texture(self.gpu, texture, extent, format)?;
             sources.keep_result(&key, plane.bytes());
             kept.times.insert(slot, Duration::ZERO);
         }

@@ -8,6 +8,7 @@ use crate::blocks::block_buffer;
 use crate::error::GpuError;
 use crate::pipeline_cache::CompiledKernel;
 use crate::rays::{Hits, RayBuffers, RayPass, RayScene, caster, casts_on_device};
+use crate::readback::read_texture;
 use crate::source_fill::SourceFill;
 use crate::tiles::Slices;
 
@@ -139,7 +140,7 @@ impl Runner<'_> {
         let extent = self.surfaces.at(level)?.extent;
         let mut bytes = Vec::new();
         for (texture, format) in &bound.written {
-            let plane = self.gpu.read_texture(texture, extent, *format)?;
+            let plane = read_texture(self.gpu, texture, extent, *format)?;
             bytes.extend_from_slice(plane.bytes());
         }
         Ok(bytes)

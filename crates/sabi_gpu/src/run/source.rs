@@ -7,7 +7,7 @@ use sabi_surface::atlas::TILE;
 use super::Runner;
 use crate::error::GpuError;
 use crate::formats::wgpu_format;
-use crate::readback::PlaneData;
+use crate::readback::{PlaneData, read_texture};
 use crate::source_canvas::SourceCanvas;
 use crate::source_fill::SourceFill;
 use crate::tile_set::{TILE_EXTENT, TileSet, copied_tile};
@@ -100,7 +100,7 @@ impl Runner<'_> {
         let read = both.map(|(slot, texture)| match (slot, texture) {
             (Some(slot), Some(texture)) => {
                 let format = self.plan.slots[*slot].format;
-                let read = self.gpu.read_texture(texture, self.surfaces.finest.extent, format)?;
+                let read = read_texture(self.gpu, texture, self.surfaces.finest.extent, format)?;
                 Ok(Some(read))
             }
             _ => Ok(None),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use sabi_gpu::BandData;
+use sabi_gpu::{BandData, Normals, read_slot, read_slot_in_bands};
 
 use super::*;
 
@@ -22,35 +22,36 @@ fn bands_have_all_texels_and_none_is_larger_than_its_limit() {
     let plan = bench.plan(CHAIN, FUSED);
     let mut run = bench.run(&plan, &options(), None).unwrap();
     let (gpu, surface, slot) = (&bench.gpu, &bench.surface, plan.results[0].slots[0]);
-    let whole = gpu.read(surface, &plan, &run, slot).unwrap();
-    let normals = gpu.normals(surface, &mut run, Some(slot), None, &options()).unwrap();
+    let whole = read_slot(gpu, surface, &plan, &run, slot).unwrap();
+    let options = options();
+    let normals_of = Normals {
+        gpu,
+        surface,
+        height: Some(slot),
+        slope: None,
+        options: &options,
+    };
+    let normals = normals_of.read(&mut run).unwrap();
     let atlas = Atlas::build(&square(), &AtlasOptions::new(TEXELS)).unwrap();
     let is_covered = |texel: &usize| atlas.owners[*texel] != sabi_surface::atlas::EMPTY;
     let mut counts = [Vec::new(), Vec::new()];
     let texels = 0..whole.len();
-    gpu.read_in_bands(surface, &plan, &run, slot, &texels, |band, data| {
+    read_slot_in_bands(gpu, surface, &plan, &run, slot, &texels, |band, data| {
         assert!(4 * band.len() <= 16 << 20);
         let same = band.clone().map(|texel| whole.texel(texel)).eq(texels_of(band, data));
         assert!(same, "{band:?}");
         counts[0].push(band.len());
     })
     .unwrap();
-    gpu.normals_in_bands(
-        surface,
-        &mut run,
-        [Some(slot), None],
-        &texels,
-        &options(),
-        |band, data| {
-            assert!(16 * band.len() <= 16 << 20);
-            let read = band.clone().zip(texels_of(band, data));
-            for (texel, normal) in read.filter(|(texel, _)| is_covered(texel)) {
-                assert_eq!(normal, normals.texel(texel), "{texel}");
-            }
-            counts[1].push(band.len());
-        },
-    )
-    .unwrap();
+    let in_bands = normals_of.read_in_bands(&mut run, &texels, |band, data| {
+        assert!(16 * band.len() <= 16 << 20);
+        let read = band.clone().zip(texels_of(band, data));
+        for (texel, normal) in read.filter(|(texel, _)| is_covered(texel)) {
+            assert_eq!(normal, normals.texel(texel), "{texel}");
+        }
+        counts[1].push(band.len());
+    });
+    in_bands.unwrap();
     assert_eq!(
         counts.each_ref().map(|bands| bands.iter().sum::<usize>()),
         [whole.len(); 2]
@@ -65,12 +66,10 @@ fn bands_without_a_texel_of_the_range_are_not_read() {
     let run = bench.run(&plan, &options(), None).unwrap();
     let mut bands = Vec::new();
     let slot = plan.results[0].slots[0];
-    bench
-        .gpu
-        .read_in_bands(&bench.surface, &plan, &run, slot, &(5..6), |band, _| {
-            bands.push(band.start)
-        })
-        .unwrap();
+    read_slot_in_bands(&bench.gpu, &bench.surface, &plan, &run, slot, &(5..6), |band, _| {
+        bands.push(band.start)
+    })
+    .unwrap();
     assert_eq!(bands, [0]);
 }
 

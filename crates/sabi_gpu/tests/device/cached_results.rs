@@ -91,7 +91,7 @@ fn a_texture_that_was_returned_to_the_caller_is_never_written_again() {
         let surfaces = Surfaces::only(&bench.surface);
         let plan = plan_of_masks(&bench, masks);
         let (gpu, library) = (&bench.gpu, &bench.library);
-        let run = gpu.run(surfaces, library, &plan, &options(), &mut source, Some(&mut cache));
+        let run = run_plan(gpu, surfaces, library, &plan, &options(), &mut source, Some(&mut cache));
         (run.unwrap().texture(0).unwrap(), source.asked.get())
     };
     let (first, made) = first_mask(1);

@@ -49,10 +49,7 @@ fn run(bench: &Bench, plan: &Plan, store: &mut Store, keeps_from: Duration) -> R
         ..options()
     };
     let surfaces = Surfaces::only(&bench.surface);
-    bench
-        .gpu
-        .run(surfaces, &bench.library, plan, &options, store, None)
-        .unwrap()
+    run_plan(&bench.gpu, surfaces, &bench.library, plan, &options, store, None).unwrap()
 }
 
 /// Returns the plan of a chain of three passes, of which the last has a knob.

@@ -2,7 +2,7 @@
 
 use naga::{BinaryOperator, Block, Expression, Function, Handle, LocalVariable, ScalarKind, Statement};
 
-use super::interval::{Frame, Interval, Reader};
+use super::interval::{Frame, Interval, Intervals};
 use super::walk::{conjuncts, stores};
 
 /// A loop with a known bound.
@@ -12,56 +12,70 @@ pub(super) struct BoundedLoop {
     pub(super) rounds: u64,
 }
 
-impl<'m> Reader<'m> {
-    /// Returns the bound of a loop that has the form of a `for` loop, or the reason why it cannot be found.
-    pub(super) fn bound(
-        &self,
-        frame: &Frame<'m>,
-        body: &'m Block,
-        continuing: &'m Block,
-    ) -> Result<BoundedLoop, String> {
-        let not_seen = "This loop has no known bound.";
-        let condition = loop_condition(body).ok_or(not_seen)?;
-        let mut reason = not_seen.to_owned();
-        for condition in conjuncts(frame.function, &frame.stores, condition) {
-            let Some((counter, bound, strict)) = comparison(frame.function, condition) else {
-                continue;
-            };
-            match self.bound_by_counter(frame, body, continuing, counter, bound, strict) {
-                Ok(bounded) => return Ok(bounded),
-                Err(why) => reason = why,
-            }
+/// Returns the bound of a loop that has the form of a `for` loop, or the reason why it cannot be found.
+pub(super) fn bound<'m>(
+    intervals: &Intervals<'m>,
+    frame: &Frame<'m>,
+    body: &'m Block,
+    continuing: &'m Block,
+) -> Result<BoundedLoop, String> {
+    let not_seen = "This loop has no known bound.";
+    let condition = loop_condition(body).ok_or(not_seen)?;
+    let mut reason = not_seen.to_owned();
+    for condition in conjuncts(frame.function, &frame.stores, condition) {
+        let Some((counter, bound, strict)) = comparison(frame.function, condition) else {
+            continue;
+        };
+        let counted = CountedLoop {
+            intervals,
+            frame,
+            body,
+            continuing,
+            counter,
+        };
+        match counted.bound(bound, strict) {
+            Ok(bounded) => return Ok(bounded),
+            Err(why) => reason = why,
         }
-        Err(reason)
     }
+    Err(reason)
+}
 
-    fn bound_by_counter(
-        &self,
-        frame: &Frame<'m>,
-        body: &'m Block,
-        continuing: &'m Block,
-        counter: Handle<LocalVariable>,
-        bound: Handle<Expression>,
-        strict: bool,
-    ) -> Result<BoundedLoop, String> {
+/// Loop that continues while a variable is below a bound.
+struct CountedLoop<'a, 'm> {
+    intervals: &'a Intervals<'m>,
+    frame: &'a Frame<'m>,
+    body: &'m Block,
+    continuing: &'m Block,
+    counter: Handle<LocalVariable>,
+}
+
+impl CountedLoop<'_, '_> {
+    /// Returns the rounds while the counter is below `bound`, or at most `bound` if the comparison is not strict.
+    fn bound(&self, bound: Handle<Expression>, strict: bool) -> Result<BoundedLoop, String> {
+        let (frame, counter) = (self.frame, self.counter);
         // All assignments are traced for each comparison.
-        self.fuel.step(frame.function.expressions.len());
+        self.intervals.fuel.step(frame.function.expressions.len());
         let name = frame.function.local_variables[counter]
             .name
             .as_deref()
             .unwrap_or("counter");
-        let step = self.step(frame, continuing, counter).ok_or_else(|| {
+        let step = self.step().ok_or_else(|| {
             format!("The bound of this loop is not known, because nothing adds to `{name}` after each round.")
         })?;
-        if stores(frame.function, body).iter().any(|store| store.local == counter) {
+        if stores(frame.function, self.body)
+            .iter()
+            .any(|store| store.local == counter)
+        {
             return Err(format!(
                 "The bound of this loop is not known, because the loop itself changes `{name}`."
             ));
         }
         let bound = self
-            .interval(frame, bound)
+            .intervals
+            .of(frame, bound)
             .ok_or_else(|| "The bound of this loop is not known; count with `u32` or `i32`.".to_owned())?;
-        let start = self.start(frame, continuing, counter);
+        let start = self.start();
         let last = if strict { bound.high - 1 } else { bound.high };
         let kind_high = if bound.high > i64::from(i32::MAX) {
             u32::MAX.into()
@@ -91,18 +105,19 @@ impl<'m> Reader<'m> {
     }
 
     /// Returns the interval of the counter before the first round.
-    fn start(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Interval {
-        let own: Vec<_> = stores(frame.function, continuing)
+    fn start(&self) -> Interval {
+        let (frame, counter) = (self.frame, self.counter);
+        let own: Vec<_> = stores(frame.function, self.continuing)
             .iter()
             .map(|store| (store.pointer, store.value))
             .collect();
         let init = frame.function.local_variables[counter].init;
-        let mut values = init.and_then(|init| self.interval(frame, init));
+        let mut values = init.and_then(|init| self.intervals.of(frame, init));
         for store in frame.stores.iter().filter(|store| store.local == counter) {
             if own.contains(&(store.pointer, store.value)) {
                 continue;
             }
-            let value = store.value.and_then(|value| self.interval(frame, value));
+            let value = store.value.and_then(|value| self.intervals.of(frame, value));
             let value = value.unwrap_or(Interval::unknown(ScalarKind::Sint));
             values = Some(match values {
                 Some(known) => known.or(value),
@@ -113,8 +128,9 @@ impl<'m> Reader<'m> {
     }
 
     /// Returns the step of the counter after each round: at least 1, added by one statement.
-    fn step(&self, frame: &Frame<'m>, continuing: &'m Block, counter: Handle<LocalVariable>) -> Option<i64> {
-        let all = stores(frame.function, continuing);
+    fn step(&self) -> Option<i64> {
+        let (frame, counter) = (self.frame, self.counter);
+        let all = stores(frame.function, self.continuing);
         let mut own = all.iter().filter(|store| store.local == counter);
         let (store, None) = (own.next()?, own.next()) else {
             return None;
@@ -131,7 +147,7 @@ impl<'m> Reader<'m> {
         if !is_straight || loaded(frame.function, left) != Some(counter) {
             return None;
         }
-        let step = self.interval(frame, right)?;
+        let step = self.intervals.of(frame, right)?;
         (step.low >= 1).then_some(step.low)
     }
 }

@@ -85,20 +85,20 @@ pub(super) struct Frame<'m> {
     pub(super) counters: BTreeMap<usize, Interval>,
 }
 
-/// Finds intervals of expressions.
-pub(super) struct Reader<'m> {
+/// Intervals of the expressions of a module, as far as they follow from the code and the ranges of the parameters.
+pub(super) struct Intervals<'m> {
     pub(super) module: &'m Module,
     pub(super) params_type: Option<Handle<Type>>,
     pub(super) params: &'m [Param],
     pub(super) fuel: Fuel,
 }
 
-impl<'m> Reader<'m> {
+impl<'m> Intervals<'m> {
     /// Returns the interval of an expression in a frame; `None` for types other than `i32` and `u32`.
-    pub(super) fn interval(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Interval> {
+    pub(super) fn of(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Interval> {
         let kind = self.kind(frame, expression, DEPTH_LIMIT)?;
         let mut query = Query {
-            reader: self,
+            intervals: self,
             frame,
             fuel: FUEL,
             open: Vec::new(),
@@ -189,7 +189,7 @@ impl<'m> Reader<'m> {
 
 /// Search for one interval, with a limit on the work.
 struct Query<'q, 'm> {
-    reader: &'q Reader<'m>,
+    intervals: &'q Intervals<'m>,
     frame: &'q Frame<'m>,
     fuel: u32,
     /// Variables that are being analyzed.
@@ -199,7 +199,7 @@ struct Query<'q, 'm> {
 impl Query<'_, '_> {
     fn get(&mut self, expression: Handle<Expression>, kind: ScalarKind, depth: u32) -> Interval {
         let unknown = Interval::unknown(kind);
-        if depth == 0 || self.fuel == 0 || !self.reader.fuel.step(1) {
+        if depth == 0 || self.fuel == 0 || !self.intervals.fuel.step(1) {
             return unknown;
         }
         self.fuel -= 1;
@@ -211,8 +211,8 @@ impl Query<'_, '_> {
             Expression::Literal(literal) => whole(literal).map(Interval::exactly),
             Expression::ZeroValue(_) => Some(Interval::exactly(0)),
             Expression::Constant(constant) => {
-                let init = self.reader.module.constants[constant].init;
-                match self.reader.module.global_expressions[init] {
+                let init = self.intervals.module.constants[constant].init;
+                match self.intervals.module.global_expressions[init] {
                     Expression::Literal(literal) => whole(literal).map(Interval::exactly),
                     Expression::ZeroValue(_) => Some(Interval::exactly(0)),
                     _ => None,
@@ -220,8 +220,8 @@ impl Query<'_, '_> {
             }
             Expression::FunctionArgument(index) => self.frame.arguments.get(index as usize)?.clone(),
             Expression::AccessIndex { base, index } => {
-                self.reader.member_type(self.frame, base, index)?;
-                self.reader.param(index as usize)
+                self.intervals.member_type(self.frame, base, index)?;
+                self.intervals.param(index as usize)
             }
             Expression::Load { pointer } => match self.frame.function.expressions[pointer] {
                 Expression::LocalVariable(local) => self.local(local, kind, depth),
@@ -242,7 +242,7 @@ impl Query<'_, '_> {
                 })
             }
             Expression::As { expr, .. } => {
-                let from = self.reader.kind(self.frame, expr, depth)?;
+                let from = self.intervals.kind(self.frame, expr, depth)?;
                 Some(self.get(expr, from, depth))
             }
             Expression::Math {
@@ -276,7 +276,7 @@ impl Query<'_, '_> {
             return None;
         }
         self.open.push(local);
-        self.reader.fuel.step(self.frame.stores.len());
+        self.intervals.fuel.step(self.frame.stores.len());
         let mut values = Some(match self.frame.function.local_variables[local].init {
             Some(init) => self.get(init, kind, depth),
             None => Interval::exactly(0),

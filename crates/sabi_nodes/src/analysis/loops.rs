@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use naga::{Block, Function, Handle, Module, Span, Statement};
 
 use super::Root;
+use super::bounds::bound;
 use super::effort::Effort;
 use super::fuel::Fuel;
-use super::interval::{Frame, Interval, Reader};
+use super::interval::{Frame, Interval, Intervals};
 use super::walk::stores;
 use crate::fault::{FAULTS_SHOWN, Fault};
 use crate::kind::Param;
@@ -37,7 +38,7 @@ pub(super) fn check(
 ) -> (BTreeSet<usize>, u64) {
     let mut counter = Counter {
         linked,
-        reader: Reader {
+        intervals: Intervals {
             module,
             params_type: params_type(module).map(|(handle, _)| handle),
             params,
@@ -51,7 +52,7 @@ pub(super) fn check(
     let mut work: u64 = 0;
     for root in roots {
         work = work.saturating_add(counter.root(root));
-        if counter.reader.fuel.is_empty() {
+        if counter.intervals.fuel.is_empty() {
             break;
         }
     }
@@ -83,7 +84,7 @@ fn too_many(rounds: u64, rays: u64) -> (String, &'static str) {
 
 struct Counter<'a, 'm> {
     linked: &'a LinkedModule,
-    reader: Reader<'m>,
+    intervals: Intervals<'m>,
     /// Efforts that were computed already, by function and intervals of the arguments.
     known: BTreeMap<(usize, Vec<Option<Interval>>), Effort>,
     bounding: BTreeSet<usize>,
@@ -95,10 +96,10 @@ struct Counter<'a, 'm> {
 impl<'m> Counter<'_, 'm> {
     /// Returns the work of a documented function for a texel. Reports a fault if it is too much or cannot be counted.
     fn root(&mut self, root: &Root<'_>) -> u64 {
-        let arguments = vec![None; self.reader.module.functions[root.handle].arguments.len()];
+        let arguments = vec![None; self.intervals.module.functions[root.handle].arguments.len()];
         let effort = self.function(root.handle, arguments);
         let work = effort.work.saturating_mul(root.calls);
-        let fault = if self.reader.fuel.is_empty() {
+        let fault = if self.intervals.fuel.is_empty() {
             self.faults.clear();
             (NOT_COUNTED.to_owned(), NOT_COUNTED_ADVICE)
         } else if effort.rounds.saturating_mul(root.calls) > ROUNDS_LIMIT {
@@ -123,10 +124,10 @@ impl<'m> Counter<'_, 'm> {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
-        let function = &self.reader.module.functions[handle];
+        let function = &self.intervals.module.functions[handle];
         // Counted twice, since the frame holds a copy.
         let bytes = 2 * key.1.iter().map(bytes_of).sum::<usize>();
-        let fuel = &self.reader.fuel;
+        let fuel = &self.intervals.fuel;
         if !fuel.remember(size_of_val(&key) + bytes) || !fuel.step(function.expressions.len()) {
             return Effort::default();
         }
@@ -145,7 +146,7 @@ impl<'m> Counter<'_, 'm> {
     fn block(&mut self, frame: &mut Frame<'m>, block: &'m Block) -> Effort {
         let mut sum = Effort::default();
         for (statement, span) in block.span_iter() {
-            if !self.reader.fuel.step(1) {
+            if !self.intervals.fuel.step(1) {
                 break;
             }
             sum = sum.and(self.statement(frame, statement, *span));
@@ -183,7 +184,7 @@ impl<'m> Counter<'_, 'm> {
             } => {
                 let arguments = arguments
                     .iter()
-                    .map(|argument| self.reader.interval(frame, *argument))
+                    .map(|argument| self.intervals.of(frame, *argument))
                     .collect();
                 let outer = self.call_site;
                 if self.linked.is_in_node(span) {
@@ -208,7 +209,7 @@ impl<'m> Counter<'_, 'm> {
         let bounded = if breaks_if {
             Err("This loop has no known bound.".to_owned())
         } else {
-            self.reader.bound(frame, body, continuing)
+            bound(&self.intervals, frame, body, continuing)
         };
         let bounded = match bounded {
             Ok(bounded) => bounded,

@@ -1,7 +1,7 @@
 //! A prefiltered cube map as bytes and back.
 
 use half::f16;
-use sabi_gpu::Gpu;
+use sabi_gpu::{Gpu, read_layer};
 
 use super::backdrop::PIXEL_BYTES;
 use super::prefilter::{LEVELS, cube};
@@ -63,7 +63,7 @@ pub(super) fn read(gpu: &Gpu, cube: &wgpu::Texture) -> Result<Vec<u8>, ViewError
     let mut bytes = Vec::new();
     for level in 0..cube.mip_level_count() {
         for face in 0..cube.depth_or_array_layers() {
-            gpu.read_layer(cube, face, level, &mut bytes)?;
+            read_layer(gpu, cube, face, level, &mut bytes)?;
         }
     }
     Ok(bytes)

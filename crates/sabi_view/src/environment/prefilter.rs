@@ -3,8 +3,7 @@
 use std::f32::consts::PI;
 
 use glam::{Vec3, Vec4, vec3};
-use sabi_gpu::Gpu;
-use sabi_gpu::wgsl_struct;
+use sabi_gpu::{Gpu, shader_module, wgsl_struct};
 
 use super::panorama::Panorama;
 use crate::error::ViewError;
@@ -205,7 +204,7 @@ impl CubePipeline {
         ];
         let spec = shader.spec();
         let label = spec.label;
-        let module = gpu.shader_module(&spec)?;
+        let module = shader_module(gpu, &spec)?;
         let made = gpu.guarded(label, |device| {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(label),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use sabi_export::{BandGather, Channel, ChannelPixels};
-use sabi_gpu::{BandData, Run};
+use sabi_gpu::{BandData, Normals, Run, read_slot_in_bands};
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{PlannedResult, SlotRef};
@@ -55,7 +55,7 @@ impl<'s> Maps<'_, 's> {
         let (gpu, surface) = (from.evaluator.gpu(), from.evaluator.surface());
         let read = slot.map(|slot| {
             move |texels: &Range<usize>, visit: Visit<'_>| -> Result<(), EngineError> {
-                Ok(gpu.read_in_bands(surface, from.plan, run, slot, texels, visit)?)
+                Ok(read_slot_in_bands(gpu, surface, from.plan, run, slot, texels, visit)?)
             }
         });
         self.gathered(set, channel, first, read, value)
@@ -86,13 +86,20 @@ impl<'s> Maps<'_, 's> {
         result: &PlannedResult,
         set: &'s OpenSet<'s>,
     ) -> Result<(), EngineError> {
-        let slots = [Stored::Height, Stored::Slope].map(|stored| slot_of(result, Plane::Material(stored)));
-        let is_flat = slots.iter().all(Option::is_none);
+        let [height, slope] = [Stored::Height, Stored::Slope].map(|stored| slot_of(result, Plane::Material(stored)));
+        let is_flat = height.is_none() && slope.is_none();
         self.finish_passes += usize::from(!is_flat);
         let from = self.from;
         let (gpu, surface) = (from.evaluator.gpu(), from.evaluator.surface());
+        let normals = Normals {
+            gpu,
+            surface,
+            height,
+            slope,
+            options: &from.run_options,
+        };
         let read = (!is_flat).then_some(|texels: &Range<usize>, visit: Visit<'_>| -> Result<(), EngineError> {
-            Ok(gpu.normals_in_bands(surface, run, slots, texels, &from.run_options, visit)?)
+            Ok(normals.read_in_bands(run, texels, visit)?)
         });
         self.gathered(set, &Channel::Normal, 0, read, |normal| normal)?;
         self.steps.send(MapStep::Advance)

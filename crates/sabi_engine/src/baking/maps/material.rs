@@ -1,7 +1,7 @@
 //! Maps of a material: its stored planes, and maps computed from them.
 
 use sabi_export::Channel;
-use sabi_gpu::{PlaneData, Run};
+use sabi_gpu::{Normals, PlaneData, Run, read_anisotropy};
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{PlannedResult, SlotRef};
@@ -168,7 +168,7 @@ impl<'s> Maps<'_, 's> {
         self.finish_passes += 1;
         let evaluator = self.from.evaluator;
         let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
-        Ok(Some(gpu.anisotropy(surface, run, slot, &self.from.run_options)?))
+        Ok(Some(read_anisotropy(gpu, surface, run, slot, &self.from.run_options)?))
     }
 
     /// Computes the normals of a result; `None` if it has neither height nor slope.
@@ -180,12 +180,13 @@ impl<'s> Maps<'_, 's> {
         }
         self.finish_passes += 1;
         let evaluator = self.from.evaluator;
-        Ok(Some(evaluator.gpu().normals(
-            evaluator.surface(),
-            run,
+        let normals = Normals {
+            gpu: evaluator.gpu(),
+            surface: evaluator.surface(),
             height,
             slope,
-            &self.from.run_options,
-        )?))
+            options: &self.from.run_options,
+        };
+        Ok(Some(normals.read(run)?))
     }
 }

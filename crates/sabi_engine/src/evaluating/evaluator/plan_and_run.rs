@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use sabi_gpu::{DEFAULT_KEEPS_FROM, DEFAULT_WRITES_OVER_FROM, GpuError, ResultCache, Run, RunOptions};
+use sabi_gpu::{DEFAULT_KEEPS_FROM, DEFAULT_WRITES_OVER_FROM, GpuError, ResultCache, Run, RunOptions, run_plan};
 use sabi_plan::{Lengths, Mode, Plan, PlanError, Planner, Target};
 
 use super::Evaluator;
@@ -143,7 +143,7 @@ impl Evaluator {
         };
         progress.advance(Phase::Run, 0, plan.steps.len());
         let (surfaces, library) = (self.surface.surfaces(), &self.graph.kinds().library);
-        let run = self.gpu.run(surfaces, library, plan, &options, &mut sources, cache);
+        let run = run_plan(&self.gpu, surfaces, library, plan, &options, &mut sources, cache);
         let warnings = sources.warnings;
         self.warn(warnings);
         let run = run?;

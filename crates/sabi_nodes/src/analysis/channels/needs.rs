@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use naga::{BinaryOperator, Expression, Handle, Literal, ScalarKind, UnaryOperator};
+use naga::{BinaryOperator, Expression, Function, Handle, Literal, Module, ScalarKind, Type, UnaryOperator};
 
-use super::{Frame, Reader};
+use super::tracer::Frame;
 use crate::analysis::walk::conjuncts;
-use crate::kind::{Argument, Channel, ChannelWrite, Memory, Role};
+use crate::kind::{Argument, Channel, ChannelWrite, Memory, Param, Role};
 
 /// A parameter or input that must be on, or other than zero, for a channel to be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -75,7 +75,19 @@ pub(super) fn channel_write(channel: Channel, needs: BTreeSet<Need>) -> ChannelW
     }
 }
 
-impl<'m> Reader<'m> {
+/// Parameters and inputs that conditions and values read.
+pub(super) struct Needs<'m> {
+    pub(super) module: &'m Module,
+    pub(super) params: &'m [Param],
+    /// The type `Params`.
+    pub(super) params_type: Option<Handle<Type>>,
+    /// The function whose writes are found.
+    pub(super) root: Handle<Function>,
+    /// Bindings of the arguments of `root`, in order.
+    pub(super) inputs: &'m [Argument],
+}
+
+impl<'m> Needs<'m> {
     /// Returns the toggles that must be on for the conditions to have these values.
     pub(super) fn toggles(&self, frame: &Frame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<Need> {
         let mut found = BTreeSet::new();
