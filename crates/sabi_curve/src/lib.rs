@@ -39,7 +39,10 @@ pub fn value_at(curve: &[[f64; 3]], x: f64) -> f64 {
 
 /// Slopes at the points of a run without steps.
 fn slopes(run: &[[f64; 2]]) -> Vec<f64> {
-    let pieces: Vec<Piece> = run.windows(2).map(|ends| Piece::between(ends[0], ends[1])).collect();
+    let pieces: Vec<LineSegment> = run
+        .windows(2)
+        .map(|ends| LineSegment::between(ends[0], ends[1]))
+        .collect();
     let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else {
         return vec![0.0; run.len()];
     };
@@ -59,15 +62,15 @@ fn slopes(run: &[[f64; 2]]) -> Vec<f64> {
 
 /// Straight line from a point to the next.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct LineSegment {
     width: f64,
     slope: f64,
 }
 
-impl Piece {
-    fn between(left: [f64; 2], right: [f64; 2]) -> Piece {
+impl LineSegment {
+    fn between(left: [f64; 2], right: [f64; 2]) -> LineSegment {
         let width = right[0] - left[0];
-        Piece {
+        LineSegment {
             width,
             slope: (right[1] - left[1]) / width,
         }
@@ -76,7 +79,7 @@ impl Piece {
 
 /// The slope of the parabola through three points, at the middle one, as far as the curve stays monotonic (Steffen's
 /// equation 11).
-fn inner_slope(left: Piece, right: Piece) -> f64 {
+fn inner_slope(left: LineSegment, right: LineSegment) -> f64 {
     if left.slope * right.slope <= 0.0 {
         return 0.0;
     }
@@ -87,7 +90,7 @@ fn inner_slope(left: Piece, right: Piece) -> f64 {
 
 /// The slope of the parabola through three points, at an outer one, as far as the curve stays monotonic (Steffen's
 /// equations 24 to 27).
-fn end_slope(own: Piece, next: Piece) -> f64 {
+fn end_slope(own: LineSegment, next: LineSegment) -> f64 {
     let share = own.width / (own.width + next.width);
     let parabola = own.slope * (1.0 + share) - next.slope * share;
     if parabola * own.slope <= 0.0 {

@@ -11,7 +11,7 @@ use sabi_gpu::GpuError;
 use sabi_graph::nearest;
 use sabi_image::ImageError;
 use sabi_surface::atlas::AtlasError;
-use sabi_surface::load::{Fault, LoadError, listed};
+use sabi_surface::load::{LoadError, ModelFault, listed};
 use sabi_view::ViewError;
 
 use crate::remedy::{Remedy, advised};
@@ -141,7 +141,7 @@ impl EngineError {
     pub fn refusal(&self) -> Option<&Refusal> {
         let cause = self.source()?;
         match cause.downcast_ref::<LoadError>().map(|error| &error.fault) {
-            Some(Fault::Refused { refusal, .. }) => Some(refusal),
+            Some(ModelFault::Refused { refusal, .. }) => Some(refusal),
             _ => cause.downcast_ref(),
         }
     }
@@ -293,18 +293,18 @@ impl From<StagedError> for EngineError {
 impl From<LoadError> for EngineError {
     fn from(error: LoadError) -> Self {
         let kind = match &error.fault {
-            Fault::Memory { .. } => ErrorKind::OutOfMemory,
-            Fault::NoSuchPart { .. } | Fault::NoPart => ErrorKind::Usage,
+            ModelFault::Memory { .. } => ErrorKind::OutOfMemory,
+            ModelFault::NoSuchPart { .. } | ModelFault::NoPart => ErrorKind::Usage,
             _ if error.is_missing() => ErrorKind::MissingInput,
             _ => ErrorKind::BadInput,
         };
         let remedies: &[Remedy] = match &error.fault {
-            Fault::Refused { refusal, .. } if refusal.folder().is_some() => &[Remedy::TrustFile],
-            Fault::Memory { .. } => &[Remedy::RaiseMemory, Remedy::ReduceTriangles],
-            Fault::NoPart => &[Remedy::AllParts],
+            ModelFault::Refused { refusal, .. } if refusal.folder().is_some() => &[Remedy::TrustFile],
+            ModelFault::Memory { .. } => &[Remedy::RaiseMemory, Remedy::ReduceTriangles],
+            ModelFault::NoPart => &[Remedy::AllParts],
             _ => &[],
         };
-        if let Fault::NoSuchPart { unknown, there } = &error.fault {
+        if let ModelFault::NoSuchPart { unknown, there } = &error.fault {
             let told = EngineError::no_such_parts(&error.model, unknown, there);
             return told.with_remedies([Remedy::AllParts]).caused_by(error);
         }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sabi_color::{linear_from_srgb8, oklab_from_linear, srgb8_from_linear};
-use sabi_image::{Declared, Pixels as Samples};
+use sabi_image::{DeclaredColorSpace, Pixels as Samples};
 use sabi_nodes::kind::WrittenStop;
 use sabi_view::Pixels;
 
@@ -33,9 +33,9 @@ impl PickedPicture {
         let open = opened.map_err(|(why, _)| format!("The picture cannot be used: {why}."))?;
         let picture = &open.picture;
         let is_srgb = match picture.color_space {
-            Declared::Srgb => true,
-            Declared::Linear => false,
-            Declared::Unknown => !matches!(picture.pixels, Samples::F32(_)),
+            DeclaredColorSpace::Srgb => true,
+            DeclaredColorSpace::Linear => false,
+            DeclaredColorSpace::Unknown => !matches!(picture.pixels, Samples::F32(_)),
         };
         let reading = Reading {
             is_srgb,

@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 use sabi_image::{
-    Declared, ExrSamples, ImageError, Picture, Pixels, PngData, PngOptions, decode, encode_exr, encode_png,
+    DeclaredColorSpace, ExrSamples, ImageError, Picture, Pixels, PngData, PngOptions, decode, encode_exr, encode_png,
 };
 
 fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
@@ -13,7 +13,7 @@ fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
     let options = |bits| PngOptions {
         channels,
         bits,
-        srgb_chunk: picture.color_space == Declared::Srgb,
+        srgb_chunk: picture.color_space == DeclaredColorSpace::Srgb,
     };
     match &picture.pixels {
         Pixels::U8(samples) => encode_png(width, height, PngData::U8(samples), options(8)),

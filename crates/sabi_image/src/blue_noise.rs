@@ -66,12 +66,12 @@ fn pcg(value: u32) -> u32 {
 
 /// Pattern of set pixels, with the energy that they cause at each pixel of the tile. The tile repeats.
 #[derive(Clone)]
-struct Cells {
+struct PixelPattern {
     is_set: Vec<bool>,
     energy: Vec<u64>,
 }
 
-impl Cells {
+impl PixelPattern {
     /// Sets or clears a pixel. Its energy falls with the squared distance d² as 2^(-d²/3): a Gaussian with a standard deviation of about
     /// 1.5 pixels, which Ulichney found best. It is computed with integers, so that every machine produces the same tile.
     fn put(&mut self, cell: usize, is_set: bool) {
@@ -110,7 +110,7 @@ impl Cells {
 /// Returns the ranks of the pixels by the void-and-cluster method. The pixels below any rank are evenly distributed,
 /// without low frequencies. Source: Ulichney, "The void-and-cluster method for dither array generation", SPIE 1913, 1993.
 fn ranks() -> Vec<u16> {
-    let mut first = Cells {
+    let mut first = PixelPattern {
         is_set: vec![false; CELLS],
         energy: vec![0; CELLS],
     };

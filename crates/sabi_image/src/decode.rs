@@ -13,7 +13,7 @@ use crate::decode_hdr::HdrFile;
 use crate::decode_ktx2::{self, check_ktx2, decode_ktx2};
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
-use crate::{Declared, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
 
 /// Maximum compression ratio of deflate (RFC 1951: 258 bytes from 2 bits).
 const DEFLATE_BEST_RATIO: u64 = 1032;
@@ -40,16 +40,16 @@ pub fn decode_layer(name: &str, bytes: &[u8], layer: &str) -> Result<Picture, Im
 
 fn decode_chosen(name: &str, bytes: &[u8], layer: Option<&str>) -> Result<Picture, ImageError> {
     guarded(name, bytes, |format| match (format, layer) {
-        (Format::Exr, layer) => decode_exr(name, bytes, layer),
+        (ImageFileFormat::Exr, layer) => decode_exr(name, bytes, layer),
         (_, Some(asked)) => Err(ImageError::Layer {
             name: name.into(),
             asked: asked.into(),
             layers: Vec::new(),
         }),
-        (Format::Png, None) => decode_png(name, bytes),
-        (Format::Ktx2, None) => decode_ktx2(name, bytes),
-        (Format::Hdr, None) => HdrFile::open(name, bytes)?.decode(name),
-        (Format::Other(format), None) => decode_other(name, bytes, format),
+        (ImageFileFormat::Png, None) => decode_png(name, bytes),
+        (ImageFileFormat::Ktx2, None) => decode_ktx2(name, bytes),
+        (ImageFileFormat::Hdr, None) => HdrFile::open(name, bytes)?.decode(name),
+        (ImageFileFormat::Other(format), None) => decode_other(name, bytes, format),
     })
 }
 
@@ -58,8 +58,10 @@ fn decode_chosen(name: &str, bytes: &[u8], layer: Option<&str>) -> Result<Pictur
 /// Colors without a prefix come first, then layers with names of a finished image, such as `beauty` and `Combined`.
 pub fn layer_names(name: &str, bytes: &[u8]) -> Result<Vec<String>, ImageError> {
     guarded(name, bytes, |format| match format {
-        Format::Exr => exr_layer_names(name, bytes),
-        Format::Png | Format::Ktx2 | Format::Hdr | Format::Other(_) => Ok(Vec::new()),
+        ImageFileFormat::Exr => exr_layer_names(name, bytes),
+        ImageFileFormat::Png | ImageFileFormat::Ktx2 | ImageFileFormat::Hdr | ImageFileFormat::Other(_) => {
+            Ok(Vec::new())
+        }
     })
 }
 
@@ -71,17 +73,17 @@ pub fn check_header(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
 /// Returns the number of pixels, and the size of the decoded image in bytes, reading only the header. The errors are those of [`decode`].
 pub fn decoded_size(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
     guarded(name, bytes, |format| match format {
-        Format::Png => {
+        ImageFileFormat::Png => {
             let reader = open_png(name, bytes)?;
             let info = reader.info();
             let (color, depth) = reader.output_color_type();
             let pixel_bytes = color.samples() as u64 * sample_bytes(depth);
             Ok(DecodedSize::of_pixels([info.width, info.height], pixel_bytes))
         }
-        Format::Exr => check_exr(name, bytes),
-        Format::Ktx2 => check_ktx2(name, bytes),
-        Format::Hdr => Ok(HdrFile::open(name, bytes)?.decoded_size()),
-        Format::Other(format) => {
+        ImageFileFormat::Exr => check_exr(name, bytes),
+        ImageFileFormat::Ktx2 => check_ktx2(name, bytes),
+        ImageFileFormat::Hdr => Ok(HdrFile::open(name, bytes)?.decoded_size()),
+        ImageFileFormat::Other(format) => {
             let plain = plain_of(name, bytes, format)?;
             let decoder = open_other(name, &plain, format)?;
             let (width, height) = decoder.dimensions();
@@ -92,7 +94,11 @@ pub fn decoded_size(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError>
 }
 
 /// Calls `read` with the format of the bytes. A panic in a decoder of another crate becomes an error.
-fn guarded<T>(name: &str, bytes: &[u8], read: impl FnOnce(Format) -> Result<T, ImageError>) -> Result<T, ImageError> {
+fn guarded<T>(
+    name: &str,
+    bytes: &[u8],
+    read: impl FnOnce(ImageFileFormat) -> Result<T, ImageError>,
+) -> Result<T, ImageError> {
     let format = recognize(name, bytes)?;
     match catch_unwind(AssertUnwindSafe(|| read(format))) {
         Ok(read) => read,
@@ -102,7 +108,7 @@ fn guarded<T>(name: &str, bytes: &[u8], read: impl FnOnce(Format) -> Result<T, I
 }
 
 #[derive(Clone, Copy)]
-enum Format {
+enum ImageFileFormat {
     Png,
     Exr,
     Ktx2,
@@ -111,18 +117,18 @@ enum Format {
     Other(ImageFormat),
 }
 
-impl Format {
+impl ImageFileFormat {
     fn name(self) -> &'static str {
         match self {
-            Format::Png => "PNG",
-            Format::Exr => "OpenEXR",
-            Format::Ktx2 => "KTX2",
-            Format::Hdr => "HDR",
-            Format::Other(ImageFormat::Jpeg) => "JPEG",
-            Format::Other(ImageFormat::WebP) => "WebP",
-            Format::Other(ImageFormat::Tga) => "TGA",
-            Format::Other(ImageFormat::Bmp) => "BMP",
-            Format::Other(_) => "picture",
+            ImageFileFormat::Png => "PNG",
+            ImageFileFormat::Exr => "OpenEXR",
+            ImageFileFormat::Ktx2 => "KTX2",
+            ImageFileFormat::Hdr => "HDR",
+            ImageFileFormat::Other(ImageFormat::Jpeg) => "JPEG",
+            ImageFileFormat::Other(ImageFormat::WebP) => "WebP",
+            ImageFileFormat::Other(ImageFormat::Tga) => "TGA",
+            ImageFileFormat::Other(ImageFormat::Bmp) => "BMP",
+            ImageFileFormat::Other(_) => "picture",
         }
     }
 }
@@ -188,23 +194,23 @@ fn is_tga(bytes: &[u8]) -> bool {
     matches!(bytes, [_, 0 | 1, 1..=3 | 9..=11, ..])
 }
 
-fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
+fn recognize(name: &str, bytes: &[u8]) -> Result<ImageFileFormat, ImageError> {
     if bytes.is_empty() {
         return Err(ImageError::Empty { name: name.into() });
     }
     let is_webp = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP");
     let format = match bytes {
-        [0x89, b'P', b'N', b'G', ..] => Format::Png,
-        [0x76, 0x2f, 0x31, 0x01, ..] => Format::Exr,
-        [0xff, 0xd8, 0xff, ..] => Format::Other(ImageFormat::Jpeg),
-        [b'#', b'?', ..] => Format::Hdr,
-        _ if bytes.starts_with(decode_ktx2::IDENTIFIER) => Format::Ktx2,
-        _ if is_webp => Format::Other(ImageFormat::WebP),
-        [b'B', b'M', ..] if bytes.len() >= 26 => Format::Other(ImageFormat::Bmp),
+        [0x89, b'P', b'N', b'G', ..] => ImageFileFormat::Png,
+        [0x76, 0x2f, 0x31, 0x01, ..] => ImageFileFormat::Exr,
+        [0xff, 0xd8, 0xff, ..] => ImageFileFormat::Other(ImageFormat::Jpeg),
+        [b'#', b'?', ..] => ImageFileFormat::Hdr,
+        _ if bytes.starts_with(decode_ktx2::IDENTIFIER) => ImageFileFormat::Ktx2,
+        _ if is_webp => ImageFileFormat::Other(ImageFormat::WebP),
+        [b'B', b'M', ..] if bytes.len() >= 26 => ImageFileFormat::Other(ImageFormat::Bmp),
         _ => {
             // A mark of two bytes may be the beginning of a TGA, which has none.
             if name.to_ascii_lowercase().ends_with(".tga") && is_tga(bytes) {
-                return Ok(Format::Other(ImageFormat::Tga));
+                return Ok(ImageFileFormat::Other(ImageFormat::Tga));
             }
             let kind = foreign_kind(bytes).unwrap_or("no picture of a known kind");
             return Err(ImageError::Unsupported {
@@ -306,31 +312,31 @@ fn decode_png_with_end(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> 
 }
 
 /// Returns the color space that the chunks declare. Newer types of chunks take precedence (PNG specification, third edition, 4.3).
-fn declared_by_png(info: &png::Info<'_>, has_profile: bool) -> Declared {
+fn declared_by_png(info: &png::Info<'_>, has_profile: bool) -> DeclaredColorSpace {
     if let Some(cicp) = &info.coding_independent_code_points {
         // ITU-T H.273: 8 is linear, 13 is the sRGB curve.
         return match cicp.transfer_function {
-            8 => Declared::Linear,
-            13 => Declared::Srgb,
-            _ => Declared::Unknown,
+            8 => DeclaredColorSpace::Linear,
+            13 => DeclaredColorSpace::Srgb,
+            _ => DeclaredColorSpace::Unknown,
         };
     }
     if has_profile {
-        return Declared::Unknown;
+        return DeclaredColorSpace::Unknown;
     }
     if info.srgb.is_some() {
-        return Declared::Srgb;
+        return DeclaredColorSpace::Srgb;
     }
     match info.gama_chunk.map(png::ScaledFloat::into_value) {
-        Some(gamma) if (gamma - 1.0).abs() < 0.005 => Declared::Linear,
-        Some(gamma) if (gamma - 1.0 / 2.2).abs() < 0.005 => Declared::Srgb,
-        _ => Declared::Unknown,
+        Some(gamma) if (gamma - 1.0).abs() < 0.005 => DeclaredColorSpace::Linear,
+        Some(gamma) if (gamma - 1.0 / 2.2).abs() < 0.005 => DeclaredColorSpace::Srgb,
+        _ => DeclaredColorSpace::Unknown,
     }
 }
 
 /// Converts an error of the `image` crate's decoders.
 fn explain_other(name: &str, format: ImageFormat, error: image::ImageError) -> ImageError {
-    let format = Format::Other(format).name();
+    let format = ImageFileFormat::Other(format).name();
     match error {
         image::ImageError::Unsupported(what) => ImageError::Feature {
             name: name.into(),
@@ -343,7 +349,7 @@ fn explain_other(name: &str, format: ImageFormat, error: image::ImageError) -> I
 
 /// Opens an image of another format and reads everything before its pixels.
 fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<impl ImageDecoder + 'b, ImageError> {
-    let format_name = Format::Other(format).name();
+    let format_name = ImageFileFormat::Other(format).name();
     if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(damaged(name, format_name, "the file ends too early"));
     }
@@ -396,7 +402,7 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     let channels = picture.color().channel_count();
     let pixels = samples_of(picture).map_err(|feature| ImageError::Feature {
         name: name.into(),
-        format: Format::Other(format).name(),
+        format: ImageFileFormat::Other(format).name(),
         feature,
     })?;
     Ok(Picture {
@@ -404,7 +410,7 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
         height,
         channels,
         pixels,
-        color_space: Declared::Unknown,
+        color_space: DeclaredColorSpace::Unknown,
     })
 }
 

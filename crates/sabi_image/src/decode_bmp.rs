@@ -38,7 +38,7 @@ pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, Im
     if size.is_some_and(|size| OS2_HEADER_BYTES.iter().any(|sizes| sizes.contains(&size))) {
         return unread("it has the header of OS/2 2.x, which is not read".to_owned());
     }
-    let Some(header) = Header::read(bytes) else {
+    let Some(header) = BmpHeader::read(bytes) else {
         return Ok(Cow::Borrowed(bytes));
     };
     match header.compression {
@@ -65,7 +65,7 @@ pub(crate) fn plain<'b>(name: &str, bytes: &'b [u8]) -> Result<Cow<'b, [u8]>, Im
 }
 
 /// Size, kind and place of the pixels, as declared in the file.
-struct Header {
+struct BmpHeader {
     /// Size of the header that follows the file header, in bytes.
     size: u32,
     width: u32,
@@ -78,12 +78,12 @@ struct Header {
     palette_at: usize,
 }
 
-impl Header {
+impl BmpHeader {
     /// Reads a header that has a compression field. Returns `None` if the header is older, truncated, or has impossible sizes.
-    fn read(bytes: &[u8]) -> Option<Header> {
+    fn read(bytes: &[u8]) -> Option<BmpHeader> {
         let word = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
         let size = word(14).filter(|size| *size >= INFO_HEADER_BYTES)?;
-        Some(Header {
+        Some(BmpHeader {
             size,
             width: word(18)?,
             height: word(22)?,

@@ -10,9 +10,9 @@ use exr::prelude::{AnyChannels, ReadChannels as _, ReadLayers as _};
 use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
-use crate::exr_layers::{ExrLayer, Part, layers};
+use crate::exr_layers::{ExrLayer, ExrPart, layers};
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
-use crate::{Declared, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "OpenEXR";
 const DEEP: &str = "it holds deep samples, several for each pixel";
@@ -82,7 +82,7 @@ pub(crate) fn decode_exr(name: &str, bytes: &[u8], asked: Option<&str>) -> Resul
         .non_parallel()
         .from_buffered(LookingReader(Cursor::new(bytes)))
         .map_err(|error| explain(name, error))?;
-    let parts: Vec<Part> = image.layer_data.iter().map(part_of_decoded).collect();
+    let parts: Vec<ExrPart> = image.layer_data.iter().map(part_of_decoded).collect();
     let layers = layers_of(name, &parts)?;
     let layer = match asked {
         None => layers.first(),
@@ -199,8 +199,8 @@ fn check_header(name: &str, header: &Header) -> Result<u64, ImageError> {
 }
 
 /// Returns the parts of a file according to its headers.
-fn parts_of(meta: &MetaData) -> Vec<Part> {
-    let parts = meta.headers.iter().map(|header| Part {
+fn parts_of(meta: &MetaData) -> Vec<ExrPart> {
+    let parts = meta.headers.iter().map(|header| ExrPart {
         name: header.own_attributes.layer_name.as_ref().map(ToString::to_string),
         channels: header
             .channels
@@ -213,9 +213,9 @@ fn parts_of(meta: &MetaData) -> Vec<Part> {
 }
 
 /// Converts a decoded layer to a part.
-fn part_of_decoded(layer: &FlatLayer) -> Part {
+fn part_of_decoded(layer: &FlatLayer) -> ExrPart {
     let channels = layer.channel_data.list.iter();
-    Part {
+    ExrPart {
         name: layer.attributes.layer_name.as_ref().map(ToString::to_string),
         channels: channels.map(|channel| channel.name.to_string()).collect(),
     }
@@ -225,7 +225,7 @@ fn part_of_decoded(layer: &FlatLayer) -> Part {
 ///
 /// # Errors
 /// There is none.
-fn layers_of(name: &str, parts: &[Part]) -> Result<Vec<ExrLayer>, ImageError> {
+fn layers_of(name: &str, parts: &[ExrPart]) -> Result<Vec<ExrLayer>, ImageError> {
     let layers = layers(parts);
     match layers.is_empty() {
         true => Err(unsupported(name, "it has no channels")),
@@ -261,7 +261,7 @@ fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[Option<usize>]) -
         height: height as u32,
         channels: channels as u8,
         pixels: Pixels::F32(samples),
-        color_space: Declared::Linear,
+        color_space: DeclaredColorSpace::Linear,
     }
 }
 

@@ -9,7 +9,7 @@ use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, check_size};
-use crate::{Declared, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "HDR";
 /// Bytes of a decoded pixel.
@@ -19,7 +19,7 @@ const LONGEST_LINE: usize = 1 << 16;
 
 /// Direction of rows or columns, and their number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Axis {
+struct HdrAxis {
     is_y: bool,
     /// True if rows or columns run up or to the left.
     is_reversed: bool,
@@ -30,7 +30,7 @@ struct Axis {
 #[derive(Debug)]
 pub(crate) struct HdrFile<'b> {
     /// Axis from scanline to scanline, then the axis along a scanline.
-    axes: [Axis; 2],
+    axes: [HdrAxis; 2],
     scanlines: &'b [u8],
 }
 
@@ -101,7 +101,7 @@ impl<'b> HdrFile<'b> {
             height,
             channels: 3,
             pixels: Pixels::F32(self.upright(samples)),
-            color_space: Declared::Linear,
+            color_space: DeclaredColorSpace::Linear,
         })
     }
 
@@ -112,7 +112,7 @@ impl<'b> HdrFile<'b> {
             return samples;
         }
         let [width, height] = self.size().map(|side| side as usize);
-        let place = |axis: Axis, at: usize| {
+        let place = |axis: HdrAxis, at: usize| {
             if axis.is_reversed {
                 axis.length as usize - 1 - at
             } else {
@@ -138,7 +138,7 @@ fn next_line<'b>(rest: &mut &'b [u8]) -> Option<&'b [u8]> {
 }
 
 /// Reads the axes from a line such as `-Y 512 +X 1024`: −Y means down and +X to the right.
-fn axes_of(line: &str) -> Option<[Axis; 2]> {
+fn axes_of(line: &str) -> Option<[HdrAxis; 2]> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let [first, first_length, second, second_length] = *words.as_slice() else {
         return None;
@@ -151,7 +151,7 @@ fn axes_of(line: &str) -> Option<[Axis; 2]> {
             "-X" => (false, true),
             _ => return None,
         };
-        Some(Axis {
+        Some(HdrAxis {
             is_y,
             is_reversed,
             length: length.parse().ok()?,

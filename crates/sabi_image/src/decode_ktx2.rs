@@ -10,7 +10,7 @@ use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, check_size};
-use crate::{Declared, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
 
 pub(crate) const IDENTIFIER: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 const NAME: &str = "KTX2";
@@ -52,12 +52,12 @@ enum Scheme {
 }
 
 /// Header of a texture.
-struct Header {
+struct Ktx2Header {
     width: u32,
     height: u32,
     texels: Texels,
     scheme: Scheme,
-    color_space: Declared,
+    color_space: DeclaredColorSpace,
     /// Byte range of the first level in the file.
     level: Range<usize>,
 }
@@ -101,7 +101,7 @@ fn transcoded(name: &str, bytes: &[u8]) -> Result<Vec<u8>, ImageError> {
 }
 
 /// Returns the samples of uncompressed texels.
-fn plain(name: &str, level: &[u8], header: &Header, channels: u8) -> Result<Vec<u8>, ImageError> {
+fn plain(name: &str, level: &[u8], header: &Ktx2Header, channels: u8) -> Result<Vec<u8>, ImageError> {
     let size = header.width as usize * header.height as usize * usize::from(channels);
     if header.scheme == Scheme::None {
         // The length was checked before.
@@ -163,7 +163,7 @@ fn texels(format: u32, model: u8, scheme: Scheme) -> Result<Texels, String> {
     })
 }
 
-fn read_header(name: &str, bytes: &[u8]) -> Result<Header, ImageError> {
+fn read_header(name: &str, bytes: &[u8]) -> Result<Ktx2Header, ImageError> {
     let cut_off = || damaged(name, NAME, "the file ends too early");
     let number = |at| word(bytes, at).ok_or_else(cut_off);
     let feature = |feature: String| ImageError::Feature {
@@ -205,15 +205,15 @@ fn read_header(name: &str, bytes: &[u8]) -> Result<Header, ImageError> {
             "the size of its first level contradicts its pixels",
         ));
     }
-    Ok(Header {
+    Ok(Ktx2Header {
         width,
         height,
         texels,
         scheme,
         color_space: match byte(TRANSFER) {
-            Some(TRANSFER_LINEAR) => Declared::Linear,
-            Some(TRANSFER_SRGB) => Declared::Srgb,
-            _ => Declared::Unknown,
+            Some(TRANSFER_LINEAR) => DeclaredColorSpace::Linear,
+            Some(TRANSFER_SRGB) => DeclaredColorSpace::Srgb,
+            _ => DeclaredColorSpace::Unknown,
         },
         level,
     })

@@ -172,7 +172,7 @@ fn half(value: f32) -> f16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Declared, Pixels, decode};
+    use crate::{DeclaredColorSpace, Pixels, decode};
 
     #[test]
     fn floats_are_restored_bit_for_bit() {
@@ -184,7 +184,7 @@ mod tests {
         )
         .unwrap();
         assert_eq!((gray.width, gray.height, gray.channels), (37, 21, 1));
-        assert_eq!(gray.color_space, Declared::Linear);
+        assert_eq!(gray.color_space, DeclaredColorSpace::Linear);
         assert_eq!(gray.pixels, Pixels::F32(values.clone()));
         let rgb = [("R", &values[..]), ("G", &negative[..]), ("B", &values[..])];
         let color = decode("c.exr", &encode_exr(37, 21, &rgb, ExrSamples::Float).unwrap()).unwrap();

@@ -20,7 +20,7 @@ const HASHES: &str = "crypto";
 
 /// Channels of a part of a file, in the file's order, and the name of the part, if it has one.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Part {
+pub(crate) struct ExrPart {
     pub(crate) name: Option<String>,
     pub(crate) channels: Vec<String>,
 }
@@ -54,7 +54,7 @@ enum Rank {
 }
 
 /// Lists the layers of a file that form an image, the default layer first.
-pub(crate) fn layers(parts: &[Part]) -> Vec<ExrLayer> {
+pub(crate) fn layers(parts: &[ExrPart]) -> Vec<ExrLayer> {
     let mut layers: Vec<ExrLayer> = Vec::new();
     for (number, part) in parts.iter().enumerate() {
         // Prefixes in the order of the file, which is alphabetical.
@@ -73,7 +73,7 @@ pub(crate) fn layers(parts: &[Part]) -> Vec<ExrLayer> {
 }
 
 /// Returns the layers of the channels with one prefix: an image, and each remaining channel as a layer of its own.
-fn layers_of_group(number: usize, part: &Part, prefix: &str, indices: &[usize]) -> Vec<ExrLayer> {
+fn layers_of_group(number: usize, part: &ExrPart, prefix: &str, indices: &[usize]) -> Vec<ExrLayer> {
     let last_of = |index: usize| {
         let name = part.channels[index].as_str();
         name.rsplit_once('.').map_or(name, |(_, last)| last)
@@ -150,15 +150,15 @@ fn layers_of_group(number: usize, part: &Part, prefix: &str, indices: &[usize]) 
 mod tests {
     use super::*;
 
-    fn part(name: Option<&str>, channels: &[&str]) -> Part {
-        Part {
+    fn part(name: Option<&str>, channels: &[&str]) -> ExrPart {
+        ExrPart {
             name: name.map(str::to_owned),
             channels: channels.iter().map(ToString::to_string).collect(),
         }
     }
 
     /// Returns name and channels of each layer, with `-` for a channel that the file does not have.
-    fn listed(parts: &[Part]) -> Vec<String> {
+    fn listed(parts: &[ExrPart]) -> Vec<String> {
         let of_layer = |layer: ExrLayer| {
             let channels = layer.channels.iter().map(|channel| match channel {
                 Some(index) => parts[layer.part].channels[*index].clone(),

@@ -7,7 +7,7 @@ use sabi_color::{linear_from_srgb, linear_from_srgb_f64};
 
 /// Color space that a file declares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Declared {
+pub enum DeclaredColorSpace {
     /// Encoded with the sRGB curve.
     Srgb,
     /// Proportional to light.
@@ -40,7 +40,7 @@ pub struct Picture {
     /// `width × height × channels` samples.
     pub pixels: Pixels,
     /// Color space that the file declares.
-    pub color_space: Declared,
+    pub color_space: DeclaredColorSpace,
 }
 
 /// An image as linear RGBA.
@@ -147,7 +147,7 @@ mod tests {
             height: 1,
             channels,
             pixels,
-            color_space: Declared::Unknown,
+            color_space: DeclaredColorSpace::Unknown,
         }
     }
 

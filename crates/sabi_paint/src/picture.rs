@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
-use sabi_image::{Declared, ImageError, Picture, Pixels, decode};
+use sabi_image::{DeclaredColorSpace, ImageError, Picture, Pixels, decode};
 use serde::{Deserialize, Serialize};
 
 use level::Level;
@@ -118,9 +118,9 @@ impl StampPicture {
     /// Prepares a decoded picture.
     pub fn new(picture: &Picture) -> StampPicture {
         let is_coded = match picture.color_space {
-            Declared::Srgb => true,
-            Declared::Linear => false,
-            Declared::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
+            DeclaredColorSpace::Srgb => true,
+            DeclaredColorSpace::Linear => false,
+            DeclaredColorSpace::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
         };
         let mut level = Level::new(picture, is_coded);
         let likely = level.likely_part();
@@ -153,7 +153,7 @@ impl StampPicture {
             height: height as u32,
             channels: 2,
             pixels: Pixels::U8(alpha.iter().flat_map(|alpha| [255, *alpha]).collect()),
-            color_space: Declared::Srgb,
+            color_space: DeclaredColorSpace::Srgb,
         })
     }
 
@@ -238,7 +238,7 @@ mod tests {
             height: pixels.len() as u32 / width,
             channels: 4,
             pixels: Pixels::U8(pixels.as_flattened().to_vec()),
-            color_space: Declared::Unknown,
+            color_space: DeclaredColorSpace::Unknown,
         })
     }
 

@@ -17,9 +17,9 @@ const MOMENTS: u32 = 24;
 /// Rows of the ball.
 const ROWS: u32 = 700;
 
-type Failure = Box<dyn std::error::Error + Send + Sync>;
+type ExampleError = Box<dyn std::error::Error + Send + Sync>;
 
-fn main() -> Result<(), Failure> {
+fn main() -> Result<(), ExampleError> {
     let mut arguments = std::env::args().skip(1);
     let given = arguments.next().filter(|file| file != "-").map(PathBuf::from);
     let size = arguments.next().map_or(Ok(1024), |size| size.parse())?;
@@ -35,7 +35,7 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-fn measure(model: &Path, size: u32) -> Result<(), Failure> {
+fn measure(model: &Path, size: u32) -> Result<(), ExampleError> {
     let started = Instant::now();
     read(model, size)?;
     let whole = started.elapsed();
@@ -49,7 +49,7 @@ fn measure(model: &Path, size: u32) -> Result<(), Failure> {
             asking.cancel();
             Instant::now()
         });
-        let ended: Result<Result<(), Failure>, Canceled> = cancelable(&asked, || read(model, size));
+        let ended: Result<Result<(), ExampleError>, Canceled> = cancelable(&asked, || read(model, size));
         let end = Instant::now();
         let Ok(asked) = asks.join() else { continue };
         if ended.is_err() {
@@ -64,7 +64,7 @@ fn measure(model: &Path, size: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-fn read(model: &Path, size: u32) -> Result<(), Failure> {
+fn read(model: &Path, size: u32) -> Result<(), ExampleError> {
     let model = load(model, &LoadOptions::default())?;
     if !model.mesh.uvs.is_empty() {
         Atlas::build(&model.mesh, &AtlasOptions::new(size))?;
@@ -74,7 +74,7 @@ fn read(model: &Path, size: u32) -> Result<(), Failure> {
 }
 
 /// Writes a ball as OBJ, PLY and STL.
-fn write_balls(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+fn write_balls(folder: &Path) -> Result<Vec<PathBuf>, ExampleError> {
     std::fs::create_dir_all(folder)?;
     let count = ROWS + 1;
     let at = |row: u32, column: u32| {

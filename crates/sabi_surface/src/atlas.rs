@@ -8,12 +8,15 @@
 //! and `report`. `repeats` finds UVs that cost more than they show. `level` builds coarser levels, and `width` limits their number.
 
 mod build;
+mod build_inputs;
 mod cache;
+mod chart_placement;
+mod chart_split;
 pub(crate) mod charts;
 mod codec;
 mod division;
 mod error;
-pub(crate) mod fixed;
+pub(crate) mod fixed_point_uvs;
 mod gaps;
 mod leap;
 mod level;
@@ -22,13 +25,10 @@ pub(crate) mod mask;
 mod overlap;
 mod owners;
 pub(crate) mod pack;
-mod place;
-mod plan;
 pub(crate) mod raster;
 mod repeats;
 mod report;
 mod ring;
-mod split;
 #[cfg(test)]
 mod tests;
 pub(crate) mod topology;

@@ -15,8 +15,8 @@ mod carve;
 mod edges;
 mod lift;
 mod plane;
-mod rounded;
-mod split;
+mod rounded_normals;
+mod subdivision;
 
 #[cfg(test)]
 mod tests;
@@ -30,7 +30,7 @@ use crate::atlas::Atlas;
 use crate::model::Mesh;
 use lift::lift;
 pub use plane::HeightPlane;
-use split::{Split, count};
+use subdivision::{SplitTriangle, count};
 
 /// Resolution of a displaced copy.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ impl Default for DisplaceOptions {
 
 /// A finer, displaced copy of a mesh. Vertices of different triangles of the mesh are never shared.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Displaced {
+pub struct DisplacedMesh {
     /// Positions of the vertices, model units.
     pub positions: Vec<[f32; 3]>,
     /// Shading normals of the mesh, for each vertex. Like the tangents, they are those of the undisplaced surface, to which
@@ -83,12 +83,12 @@ pub fn displaced(
     atlas: &Atlas,
     options: &DisplaceOptions,
     height: impl Fn(u32, [f32; 2]) -> Option<f32> + Sync,
-) -> Displaced {
+) -> DisplacedMesh {
     let budget = options.triangle_budget as u64;
     let (edge_length, note) = fitting_length(mesh, options.edge_length, budget);
-    let splits: Vec<Split> = (0..mesh.triangles.len())
+    let splits: Vec<SplitTriangle> = (0..mesh.triangles.len())
         .into_par_iter()
-        .map(|triangle| Split::new(mesh, atlas, triangle, edge_length))
+        .map(|triangle| SplitTriangle::new(mesh, atlas, triangle, edge_length))
         .collect();
     let mut whole = joined(&splits);
     whole.edge_length = edge_length;
@@ -110,8 +110,8 @@ pub fn texel_length(mesh: &Mesh, atlas: &Atlas) -> f32 {
 }
 
 /// Concatenates the splits without displacing them.
-fn joined(splits: &[Split]) -> Displaced {
-    let mut whole = Displaced::default();
+fn joined(splits: &[SplitTriangle]) -> DisplacedMesh {
+    let mut whole = DisplacedMesh::default();
     let vertices = splits.iter().map(|split| split.vertices.len()).sum();
     let triangles = splits.iter().map(|split| split.triangles.len()).sum();
     whole.positions.reserve(vertices);

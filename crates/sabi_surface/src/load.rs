@@ -4,33 +4,33 @@
 
 mod arealess;
 mod assembly;
-mod beside;
 mod blur;
 mod completion;
 mod dae;
 mod error;
+mod face_reversal;
 mod faces;
 mod far;
 mod fbx;
 mod format;
 mod gltf;
-mod listed;
+mod material_images;
+mod name_lists;
 mod normals;
 mod numbers;
 mod obj;
 mod opacity;
 mod parts;
-mod pictures;
 mod ply;
 mod polygon;
-mod repeating;
+mod referenced_files;
+mod repeating_textures;
 mod size;
 mod skin_rest;
 mod stl;
 mod submesh;
 mod tangents;
 mod text;
-mod turning;
 mod unit_vector;
 mod warnings;
 
@@ -43,14 +43,14 @@ use sabi_cancel::look;
 use sabi_files::{PathBase, TrustedPaths, Unread, Uri, find_beside};
 use serde::{Deserialize, Serialize};
 
-use self::beside::FilesBeside;
-pub use self::error::{Fault, LoadError};
+pub use self::error::{LoadError, ModelFault};
 pub use self::format::ENDINGS;
-use self::format::{Format, format_of, refused_format};
+use self::format::{ModelFormat, format_of, refused_format};
 pub use self::gltf::{UnpackedVertices, gltf_json};
-pub use self::listed::listed;
+pub use self::name_lists::listed;
 pub use self::parts::PartChoice;
-use self::repeating::repeating;
+use self::referenced_files::ReferencedFiles;
+use self::repeating_textures::repeating;
 pub use self::size::mesh_bytes;
 pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
@@ -153,9 +153,13 @@ pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions)
     if let Some(sentence) = refused_format(&name) {
         // A missing file is reported as missing, even if its extension is wrong, too.
         let there = path.exists();
-        return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
+        return Err(fault(if there {
+            ModelFault::Format(sentence)
+        } else {
+            ModelFault::NoFile
+        }));
     }
-    let (bytes, mut beside) = FilesBeside::of_model(path, trusted, options).map_err(fault)?;
+    let (bytes, mut beside) = ReferencedFiles::of_model(path, trusted, options).map_err(fault)?;
     let loaded = load_from(&name, &bytes, &mut |uri| beside.read(uri), options);
     let mut model = loaded.map_err(|error| fault(beside.explained(error)))?;
     model.file_bytes = beside.bytes_read();
@@ -181,11 +185,16 @@ pub fn load_bytes(
     })
 }
 
-fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+fn load_from(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut gltf::Resolve,
+    options: &LoadOptions,
+) -> Result<Model, ModelFault> {
     if bytes.is_empty() {
-        Err(Fault::Damaged("it is empty".into()))
+        Err(ModelFault::Damaged("it is empty".into()))
     } else if let Some(degrees) = options.smooth_degrees.filter(|degrees| !is_smoothing_angle(*degrees)) {
-        Err(Fault::Smooth(degrees))
+        Err(ModelFault::Smooth(degrees))
     } else if options.scale.is_finite() && options.scale > 0.0 {
         let is_smoothed = options.smooth_degrees.is_some();
         // The bytes of a binary STL may start like the signature of another format.
@@ -198,15 +207,17 @@ fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &Lo
         let is_wide = matches!(text, Cow::Owned(_));
         let bytes = &text;
         let model = match format {
-            Ok(Format::Gltf) if is_wide => Err(Fault::Format(
+            Ok(ModelFormat::Gltf) if is_wide => Err(ModelFault::Format(
                 "it is text in UTF-16, and glTF is UTF-8; save it as UTF-8 or export it as .glb".into(),
             )),
-            Ok(Format::Gltf) => gltf::read(name, bytes, resolve, options).map(|model| Model { is_gltf: true, ..model }),
-            Ok(Format::Obj) => obj::read(name, bytes, resolve, options),
-            Ok(Format::Fbx) => fbx::read(name, bytes, resolve, options),
-            Ok(Format::Dae) => dae::read(name, bytes, resolve, options),
-            Ok(Format::Ply) => ply::read(name, bytes, resolve, options),
-            Ok(Format::Stl) => stl::read(name, bytes, resolve, options),
+            Ok(ModelFormat::Gltf) => {
+                gltf::read(name, bytes, resolve, options).map(|model| Model { is_gltf: true, ..model })
+            }
+            Ok(ModelFormat::Obj) => obj::read(name, bytes, resolve, options),
+            Ok(ModelFormat::Fbx) => fbx::read(name, bytes, resolve, options),
+            Ok(ModelFormat::Dae) => dae::read(name, bytes, resolve, options),
+            Ok(ModelFormat::Ply) => ply::read(name, bytes, resolve, options),
+            Ok(ModelFormat::Stl) => stl::read(name, bytes, resolve, options),
             Err(fault) => Err(fault),
         };
         look();
@@ -215,7 +226,7 @@ fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &Lo
             Model { is_smoothed, ..model }
         })
     } else {
-        Err(Fault::Scale(options.scale))
+        Err(ModelFault::Scale(options.scale))
     }
 }
 

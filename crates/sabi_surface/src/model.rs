@@ -14,8 +14,8 @@ use glam::DVec3;
 use sabi_files::{Refusal, TrustedPaths};
 
 pub use self::file_origins::{FileOrigins, PlacedPrimitive};
-pub use self::file_parts::{FilePart, LeftOut};
-pub use self::finish::{ModelFinish, Scaled};
+pub use self::file_parts::{ExclusionReason, FilePart};
+pub use self::finish::{ModelFinish, TexturedFactor};
 pub use self::uv_decoding::UvDecoding;
 
 /// A model as read from its file, with all meshes in one world space.

@@ -106,7 +106,7 @@ impl Openness {
 }
 
 /// Mean open direction, not of unit length, and open share.
-type Open = [f32; 4];
+type OpenDirection = [f32; 4];
 
 struct Finder<'a> {
     mesh: &'a Mesh,
@@ -134,7 +134,7 @@ impl<'a> Finder<'a> {
     }
 
     fn texels(&self) -> Vec<[u8; 4]> {
-        let found: Vec<Open> = (0..self.atlas.owners.len())
+        let found: Vec<OpenDirection> = (0..self.atlas.owners.len())
             .into_par_iter()
             .map(|index| match self.atlas.owners[index] {
                 owner if owner == EMPTY || owner & GHOST_BIT != 0 => [0.0, 0.0, 0.0, 1.0],
@@ -164,7 +164,7 @@ impl<'a> Finder<'a> {
         (mixed(&self.mesh.positions), mixed(&self.mesh.normals))
     }
 
-    fn open_at(&self, index: usize, triangle: usize) -> Open {
+    fn open_at(&self, index: usize, triangle: usize) -> OpenDirection {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let texel = DVec2::new((index % width) as f64 + 0.5, ((index / width) % height) as f64 + 0.5);
         let (position, normal) = self.place(triangle, texel);
@@ -192,13 +192,15 @@ impl<'a> Finder<'a> {
     }
 
     /// Returns the values with the ghosts filled from the other sides of the seams.
-    fn with_ghosts(&self, mut values: Vec<Open>) -> Vec<Open> {
+    fn with_ghosts(&self, mut values: Vec<OpenDirection>) -> Vec<OpenDirection> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
-        let at = |values: &[Open], x: i64, y: i64, page: usize| {
+        let at = |values: &[OpenDirection], x: i64, y: i64, page: usize| {
             let [x, y] = [x.clamp(0, width as i64 - 1), y.clamp(0, height as i64 - 1)];
             values[(page * height + y as usize) * width + x as usize]
         };
-        let mix = |a: Open, b: Open, t: f32| -> Open { std::array::from_fn(|part| a[part] + (b[part] - a[part]) * t) };
+        let mix = |a: OpenDirection, b: OpenDirection, t: f32| -> OpenDirection {
+            std::array::from_fn(|part| a[part] + (b[part] - a[part]) * t)
+        };
         let beyond = |ghost: &Ghost| {
             let chart = &self.atlas.charts[self.atlas.triangle_chart[ghost.target_triangle as usize] as usize];
             let target = Vec2::from(ghost.target_texel) - 0.5;
@@ -210,7 +212,7 @@ impl<'a> Finder<'a> {
             let [x, y, page] = ghost.texel.map(|at| at as usize);
             ((page * height + y) * width + x, value)
         };
-        let beyond: Vec<(usize, Open)> = self.atlas.ghosts.iter().map(beyond).collect();
+        let beyond: Vec<(usize, OpenDirection)> = self.atlas.ghosts.iter().map(beyond).collect();
         for (own, value) in beyond {
             values[own] = value;
         }
@@ -218,7 +220,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Returns the mean over 3 × 3 texels with binomial weights. Texels without a place do not count.
-    fn smoothed(&self, values: &[Open]) -> Vec<Open> {
+    fn smoothed(&self, values: &[OpenDirection]) -> Vec<OpenDirection> {
         let width = self.atlas.page_size[0] as i64;
         let owners = &self.atlas.owners;
         let mean = |index: usize| {
@@ -257,7 +259,7 @@ const STEPS: [([i64; 2], f32); 9] = [
     ([1, 1], 1.0),
 ];
 
-fn encoded([x, y, z, open]: Open) -> [u8; 4] {
+fn encoded([x, y, z, open]: OpenDirection) -> [u8; 4] {
     let direction = Vec3::new(x, y, z).normalize_or_zero();
     let [x, y, z] = (direction * 127.5 + 127.5).to_array();
     [x, y, z, open * 255.0].map(|part| part.round().clamp(0.0, 255.0) as u8)

@@ -47,7 +47,7 @@ pub fn turned_faces(mesh: &Mesh) -> Vec<u32> {
 }
 
 /// Triangles that are connected over edges.
-struct Body {
+struct TriangleShell {
     /// In rising order.
     triangles: Vec<u32>,
     /// True if every edge has two triangles.
@@ -62,7 +62,7 @@ struct Body {
 
 /// All bodies of a mesh.
 struct Bodies {
-    bodies: Vec<Body>,
+    bodies: Vec<TriangleShell>,
     /// Body of each triangle; `None` for lines.
     body: Vec<Option<u32>>,
     /// True for triangles oriented like the first one of their body.
@@ -94,7 +94,7 @@ impl Bodies {
     /// Adds the body of a triangle.
     fn follow(&mut self, mesh: &Mesh, topology: &Topology, first: usize, joins: &impl Fn(u32, u32) -> bool) {
         let number = self.bodies.len() as u32;
-        let mut body = Body {
+        let mut body = TriangleShell {
             triangles: Vec::new(),
             is_closed: true,
             is_one_sided: false,
@@ -131,12 +131,12 @@ impl Bodies {
         self.bodies.push(body);
     }
 
-    fn body_of(&self, triangle: usize) -> Option<&Body> {
+    fn body_of(&self, triangle: usize) -> Option<&TriangleShell> {
         self.bodies.get(self.body[triangle]? as usize)
     }
 }
 
-impl Body {
+impl TriangleShell {
     /// Adds a triangle to volume and area.
     fn measure(&mut self, corners: [DVec3; 3], origin: DVec3, agrees: bool) {
         let [a, b, c] = corners.map(|corner| corner - origin);
@@ -204,7 +204,7 @@ impl<'m> Inside<'m> {
     }
 
     /// Returns true if a closed body lies within another one: most rays from it cross an odd number of faces of other closed bodies.
-    fn has(&mut self, body: &Body) -> bool {
+    fn has(&mut self, body: &TriangleShell) -> bool {
         look();
         let Some(first) = body.triangles.first().filter(|_| self.count > 1) else {
             return false;

@@ -7,9 +7,9 @@
 //! The steps, one file each: `texels` (the texels as a graph), `spread` (points and the cells around them), `rings` (the points
 //! around each), `flow` (how fast values pass from point to point).
 
+mod dart_throwing;
 mod flow;
 mod rings;
-mod spread;
 #[cfg(test)]
 mod tests;
 mod texels;
@@ -119,7 +119,7 @@ impl SurfacePoints {
     /// flux of finite volumes on Voronoi cells, Eymard, Gallouët, Herbin 2000).
     pub fn spread(mesh: &Mesh, atlas: &Atlas, spacing: f64) -> SurfacePoints {
         let graph = TexelGraph::new(mesh, atlas);
-        let cells = spread::cells(&graph, spacing);
+        let cells = dart_throwing::cells(&graph, spacing);
         let around = rings::around(&graph, &cells.point_of_texel, cells.centers.len());
         let members = cells.members();
         let flows = flow::flows(&graph, &cells, &members, &around, spacing);

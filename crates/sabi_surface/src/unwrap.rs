@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 pub use self::error::UnwrapError;
-use self::flatten::Flattened;
+use self::flatten::FlatCharts;
 use crate::model::Mesh;
 
 /// Free texels between two charts on maps of 1024 × 1024, and half as many along the sheet's border. On maps of other sizes
@@ -38,7 +38,7 @@ const FINEST_SIZE: u32 = 16_384;
 /// the last of `texture_uvs`, or 0 if there is none. To change a file in place instead, `source_vertex` says for each vertex
 /// which vertex of the loaded mesh it was.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unwrapped {
+pub struct UnwrappedMesh {
     /// The mesh with its new texture coordinates.
     pub mesh: Mesh,
     /// For each vertex of `mesh` its vertex in the mesh that was unwrapped.
@@ -95,13 +95,13 @@ impl UnwrapReport {
 ///
 /// Texture coordinates that the mesh has stay in [`Mesh::texture_uvs`], and its normal maps with the frames they were made
 /// for; [`Mesh::tangents`] are recomputed.
-pub fn unwrap(mesh: &Mesh) -> Result<Unwrapped, UnwrapError> {
+pub fn unwrap(mesh: &Mesh) -> Result<UnwrappedMesh, UnwrapError> {
     finish(mesh, lay_out(mesh)?)
 }
 
 /// Unwraps like [`unwrap`], but takes the result from the cache if it is stored there and intact. The second value is
 /// whether it came from the cache. A cache that cannot be written is a warning in the report.
-pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(Unwrapped, bool), UnwrapError> {
+pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(UnwrappedMesh, bool), UnwrapError> {
     let (layout, was_cached) = lay_out_cached(cache_dir, mesh)?;
     Ok((finish(mesh, layout)?, was_cached))
 }
@@ -112,7 +112,7 @@ pub fn unwrap_materials(
     cache_dir: Option<&Path>,
     mesh: &Mesh,
     materials: &BTreeSet<u32>,
-) -> Result<(Unwrapped, bool), UnwrapError> {
+) -> Result<(UnwrappedMesh, bool), UnwrapError> {
     let kept = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.uvs.get(vertex as usize).copied().unwrap_or([0.0; 2]));
     let mut corners: Vec<[[f32; 2]; 3]> = mesh.triangles.iter().map(kept).collect();
     let mut reports = Vec::new();
@@ -128,7 +128,7 @@ pub fn unwrap_materials(
         reports.push(layout.report);
     }
     let (mesh, source_vertex) = rebuild::rebuild(mesh, &corners, Some(materials));
-    let unwrapped = Unwrapped {
+    let unwrapped = UnwrappedMesh {
         mesh,
         source_vertex,
         report: UnwrapReport::of_sheets(reports),
@@ -174,7 +174,7 @@ struct UnwrapLayout {
 fn lay_out(mesh: &Mesh) -> Result<UnwrapLayout, UnwrapError> {
     error::check(mesh)?;
     let components = components::components(mesh);
-    let Flattened {
+    let FlatCharts {
         charts,
         distinct,
         warnings,
@@ -185,9 +185,9 @@ fn lay_out(mesh: &Mesh) -> Result<UnwrapLayout, UnwrapError> {
     Ok(layout)
 }
 
-fn finish(mesh: &Mesh, layout: UnwrapLayout) -> Result<Unwrapped, UnwrapError> {
+fn finish(mesh: &Mesh, layout: UnwrapLayout) -> Result<UnwrappedMesh, UnwrapError> {
     let (mesh, source_vertex) = rebuild::rebuild(mesh, &layout.corners, None);
-    Ok(Unwrapped {
+    Ok(UnwrappedMesh {
         mesh,
         source_vertex,
         report: layout.report,

@@ -5,16 +5,16 @@
 
 #[path = "load/arealess.rs"]
 mod arealess;
-#[path = "load/beside.rs"]
-mod beside;
 #[path = "load/builder.rs"]
 mod builder;
-#[path = "load/completing.rs"]
-mod completing;
+#[path = "load/completion.rs"]
+mod completion;
 #[path = "load/dae.rs"]
 mod dae;
 #[path = "load/draco.rs"]
 mod draco;
+#[path = "load/face_reversal.rs"]
+mod face_reversal;
 #[path = "load/far.rs"]
 mod far;
 #[path = "load/faults.rs"]
@@ -49,14 +49,16 @@ mod origins;
 mod packed_quad;
 #[path = "load/parts.rs"]
 mod parts;
-#[path = "load/placing.rs"]
-mod placing;
+#[path = "load/placement.rs"]
+mod placement;
 #[path = "load/ply.rs"]
 mod ply;
 #[path = "load/promises.rs"]
 mod promises;
-#[path = "load/quantized.rs"]
-mod quantized;
+#[path = "load/quantized_uvs.rs"]
+mod quantized_uvs;
+#[path = "load/referenced_files.rs"]
+mod referenced_files;
 #[path = "load/repairs.rs"]
 mod repairs;
 #[path = "load/shared_data.rs"]
@@ -69,5 +71,3 @@ mod smoothing;
 mod stl;
 #[path = "load/storage.rs"]
 mod storage;
-#[path = "load/turning.rs"]
-mod turning;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sabi_gpu::wgsl_struct;
 use sabi_surface::atlas::Atlas;
-use sabi_surface::displace::Displaced;
+use sabi_surface::displace::DisplacedMesh;
 use sabi_surface::model::Mesh;
 
 use crate::placement::Placement;
@@ -68,7 +68,7 @@ pub(crate) fn half_edges(mesh: &Mesh, atlas: &Atlas) -> Vec<HalfEdge> {
 
 /// Half-edges of a displaced mesh along the edges of the original mesh. Edges that subdivide a triangle of the original are
 /// left out.
-pub(crate) fn displaced_half_edges(displaced: &Displaced, atlas: &Atlas) -> Vec<HalfEdge> {
+pub(crate) fn displaced_half_edges(displaced: &DisplacedMesh, atlas: &Atlas) -> Vec<HalfEdge> {
     let mut half_edges = Vec::new();
     let mut edges: Vec<[u32; 2]> = Vec::new();
     let mut first = 0;

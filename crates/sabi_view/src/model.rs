@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use sabi_gpu::wgsl_struct;
 use sabi_gpu::{Gpu, GpuSurface};
 use sabi_surface::atlas::Atlas;
-use sabi_surface::displace::Displaced;
+use sabi_surface::displace::DisplacedMesh;
 use sabi_surface::ground::Ground as ModelGround;
 use sabi_surface::model::{Mesh, Model};
 use sabi_surface::openness::Openness as ModelOpenness;
@@ -86,7 +86,12 @@ impl DrawMesh {
     }
 
     /// Returns the mesh of a displaced copy of a model. Each vertex of the copy is on one chart.
-    pub(crate) fn of_displaced(displaced: &Displaced, model: &Model, atlas: &Atlas, placement: &Placement) -> DrawMesh {
+    pub(crate) fn of_displaced(
+        displaced: &DisplacedMesh,
+        model: &Model,
+        atlas: &Atlas,
+        placement: &Placement,
+    ) -> DrawMesh {
         let material = |triangle: usize| model.mesh.triangle_material[displaced.triangle_from[triangle] as usize];
         let mut order: Vec<u32> = (0..displaced.triangles.len() as u32).collect();
         order.sort_by_key(|&triangle| material(triangle as usize));
@@ -197,7 +202,7 @@ impl ViewModel {
 
     /// Uploads a displaced copy of a model, with the placement of the model. Lines are drawn along the displaced edges and
     /// seams of the model.
-    pub fn displaced(gpu: &Gpu, displaced: &Displaced, parts: ViewModelParts<'_>) -> Result<ViewModel, ViewError> {
+    pub fn displaced(gpu: &Gpu, displaced: &DisplacedMesh, parts: ViewModelParts<'_>) -> Result<ViewModel, ViewError> {
         let ViewModelParts { model, atlas, .. } = parts;
         let made = DrawMesh::of_displaced(displaced, model, atlas, &Placement::of(&model.mesh));
         ViewModel::upload(gpu, parts, made, displaced_half_edges(displaced, atlas))

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sabi_files::{Cache, CacheKind, Unread, read_plain};
 use sabi_graph::nearest;
-use sabi_image::{Declared, Pixels};
+use sabi_image::{DeclaredColorSpace, Pixels};
 use sabi_view::{Environment, Panorama};
 
 use crate::Gpu;
@@ -174,7 +174,7 @@ fn unreadable(path: &Path, unread: Unread) -> EngineError {
 fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineError> {
     let picture = sabi_image::decode(name, bytes)?;
     let is_light = matches!(picture.pixels, Pixels::F32(_));
-    let is_linear = is_light || picture.color_space == Declared::Linear;
+    let is_linear = is_light || picture.color_space == DeclaredColorSpace::Linear;
     let linear = picture.linear_rgba(!is_linear);
     drop(picture);
     let (panorama, mut remarks) = Panorama::new(linear.width, linear.height, &linear.rgba)?;

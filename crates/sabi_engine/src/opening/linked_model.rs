@@ -13,7 +13,7 @@ use sabi_paint::SurfaceIndex;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, Repeats, Udim, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
-use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load_trusting, mesh_bytes};
+use sabi_surface::load::{LoadOptions, ModelFault, Up, is_smoothing_angle, load_trusting, mesh_bytes};
 use sabi_surface::model::Model;
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
@@ -194,7 +194,10 @@ impl LinkedModel {
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
         if let Some(degrees) = options.smooth_degrees.filter(|degrees| !is_smoothing_angle(*degrees)) {
-            return Err(EngineError::new(ErrorKind::Usage, Fault::Smooth(degrees).to_string()));
+            return Err(EngineError::new(
+                ErrorKind::Usage,
+                ModelFault::Smooth(degrees).to_string(),
+            ));
         }
         let load_options = LoadOptions {
             uv_set: options.uv,

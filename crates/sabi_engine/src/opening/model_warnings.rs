@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use sabi_surface::load::listed;
-use sabi_surface::model::LeftOut;
+use sabi_surface::model::ExclusionReason;
 
 use crate::opening::coverage;
 use crate::opening::linked_model::LinkedModel;
@@ -30,7 +30,12 @@ impl LinkedModel {
     /// Warns about parts that were left out because of the meaning of their names.
     fn parts_left_out(&self) -> Option<Warning> {
         let parts = self.model.file_parts.iter();
-        let by_name = parts.filter(|part| matches!(part.left_out, Some(LeftOut::Hull | LeftOut::CoarserLevel)));
+        let by_name = parts.filter(|part| {
+            matches!(
+                part.left_out,
+                Some(ExclusionReason::Hull | ExclusionReason::CoarserLevel)
+            )
+        });
         let names: BTreeSet<&str> = by_name
             .map(|part| part.of_group.as_deref().unwrap_or(&part.name))
             .collect();

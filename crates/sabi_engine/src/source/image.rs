@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sabi_gpu::{GpuError, ImageConstants, ImageShader, SourceCanvas, SourceDraw, SourceShader};
 use sabi_graph::PortType;
-use sabi_image::{Declared, Picture, Pixels, listed_layers};
+use sabi_image::{DeclaredColorSpace, Picture, Pixels, listed_layers};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
@@ -122,9 +122,9 @@ impl Output {
             (1, _) => true,
             (_, Output::Mask | Output::Channel(_)) => false,
             (_, Output::Color) => match picture.color_space {
-                Declared::Srgb => true,
-                Declared::Linear => false,
-                Declared::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
+                DeclaredColorSpace::Srgb => true,
+                DeclaredColorSpace::Linear => false,
+                DeclaredColorSpace::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
             },
         }
     }

@@ -266,7 +266,7 @@ impl Coverage {
 
 #[cfg(test)]
 mod tests {
-    use sabi_image::Declared;
+    use sabi_image::DeclaredColorSpace;
 
     use super::*;
 
@@ -288,7 +288,7 @@ mod tests {
                 height: size[1],
                 channels: 4,
                 pixels: Pixels::F32(pixels.clone()),
-                color_space: Declared::Linear,
+                color_space: DeclaredColorSpace::Linear,
             });
             let levels = MipChain::new(picture.clone(), Reading::of(false, true)).down_to(1);
             let second = if size[0] == 4 { (1, 0) } else { (0, 1) };
@@ -301,7 +301,7 @@ mod tests {
                 height: 1,
                 channels: 4,
                 pixels: Pixels::F32(pixels[..12].to_vec()),
-                color_space: Declared::Linear,
+                color_space: DeclaredColorSpace::Linear,
             });
             let color = MipChain::new(odd, Reading::of(false, true)).down_to(1).pixel(1, 0, 0);
             assert_eq!(color[..3], [1.0, 0.0, 0.0]);
@@ -318,7 +318,7 @@ mod tests {
             height: size[1],
             channels: 1,
             pixels: Pixels::F32(samples.map(|(x, y)| value(x, y)).collect()),
-            color_space: Declared::Linear,
+            color_space: DeclaredColorSpace::Linear,
         })
     }
 

@@ -221,7 +221,7 @@ fn rgba<C: Copy + Default>(codes: &[C], channels: usize, pixel: usize, full: C) 
 
 #[cfg(test)]
 mod tests {
-    use sabi_image::{Declared, Picture};
+    use sabi_image::{DeclaredColorSpace, Picture};
 
     use super::*;
 
@@ -231,7 +231,7 @@ mod tests {
             height: size[1],
             channels,
             pixels,
-            color_space: Declared::Unknown,
+            color_space: DeclaredColorSpace::Unknown,
         };
         let reading = Reading {
             is_srgb,

@@ -1,6 +1,6 @@
 use std::fs;
 
-use sabi_image::{Declared, Pixels, decode};
+use sabi_image::{DeclaredColorSpace, Pixels, decode};
 
 mod outputs;
 
@@ -101,9 +101,9 @@ fn a_whole_set_is_written_as_raw_promises_and_twice_the_same() {
         assert_eq!((picture.width, picture.height), (SIZE, SIZE));
         assert_eq!(usize::from(picture.channels), output.components.len());
         let declared = match (output.color_space, output.bits) {
-            ("srgb", _) => Declared::Srgb,
-            (_, 32) => Declared::Linear,
-            _ => Declared::Unknown,
+            ("srgb", _) => DeclaredColorSpace::Srgb,
+            (_, 32) => DeclaredColorSpace::Linear,
+            _ => DeclaredColorSpace::Unknown,
         };
         assert_eq!(picture.color_space, declared, "{}", output.path);
     }

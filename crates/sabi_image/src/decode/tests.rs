@@ -48,22 +48,22 @@ fn chunks_declare_the_transfer_curve_of_a_png() {
         let file = png_bytes(png::ColorType::Grayscale, png::BitDepth::Eight, &[0; 4], more);
         decode("g.png", &file).unwrap().color_space
     };
-    assert_eq!(with(|_| ()), Declared::Unknown);
+    assert_eq!(with(|_| ()), DeclaredColorSpace::Unknown);
     assert_eq!(
         with(|e| e.set_source_srgb(png::SrgbRenderingIntent::Perceptual)),
-        Declared::Srgb
+        DeclaredColorSpace::Srgb
     );
     assert_eq!(
         with(|e| e.set_source_gamma(png::ScaledFloat::new(1.0))),
-        Declared::Linear
+        DeclaredColorSpace::Linear
     );
     assert_eq!(
         with(|e| e.set_source_gamma(png::ScaledFloat::new(0.45455))),
-        Declared::Srgb
+        DeclaredColorSpace::Srgb
     );
     assert_eq!(
         with(|e| e.set_source_gamma(png::ScaledFloat::new(0.7))),
-        Declared::Unknown
+        DeclaredColorSpace::Unknown
     );
 }
 
@@ -81,7 +81,7 @@ fn a_color_profile_is_detected_without_unpacking_it() {
     let picture = decode("profile.png", &file).unwrap();
     assert_eq!(
         (picture.pixels, picture.color_space),
-        (Pixels::U8(vec![9; 4]), Declared::Unknown)
+        (Pixels::U8(vec![9; 4]), DeclaredColorSpace::Unknown)
     );
     // The content of the profile does not matter, nor do other chunks.
     let start = file.windows(4).position(|window| window == b"iCCP").unwrap();
@@ -122,9 +122,9 @@ fn the_other_formats_are_read_by_content() {
             "{name}: {first:?}"
         );
         let declared = if format == ImageFormat::Hdr {
-            Declared::Linear
+            DeclaredColorSpace::Linear
         } else {
-            Declared::Unknown
+            DeclaredColorSpace::Unknown
         };
         assert_eq!(picture.color_space, declared, "{name}");
     }

@@ -75,9 +75,9 @@ fn said(file: &[u8]) -> String {
 #[test]
 fn basis_textures_have_the_expected_colors() {
     for (name, text, tolerance, alpha, declared) in [
-        ("ETC1S", ETC1S, 4, 128, Declared::Srgb),
-        ("UASTC, Zstandard", UASTC_ZSTANDARD, 0, 128, Declared::Srgb),
-        ("UASTC", UASTC, 0, 255, Declared::Linear),
+        ("ETC1S", ETC1S, 4, 128, DeclaredColorSpace::Srgb),
+        ("UASTC, Zstandard", UASTC_ZSTANDARD, 0, 128, DeclaredColorSpace::Srgb),
+        ("UASTC", UASTC, 0, 255, DeclaredColorSpace::Linear),
     ] {
         let file = from_hexadecimal(text);
         let picture = crate::decode("a.png", &file).unwrap();
@@ -108,7 +108,7 @@ fn uncompressed_texels_are_read_with_and_without_zstandard() {
         let picture = decode_ktx2("a.ktx2", &plain_file(vk_format, scheme, expected.len() as u32, &level)).unwrap();
         assert_eq!(picture.channels, channels, "{vk_format}");
         assert_eq!(picture.pixels, Pixels::U8(expected.to_vec()), "{vk_format}");
-        assert_eq!(picture.color_space, Declared::Srgb);
+        assert_eq!(picture.color_space, DeclaredColorSpace::Srgb);
     }
 }
 

@@ -2,16 +2,16 @@
 
 use rayon::prelude::*;
 
-use super::filter::Filter;
+use super::filter::PngFilter;
 use super::method::{Matches, Method};
 use super::rows::{Block, Rows};
 use super::strip::Strip;
 
 const METHODS: [Method; 4] = [
-    Method::new(Filter::Smallest, Matches::Runs),
-    Method::new(Filter::Off, Matches::Runs),
-    Method::new(Filter::Smallest, Matches::Any),
-    Method::new(Filter::Off, Matches::Any),
+    Method::new(PngFilter::Smallest, Matches::Runs),
+    Method::new(PngFilter::Off, Matches::Runs),
+    Method::new(PngFilter::Smallest, Matches::Any),
+    Method::new(PngFilter::Off, Matches::Any),
 ];
 /// Size of a part of the sample in bytes; a part consists of neighboring rows.
 const PART_BYTES: usize = 64 * 1024;

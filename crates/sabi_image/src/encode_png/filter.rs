@@ -4,7 +4,7 @@ use super::rows::Block;
 
 /// How the filter of each row is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Filter {
+pub(super) enum PngFilter {
     /// No filter, which is best if pixels with few different values repeat.
     Off,
     /// The filter with the smallest sum of differences, the usual heuristic for the best compression (PNG specification, 12.8).
@@ -18,15 +18,15 @@ const UP: u8 = 2;
 const PAETH: u8 = 4;
 
 /// Returns the filtered rows, each with the number of its filter in front.
-pub(super) fn filter_rows(block: &Block<'_>, filter: Filter) -> Vec<u8> {
+pub(super) fn filter_rows(block: &Block<'_>, filter: PngFilter) -> Vec<u8> {
     let zeros = vec![0; block.row_bytes];
     let rows = block.rows_with_above(&zeros);
     let mut out = Vec::with_capacity(rows.len() * (block.row_bytes + 1));
     let mut trials = [const { Vec::new() }; 3];
     for (row, above) in rows {
         let (number, best) = match filter {
-            Filter::Off => (NONE, None),
-            Filter::Smallest => smallest(row, above, block.pixel_bytes, &mut trials),
+            PngFilter::Off => (NONE, None),
+            PngFilter::Smallest => smallest(row, above, block.pixel_bytes, &mut trials),
         };
         out.push(number);
         out.extend_from_slice(best.map_or(row, |index| &trials[index][..]));

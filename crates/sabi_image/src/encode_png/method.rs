@@ -1,11 +1,11 @@
 //! Method of compression.
 
-use super::filter::Filter;
+use super::filter::PngFilter;
 
 /// Method of compressing an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Method {
-    pub(super) filter: Filter,
+    pub(super) filter: PngFilter,
     pub(super) matches: Matches,
 }
 
@@ -20,7 +20,7 @@ pub(super) enum Matches {
 }
 
 impl Method {
-    pub(super) const fn new(filter: Filter, matches: Matches) -> Method {
+    pub(super) const fn new(filter: PngFilter, matches: Matches) -> Method {
         Method { filter, matches }
     }
 }

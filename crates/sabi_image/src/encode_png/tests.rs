@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Declared, Pixels, decode};
+use crate::{DeclaredColorSpace, Pixels, decode};
 
 fn wavy(samples: usize) -> Vec<u8> {
     (0..samples)
@@ -86,7 +86,7 @@ fn only_a_requested_srgb_chunk_describes_the_color_space() {
     let color = encode_png(2, 1, PngData::U8(&[1, 2]), options).unwrap();
     assert_eq!(kinds(&color), ["IHDR", "sRGB", "IDAT", "IEND"]);
     assert_eq!(chunks(&color)[1].1, [0], "perceptual");
-    assert_eq!(decode("a.png", &color).unwrap().color_space, Declared::Srgb);
+    assert_eq!(decode("a.png", &color).unwrap().color_space, DeclaredColorSpace::Srgb);
     let data = encode_png(
         2,
         1,
@@ -98,7 +98,7 @@ fn only_a_requested_srgb_chunk_describes_the_color_space() {
     )
     .unwrap();
     assert_eq!(kinds(&data), ["IHDR", "IDAT", "IEND"]);
-    assert_eq!(decode("a.png", &data).unwrap().color_space, Declared::Unknown);
+    assert_eq!(decode("a.png", &data).unwrap().color_space, DeclaredColorSpace::Unknown);
 }
 
 #[test]

@@ -6,19 +6,19 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use sabi_cancel::look;
 
+use super::build_inputs::{BuildInputs, ChartSet, UvOrigin};
+use super::chart_placement::{ChartPlacement, TEXELS_LIMIT, place, too_many_texels};
 use super::charts::{Partition, partition, sheet_of};
 use super::division::Division;
-use super::fixed::{UNIT, Uvs};
-use super::links::{Links, Pages, link};
+use super::fixed_point_uvs::{UNIT, Uvs};
+use super::links::{LinkedGhosts, PlacedOwners, link};
 use super::mask::Mask;
 use super::overlap::overlap;
-use super::place::{Placement, TEXELS_LIMIT, place, too_many_texels};
-use super::plan::{ChartSet, Origin, Plan};
 use super::report::ReportInputs;
 use super::ring::Occupancy;
 use super::topology::Topology;
 use super::udim::udim_sheets;
-use super::walk::Walker;
+use super::walk::WalkMesh;
 use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, Ghost, TILE, leap, owners};
 use crate::model::Mesh;
 
@@ -40,7 +40,7 @@ impl Atlas {
         let uvs = Uvs::check(mesh, size)?;
         let topology = Topology::new(mesh);
         let orientations = orientations(&uvs, mesh);
-        let plan = Plan {
+        let plan = BuildInputs {
             mesh,
             topology: &topology,
             uvs,
@@ -57,7 +57,7 @@ impl Atlas {
             masks = plan.masks(&split)?;
             partition = split;
         }
-        let origin = |chart: usize| Origin {
+        let origin = |chart: usize| UvOrigin {
             uv_chart: chart as u32,
             uv_tile: plan.uv_tile(partition.triangles(chart)),
         };
@@ -85,7 +85,7 @@ impl Atlas {
         let uvs = Uvs::check(mesh, size)?;
         let topology = Topology::new(mesh);
         let orientations = orientations(&uvs, mesh);
-        let plan = Plan {
+        let plan = BuildInputs {
             mesh,
             topology: &topology,
             uvs,
@@ -96,7 +96,7 @@ impl Atlas {
             memory_bytes: u64::MAX,
         };
         let partition = Partition::numbered(self.triangle_chart.clone(), self.charts.len());
-        let origin = |chart: &Chart| Origin {
+        let origin = |chart: &Chart| UvOrigin {
             uv_chart: chart.uv_chart,
             uv_tile: chart.uv_tile,
         };
@@ -123,7 +123,7 @@ const TEXEL_BYTES: u64 = 8;
 const GHOST_COPIES: u64 = 3;
 
 /// Estimates the memory of an atlas whose charts are placed, bytes.
-fn placed_bytes(masks: &[Mask], placement: &Placement) -> u64 {
+fn placed_bytes(masks: &[Mask], placement: &ChartPlacement) -> u64 {
     let [width, height] = placement.page_size.map(u64::from);
     let texels = width * height * u64::from(placement.pages);
     let ghosts: u64 = masks
@@ -137,7 +137,7 @@ fn placed_bytes(masks: &[Mask], placement: &Placement) -> u64 {
 const GAPS_WARNING: &str = "Parts of UV charts lie so close to each other that filters flow from one to the other; placing them apart would \
     take too many texels. More space between them helps.";
 
-impl Plan<'_> {
+impl BuildInputs<'_> {
     /// Refuses charts that would need more texels than an atlas can have, before any texel is rasterized.
     fn check_area(&self, partition: &Partition) -> Result<(), AtlasError> {
         let triangles = 0..self.mesh.triangles.len() as u32;
@@ -191,7 +191,7 @@ impl Plan<'_> {
             size: self.size,
         };
         let overlap = overlap(self.mesh, &self.uvs, in_uv, &udims, self.size);
-        let Links {
+        let LinkedGhosts {
             ghosts,
             unlinked,
             pulled,
@@ -231,11 +231,11 @@ impl Plan<'_> {
         &self,
         partition: &Partition,
         masks: &[Mask],
-        placement: &Placement,
+        placement: &ChartPlacement,
         owners: &[u32],
         occupancy: &Occupancy,
         sound: &[bool],
-    ) -> Links {
+    ) -> LinkedGhosts {
         let usable: Vec<bool> = (0..sound.len())
             .map(|triangle| {
                 let chart = partition.triangle_chart[triangle] as usize;
@@ -243,7 +243,7 @@ impl Plan<'_> {
             })
             .collect();
         let anchored = occupancy.anchored(owners, |triangle| usable[triangle as usize]);
-        let walker = Walker {
+        let walker = WalkMesh {
             mesh: self.mesh,
             topology: self.topology,
             uvs: self.uvs,
@@ -251,7 +251,7 @@ impl Plan<'_> {
         };
         link(
             &walker,
-            &Pages {
+            &PlacedOwners {
                 owners,
                 partition,
                 placement,
@@ -277,7 +277,7 @@ impl Plan<'_> {
             .collect()
     }
 
-    fn triangle_texels(&self, partition: &Partition, placement: &Placement) -> Vec<[[f32; 2]; 3]> {
+    fn triangle_texels(&self, partition: &Partition, placement: &ChartPlacement) -> Vec<[[f32; 2]; 3]> {
         partition
             .triangle_chart
             .par_iter()
@@ -290,7 +290,7 @@ impl Plan<'_> {
             .collect()
     }
 
-    fn charts(&self, placed: &ChartSet, placement: &Placement) -> Vec<Chart> {
+    fn charts(&self, placed: &ChartSet, placement: &ChartPlacement) -> Vec<Chart> {
         let ChartSet {
             partition,
             masks,

@@ -70,7 +70,7 @@ impl Partition {
 
 /// Finds the charts of a mesh. Charts that overlap themselves are not split yet.
 pub(super) fn partition(mesh: &Mesh, topology: &Topology, orientations: &[i8]) -> Partition {
-    let mut sets = DisjointSets::new(orientations);
+    let mut sets = OrientedDisjointSets::new(orientations);
     // Triangles without area in UV are joined last. They never join charts of opposite winding.
     for with_flat in [false, true] {
         for (edge, &twin) in topology.twins.iter().enumerate().looking() {
@@ -109,14 +109,14 @@ pub(crate) fn is_seam(mesh: &Mesh, topology: &Topology, edge: u32, twin: u32) ->
 }
 
 /// Disjoint sets of triangles. Triangles of opposite winding in UV are never in one set.
-struct DisjointSets {
+struct OrientedDisjointSets {
     parents: Vec<u32>,
     orientations: Vec<i8>,
 }
 
-impl DisjointSets {
-    fn new(orientations: &[i8]) -> DisjointSets {
-        DisjointSets {
+impl OrientedDisjointSets {
+    fn new(orientations: &[i8]) -> OrientedDisjointSets {
+        OrientedDisjointSets {
             parents: (0..orientations.len() as u32).collect(),
             orientations: orientations.to_vec(),
         }

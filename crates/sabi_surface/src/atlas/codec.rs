@@ -60,7 +60,7 @@ pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
 
 /// Decodes an atlas; `None` if the bytes are not a valid atlas.
 pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
-    let mut input = Reader { bytes };
+    let mut input = ByteReader { bytes };
     let [size, width, height, pages] = input.u32_array()?;
     let [charts, triangles, ghosts] = input.u32_array()?.map(|count| count as usize);
     let texels = (u64::from(width) * u64::from(height)).checked_mul(pages.into())?;
@@ -74,11 +74,11 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     }
     let udims = input.count()?;
     let udim_sheets = input.list(udims, 1, |input| u32::try_from(input.varint()?).ok())?;
-    let charts = input.list(charts, 60, Reader::chart)?;
+    let charts = input.list(charts, 60, ByteReader::chart)?;
     let triangle_chart = input.pods(triangles)?;
     let triangle_texels = input.pods(triangles)?;
     let owners = input.owners(texels as usize)?;
-    let mut ghosts = input.list(ghosts, 44, Reader::ghost)?;
+    let mut ghosts = input.list(ghosts, 44, ByteReader::ghost)?;
     place_ghosts(&mut ghosts, &owners, [width, height])?;
     let leap = input.take(texels as usize)?.to_vec();
     let report = input.report()?;
@@ -165,11 +165,11 @@ impl Writer {
     }
 }
 
-struct Reader<'a> {
+struct ByteReader<'a> {
     bytes: &'a [u8],
 }
 
-impl<'a> Reader<'a> {
+impl<'a> ByteReader<'a> {
     fn take(&mut self, count: usize) -> Option<&'a [u8]> {
         let (taken, rest) = self.bytes.split_at_checked(count)?;
         self.bytes = rest;

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
+use super::build_inputs::{BuildInputs, ChartSet};
+use super::chart_split::Splitter;
 use super::charts::Partition;
 use super::gaps::Gaps;
 use super::mask::{Mask, texel_box};
-use super::plan::{ChartSet, Plan};
-use super::split::Splitter;
 use super::{AtlasError, RINGS};
 
 /// Division of charts at narrow gaps.
@@ -36,7 +36,7 @@ const MASKS: u64 = 3;
 /// Memory of a chart in addition to its texels, in bytes.
 const CHART_BYTES: u64 = 256;
 
-impl Plan<'_> {
+impl BuildInputs<'_> {
     /// Returns the mask of each chart, and whether the chart covers a texel twice. Charts that would not fit are an error
     /// before anything is allocated.
     pub(super) fn masks(&self, partition: &Partition) -> Result<Vec<(Mask, bool)>, AtlasError> {

@@ -8,9 +8,9 @@ use std::collections::{HashSet, VecDeque};
 use glam::{DVec2, DVec3};
 
 use super::RINGS;
+use super::build_inputs::BuildInputs;
 use super::charts::Partition;
 use super::mask::{Mask, for_each_run, or_shifted};
-use super::plan::Plan;
 use super::raster::spans;
 use crate::segment::distance_to_segment;
 
@@ -42,11 +42,11 @@ const ONE_PLACE: f64 = 3.0;
 const DIRECTIONS: [[i64; 2]; 4] = [[1, 0], [0, 1], [1, 1], [-1, 1]];
 
 /// Column and row in the user's UV layout.
-type Texel = [i64; 2];
+type LayoutTexel = [i64; 2];
 
 /// Charts whose gaps are looked for.
 pub(super) struct Gaps<'a> {
-    pub(super) plan: &'a Plan<'a>,
+    pub(super) plan: &'a BuildInputs<'a>,
     pub(super) partition: &'a Partition,
 }
 
@@ -89,7 +89,7 @@ impl Gaps<'_> {
     }
 
     /// Returns whether two neighboring texels are at the same place in space.
-    fn is_one_place(&self, [(a, from), (b, to)]: [(u32, Texel); 2]) -> bool {
+    fn is_one_place(&self, [(a, from), (b, to)]: [(u32, LayoutTexel); 2]) -> bool {
         let are_side_by_side = [0, 1].iter().all(|&axis| (from[axis] - to[axis]).abs() <= 1);
         let places = || self.place(a, from).zip(self.place(b, to));
         are_side_by_side
@@ -98,7 +98,7 @@ impl Gaps<'_> {
 
     /// Returns the position of a texel's center in space, and the longer one of its two texel axes; `None` for a triangle
     /// without area in UV.
-    fn place(&self, triangle: u32, texel: Texel) -> Option<[DVec3; 2]> {
+    fn place(&self, triangle: u32, texel: LayoutTexel) -> Option<[DVec3; 2]> {
         let [q0, q1, q2] = self.plan.uvs.corners(triangle);
         let (to_1, to_2) = (q1 - q0, q2 - q0);
         let area2 = to_1.perp_dot(to_2);
@@ -111,7 +111,7 @@ impl Gaps<'_> {
     }
 
     /// Adds pairs of neighboring texels near edges where the chart ends.
-    fn touching_pairs(&self, chart: usize, mask: &Mask, pairs: &mut Vec<[Texel; 2]>) {
+    fn touching_pairs(&self, chart: usize, mask: &Mask, pairs: &mut Vec<[LayoutTexel; 2]>) {
         let triangles = self.partition.triangles(chart);
         let mut steps_left = EDGE_STEPS.saturating_mul(triangles.len()).max(LEAST_EDGE_STEPS);
         for &triangle in triangles.iter().looking() {
@@ -155,7 +155,7 @@ impl Gaps<'_> {
     }
 
     /// Finds the triangles of the texels of pairs.
-    fn owners(&self, chart: usize, mask: &Mask, pairs: &[[Texel; 2]]) -> Owners {
+    fn owners(&self, chart: usize, mask: &Mask, pairs: &[[LayoutTexel; 2]]) -> Owners {
         let mut owners = Owners::of(mask, pairs.iter().flatten().copied());
         if !pairs.is_empty() {
             // Iterate in reverse, so that the lowest number is written last, as in the atlas.
@@ -254,7 +254,7 @@ struct Owners {
 }
 
 impl Owners {
-    fn of(mask: &Mask, texels: impl Iterator<Item = Texel>) -> Owners {
+    fn of(mask: &Mask, texels: impl Iterator<Item = LayoutTexel>) -> Owners {
         let first_row = mask.origin[1];
         let mut rows = vec![Vec::new(); mask.height as usize];
         for [x, y] in texels {
@@ -279,7 +279,7 @@ impl Owners {
         }
     }
 
-    fn triangle(&self, [x, y]: Texel) -> Option<u32> {
+    fn triangle(&self, [x, y]: LayoutTexel) -> Option<u32> {
         let row = self.rows.get(usize::try_from(y - self.first_row).ok()?)?;
         row[row.binary_search_by_key(&x, |&(x, _)| x).ok()?].1
     }
@@ -320,7 +320,7 @@ fn nearer_to_each(neighbors: &[[Option<usize>; 3]], parts: &[usize], sides: [usi
 }
 
 /// Returns pairs of texels of a chart with a few empty texels between them.
-fn wide_pairs(mask: &Mask) -> Vec<[Texel; 2]> {
+fn wide_pairs(mask: &Mask) -> Vec<[LayoutTexel; 2]> {
     let mut pairs = Vec::new();
     let empty = Vec::new();
     let rows: Vec<&[u64]> = mask.rows().collect();
@@ -343,6 +343,6 @@ fn wide_pairs(mask: &Mask) -> Vec<[Texel; 2]> {
     pairs
 }
 
-fn center([x, y]: Texel) -> DVec2 {
+fn center([x, y]: LayoutTexel) -> DVec2 {
     DVec2::new(x as f64, y as f64) + 0.5
 }

@@ -9,7 +9,7 @@ use sabi_cancel::Cancel;
 
 use super::EMPTY;
 use super::charts::Partition;
-use super::fixed::Uvs;
+use super::fixed_point_uvs::Uvs;
 use crate::model::Mesh;
 
 /// Distances beyond this many texels count as equal: a leap is at most 255.
@@ -34,7 +34,7 @@ pub(super) fn leap(mesh: &Mesh, uvs: &Uvs, partition: &Partition, owners: &[u32]
         .par_chunks_mut(width * height)
         .zip(owners.par_chunks(width * height))
         .for_each(|(leaps, owners)| {
-            let page = Page {
+            let page = OwnedPage {
                 owners,
                 width,
                 metrics: &metrics,
@@ -52,14 +52,14 @@ pub(super) fn leap(mesh: &Mesh, uvs: &Uvs, partition: &Partition, owners: &[u32]
     leaps
 }
 
-struct Page<'a> {
+struct OwnedPage<'a> {
     owners: &'a [u32],
     width: usize,
     metrics: &'a [Metric],
     cancel: &'a Cancel,
 }
 
-impl Page<'_> {
+impl OwnedPage<'_> {
     /// Returns the distance of every texel to the nearest wall in its column, at most [`FAR`].
     fn column_distances(&self) -> Vec<u16> {
         let (width, height) = (self.width, self.owners.len() / self.width);

@@ -4,10 +4,10 @@ use glam::{DMat2, DVec2, UVec2};
 use rayon::prelude::*;
 use sabi_cancel::Cancel;
 
+use super::chart_placement::ChartPlacement;
 use super::charts::Partition;
-use super::place::Placement;
 use super::ring::AnchoredGhost;
-use super::walk::{WalkEnd, Walker};
+use super::walk::{WalkEnd, WalkMesh};
 use super::{EMPTY, Ghost};
 
 /// Maximum distance from the end of a link to the owned texel towards which it is moved, in texels.
@@ -25,14 +25,14 @@ const EQUAL_SHARE: f64 = 0.25;
 const SUFFICIENT_SHARE: f64 = 0.75;
 
 /// Owners and placement in which links are looked up.
-pub(super) struct Pages<'a> {
+pub(super) struct PlacedOwners<'a> {
     pub(super) owners: &'a [u32],
     pub(super) partition: &'a Partition,
-    pub(super) placement: &'a Placement,
+    pub(super) placement: &'a ChartPlacement,
 }
 
 /// The ghosts with their links.
-pub(super) struct Links {
+pub(super) struct LinkedGhosts {
     pub(super) ghosts: Vec<Ghost>,
     /// Ghosts without a link.
     pub(super) unlinked: u32,
@@ -41,7 +41,7 @@ pub(super) struct Links {
 }
 
 /// Result of linking a ghost.
-enum Outcome {
+enum LinkOutcome {
     /// Linked to the end of its walk.
     Linked,
     /// Linked to a point between the end of its walk and the nearest owned texel.
@@ -51,23 +51,24 @@ enum Outcome {
 }
 
 /// Links all ghosts, in their order.
-pub(super) fn link(walker: &Walker, pages: &Pages, anchored: &[AnchoredGhost]) -> Links {
+pub(super) fn link(walker: &WalkMesh, pages: &PlacedOwners, anchored: &[AnchoredGhost]) -> LinkedGhosts {
     let cancel = Cancel::current();
-    let linked: Vec<(Ghost, Outcome)> = anchored
+    let linked: Vec<(Ghost, LinkOutcome)> = anchored
         .par_iter()
         .inspect(|_| cancel.look())
         .map(|anchored| pages.link(walker, anchored))
         .collect();
-    let count = |is_counted: fn(&Outcome) -> bool| linked.iter().filter(|linked| is_counted(&linked.1)).count() as u32;
-    Links {
-        unlinked: count(|outcome| matches!(outcome, Outcome::Unlinked)),
-        pulled: count(|outcome| matches!(outcome, Outcome::Pulled)),
+    let count =
+        |is_counted: fn(&LinkOutcome) -> bool| linked.iter().filter(|linked| is_counted(&linked.1)).count() as u32;
+    LinkedGhosts {
+        unlinked: count(|outcome| matches!(outcome, LinkOutcome::Unlinked)),
+        pulled: count(|outcome| matches!(outcome, LinkOutcome::Pulled)),
         ghosts: linked.into_iter().map(|(ghost, _)| ghost).collect(),
     }
 }
 
-impl Pages<'_> {
-    fn link(&self, walker: &Walker, anchored: &AnchoredGhost) -> (Ghost, Outcome) {
+impl PlacedOwners<'_> {
+    fn link(&self, walker: &WalkMesh, anchored: &AnchoredGhost) -> (Ghost, LinkOutcome) {
         let AnchoredGhost {
             texel,
             anchor,
@@ -90,9 +91,9 @@ impl Pages<'_> {
             read_texel: read.map_or(texel, |(_, at)| at).as_vec2().to_array(),
         };
         match found {
-            Some((end, texel, false)) => (ghost(end.triangle, texel, end.transport), Outcome::Linked),
-            Some((end, texel, true)) => (ghost(end.triangle, texel, end.transport), Outcome::Pulled),
-            None => (ghost(triangle, corner + 0.5, DMat2::IDENTITY), Outcome::Unlinked),
+            Some((end, texel, false)) => (ghost(end.triangle, texel, end.transport), LinkOutcome::Linked),
+            Some((end, texel, true)) => (ghost(end.triangle, texel, end.transport), LinkOutcome::Pulled),
+            None => (ghost(triangle, corner + 0.5, DMat2::IDENTITY), LinkOutcome::Unlinked),
         }
     }
 
@@ -102,7 +103,7 @@ impl Pages<'_> {
     /// Between the owned texels of two charts there is up to a texel of surface that neither owns. A walk that ends there
     /// is continued over the seam, and its end is given in coordinates of the chart on the other side, since in its own
     /// chart a ghost would read itself. Of all candidates, the one with the largest share of owned texels is used.
-    fn read_point(&self, walker: &Walker, triangle: u32, start: DVec2, step: DVec2) -> Option<(u32, DVec2)> {
+    fn read_point(&self, walker: &WalkMesh, triangle: u32, start: DVec2, step: DVec2) -> Option<(u32, DVec2)> {
         let length = step.x.hypot(step.y).max(1.0);
         let ends = CONTINUED_TEXELS.into_iter().filter_map(|texels| {
             let more = step * texels / length;

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::fixed::{UNIT, Uvs};
+use super::fixed_point_uvs::{UNIT, Uvs};
 use super::raster::spans;
 use sabi_cancel::Looking as _;
 

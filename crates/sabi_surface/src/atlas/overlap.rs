@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use sabi_cancel::{Cancel, look};
 
 use super::PAIRS_LIMIT;
+use super::build_inputs::ChartSet;
 use super::charts::sheet_of;
-use super::fixed::{UNIT, Uvs};
+use super::fixed_point_uvs::{UNIT, Uvs};
 use super::mask::{Mask, for_each_run};
-use super::plan::ChartSet;
 use crate::model::Mesh;
 
 /// Maximum number of pairs whose shared texels are counted.
@@ -18,7 +18,7 @@ const CANDIDATES_LIMIT: usize = 200_000;
 
 /// Overlap of charts.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Overlap {
+pub(super) struct ChartOverlap {
     /// Owned texels that another chart covers, too.
     pub(super) texels: u64,
     /// Pairs with the number of texels that they share.
@@ -28,15 +28,15 @@ pub(super) struct Overlap {
 }
 
 /// Texels that a chart claims of a square.
-struct Claim<'m> {
+struct ClaimedTexels<'m> {
     chart: usize,
     mask: Cow<'m, Mask>,
 }
 
 /// Finds all overlaps within each sheet. UV tiles are wrapped onto one unit square, except those of the sheets in `udims`, each of which
 /// has maps of its own.
-pub(super) fn overlap(mesh: &Mesh, uvs: &Uvs, charts: &ChartSet, udims: &BTreeSet<u32>, size: u32) -> Overlap {
-    let mut found = Overlap::default();
+pub(super) fn overlap(mesh: &Mesh, uvs: &Uvs, charts: &ChartSet, udims: &BTreeSet<u32>, size: u32) -> ChartOverlap {
+    let mut found = ChartOverlap::default();
     let numbers: Vec<usize> = (0..charts.partition.len()).collect();
     let sheet = |chart: usize| sheet_of(mesh, charts.partition.triangles(chart));
     for of_sheet in numbers.chunk_by(|&a, &b| sheet(a) == sheet(b)) {
@@ -54,8 +54,8 @@ pub(super) fn overlap(mesh: &Mesh, uvs: &Uvs, charts: &ChartSet, udims: &BTreeSe
 }
 
 /// Returns what charts claim of one square onto which all tiles are wrapped.
-fn claims<'m>(charts: &'m ChartSet, numbers: &[usize]) -> Vec<Claim<'m>> {
-    let claim = |&chart: &usize| Claim {
+fn claims<'m>(charts: &'m ChartSet, numbers: &[usize]) -> Vec<ClaimedTexels<'m>> {
+    let claim = |&chart: &usize| ClaimedTexels {
         chart,
         mask: Cow::Borrowed(&charts.masks[chart]),
     };
@@ -64,21 +64,21 @@ fn claims<'m>(charts: &'m ChartSet, numbers: &[usize]) -> Vec<Claim<'m>> {
 
 /// Returns what charts claim of each tile. A texel outside of its chart's tile belongs to the tile that it lies in, or is wrapped where
 /// that has no maps, as those of texture sets are.
-fn claims_of_tiles<'m>(charts: &'m ChartSet, numbers: &[usize], size: u32) -> Vec<Vec<Claim<'m>>> {
+fn claims_of_tiles<'m>(charts: &'m ChartSet, numbers: &[usize], size: u32) -> Vec<Vec<ClaimedTexels<'m>>> {
     let own = |chart: usize| charts.origins[chart].uv_tile;
     let covering: Vec<usize> = numbers
         .iter()
         .copied()
         .filter(|&chart| !charts.masks[chart].is_empty())
         .collect();
-    let mut squares: BTreeMap<[i32; 2], Vec<Claim<'m>>> =
+    let mut squares: BTreeMap<[i32; 2], Vec<ClaimedTexels<'m>>> =
         covering.iter().map(|&chart| (own(chart), Vec::new())).collect();
     let tiles: BTreeSet<[i32; 2]> = squares.keys().copied().collect();
     for chart in covering {
         look();
         let home = |tile: [i32; 2]| if tiles.contains(&tile) { tile } else { own(chart) };
         for (tile, mask) in charts.masks[chart].by_tile(size, home) {
-            squares.entry(tile).or_default().push(Claim { chart, mask });
+            squares.entry(tile).or_default().push(ClaimedTexels { chart, mask });
         }
     }
     squares.into_values().collect()
@@ -88,9 +88,9 @@ fn overlap_of_sheet(
     uvs: &Uvs,
     charts: &ChartSet,
     size: u32,
-    squares: &[Vec<Claim<'_>>],
+    squares: &[Vec<ClaimedTexels<'_>>],
     are_tiles: bool,
-    found: &mut Overlap,
+    found: &mut ChartOverlap,
 ) {
     let masks = &charts.masks;
     let mut stacked = BTreeSet::new();
@@ -99,14 +99,14 @@ fn overlap_of_sheet(
         let mut square = Square::new(size);
         for claim in claims {
             look();
-            square.claim(&Wrapped::new(&claim.mask, size));
+            square.claim(&WrappedMask::new(&claim.mask, size));
         }
         if square.twice.iter().all(|&word| word == 0) {
             continue;
         }
-        let crowded: Vec<(usize, Wrapped)> = claims
+        let crowded: Vec<(usize, WrappedMask)> = claims
             .iter()
-            .map(|claim| (claim.chart, Wrapped::new(&claim.mask, size)))
+            .map(|claim| (claim.chart, WrappedMask::new(&claim.mask, size)))
             .filter(|(_, wrapped)| square.shared(wrapped) > 0)
             .collect();
         found.texels += crowded.iter().map(|(_, wrapped)| square.shared(wrapped)).sum::<u64>();
@@ -128,7 +128,7 @@ fn overlap_of_sheet(
 }
 
 /// Returns the pairs of charts that share texels, at most `room` pairs.
-fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
+fn pairs(crowded: &[(usize, WrappedMask)], room: usize) -> Vec<(u32, u32, u64)> {
     let mut candidates = Vec::new();
     'all: for (index, (_, a)) in crowded.iter().enumerate() {
         look();
@@ -215,7 +215,7 @@ impl Square {
         }
     }
 
-    fn claim(&mut self, wrapped: &Wrapped) {
+    fn claim(&mut self, wrapped: &WrappedMask) {
         for (y, bits) in wrapped.rows() {
             let start = y * self.words + wrapped.first_word;
             let once = &mut self.once[start..start + bits.len()];
@@ -228,7 +228,7 @@ impl Square {
     }
 
     /// Returns the number of texels of a chart that another one covers as well.
-    fn shared(&self, wrapped: &Wrapped) -> u64 {
+    fn shared(&self, wrapped: &WrappedMask) -> u64 {
         let row = |(y, bits): (usize, &[u64])| {
             let twice = &self.twice[y * self.words + wrapped.first_word..];
             twice
@@ -242,7 +242,7 @@ impl Square {
 }
 
 /// A chart's texels wrapped onto the unit square.
-struct Wrapped {
+struct WrappedMask {
     size: usize,
     /// First row, and number of rows; they wrap from the end of the square to its start.
     top: usize,
@@ -253,8 +253,8 @@ struct Wrapped {
     bits: Vec<u64>,
 }
 
-impl Wrapped {
-    fn new(mask: &Mask, size: u32) -> Wrapped {
+impl WrappedMask {
+    fn new(mask: &Mask, size: u32) -> WrappedMask {
         let size = size as usize;
         let [left, top] = mask.origin.map(|value| value.rem_euclid(size as i64) as usize);
         let (first, last) = match left + mask.width as usize {
@@ -272,7 +272,7 @@ impl Wrapped {
                 }
             });
         }
-        Wrapped {
+        WrappedMask {
             size,
             top,
             height,
@@ -287,14 +287,14 @@ impl Wrapped {
     }
 
     /// Returns true if the bounds of two charts overlap, so that the charts may share texels.
-    fn near(&self, other: &Wrapped) -> bool {
+    fn near(&self, other: &WrappedMask) -> bool {
         let rows_meet = (other.top + self.size - self.top) % self.size < self.height
             || (self.top + self.size - other.top) % self.size < other.height;
         let (a, b) = (self.first_word, other.first_word);
         rows_meet && a < b + other.words && b < a + self.words
     }
 
-    fn shared(&self, other: &Wrapped) -> u64 {
+    fn shared(&self, other: &WrappedMask) -> u64 {
         let from = self.first_word.max(other.first_word);
         let to = (self.first_word + self.words).min(other.first_word + other.words);
         let mut shared = 0;

@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use sabi_cancel::{Cancel, Looking as _};
 
 use super::EMPTY;
+use super::chart_placement::ChartPlacement;
 use super::charts::Partition;
-use super::fixed::{UNIT, Uvs};
-use super::place::Placement;
+use super::fixed_point_uvs::{UNIT, Uvs};
 use super::raster::spans;
 use crate::groups::Groups;
 
@@ -16,7 +16,7 @@ const BAND_ROWS: usize = 32;
 /// Computes the owner of every texel, page by page and row by row, without ghosts.
 ///
 /// If two triangles of a chart cover the same texel center, the triangle with the lower number owns the texel.
-pub(super) fn texel_owners(uvs: &Uvs, partition: &Partition, placement: &Placement) -> Vec<u32> {
+pub(super) fn texel_owners(uvs: &Uvs, partition: &Partition, placement: &ChartPlacement) -> Vec<u32> {
     let [width, height] = placement.page_size.map(|side| side as usize);
     let rows = height * placement.pages as usize;
     let mut owners = vec![EMPTY; width * rows];

@@ -16,14 +16,14 @@ pub(crate) struct CellPosition {
 pub(crate) struct Packer {
     columns: u32,
     rows_limit: u32,
-    pages: Vec<Page>,
+    pages: Vec<PageCells>,
     /// Where the search for a shape of this width and height starts: no shape of this size fits before it.
     starts: BTreeMap<(u32, u32), (u32, u32)>,
 }
 
 /// Cells in use, a bit each.
 #[derive(Default)]
-struct Page {
+struct PageCells {
     rows: Vec<Vec<u64>>,
 }
 
@@ -65,7 +65,7 @@ impl Packer {
         let (mut page, mut row) = self.starts.get(&size).copied().unwrap_or((0, 0));
         loop {
             if page as usize == self.pages.len() {
-                self.pages.push(Page::default());
+                self.pages.push(PageCells::default());
             }
             if row + shape.height > self.rows_limit {
                 (page, row) = (page + 1, 0);
@@ -105,7 +105,7 @@ impl Packer {
     }
 }
 
-impl Page {
+impl PageCells {
     /// Returns the first column of a row at which the shape covers only free cells.
     fn free_column(&self, shape: &Mask, row: u32, columns: u32) -> Option<u32> {
         let last = columns.checked_sub(shape.width)? as usize;

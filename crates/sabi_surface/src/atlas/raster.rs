@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::fixed::UNIT;
+use super::fixed_point_uvs::UNIT;
 
 const HALF: i64 = UNIT / 2;
 
@@ -27,7 +27,11 @@ pub(crate) fn spans(corners: [[i64; 2]; 3], rows: Range<i64>, mut paint: impl Fn
     let high = c[0][1].max(c[1][1]).max(c[2][1]);
     let first = ceil_center(low).max(rows.start - y_origin);
     let last = floor_center(high).min(rows.end - 1 - y_origin);
-    let edges = [Edge::new(c[0], c[1]), Edge::new(c[1], c[2]), Edge::new(c[2], c[0])];
+    let edges = [
+        EdgeFunction::new(c[0], c[1]),
+        EdgeFunction::new(c[1], c[2]),
+        EdgeFunction::new(c[2], c[0]),
+    ];
     for y in first..=last {
         let center = y * UNIT + HALF;
         let (mut x0, mut x1) = (i64::MIN, i64::MAX);
@@ -51,7 +55,7 @@ fn floor_center(value: i64) -> i64 {
 }
 
 /// An edge with the inside on the side where `dx · (Y − y) − dy · (X − x)` is positive.
-struct Edge {
+struct EdgeFunction {
     from: [i64; 2],
     dx: i64,
     dy: i64,
@@ -59,11 +63,11 @@ struct Edge {
     bias: i64,
 }
 
-impl Edge {
-    fn new(from: [i64; 2], to: [i64; 2]) -> Edge {
+impl EdgeFunction {
+    fn new(from: [i64; 2], to: [i64; 2]) -> EdgeFunction {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let inside = dy < 0 || (dy == 0 && dx > 0);
-        Edge {
+        EdgeFunction {
             from,
             dx,
             dy,

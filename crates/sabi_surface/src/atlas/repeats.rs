@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Udim;
 use super::build::orientations;
 use super::charts::{partition, sheet_of};
-use super::fixed::Uvs;
+use super::fixed_point_uvs::Uvs;
 use super::topology::Topology;
 use super::udim::udim_sheets;
 use crate::model::Mesh;
@@ -26,7 +26,7 @@ pub struct Repeats {
 }
 
 /// Area and box of the UVs of a sheet.
-struct Extent {
+struct UvExtent {
     area: f64,
     low: [f32; 2],
     high: [f32; 2],
@@ -42,9 +42,9 @@ pub fn repeats(mesh: &Mesh, udim: Udim) -> Vec<Repeats> {
     if mesh.is_one_sheet {
         return Vec::new();
     }
-    let mut extents: BTreeMap<u32, Extent> = BTreeMap::new();
+    let mut extents: BTreeMap<u32, UvExtent> = BTreeMap::new();
     for (triangle, material) in mesh.triangle_material.iter().enumerate() {
-        let extent = extents.entry(*material).or_insert(Extent {
+        let extent = extents.entry(*material).or_insert(UvExtent {
             area: 0.0,
             low: [f32::INFINITY; 2],
             high: [f32::NEG_INFINITY; 2],
@@ -57,7 +57,7 @@ pub fn repeats(mesh: &Mesh, udim: Udim) -> Vec<Repeats> {
             extent.high = [0, 1].map(|axis| extent.high[axis].max(at[axis]));
         }
     }
-    let reaches_out = |extent: &Extent| (0..2).any(|axis| extent.high[axis] - extent.low[axis] > LEAST_EXTENT);
+    let reaches_out = |extent: &UvExtent| (0..2).any(|axis| extent.high[axis] - extent.low[axis] > LEAST_EXTENT);
     extents.retain(|_, extent| extent.area > TOO_OFTEN && reaches_out(extent));
     if extents.is_empty() {
         return Vec::new();

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::fixed::Uvs;
-use super::overlap::Overlap;
-use super::place::Placement;
-use super::plan::ChartSet;
+use super::build_inputs::ChartSet;
+use super::chart_placement::ChartPlacement;
+use super::fixed_point_uvs::Uvs;
+use super::overlap::ChartOverlap;
 use super::topology::Topology;
 use super::{AtlasReport, Chart};
 use crate::model::Mesh;
@@ -28,13 +28,13 @@ pub(super) struct ReportInputs<'a> {
     pub(super) sound: &'a [bool],
     /// Charts that are placed.
     pub(super) charts: &'a [Chart],
-    pub(super) placement: &'a Placement,
+    pub(super) placement: &'a ChartPlacement,
     pub(super) udims: &'a BTreeSet<u32>,
     pub(super) size: u32,
 }
 
 impl ReportInputs<'_> {
-    pub(super) fn report(&self, overlap: Overlap, unlinked_ghosts: u32, pulled_ghosts: u32) -> AtlasReport {
+    pub(super) fn report(&self, overlap: ChartOverlap, unlinked_ghosts: u32, pulled_ghosts: u32) -> AtlasReport {
         let owned: u64 = self.charts.iter().map(|chart| u64::from(chart.texels)).sum();
         let squares = self.squares() as f64 * f64::from(self.size).powi(2);
         let count = |found: &mut dyn Iterator<Item = bool>| found.filter(|&found| found).count() as u32;

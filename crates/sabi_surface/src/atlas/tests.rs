@@ -1,8 +1,8 @@
 //! Tests of the guarantees of an atlas, on meshes with known results.
 
-mod broken;
+mod disk_cache;
 mod gaps;
-mod keeping;
+mod invalid_meshes;
 mod layout;
 mod links;
 mod raster;

@@ -33,7 +33,7 @@ struct ChartBox {
 }
 
 /// Shape of a chart, regardless of its tile: corners of its box in steps, and its triangles.
-type Shape = ([i32; 4], usize);
+type ChartShape = ([i32; 4], usize);
 
 /// Returns the sheets whose UV tiles have separate maps. If the user has not chosen, these are the sheets that use several
 /// tiles and show no sign of a repeating texture: textures of the model that repeat, charts that span tiles, tiles without
@@ -77,7 +77,7 @@ fn coinciding_share(charts: &[ChartBox]) -> f64 {
     let mut coincide = vec![false; charts.len()];
     // A corner on the border between two steps may be rounded either way, so two sets of steps are tried.
     for shift in [0.0, 0.5] {
-        let mut of_shape: BTreeMap<Shape, Vec<usize>> = BTreeMap::new();
+        let mut of_shape: BTreeMap<ChartShape, Vec<usize>> = BTreeMap::new();
         for (index, chart) in charts.iter().enumerate() {
             if chart.least_side() >= LEAST_SIDE {
                 of_shape.entry(chart.shape(shift)).or_default().push(index);
@@ -134,7 +134,7 @@ impl ChartBox {
         (self.high[0] - self.low[0]).min(self.high[1] - self.low[1])
     }
 
-    fn shape(&self, shift: f32) -> Shape {
+    fn shape(&self, shift: f32) -> ChartShape {
         let tile = self.tile().map(|tile| tile as f32);
         let steps = |at: f32, axis: usize| ((at - tile[axis]) * STEPS + shift).floor() as i32;
         let ([left, top], [right, bottom]) = (self.low, self.high);

@@ -7,7 +7,7 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::fixed::Uvs;
+use super::fixed_point_uvs::Uvs;
 use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
@@ -17,7 +17,7 @@ const CROSSINGS_LIMIT: u32 = 64;
 const VERTEX_MARGIN: f64 = 1e-6;
 
 /// Mesh that walks go over.
-pub(super) struct Walker<'a> {
+pub(super) struct WalkMesh<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
     pub(super) uvs: Uvs<'a>,
@@ -46,7 +46,7 @@ struct UnfoldedTriangle {
 }
 
 impl UnfoldedTriangle {
-    fn new(walker: &Walker, corners: [u32; 3]) -> UnfoldedTriangle {
+    fn new(walker: &WalkMesh, corners: [u32; 3]) -> UnfoldedTriangle {
         let [a, b, c] = corners.map(|corner| walker.position(corner));
         let (ab, ac) = (b - a, c - a);
         let length = ab.length();
@@ -66,7 +66,7 @@ impl UnfoldedTriangle {
 }
 
 /// Point at which a walk leaves a triangle.
-struct Crossing {
+struct EdgeCrossing {
     /// Share of the whole step from the current point to here.
     time: f64,
     /// Corner numbers of the edge's ends.
@@ -81,7 +81,7 @@ struct Crossing {
     outward: DVec2,
 }
 
-impl Walker<'_> {
+impl WalkMesh<'_> {
     /// Walks from a texel of a triangle along a texel vector of its chart. `None` when the walk does not end.
     pub(super) fn walk(&self, triangle: u32, start: DVec2, step: DVec2) -> Option<WalkEnd> {
         if !self.usable[triangle as usize] {
@@ -102,7 +102,7 @@ impl Walker<'_> {
             |[of_b, of_c]: [f64; 2]| DVec2::new(of_b * unfolded.length + of_c * unfolded.c.x, of_c * unfolded.c.y);
         // The texel axes in the plane, by the affine map of the triangle.
         let axes = DMat2::from_cols(plane(barycentric_of(DVec2::X)), plane(barycentric_of(DVec2::Y)));
-        let walk = Walk {
+        let walk = WalkState {
             walker: self,
             step,
             axes,
@@ -120,8 +120,8 @@ impl Walker<'_> {
 }
 
 /// Walk that has not ended yet.
-struct Walk<'a> {
-    walker: &'a Walker<'a>,
+struct WalkState<'a> {
+    walker: &'a WalkMesh<'a>,
     /// Whole step in texels of the start.
     step: DVec2,
     /// Texel axes of the start, transported to the plane of the current triangle.
@@ -130,12 +130,12 @@ struct Walk<'a> {
     remaining: f64,
 }
 
-impl Walk<'_> {
+impl WalkState<'_> {
     fn direction(&self) -> DVec2 {
         self.axes * self.step
     }
 
-    fn run(mut self, first: Option<Crossing>, mut triangle: UnfoldedTriangle, mut at: DVec2) -> Option<WalkEnd> {
+    fn run(mut self, first: Option<EdgeCrossing>, mut triangle: UnfoldedTriangle, mut at: DVec2) -> Option<WalkEnd> {
         let mut crossing = first;
         for _ in 0..=CROSSINGS_LIMIT {
             let usable = self.walker.usable[triangle.corners[0] as usize / 3];
@@ -151,7 +151,7 @@ impl Walk<'_> {
     }
 
     /// Crosses an edge, or is mirrored at a border. Returns the next triangle and the current point in its plane.
-    fn cross(&mut self, crossing: Crossing) -> (UnfoldedTriangle, DVec2) {
+    fn cross(&mut self, crossing: EdgeCrossing) -> (UnfoldedTriangle, DVec2) {
         self.remaining -= crossing.time;
         // The edge and the outward direction become the axes of the next plane.
         self.axes = DMat2::from_cols(crossing.along, crossing.outward).transpose() * self.axes;
@@ -192,9 +192,9 @@ impl Walk<'_> {
 
 impl UnfoldedTriangle {
     /// Returns the crossing of a walk that starts inside a triangle; `None` if the walk does not move.
-    fn first_crossing(&self, d: DVec2, at: DVec2) -> Option<Crossing> {
+    fn first_crossing(&self, d: DVec2, at: DVec2) -> Option<EdgeCrossing> {
         let points = [DVec2::ZERO, DVec2::new(self.length, 0.0), self.c];
-        let mut found: Option<Crossing> = None;
+        let mut found: Option<EdgeCrossing> = None;
         for k in 0..3 {
             let edge = points[(k + 1) % 3] - points[k];
             let speed = -edge.perp_dot(d);
@@ -213,7 +213,7 @@ impl UnfoldedTriangle {
     /// Returns the crossing of a walk that entered at `x` on the edge from a to b.
     ///
     /// It depends on which side of the walk c lies. This needs no division and is defined for triangles without area, too.
-    fn next_crossing(&self, d: DVec2, x: f64) -> Crossing {
+    fn next_crossing(&self, d: DVec2, x: f64) -> EdgeCrossing {
         let at = DVec2::new(x, 0.0);
         let left = d.perp_dot(self.c - at) > 0.0;
         let (from, start, side) = if left {
@@ -230,7 +230,7 @@ impl UnfoldedTriangle {
 
     /// Creates a crossing at `offset` from the start of an edge; `side` is 1 when the triangle lies to the left of the
     /// edge, and otherwise -1.
-    fn crossing(&self, ends: [usize; 2], time: f64, edge: DVec2, offset: DVec2, side: f64) -> Crossing {
+    fn crossing(&self, ends: [usize; 2], time: f64, edge: DVec2, offset: DVec2, side: f64) -> EdgeCrossing {
         let length = edge.length();
         let along = if length > 0.0 { edge / length } else { DVec2::X };
         let fraction = offset.dot(along) / length;
@@ -240,7 +240,7 @@ impl UnfoldedTriangle {
             0.5
         };
         let corners = ends.map(|end| self.corners[end]);
-        Crossing {
+        EdgeCrossing {
             time,
             ends: corners,
             edge: edge_between(corners),

@@ -18,7 +18,7 @@ const ON_PLANE: f64 = 0.3;
 const MOST_CELLS: f64 = 512.0;
 
 /// One side of a hard edge.
-pub(super) struct Side {
+pub(super) struct HardEdgeSide {
     ends: [DVec3; 2],
     /// Shading normal of this side, unit length.
     normal: DVec3,
@@ -28,7 +28,7 @@ pub(super) struct Side {
     pub(super) other: DVec3,
 }
 
-impl Side {
+impl HardEdgeSide {
     /// Returns the distance from a place on this side to the edge, and a factor from 0 to 1 that falls off past the ends of
     /// the edge; `None` if the place is not on this side.
     pub(super) fn beside(&self, at: DVec3, normal: DVec3) -> Option<(f64, f64)> {
@@ -53,7 +53,7 @@ type Cell = [i32; 3];
 
 /// The sides of all hard edges, stored in the cells of a grid that are within reach.
 pub(super) struct HardEdges {
-    sides: Vec<Side>,
+    sides: Vec<HardEdgeSide>,
     cell_size: f64,
     /// Sides within reach of any place of a cell.
     cells: HashMap<Cell, Vec<u32>>,
@@ -93,7 +93,7 @@ impl HardEdges {
     }
 
     /// Returns the sides that may be within reach of a place, in a fixed order.
-    pub(super) fn near(&self, at: DVec3) -> impl Iterator<Item = &Side> {
+    pub(super) fn near(&self, at: DVec3) -> impl Iterator<Item = &HardEdgeSide> {
         let found = self.cells.get(&cell(at, self.cell_size));
         found.into_iter().flatten().map(|&number| &self.sides[number as usize])
     }
@@ -104,7 +104,7 @@ fn cell(at: DVec3, size: f64) -> Cell {
     (at / size).floor().to_array().map(|value| value as i32)
 }
 
-fn cells_of(side: &Side, size: f64, number: u32) -> Vec<(Cell, u32)> {
+fn cells_of(side: &HardEdgeSide, size: f64, number: u32) -> Vec<(Cell, u32)> {
     let [from, to] = side.ends;
     let steps = (from.distance(to) / size * 2.0).ceil().max(1.0) as u32;
     let mut found = Vec::new();
@@ -123,7 +123,7 @@ fn cells_of(side: &Side, size: f64, number: u32) -> Vec<(Cell, u32)> {
 
 /// An edge of a triangle. Edges between the same two positions are adjacent when sorted.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Edge {
+struct TriangleEdge {
     /// Bits of the positions of its ends, the lower first.
     ends: [[u32; 3]; 2],
     triangle: u32,
@@ -131,7 +131,7 @@ struct Edge {
     corner: u32,
 }
 
-fn sides(mesh: &Mesh) -> Vec<Side> {
+fn sides(mesh: &Mesh) -> Vec<HardEdgeSide> {
     // Adding 0.0 converts −0 to 0.
     let bits = |vertex: u32| mesh.positions[vertex as usize].map(|value| (value + 0.0).to_bits());
     let edges_of = |triangle: usize| {
@@ -139,7 +139,7 @@ fn sides(mesh: &Mesh) -> Vec<Side> {
         (0..3).filter_map(move |corner| {
             let mut ends = [bits(corners[corner]), bits(corners[(corner + 1) % 3])];
             ends.sort_unstable();
-            let edge = Edge {
+            let edge = TriangleEdge {
                 ends,
                 triangle: triangle as u32,
                 corner: corner as u32,
@@ -147,9 +147,9 @@ fn sides(mesh: &Mesh) -> Vec<Side> {
             (ends[0] != ends[1]).then_some(edge)
         })
     };
-    let mut edges: Vec<Edge> = (0..mesh.triangles.len()).flat_map(edges_of).collect();
+    let mut edges: Vec<TriangleEdge> = (0..mesh.triangles.len()).flat_map(edges_of).collect();
     edges.par_sort_unstable();
-    let pairs: Vec<&[Edge]> = edges.chunk_by(|a, b| a.ends == b.ends).collect();
+    let pairs: Vec<&[TriangleEdge]> = edges.chunk_by(|a, b| a.ends == b.ends).collect();
     pairs
         .iter()
         .filter_map(|pair| match pair {
@@ -161,10 +161,10 @@ fn sides(mesh: &Mesh) -> Vec<Side> {
 }
 
 /// Returns the two sides of an edge between two triangles; `None` if the edge is smooth, or a triangle has no area.
-fn two_sides(mesh: &Mesh, first: Edge, second: Edge) -> Option<[Side; 2]> {
+fn two_sides(mesh: &Mesh, first: TriangleEdge, second: TriangleEdge) -> Option<[HardEdgeSide; 2]> {
     let ends = first.ends.map(|end| Vec3::from(end.map(f32::from_bits)).as_dvec3());
     let [a, b] = [face_at(mesh, first)?, face_at(mesh, second)?];
-    let side = |(normal, inward): (DVec3, DVec3), other| Side {
+    let side = |(normal, inward): (DVec3, DVec3), other| HardEdgeSide {
         ends,
         normal,
         inward,
@@ -174,7 +174,7 @@ fn two_sides(mesh: &Mesh, first: Edge, second: Edge) -> Option<[Side; 2]> {
 }
 
 /// The shading normal of a triangle along one of its edges, and the direction from the edge into it.
-fn face_at(mesh: &Mesh, edge: Edge) -> Option<(DVec3, DVec3)> {
+fn face_at(mesh: &Mesh, edge: TriangleEdge) -> Option<(DVec3, DVec3)> {
     let corner = edge.corner as usize;
     let corners = mesh.triangles[edge.triangle as usize];
     let [from, to, opposite] = [0, 1, 2].map(|offset| corners[(corner + offset) % 3] as usize);

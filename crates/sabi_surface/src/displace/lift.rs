@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use super::carve::{lateral, meeting};
 use super::edges::HardEdges;
-use super::rounded::Rounding;
-use super::split::Split;
+use super::rounded_normals::NormalRounding;
+use super::subdivision::SplitTriangle;
 use crate::model::Mesh;
 
 /// Minimum length of the mean normal, relative to its weights, at which its direction is meaningful.
@@ -18,8 +18,8 @@ const REACH: f64 = 2.0;
 const MOST_REACH: f64 = 0.5;
 
 /// Vertex of the finer mesh that shares a position with others.
-struct Member<'s> {
-    split: &'s Split,
+struct SharedVertex<'s> {
+    split: &'s SplitTriangle,
     chart: u32,
     texel: [f32; 2],
     normal: DVec3,
@@ -29,7 +29,7 @@ struct Member<'s> {
 /// The displaced positions of all vertices, in the order of the splits.
 pub(super) fn lift(
     mesh: &Mesh,
-    splits: &[Split],
+    splits: &[SplitTriangle],
     positions: &[[f32; 3]],
     chart_of: impl Fn(usize) -> u32 + Sync,
     height: impl Fn(u32, [f32; 2]) -> Option<f32> + Sync,
@@ -39,7 +39,7 @@ pub(super) fn lift(
         let split = starts.partition_point(|&start| start <= vertex as usize) - 1;
         let local = vertex as usize - starts[split];
         let at = &splits[split].vertices[local];
-        Member {
+        SharedVertex {
             split: &splits[split],
             chart: chart_of(split),
             texel: at.texel,
@@ -48,9 +48,10 @@ pub(super) fn lift(
         }
     };
     let places = places(positions);
-    let groups: Vec<&[(Key, u32)]> = places.chunk_by(|a, b| a.0 == b.0).collect();
-    let members =
-        |group: &[(Key, u32)]| -> Vec<Member<'_>> { group.iter().map(|&(_, vertex)| member(vertex)).collect() };
+    let groups: Vec<&[(PositionBits, u32)]> = places.chunk_by(|a, b| a.0 == b.0).collect();
+    let members = |group: &[(PositionBits, u32)]| -> Vec<SharedVertex<'_>> {
+        group.iter().map(|&(_, vertex)| member(vertex)).collect()
+    };
     let heights: Vec<f64> = groups
         .par_iter()
         .map(|group| mean_height(&members(group), &height))
@@ -61,7 +62,7 @@ pub(super) fn lift(
     }
     let reach = (limit * REACH).min(largest_coordinate(positions) * MOST_REACH);
     let edges = HardEdges::find(mesh, reach);
-    let rounding = Rounding::new(&edges, reach);
+    let rounding = NormalRounding::new(&edges, reach);
     let lifted: Vec<[f32; 3]> = groups
         .par_iter()
         .zip(&heights)
@@ -86,8 +87,8 @@ pub(super) fn lift(
 }
 
 /// Number of the first vertex of each split.
-fn starts(splits: &[Split]) -> Vec<usize> {
-    let start = |sum: &mut usize, split: &Split| {
+fn starts(splits: &[SplitTriangle]) -> Vec<usize> {
+    let start = |sum: &mut usize, split: &SplitTriangle| {
         let start = *sum;
         *sum += split.vertices.len();
         Some(start)
@@ -97,11 +98,11 @@ fn starts(splits: &[Split]) -> Vec<usize> {
 
 /// Returns the displacement of the vertices at a place, given their mean height and the largest height of all.
 fn displacement(
-    members: &[Member<'_>],
+    members: &[SharedVertex<'_>],
     place: DVec3,
     mean_height: f64,
     limit: f64,
-    rounding: &Rounding<'_>,
+    rounding: &NormalRounding<'_>,
     height: impl Fn(u32, [f32; 2]) -> Option<f32>,
 ) -> DVec3 {
     let mean = direction(members);
@@ -130,16 +131,16 @@ struct Track {
 }
 
 /// Returns the tracks over the charts that meet at a place, one for each face.
-fn tracks(members: &[Member<'_>], direction: DVec3) -> Vec<Track> {
-    let mut members: Vec<&Member<'_>> = members.iter().collect();
-    let key = |member: &Member<'_>| {
+fn tracks(members: &[SharedVertex<'_>], direction: DVec3) -> Vec<Track> {
+    let mut members: Vec<&SharedVertex<'_>> = members.iter().collect();
+    let key = |member: &SharedVertex<'_>| {
         let normal = member.normal.to_array().map(f64::to_bits);
         (member.chart, member.texel.map(f32::to_bits), normal)
     };
     // The sort is stable: of the triangles of a face, the first one is used.
     members.sort_by_key(|member| key(member));
     members.dedup_by_key(|member| key(member));
-    let track = |member: &&Member<'_>| Track {
+    let track = |member: &&SharedVertex<'_>| Track {
         chart: member.chart,
         texel: member.texel,
         step: member.split.texels_of(lateral(direction, member.normal)),
@@ -166,11 +167,11 @@ fn largest_coordinate(positions: &[[f32; 3]]) -> f64 {
 }
 
 /// Bits of a position.
-type Key = [u32; 3];
+type PositionBits = [u32; 3];
 
 /// Returns all vertices with the bits of their positions. Vertices at the same place are adjacent and in ascending order.
-fn places(positions: &[[f32; 3]]) -> Vec<(Key, u32)> {
-    let mut places: Vec<(Key, u32)> = positions
+fn places(positions: &[[f32; 3]]) -> Vec<(PositionBits, u32)> {
+    let mut places: Vec<(PositionBits, u32)> = positions
         .par_iter()
         .enumerate()
         // Adding 0.0 converts −0 to 0.
@@ -182,7 +183,7 @@ fn places(positions: &[[f32; 3]]) -> Vec<(Key, u32)> {
 
 /// Returns the mean of the unit normals, weighted by the angles of the triangles that meet at a corner; zero if the normals
 /// cancel each other out.
-fn direction(members: &[Member<'_>]) -> DVec3 {
+fn direction(members: &[SharedVertex<'_>]) -> DVec3 {
     let weights: f64 = members.iter().map(|member| member.weight).sum();
     let sum: DVec3 = members.iter().map(|member| member.normal * member.weight).sum();
     if sum.length() > LEAST_AGREEMENT * weights {
@@ -193,7 +194,7 @@ fn direction(members: &[Member<'_>]) -> DVec3 {
 }
 
 /// Returns the mean height of the charts that meet at a vertex. Each place of a chart counts once, however many triangles meet there.
-fn mean_height(members: &[Member<'_>], height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> f64 {
+fn mean_height(members: &[SharedVertex<'_>], height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> f64 {
     let mut samples: Vec<(u32, [u32; 2])> = members
         .iter()
         .map(|member| (member.chart, member.texel.map(f32::to_bits)))

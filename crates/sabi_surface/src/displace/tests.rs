@@ -175,7 +175,7 @@ fn a_flat_face_rises_along_its_normal_even_beside_a_hard_edge() {
 #[test]
 fn no_edge_is_longer_than_requested_unless_the_budget_is_too_small() {
     let (mesh, atlas) = asset("figure.glb");
-    let longest = |made: &Displaced| {
+    let longest = |made: &DisplacedMesh| {
         let edges = made.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         edges.fold(0.0, |most: f32, edge| {
             let [from, to] = edge.map(|vertex| Vec3::from(made.positions[vertex as usize]));

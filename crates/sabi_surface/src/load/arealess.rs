@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use glam::{DMat4, DVec3, Vec3};
 
-use super::listed::listed;
+use super::name_lists::listed;
 use super::submesh::{Submesh, retain};
 use super::warnings::{TRIANGLES, Warnings, counted};
 

@@ -7,14 +7,14 @@ use glam::DMat4;
 
 use super::arealess::LeftOutAreas;
 use super::blur::warn_of_placing;
-use super::error::{Fault, damaged, missing_uv_set};
+use super::error::{ModelFault, damaged, missing_uv_set};
+use super::face_reversal::FaceReversal;
 use super::far::brought_near;
 use super::gltf::Resolve;
-use super::parts::{Groups, NamedPart};
-use super::pictures::Pictures;
+use super::material_images::MaterialImages;
+use super::parts::{NamedPart, NodeGroups};
 use super::size::check_size;
 use super::submesh::Submesh;
-use super::turning::Turning;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Model, ModelMaterial, TextureUvs};
@@ -23,7 +23,7 @@ use crate::model::{Model, ModelMaterial, TextureUvs};
 const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
 
 /// A mesh that is placed in the scene, as one part of the model.
-pub(super) struct Instance {
+pub(super) struct MeshInstance {
     /// Its place in [`Assembly::meshes`].
     pub(super) mesh: usize,
     pub(super) name: String,
@@ -42,24 +42,24 @@ pub(super) struct Assembly {
     /// UV sets of all meshes, used or not.
     pub(super) uv_sets: BTreeSet<u32>,
     /// Instances in the file's order.
-    pub(super) instances: Vec<Instance>,
+    pub(super) instances: Vec<MeshInstance>,
     /// Nodes above them.
-    pub(super) groups: Groups,
+    pub(super) groups: NodeGroups,
     /// In the file's order.
     pub(super) materials: Vec<ModelMaterial>,
-    pub(super) pictures: Pictures,
+    pub(super) pictures: MaterialImages,
 }
 
 /// UV sets that the textures of a mesh's materials use.
 #[derive(Clone, Default)]
-pub(super) struct TextureSets {
+pub(super) struct TextureUvSets {
     pub(super) all: BTreeSet<u32>,
     /// UV sets of normal maps.
     pub(super) framed: BTreeSet<u32>,
 }
 
 /// Returns a fault if the triangles of all instances together exceed the maximum number or the memory.
-pub(super) fn check_triangles(instances: impl Iterator<Item = u64>, memory_bytes: u64) -> Result<(), Fault> {
+pub(super) fn check_triangles(instances: impl Iterator<Item = u64>, memory_bytes: u64) -> Result<(), ModelFault> {
     let (mut total, mut count) = (0u64, 0);
     for triangles in instances {
         total = total.saturating_add(triangles);
@@ -70,8 +70,8 @@ pub(super) fn check_triangles(instances: impl Iterator<Item = u64>, memory_bytes
 
 impl Assembly {
     /// Returns the UV sets of each of `meshes` meshes, according to the instances and their materials.
-    pub(super) fn texture_sets(&self, meshes: usize) -> Vec<TextureSets> {
-        let mut sets = vec![TextureSets::default(); meshes];
+    pub(super) fn texture_sets(&self, meshes: usize) -> Vec<TextureUvSets> {
+        let mut sets = vec![TextureUvSets::default(); meshes];
         for instance in &self.instances {
             let sets = &mut sets[instance.mesh];
             let materials = instance.materials.iter();
@@ -91,7 +91,7 @@ impl Assembly {
         resolve: &mut Resolve,
         options: &LoadOptions,
         mut warnings: Warnings,
-    ) -> Result<Model, Fault> {
+    ) -> Result<Model, ModelFault> {
         let named = self.instances.iter().map(|instance| NamedPart {
             name: &instance.name,
             group: instance.group,
@@ -121,7 +121,7 @@ impl Assembly {
         let mut without_uvs = BTreeSet::new();
         let (mut lost, mut blurred) = (0, 0);
         let mut arealess = LeftOutAreas::default();
-        let mut turning = Turning::new(options.turns_faces);
+        let mut turning = FaceReversal::new(options.turns_faces);
         for instance in &self.instances {
             let part = model.parts.len() as u32;
             let mut dropped = 0;
@@ -169,7 +169,7 @@ impl Assembly {
     /// Each submesh with its instance.
     fn placements<'a, T>(
         &'a self,
-        placement: impl Fn(&'a Submesh, &'a Instance) -> T + Copy,
+        placement: impl Fn(&'a Submesh, &'a MeshInstance) -> T + Copy,
     ) -> impl Iterator<Item = T> {
         let submeshes = self
             .instances
@@ -180,14 +180,14 @@ impl Assembly {
     }
 
     /// Returns the material of the file for a number of the mesh; a number after the last one if there is none.
-    fn material_of(&self, instance: &Instance, number: u32) -> u32 {
+    fn material_of(&self, instance: &MeshInstance, number: u32) -> u32 {
         let none = self.materials.len() as u32;
         let material = instance.materials.get(number as usize).copied();
         material.unwrap_or(none).min(none)
     }
 
     /// Returns the UV sets other than the chosen one that textures use, without coordinates yet.
-    fn empty_sets(&self) -> Result<Vec<TextureUvs>, Fault> {
+    fn empty_sets(&self) -> Result<Vec<TextureUvs>, ModelFault> {
         let mut sets = BTreeSet::new();
         let mut vertices = 0u64;
         for (count, used) in self.placements(|submesh, _| (submesh.positions.len(), &submesh.texture_uvs)) {

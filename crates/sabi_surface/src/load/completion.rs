@@ -4,7 +4,7 @@ use sabi_cancel::look;
 use std::collections::BTreeSet;
 
 use super::blur::warn_of_storage;
-use super::normals::{self, Missing};
+use super::normals::{self, NormalMethod};
 use super::submesh::Submesh;
 use super::tangents;
 use super::warnings::{TRIANGLES, VERTICES, Warnings, counted};
@@ -12,7 +12,7 @@ use super::warnings::{TRIANGLES, VERTICES, Warnings, counted};
 /// Rules of completion, the same for all triangles of a file.
 pub(super) struct Completion {
     /// How to compute normals that the file does not have.
-    pub(super) missing: Missing,
+    pub(super) missing: NormalMethod,
     /// Clause about vertices with a repaired normal, for a file with normals.
     pub(super) repaired_normals: &'static str,
     /// [`super::LoadOptions::smooth_degrees`].
@@ -52,7 +52,11 @@ impl Completion {
             normals::replace(submesh, degrees);
         }
         let had_normals = !submesh.normals.is_empty();
-        let missing = if had_normals { Missing::Crease } else { self.missing };
+        let missing = if had_normals {
+            NormalMethod::Crease
+        } else {
+            self.missing
+        };
         let made = normals::complete(submesh, missing);
         if had_normals && made > 0 {
             warnings.add(format!(

@@ -16,16 +16,16 @@ mod sources;
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
-use self::document::Document;
-use self::effect::Looks;
+use self::document::DaeDocument;
+use self::effect::DaeMaterials;
 use self::geometry::Geometry;
-use self::sources::Sources;
+use self::sources::DaeSources;
 use super::LoadOptions;
-use super::assembly::{self, Assembly, Instance};
+use super::assembly::{self, Assembly, MeshInstance};
 use super::completion::{Completion, LACKING_NORMALS};
-use super::error::Fault;
+use super::error::ModelFault;
 use super::gltf::Resolve;
-use super::normals::Missing;
+use super::normals::NormalMethod;
 use super::polygon::Budget;
 use super::text::decoded;
 use super::warnings::Warnings;
@@ -35,11 +35,16 @@ use crate::model::Model;
 pub(super) const ROOT: &[u8] = b"<COLLADA";
 
 /// Reads a `.dae` file.
-pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut Resolve,
+    options: &LoadOptions,
+) -> Result<Model, ModelFault> {
     let mut warnings = Warnings::default();
     let text = decoded(bytes);
     let tree = document::parsed(&text, options.memory_bytes)?;
-    let document = Document::new(&tree, &mut warnings)?;
+    let document = DaeDocument::new(&tree, &mut warnings)?;
     if document.first("library_animations").is_some() {
         warnings.add("Animations are left out: the scene is taken as it stands without them.");
     }
@@ -56,11 +61,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let claims: Vec<u64> = geometries.iter().map(Geometry::triangles).collect();
     let triangles = shown.iter().map(|shown| claims[places[&shown.mesh.id()]]);
     assembly::check_triangles(triangles, options.memory_bytes)?;
-    let mut looks = Looks::new(&document);
+    let mut looks = DaeMaterials::new(&document);
     for shown in shown {
         let mesh = places[&shown.mesh.id()];
         let materials = looks.bound(&shown, &geometries[mesh]);
-        assembly.instances.push(Instance {
+        assembly.instances.push(MeshInstance {
             mesh,
             name: shown.name,
             group: shown.group,
@@ -79,13 +84,13 @@ fn read_meshes(
     assembly: &mut Assembly,
     options: &LoadOptions,
     warnings: &mut Warnings,
-) -> Result<(), Fault> {
+) -> Result<(), ModelFault> {
     let completion = Completion {
         repaired_normals: LACKING_NORMALS,
-        missing: Missing::Crease,
+        missing: NormalMethod::Crease,
         smooth_degrees: options.smooth_degrees,
     };
-    let mut sources = Sources::default();
+    let mut sources = DaeSources::default();
     let mut budget = Budget::default();
     for (geometry, sets) in geometries.iter().zip(assembly.texture_sets(geometries.len())) {
         assembly.uv_sets.extend(0..geometry.uv_sets.len() as u32);

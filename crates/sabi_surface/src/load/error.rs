@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use sabi_files::Refusal;
 
-use super::listed::listed;
+use super::name_lists::listed;
 
 /// A model that could not be loaded, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -13,7 +13,7 @@ pub struct LoadError {
     /// The model's file as the artist named it.
     pub model: String,
     /// Fault of the model.
-    pub fault: Fault,
+    pub fault: ModelFault,
 }
 
 impl LoadError {
@@ -21,14 +21,14 @@ impl LoadError {
     pub fn is_missing(&self) -> bool {
         matches!(
             self.fault,
-            Fault::NoFile | Fault::Unreadable(_) | Fault::NoBuffer { .. } | Fault::Refused { .. }
+            ModelFault::NoFile | ModelFault::Unreadable(_) | ModelFault::NoBuffer { .. } | ModelFault::Refused { .. }
         )
     }
 }
 
 /// Fault in a model file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
+pub enum ModelFault {
     /// The model file does not exist.
     #[error("there is no such file; check the path")]
     NoFile,
@@ -117,10 +117,10 @@ pub enum Fault {
 /// Maximum number of names in a sentence.
 const MOST_NAMES: usize = 8;
 
-impl Fault {
+impl ModelFault {
     /// Returns the fault of a model that needs more bytes of memory than the limit.
-    pub(super) fn memory(needed: u64, limit: u64) -> Fault {
-        Fault::Memory {
+    pub(super) fn memory(needed: u64, limit: u64) -> ModelFault {
+        ModelFault::Memory {
             needed_mib: mib(needed),
             limit_mib: limit >> 20,
         }
@@ -129,7 +129,7 @@ impl Fault {
 
 /// Returns a fault if no triangle has the requested UV set; `sets` are the sets of the meshes. A model without the default
 /// set has no UVs, which is not a fault.
-pub(super) fn missing_uv_set(asked: u32, sets: &BTreeSet<u32>) -> Result<(), Fault> {
+pub(super) fn missing_uv_set(asked: u32, sets: &BTreeSet<u32>) -> Result<(), ModelFault> {
     let has_asked = sets.contains(&asked);
     let there = match sets.iter().map(u32::to_string).collect::<Vec<_>>().as_slice() {
         sets if asked == 0 && (sets.is_empty() || has_asked) => return Ok(()),
@@ -138,7 +138,7 @@ pub(super) fn missing_uv_set(asked: u32, sets: &BTreeSet<u32>) -> Result<(), Fau
         [one] => format!("it has set {one}"),
         [first @ .., last] => format!("it has the sets {} and {last}", first.join(", ")),
     };
-    Err(Fault::UvSet { asked, there })
+    Err(ModelFault::UvSet { asked, there })
 }
 
 /// Bytes as mebibytes, rounded up.
@@ -147,6 +147,6 @@ pub(super) fn mib(bytes: u64) -> u64 {
 }
 
 /// Shorthand for a damaged file.
-pub(super) fn damaged<T>(what: impl Into<String>) -> Result<T, Fault> {
-    Err(Fault::Damaged(what.into()))
+pub(super) fn damaged<T>(what: impl Into<String>) -> Result<T, ModelFault> {
+    Err(ModelFault::Damaged(what.into()))
 }

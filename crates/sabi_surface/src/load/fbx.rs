@@ -19,14 +19,14 @@ use ufbx::{
     AllocatorOpts, ErrorType, FileFormat, LoadOpts, MirrorAxis, OpenFileCb, ProgressCb, ProgressResult, WarningType,
 };
 
-use self::material::Looks;
+use self::material::FbxMaterials;
 use super::LoadOptions;
 use super::assembly::{self, Assembly};
-use super::error::{Fault, damaged};
+use super::error::{ModelFault, damaged};
 use super::gltf::Resolve;
-use super::parts::Groups;
+use super::parts::NodeGroups;
 use super::polygon::Budget;
-use super::skin_rest::{JointBudget, Rest};
+use super::skin_rest::{JointBudget, RestPose};
 use super::text::with_line_feeds;
 use super::warnings::Warnings;
 use crate::model::{Model, ModelMaterial};
@@ -40,7 +40,12 @@ const LEAST_MEMORY: usize = 64 << 20;
 const MEMORY_OF_A_BYTE: usize = 256;
 
 /// Reads an `.fbx` file.
-pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut Resolve,
+    options: &LoadOptions,
+) -> Result<Model, ModelFault> {
     let mut warnings = Warnings::default();
     // The library ends comments of a text file only at line feeds.
     let text = if bytes.starts_with(b";") {
@@ -49,13 +54,13 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         Cow::Borrowed(bytes)
     };
     if writes_commas(&text) {
-        return Err(Fault::Format(COMMAS.into()));
+        return Err(ModelFault::Format(COMMAS.into()));
     }
     let scene = opened(&text, options.memory_bytes)?;
     note_omissions(&scene, &mut warnings);
-    let mut groups = Groups::default();
+    let mut groups = NodeGroups::default();
     let shown = nodes::shown(&scene, &mut groups, &mut warnings);
-    let mut looks = Looks::new(&scene, &shown, super::stem(name));
+    let mut looks = FbxMaterials::new(&scene, &shown, super::stem(name));
     let materials: Vec<ModelMaterial> = scene
         .materials
         .iter()
@@ -68,11 +73,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         ..Assembly::default()
     };
     let mut places = BTreeMap::new();
-    let mut sources: Vec<Source> = Vec::new();
+    let mut sources: Vec<FbxSourceMesh> = Vec::new();
     let mut joints = JointBudget::default();
     for node in &shown {
         let place = *places.entry(node.mesh.element.typed_id).or_insert_with(|| {
-            sources.push(Source {
+            sources.push(FbxSourceMesh {
                 mesh: node.mesh,
                 rest: nodes::rest(node.mesh, &mut joints),
                 who: format!("mesh `{}`", node.name()),
@@ -89,7 +94,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     for (source, sets) in sources.iter().zip(&sets) {
         look();
         assembly.uv_sets.extend(0..source.mesh.uv_sets.len() as u32);
-        let reader = mesh::Reader { options, sets };
+        let reader = mesh::FbxMeshReader { options, sets };
         let submesh = reader.read(source, &mut budget, &mut warnings);
         assembly.meshes.push(vec![submesh]);
     }
@@ -129,15 +134,15 @@ fn writes_commas(text: &[u8]) -> bool {
 }
 
 /// A mesh that any node shows.
-struct Source<'s> {
+struct FbxSourceMesh<'s> {
     mesh: &'s ufbx::Mesh,
-    rest: Rest,
+    rest: RestPose,
     /// Name in warnings.
     who: String,
 }
 
 /// Opens the scene, in meters and right-handed with +Y up. No other file is opened, and memory is limited, each of what is kept and of what is not.
-fn opened(bytes: &[u8], memory_bytes: u64) -> Result<ufbx::SceneRoot, Fault> {
+fn opened(bytes: &[u8], memory_bytes: u64) -> Result<ufbx::SceneRoot, ModelFault> {
     let limit = bytes
         .len()
         .saturating_mul(MEMORY_OF_A_BYTE)
@@ -180,13 +185,13 @@ fn opened(bytes: &[u8], memory_bytes: u64) -> Result<ufbx::SceneRoot, Fault> {
     cancel.look();
     loaded.or_else(|error| match error.type_ {
         // How much more it takes is not known before it is read.
-        ErrorType::MemoryLimit if !is_of_file => Err(Fault::memory(memory_bytes.saturating_add(1), memory_bytes)),
+        ErrorType::MemoryLimit if !is_of_file => Err(ModelFault::memory(memory_bytes.saturating_add(1), memory_bytes)),
         ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
             damaged("it promises more data than a file of its size has")
         }
         ErrorType::TruncatedFile | ErrorType::Io | ErrorType::EmptyFile => damaged("it was cut off"),
         ErrorType::UnrecognizedFileFormat => damaged("it is no FBX file"),
-        ErrorType::UnsupportedVersion => Err(Fault::Format(
+        ErrorType::UnsupportedVersion => Err(ModelFault::Format(
             "its version of FBX is not read here: export it as FBX 2011 or later, or as glTF 2.0 (.glb)".into(),
         )),
         _ => damaged("it contradicts the rules of FBX, or was cut off"),

@@ -1,6 +1,6 @@
 //! Format of a model file, and advice for formats that are not read.
 
-use super::error::Fault;
+use super::error::ModelFault;
 use super::{dae, ending, fbx, ply, stl};
 
 /// Extensions of supported files, most common first.
@@ -11,7 +11,7 @@ const ROOT_WITHIN: usize = 4096;
 
 /// Supported formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Format {
+pub(super) enum ModelFormat {
     Gltf,
     Obj,
     Fbx,
@@ -22,23 +22,23 @@ pub(super) enum Format {
 
 /// Returns the format: by the first bytes if they identify it, otherwise by the extension of the name, otherwise by what
 /// the content looks like.
-pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
+pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<ModelFormat, ModelFault> {
     if let Some(format) = marked(bytes) {
         return Ok(format);
     }
     if let Some(sentence) = refused_format(name).or_else(|| disguised(bytes)) {
-        return Err(Fault::Format(sentence));
+        return Err(ModelFault::Format(sentence));
     }
     match ending(name).as_str() {
-        "gltf" | "glb" | "vrm" => Ok(Format::Gltf),
-        "obj" => Ok(Format::Obj),
-        "fbx" => Ok(Format::Fbx),
-        "dae" => Ok(Format::Dae),
-        "ply" => Ok(Format::Ply),
-        "stl" => Ok(Format::Stl),
-        _ if bytes.trim_ascii_start().starts_with(b"{") => Ok(Format::Gltf),
-        _ if stl::is_likely(bytes) => Ok(Format::Stl),
-        _ => Err(Fault::Format(format!(
+        "gltf" | "glb" | "vrm" => Ok(ModelFormat::Gltf),
+        "obj" => Ok(ModelFormat::Obj),
+        "fbx" => Ok(ModelFormat::Fbx),
+        "dae" => Ok(ModelFormat::Dae),
+        "ply" => Ok(ModelFormat::Ply),
+        "stl" => Ok(ModelFormat::Stl),
+        _ if bytes.trim_ascii_start().starts_with(b"{") => Ok(ModelFormat::Gltf),
+        _ if stl::is_likely(bytes) => Ok(ModelFormat::Stl),
+        _ => Err(ModelFault::Format(format!(
             "this is not a model that is read here: give a {} file",
             listed(&ENDINGS.map(|ending| format!(".{ending}")), "or")
         ))),
@@ -46,16 +46,16 @@ pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
 }
 
 /// Returns the format of a file whose first bytes occur only in that format.
-fn marked(bytes: &[u8]) -> Option<Format> {
+fn marked(bytes: &[u8]) -> Option<ModelFormat> {
     let starts_with = |marks: &[&[u8]]| marks.iter().any(|mark| bytes.starts_with(mark));
     let start = &bytes[..bytes.len().min(ROOT_WITHIN)];
     let is_xml = start.trim_ascii_start().starts_with(b"<");
     let has_root = || start.windows(dae::ROOT.len()).any(|window| window == dae::ROOT);
     match () {
-        () if bytes.starts_with(b"glTF") => Some(Format::Gltf),
-        () if starts_with(&fbx::MARKS) => Some(Format::Fbx),
-        () if starts_with(&ply::MARKS) => Some(Format::Ply),
-        () if is_xml && has_root() => Some(Format::Dae),
+        () if bytes.starts_with(b"glTF") => Some(ModelFormat::Gltf),
+        () if starts_with(&fbx::MARKS) => Some(ModelFormat::Fbx),
+        () if starts_with(&ply::MARKS) => Some(ModelFormat::Ply),
+        () if is_xml && has_root() => Some(ModelFormat::Dae),
         () => None,
     }
 }

@@ -6,7 +6,7 @@ mod document;
 mod draco;
 mod material;
 mod meshopt;
-mod packed;
+mod packed_vertices;
 mod picture;
 mod primitive;
 mod scene;
@@ -15,7 +15,7 @@ mod source;
 mod storage;
 mod texture_use;
 mod tidy;
-mod unpacked;
+mod unpacked_vertices;
 mod uv_decoding;
 
 use sabi_cancel::look;
@@ -26,22 +26,22 @@ use glam::{DMat3, DMat4};
 use rayon::prelude::*;
 
 use self::buffers::Buffers;
-use self::document::Document;
+use self::document::GltfDocument;
 use self::material::Materials;
 use self::primitive::LoadedPrimitive;
-use self::scene::{Instance, Scene};
-use self::source::Source;
+use self::scene::{GltfInstance, SceneMeshes};
+use self::source::GltfSource;
 pub use self::tidy::gltf_json;
-pub use self::unpacked::UnpackedVertices;
-pub(super) use self::unpacked::unpack;
+pub use self::unpacked_vertices::UnpackedVertices;
+pub(super) use self::unpacked_vertices::unpack;
 use self::uv_decoding::UvDecodings;
 use super::arealess::LeftOutAreas;
 use super::blur::warn_of_placing;
-use super::error::{Fault, damaged, missing_uv_set};
+use super::error::{ModelFault, damaged, missing_uv_set};
+use super::face_reversal::FaceReversal;
 use super::far::brought_near;
 use super::parts::NamedPart;
 use super::size::check_size;
-use super::turning::Turning;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, PlacedPrimitive, TextureUvs};
@@ -50,12 +50,17 @@ use crate::model::{Mesh, Model, PlacedPrimitive, TextureUvs};
 pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Arc<[u8]>, String> + 'a;
 
 /// Reads a `.gltf` or `.glb` file.
-pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut Resolve,
+    options: &LoadOptions,
+) -> Result<Model, ModelFault> {
     let mut warnings = Warnings::default();
-    let (document, binary) = Document::parse(bytes, options.memory_bytes, &mut warnings)?;
+    let (document, binary) = GltfDocument::parse(bytes, options.memory_bytes, &mut warnings)?;
     document.check_extensions(&mut warnings)?;
     let buffers = Buffers::gather(&document, binary, resolve, options.memory_bytes, &mut warnings)?;
-    let source = Source {
+    let source = GltfSource {
         document: &document,
         buffers: &buffers,
         unpacked: None,
@@ -63,7 +68,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         scene: options.scene,
         smooth_degrees: options.smooth_degrees,
     };
-    let Scene { mut instances, groups } = scene::read(&source, &mut warnings)?;
+    let SceneMeshes { mut instances, groups } = scene::read(&source, &mut warnings)?;
     let named = instances.iter().map(|instance| NamedPart {
         name: &instance.name,
         group: instance.group,
@@ -99,12 +104,12 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     model.mesh.texture_uvs = empty_sets(primitives.values().flatten());
     let mut materials = Materials::default();
     let with = [with_uvs, with_colors];
-    let mut placing = Placing {
+    let mut placing = InstancePlacer {
         world_from_file,
         with,
         materials: &mut materials,
         model: &mut model,
-        turning: Turning::new(options.turns_faces),
+        turning: FaceReversal::new(options.turns_faces),
         arealess: LeftOutAreas::default(),
         lost: 0,
         blurred: 0,
@@ -113,7 +118,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         look();
         placing.place(instance, primitives.get(&instance.mesh).into_iter().flatten());
     }
-    let Placing {
+    let InstancePlacer {
         turning,
         arealess,
         lost,
@@ -142,7 +147,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     Ok(model)
 }
 
-fn nothing_there(document: &Document, mut warnings: Warnings) -> Fault {
+fn nothing_there(document: &GltfDocument, mut warnings: Warnings) -> ModelFault {
     if document.meshes.is_empty() {
         warnings.add("it has no meshes");
     }
@@ -152,7 +157,7 @@ fn nothing_there(document: &Document, mut warnings: Warnings) -> Fault {
 /// Returns the transform from the file to the world, and the middle of the model in the file's world; see [`Model::middle`].
 fn world(
     options: &LoadOptions,
-    instances: &[Instance],
+    instances: &[GltfInstance],
     primitives: &BTreeMap<usize, Vec<LoadedPrimitive>>,
 ) -> (DMat4, [f64; 3]) {
     let placed = instances.iter().flat_map(|instance| {
@@ -204,13 +209,13 @@ fn gather_warnings<'a>(
 }
 
 /// Placing of instances in a model.
-struct Placing<'p> {
+struct InstancePlacer<'p> {
     world_from_file: DMat4,
     /// Whether any primitive has UVs, and whether any has colors.
     with: [bool; 2],
     materials: &'p mut Materials,
     model: &'p mut Model,
-    turning: Turning,
+    turning: FaceReversal,
     arealess: LeftOutAreas,
     /// Number of triangles whose positions are out of range after placing.
     lost: usize,
@@ -218,9 +223,9 @@ struct Placing<'p> {
     blurred: usize,
 }
 
-impl Placing<'_> {
+impl InstancePlacer<'_> {
     /// Adds the primitives of an instance to the model as one part.
-    fn place<'a>(&mut self, instance: &Instance, primitives: impl Iterator<Item = &'a LoadedPrimitive>) {
+    fn place<'a>(&mut self, instance: &GltfInstance, primitives: impl Iterator<Item = &'a LoadedPrimitive>) {
         let model = &mut *self.model;
         let part = model.parts.len() as u32;
         let [with_uvs, with_colors] = self.with;
@@ -269,7 +274,7 @@ const MOST_VERTICES_READ: u64 = 1 << 31;
 const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
 
 /// Checks the sizes that the file declares before anything is allocated for them.
-fn check_sizes(source: &Source, instances: &[Instance], memory_bytes: u64) -> Result<(), Fault> {
+fn check_sizes(source: &GltfSource, instances: &[GltfInstance], memory_bytes: u64) -> Result<(), ModelFault> {
     let claims: Vec<u64> = source
         .document
         .meshes
@@ -296,7 +301,7 @@ fn check_sizes(source: &Source, instances: &[Instance], memory_bytes: u64) -> Re
 }
 
 /// Checks the number of coordinates in further UV sets: every vertex of the model has coordinates in every set that any texture uses.
-fn check_sets(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
+fn check_sets(source: &GltfSource, instances: &[GltfInstance]) -> Result<(), ModelFault> {
     let meshes = &source.document.meshes;
     // Vertices without a triangle are not kept.
     let vertices = |p| source.vertices(p).min(source.claim(p).saturating_mul(3));

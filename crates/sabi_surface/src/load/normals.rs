@@ -9,7 +9,7 @@ use super::unit_vector::unit;
 
 /// Computation of missing normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Missing {
+pub(super) enum NormalMethod {
     /// One normal for each triangle, as glTF requires.
     Flat,
     /// Smooth across edges with an angle of less than [`CREASE_DEGREES`], or according to the file's smoothing groups.
@@ -20,7 +20,7 @@ pub(super) enum Missing {
 const CREASE_DEGREES: f64 = 80.0;
 
 /// Normalizes all normals and computes missing ones; returns the number of vertices without a valid normal.
-pub(super) fn complete(submesh: &mut Submesh, missing: Missing) -> usize {
+pub(super) fn complete(submesh: &mut Submesh, missing: NormalMethod) -> usize {
     submesh.normals.resize(submesh.positions.len(), [0.0; 3]);
     let mut lost = vec![false; submesh.normals.len()];
     for (normal, lost) in submesh.normals.iter_mut().zip(&mut lost) {
@@ -35,14 +35,14 @@ pub(super) fn complete(submesh: &mut Submesh, missing: Missing) -> usize {
     }
     if count == lost.len() {
         submesh.made_normals = Some(match missing {
-            Missing::Flat => MadeNormals::Flat,
-            Missing::Crease => MadeNormals::Crease,
+            NormalMethod::Flat => MadeNormals::Flat,
+            NormalMethod::Crease => MadeNormals::Crease,
         });
     }
     let faces = face_normals(submesh);
     let made = match missing {
-        Missing::Flat => faces.iter().flat_map(|face| [*face; 3]).collect(),
-        Missing::Crease => smooth(submesh, &faces, |first, second| {
+        NormalMethod::Flat => faces.iter().flat_map(|face| [*face; 3]).collect(),
+        NormalMethod::Crease => smooth(submesh, &faces, |first, second| {
             is_smooth(submesh, &faces, first, second)
         }),
     };
@@ -90,13 +90,13 @@ pub(super) fn replace(submesh: &mut Submesh, degrees: f32) {
 /// Adapts the normals of reversed faces to their new outside. Computed normals are computed again; normals of the file are
 /// reversed at corners of these faces where they point inward.
 pub(super) fn follow_turned(submesh: &mut Submesh, is_turned: &[bool]) {
-    let remake = |submesh: &mut Submesh, missing: Missing| {
+    let remake = |submesh: &mut Submesh, missing: NormalMethod| {
         submesh.normals.clear();
         complete(submesh, missing);
     };
     match submesh.made_normals {
-        Some(MadeNormals::Flat) => remake(submesh, Missing::Flat),
-        Some(MadeNormals::Crease) => remake(submesh, Missing::Crease),
+        Some(MadeNormals::Flat) => remake(submesh, NormalMethod::Flat),
+        Some(MadeNormals::Crease) => remake(submesh, NormalMethod::Crease),
         Some(MadeNormals::Smooth(degrees)) => replace(submesh, degrees),
         None => {
             let outward = |(corner, vertex): (usize, &u32)| {
@@ -137,7 +137,7 @@ fn face_normal(submesh: &Submesh, triangle: usize) -> DVec3 {
 /// Computes the normals of the corners: the sum of face normals weighted by the angle of the corner, over all corners connected by smooth
 /// edges (Thürmer & Wüthrich 1998). `is_smooth` returns whether the edge between two triangles is smooth.
 fn smooth(submesh: &Submesh, faces: &[DVec3], is_smooth: impl Fn(usize, usize) -> bool) -> Vec<DVec3> {
-    let mut corner_sets = DisjointSets((0..submesh.triangles.len() as u32 * 3).collect());
+    let mut corner_sets = CornerSets((0..submesh.triangles.len() as u32 * 3).collect());
     let mut edges = directed_edges(submesh);
     let cancel = Cancel::current();
     edges.sort_unstable_by(|a, b| {
@@ -215,9 +215,9 @@ fn directed_edges(submesh: &Submesh) -> Vec<Edge> {
 }
 
 /// Disjoint sets of corners.
-struct DisjointSets(Vec<u32>);
+struct CornerSets(Vec<u32>);
 
-impl DisjointSets {
+impl CornerSets {
     fn root(&mut self, mut of: u32) -> u32 {
         while self.0[of as usize] != of {
             let above = self.0[self.0[of as usize] as usize];

@@ -5,9 +5,9 @@
 //! programs that write them. Each `o` starts a part, and groups (`g`) with the same name are one part of their object.
 
 mod colors;
-mod draft;
-mod library;
 mod map_statement;
+mod material_draft;
+mod material_library;
 mod statements;
 mod unknown;
 
@@ -15,22 +15,22 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DMat4;
 
-use self::library::Library;
+use self::material_library::MaterialLibrary;
 use self::statements::Statements;
 use super::LoadOptions;
 use super::arealess::LeftOutAreas;
 use super::blur::warn_of_placing;
 use super::completion::{Completion, LACKING_NORMALS};
-use super::error::Fault;
+use super::error::ModelFault;
+use super::face_reversal::FaceReversal;
 use super::faces::NONE;
 use super::far::brought_near;
-use super::normals::Missing;
-use super::parts::{Groups, NamedPart};
+use super::normals::NormalMethod;
+use super::parts::{NamedPart, NodeGroups};
 use super::polygon::Budget;
 use super::size::check_size;
 use super::submesh::Submesh;
 use super::text::decoded;
-use super::turning::Turning;
 use super::warnings::Warnings;
 use crate::model::{FilePart, Mesh, Model, ModelMaterial};
 
@@ -40,7 +40,7 @@ pub(super) fn read(
     bytes: &[u8],
     resolve: &mut super::gltf::Resolve,
     options: &LoadOptions,
-) -> Result<Model, Fault> {
+) -> Result<Model, ModelFault> {
     let mut warnings = Warnings::default();
     let text = decoded(bytes);
     let mut statements = Statements::read(&text, &mut warnings)?;
@@ -56,7 +56,7 @@ pub(super) fn read(
     let mut submesh = statements.faces.triangulated(&mut Budget::default(), &mut warnings);
     let completion = Completion {
         repaired_normals: LACKING_NORMALS,
-        missing: Missing::Crease,
+        missing: NormalMethod::Crease,
         smooth_degrees: options.smooth_degrees,
     };
     completion.complete(&mut submesh, &BTreeSet::new(), "the model", &mut warnings);
@@ -73,7 +73,7 @@ pub(super) fn read(
         }
         return Err(warnings.into_fault());
     }
-    let mut library = Library::default();
+    let mut library = MaterialLibrary::default();
     for names in &statements.libraries {
         library.read(names, resolve, &mut warnings);
     }
@@ -94,7 +94,7 @@ pub(super) fn read(
         uv_set: with_uvs.then_some(0),
         ..Mesh::default()
     };
-    let mut turning = Turning::new(options.turns_faces);
+    let mut turning = FaceReversal::new(options.turns_faces);
     turning.hold(&placed);
     placed.append_to(&mut mesh, with_uvs, with_colors);
     model.mesh = mesh;
@@ -119,10 +119,10 @@ fn choose_parts(
     file: &str,
     options: &LoadOptions,
     warnings: &mut Warnings,
-) -> Result<Vec<FilePart>, Fault> {
+) -> Result<Vec<FilePart>, ModelFault> {
     let used: BTreeSet<u32> = statements.faces.faces.iter().map(|face| face.part).collect();
     let names: Vec<String> = used.iter().map(|part| part_name(statements, *part, file)).collect();
-    let mut groups = Groups::default();
+    let mut groups = NodeGroups::default();
     for object in &statements.objects {
         groups.add(object, None, false);
     }
@@ -171,7 +171,7 @@ fn placed(submesh: &Submesh, options: &LoadOptions) -> (Submesh, [f64; 3]) {
 }
 
 /// Returns a fault if a UV set is requested that OBJ files cannot have.
-fn check_uv_set(statements: &Statements, options: &LoadOptions) -> Result<(), Fault> {
+fn check_uv_set(statements: &Statements, options: &LoadOptions) -> Result<(), ModelFault> {
     if options.uv_set == 0 {
         return Ok(());
     }
@@ -180,7 +180,7 @@ fn check_uv_set(statements: &Statements, options: &LoadOptions) -> Result<(), Fa
     } else {
         "OBJ files have set 0 alone"
     };
-    Err(Fault::UvSet {
+    Err(ModelFault::UvSet {
         asked: options.uv_set,
         there: there.into(),
     })
@@ -203,7 +203,7 @@ fn without_uvs(statements: &Statements) -> BTreeSet<u32> {
 /// use, then the unnamed material. Returns the new number of each slot.
 fn number_materials(
     statements: &Statements,
-    library: &mut Library,
+    library: &mut MaterialLibrary,
     submesh: &mut Submesh,
     model: &mut Model,
     warnings: &mut Warnings,

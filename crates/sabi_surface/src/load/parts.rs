@@ -1,18 +1,18 @@
 //! Choice of the parts of a file to load. Collision hulls and coarser levels of detail lie at the same place as the visible
 //! model. They are recognized by naming conventions of game engines.
 
-mod groups;
-mod meaning;
+mod name_meaning;
+mod node_groups;
 
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-pub(super) use self::groups::{Groups, NamedPart};
-use self::meaning::{Meaning, by_names};
-use super::error::Fault;
+use self::name_meaning::{NameMeaning, by_names};
+pub(super) use self::node_groups::{NamedPart, NodeGroups};
+use super::error::ModelFault;
 use super::warnings::Warnings;
-use crate::model::{FilePart, LeftOut};
+use crate::model::{ExclusionReason, FilePart};
 
 /// Choice of parts by name, where `*` stands for any text and `?` for one letter.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,20 +50,20 @@ impl PartChoice {
     pub(super) fn of_file<'n>(
         &self,
         parts: impl Iterator<Item = NamedPart<'n>>,
-        groups: &Groups,
+        groups: &NodeGroups,
         warnings: &mut Warnings,
-    ) -> Result<Vec<FilePart>, Fault> {
+    ) -> Result<Vec<FilePart>, ModelFault> {
         let parts: Vec<NamedPart> = parts.collect();
         let choosable = Choosable::new(&parts, groups);
         self.check_names(&choosable, warnings)?;
         let [chosen, excluded] = [&self.parts, &self.without].map(|patterns| choosable.named(patterns));
         let is_all = self.parts.is_empty();
         let choices = chosen.into_iter().zip(excluded);
-        let part = |((part, by_name), (is_chosen, is_excluded)): ((&NamedPart, Option<Meaning>), (bool, bool))| {
+        let part = |((part, by_name), (is_chosen, is_excluded)): ((&NamedPart, Option<NameMeaning>), (bool, bool))| {
             let is_out = !is_all && !is_chosen || is_excluded;
             let is_usual = by_name.is_none();
             let by_name = by_name.filter(|_| is_all && !is_out);
-            let by_choice = is_out.then_some(LeftOut::Chosen);
+            let by_choice = is_out.then_some(ExclusionReason::Chosen);
             FilePart {
                 name: part.name.to_owned(),
                 left_out: by_choice.or(by_name.as_ref().map(|meaning| meaning.left_out)),
@@ -74,13 +74,13 @@ impl PartChoice {
         let named = parts.iter().zip(by_names(&parts, groups));
         let parts: Vec<FilePart> = named.zip(choices).map(part).collect();
         if !parts.is_empty() && parts.iter().all(|part| part.left_out.is_some()) {
-            return Err(Fault::NoPart);
+            return Err(ModelFault::NoPart);
         }
         Ok(parts)
     }
 
     /// Refuses names that no part has. A pattern of excluded parts may match nothing.
-    fn check_names(&self, choosable: &Choosable, warnings: &mut Warnings) -> Result<(), Fault> {
+    fn check_names(&self, choosable: &Choosable, warnings: &mut Warnings) -> Result<(), ModelFault> {
         let is_used = |pattern: &str| choosable.has(pattern);
         let (patterns, plain): (Vec<&String>, Vec<&String>) = self.without.iter().partition(|name| is_pattern(name));
         let mut unknown: Vec<String> = Vec::new();
@@ -91,7 +91,7 @@ impl PartChoice {
         }
         if !unknown.is_empty() {
             let there: BTreeSet<String> = choosable.parts.iter().map(|part| part.name.to_owned()).collect();
-            return Err(Fault::NoSuchPart {
+            return Err(ModelFault::NoSuchPart {
                 unknown,
                 there: there.into_iter().collect(),
             });
@@ -106,13 +106,13 @@ impl PartChoice {
 /// Parts of a file and the nodes above them, as a choice may name them.
 struct Choosable<'c> {
     parts: &'c [NamedPart<'c>],
-    groups: &'c Groups,
+    groups: &'c NodeGroups,
     /// Parts below each node.
     counts: Vec<usize>,
 }
 
 impl<'c> Choosable<'c> {
-    fn new(parts: &'c [NamedPart<'c>], groups: &'c Groups) -> Choosable<'c> {
+    fn new(parts: &'c [NamedPart<'c>], groups: &'c NodeGroups) -> Choosable<'c> {
         Choosable {
             counts: groups.counts(parts),
             parts,
@@ -213,7 +213,7 @@ mod tests {
                 without: list(without),
             };
             let parts = names.iter().map(|name| NamedPart { name, group: None });
-            let parts = choice.of_file(parts, &Groups::default(), &mut Warnings::default())?;
+            let parts = choice.of_file(parts, &NodeGroups::default(), &mut Warnings::default())?;
             let taken = parts.into_iter().filter(|part| part.left_out.is_none());
             Ok(taken.map(|part| part.name).collect::<Vec<String>>())
         };
@@ -229,12 +229,12 @@ mod tests {
         );
         assert_eq!(taken(&[], &["Moss"]), Ok(vec!["Rock".to_owned()]));
         assert_eq!(taken(&[], &["Stone*"]), Ok(vec!["Rock".to_owned(), "Moss".to_owned()]));
-        assert_eq!(taken(&[], &["*"]), Err(Fault::NoPart));
+        assert_eq!(taken(&[], &["*"]), Err(ModelFault::NoPart));
         let mut there = all();
         there.sort();
         assert_eq!(
             taken(&["Rok", "Stone*"], &["Mos", "Moss"]),
-            Err(Fault::NoSuchPart {
+            Err(ModelFault::NoSuchPart {
                 unknown: vec!["Rok".into(), "Stone*".into(), "Mos".into()],
                 there,
             })
@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn a_node_is_chosen_with_all_parts_below_it() {
-        let mut groups = Groups::default();
+        let mut groups = NodeGroups::default();
         let root = groups.add("Scene", None, false);
         let wheels = groups.add("Wheels", Some(root), false);
         let front = groups.add("Wheels_Front", Some(wheels), false);
@@ -281,7 +281,7 @@ mod tests {
         );
         let unknown = taken(&["Lamps"], &[]).unwrap_err();
         assert!(
-            matches!(unknown, Fault::NoSuchPart { .. }),
+            matches!(unknown, ModelFault::NoSuchPart { .. }),
             "nothing is below it: {unknown}"
         );
     }

@@ -14,14 +14,14 @@ use std::collections::BTreeSet;
 use glam::DMat4;
 use sabi_color::linear_from_srgb;
 
-use self::body::{Body, Value};
-use self::header::{Element, Encoding, Header, Kind};
-use super::assembly::{Assembly, Instance};
+use self::body::{PlyBody, PropertyValue};
+use self::header::{NumberType, PlyElement, PlyEncoding, PlyHeader};
+use super::assembly::{Assembly, MeshInstance};
 use super::completion::{Completion, LACKING_NORMALS};
-use super::error::{Fault, damaged};
+use super::error::{ModelFault, damaged};
 use super::faces::{Faces, NONE};
 use super::gltf::Resolve;
-use super::normals::Missing;
+use super::normals::NormalMethod;
 use super::polygon::Budget;
 use super::size::check_size;
 use super::submesh::Smoothing;
@@ -32,7 +32,7 @@ use crate::model::{Model, ModelMaterial, TextureRef};
 /// First bytes of each file.
 pub(super) const MARKS: [&[u8]; 3] = [b"ply\n", b"ply\r", b"ply "];
 
-/// Names of the properties of a vertex that are read, in the order of [`Vertex`]. Of each list, the first name that exists is used.
+/// Names of the properties of a vertex that are read, in the order of [`PlyVertex`]. Of each list, the first name that exists is used.
 const VERTEX: [&[&str]; 8] = [
     &["x"],
     &["y"],
@@ -54,14 +54,19 @@ const COLOR: [&[&str]; 4] = [
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// Reads a `.ply` file.
-pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut Resolve,
+    options: &LoadOptions,
+) -> Result<Model, ModelFault> {
     let mut warnings = Warnings::default();
-    let (header, rest) = Header::parse(bytes)?;
-    let faces = Reader::new(&header, &mut warnings).read(rest)?;
+    let (header, rest) = PlyHeader::parse(bytes)?;
+    let faces = PlyReader::new(&header, &mut warnings).read(rest)?;
     check_size(faces.triangles(), 1, options.memory_bytes)?;
     let has_uvs = !faces.uvs.values.is_empty();
     if options.uv_set > 0 {
-        return Err(Fault::UvSet {
+        return Err(ModelFault::UvSet {
             asked: options.uv_set,
             there: if has_uvs {
                 "PLY files have set 0 alone"
@@ -79,7 +84,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     }
     let completion = Completion {
         repaired_normals: LACKING_NORMALS,
-        missing: Missing::Crease,
+        missing: NormalMethod::Crease,
         smooth_degrees: options.smooth_degrees,
     };
     let mut submesh = faces.triangulated(&mut Budget::default(), &mut warnings);
@@ -103,7 +108,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
             ..ModelMaterial::plain()
         });
     }
-    assembly.instances.push(Instance {
+    assembly.instances.push(MeshInstance {
         mesh: 0,
         name: super::stem(name),
         group: None,
@@ -114,11 +119,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
 }
 
 /// Values of a vertex, in the order of [`VERTEX`].
-type Vertex = [f32; VERTEX.len()];
+type PlyVertex = [f32; VERTEX.len()];
 
 /// Reader of the elements after a header.
-struct Reader<'h, 'w> {
-    header: &'h Header,
+struct PlyReader<'h, 'w> {
+    header: &'h PlyHeader,
     warnings: &'w mut Warnings,
     faces: Faces,
     vertices: u64,
@@ -128,14 +133,14 @@ struct Reader<'h, 'w> {
     faces_have_colors: bool,
 }
 
-impl Reader<'_, '_> {
-    fn new<'h, 'w>(header: &'h Header, warnings: &'w mut Warnings) -> Reader<'h, 'w> {
+impl PlyReader<'_, '_> {
+    fn new<'h, 'w>(header: &'h PlyHeader, warnings: &'w mut Warnings) -> PlyReader<'h, 'w> {
         let colors_of = |name: &str| {
             header
                 .element(name)
-                .is_some_and(|element| Colors::of(element).are_there())
+                .is_some_and(|element| ColorProperties::of(element).are_there())
         };
-        Reader {
+        PlyReader {
             header,
             warnings,
             faces: Faces::default(),
@@ -147,8 +152,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn read(mut self, rest: &[u8]) -> Result<Faces, Fault> {
-        let mut body = Body::new(self.header.encoding, rest);
+    fn read(mut self, rest: &[u8]) -> Result<Faces, ModelFault> {
+        let mut body = PlyBody::new(self.header.encoding, rest);
         for element in &self.header.elements {
             // Every element takes bytes, so a count that does not fit into the file is refused before anything is read.
             body.check_room(element)?;
@@ -164,7 +169,7 @@ impl Reader<'_, '_> {
         Ok(self.faces)
     }
 
-    fn read_vertices(&mut self, element: &Element, body: &mut Body) -> Result<(), Fault> {
+    fn read_vertices(&mut self, element: &PlyElement, body: &mut PlyBody) -> Result<(), ModelFault> {
         let places = VERTEX.map(|names| names.iter().find_map(|name| element.place(name)));
         let has = |range: std::ops::Range<usize>| places[range].iter().all(Option::is_some);
         if !has(0..3) {
@@ -172,20 +177,20 @@ impl Reader<'_, '_> {
         }
         let [with_normals, with_uvs] = [has(3..6), has(6..8) && !self.corners_have_uvs];
         let kind_of = |channel: usize| places[channel].and_then(|place| Some(element.properties.get(place)?.kind));
-        let colors = Colors::of(element);
+        let colors = ColorProperties::of(element);
         // In a text file, the digits decide the precision, whatever type is declared.
         self.faces.is_single =
-            self.header.encoding != Encoding::Text && (0..3).all(|axis| kind_of(axis) == Some(Kind::F32));
+            self.header.encoding != PlyEncoding::Text && (0..3).all(|axis| kind_of(axis) == Some(NumberType::F32));
         let mut row = Vec::new();
         for _ in (0..element.count).looking() {
             body.row(element, &mut row)?;
             let number = |place: Option<usize>| match place.and_then(|place| row.get(place)) {
-                Some(Value::Number(number)) => *number,
+                Some(PropertyValue::Number(number)) => *number,
                 _ => 0.0,
             };
             let [x, y, z, ..] = places.map(number);
             self.faces.positions.push([x, y, z]);
-            let vertex: Vertex = places.map(number).map(|number| number as f32);
+            let vertex: PlyVertex = places.map(number).map(|number| number as f32);
             let [_, _, _, nx, ny, nz, s, t] = vertex;
             if with_normals {
                 self.faces.normals.values.push([nx, ny, nz]);
@@ -198,18 +203,18 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    fn read_faces(&mut self, element: &Element, body: &mut Body) -> Result<(), Fault> {
+    fn read_faces(&mut self, element: &PlyElement, body: &mut PlyBody) -> Result<(), ModelFault> {
         let Some(indices) = INDICES.iter().find_map(|name| element.place(name)) else {
             return damaged("its faces have no `vertex_indices`");
         };
         let [texcoord, texnumber] = ["texcoord", "texnumber"].map(|name| element.place(name));
-        let colors = Colors::of(element).filter(self.faces_have_colors);
+        let colors = ColorProperties::of(element).filter(self.faces_have_colors);
         let lone_texture = !self.header.pictures.is_empty();
         let mut row = Vec::new();
         let mut triangles = 0u64;
         for face in (0..element.count).looking() {
             body.row(element, &mut row)?;
-            let Some(Value::List(corners)) = row.get(indices) else {
+            let Some(PropertyValue::List(corners)) = row.get(indices) else {
                 return damaged("the `vertex_indices` of its faces are no list");
             };
             if corners.len() < 3 {
@@ -218,7 +223,7 @@ impl Reader<'_, '_> {
             }
             triangles += corners.len() as u64 - 2;
             if triangles > MAX_TRIANGLES {
-                return Err(Fault::TooLarge(triangles.max(element.count)));
+                return Err(ModelFault::TooLarge(triangles.max(element.count)));
             }
             for corner in corners {
                 if !(0.0..self.vertices as f64).contains(corner) {
@@ -227,7 +232,7 @@ impl Reader<'_, '_> {
                 self.faces.corners.push(*corner as u32);
             }
             let texture = match texnumber.and_then(|place| row.get(place)) {
-                Some(Value::Number(number)) if *number >= 0.0 => *number as u32,
+                Some(PropertyValue::Number(number)) if *number >= 0.0 => *number as u32,
                 Some(_) => NONE,
                 None if lone_texture => 0,
                 None => NONE,
@@ -248,7 +253,7 @@ impl Reader<'_, '_> {
     }
 
     /// Reads strips of triangles; a negative number ends one, and another begins behind it.
-    fn read_strips(&mut self, element: &Element, body: &mut Body) -> Result<(), Fault> {
+    fn read_strips(&mut self, element: &PlyElement, body: &mut PlyBody) -> Result<(), ModelFault> {
         let Some(indices) = INDICES.iter().find_map(|name| element.place(name)) else {
             return damaged("its strips have no `vertex_indices`");
         };
@@ -256,12 +261,12 @@ impl Reader<'_, '_> {
         let mut triangles = 0u64;
         for _ in 0..element.count {
             body.row(element, &mut row)?;
-            let Some(Value::List(corners)) = row.get(indices) else {
+            let Some(PropertyValue::List(corners)) = row.get(indices) else {
                 return damaged("the `vertex_indices` of its strips are no list");
             };
             triangles += corners.len() as u64;
             if triangles > MAX_TRIANGLES {
-                return Err(Fault::TooLarge(triangles));
+                return Err(ModelFault::TooLarge(triangles));
             }
             for strip in corners.split(|corner| *corner < 0.0) {
                 if let Some(beyond) = strip
@@ -290,12 +295,12 @@ impl Reader<'_, '_> {
     }
 
     /// Adds the texture coordinates of a face's corners, where faces have them.
-    fn push_uvs(&mut self, uvs: Option<&Value>, count: usize) {
+    fn push_uvs(&mut self, uvs: Option<&PropertyValue>, count: usize) {
         if !self.corners_have_uvs {
             return;
         }
         let uvs = match uvs {
-            Some(Value::List(uvs)) => uvs.as_chunks::<2>().0,
+            Some(PropertyValue::List(uvs)) => uvs.as_chunks::<2>().0,
             _ => &[],
         };
         for corner in 0..count {
@@ -338,19 +343,19 @@ impl Reader<'_, '_> {
 }
 
 /// Places of the channels of a color among the properties of an element, with their types.
-struct Colors([Option<(usize, Kind)>; 4]);
+struct ColorProperties([Option<(usize, NumberType)>; 4]);
 
-impl Colors {
-    fn of(element: &Element) -> Colors {
-        Colors(COLOR.map(|names| {
+impl ColorProperties {
+    fn of(element: &PlyElement) -> ColorProperties {
+        ColorProperties(COLOR.map(|names| {
             let place = names.iter().find_map(|name| element.place(name))?;
             Some((place, element.properties.get(place)?.kind))
         }))
     }
 
     /// The colors if they are wanted, else none.
-    fn filter(self, are_wanted: bool) -> Colors {
-        if are_wanted { self } else { Colors([None; 4]) }
+    fn filter(self, are_wanted: bool) -> ColorProperties {
+        if are_wanted { self } else { ColorProperties([None; 4]) }
     }
 
     /// Returns true if there is red, green and blue.
@@ -359,19 +364,19 @@ impl Colors {
     }
 
     /// Decodes the color of a row to linear RGBA, which is opaque without alpha.
-    fn of_row(&self, row: &[Value]) -> Option<[f32; 4]> {
+    fn of_row(&self, row: &[PropertyValue]) -> Option<[f32; 4]> {
         let [Some(red), Some(green), Some(blue), alpha] = self.0 else {
             return None;
         };
-        let share = |(place, kind): (usize, Kind)| {
+        let share = |(place, kind): (usize, NumberType)| {
             let value = match row.get(place) {
-                Some(Value::Number(number)) => *number as f32,
+                Some(PropertyValue::Number(number)) => *number as f32,
                 // A list is no channel.
-                Some(Value::List(_)) | None => 0.0,
+                Some(PropertyValue::List(_)) | None => 0.0,
             };
             kind.largest_code().map_or(value, |most| value / most)
         };
-        let light = |channel: (usize, Kind)| match channel.1.largest_code() {
+        let light = |channel: (usize, NumberType)| match channel.1.largest_code() {
             Some(_) => linear_from_srgb(share(channel).clamp(0.0, 1.0)),
             None => share(channel),
         };

@@ -1,7 +1,7 @@
 //! Checks the sizes that a file declares against the limits before anything is allocated.
 
 use super::MAX_TRIANGLES;
-use super::error::Fault;
+use super::error::ModelFault;
 
 /// Minimum memory of a triangle of a mesh: its corners, material and part, and half a vertex with position, normal, tangent
 /// and coordinates, as in closed surfaces.
@@ -24,9 +24,9 @@ pub fn mesh_bytes(triangles: u64) -> u64 {
 ///
 /// # Errors
 /// There are too many, or they would take more than `memory_bytes`.
-pub(super) fn check_size(triangles: u64, primitives: u64, memory_bytes: u64) -> Result<(), Fault> {
+pub(super) fn check_size(triangles: u64, primitives: u64, memory_bytes: u64) -> Result<(), ModelFault> {
     if triangles > MAX_TRIANGLES {
-        return Err(Fault::TooLarge(triangles));
+        return Err(ModelFault::TooLarge(triangles));
     }
     let needed = triangles
         .saturating_mul(COPIES * TRIANGLE_BYTES + ATLAS_BYTES)
@@ -36,7 +36,7 @@ pub(super) fn check_size(triangles: u64, primitives: u64, memory_bytes: u64) -> 
                 .saturating_mul(PRIMITIVE_BYTES),
         );
     match needed > memory_bytes {
-        true => Err(Fault::memory(needed, memory_bytes)),
+        true => Err(ModelFault::memory(needed, memory_bytes)),
         false => Ok(()),
     }
 }

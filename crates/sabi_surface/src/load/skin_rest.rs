@@ -9,7 +9,7 @@ use super::warnings::Warnings;
 const SAME: f64 = 1e-3;
 
 /// Placement of a mesh by one joint.
-pub(super) struct Placement {
+pub(super) struct JointPlacement {
     pub(super) file_from_mesh: DMat4,
     /// Distance of the joint from the origin, to which the rounding error of the transform is proportional.
     pub(super) reach: f64,
@@ -40,7 +40,7 @@ impl JointBudget {
 
 /// Rest pose of a skin. It is the same for all meshes that use the skin.
 #[derive(Clone, Copy)]
-pub(super) enum Rest {
+pub(super) enum RestPose {
     /// Nothing is known about its joints.
     Unknown,
     /// All joints place the mesh with this transform.
@@ -51,36 +51,36 @@ pub(super) enum Rest {
     TooLarge,
 }
 
-impl Rest {
+impl RestPose {
     /// Finds the rest of a skin by the placements of its joints.
-    pub(super) fn of(placements: &[Placement]) -> Rest {
+    pub(super) fn of(placements: &[JointPlacement]) -> RestPose {
         let [first, others @ ..] = placements else {
-            return Rest::Unknown;
+            return RestPose::Unknown;
         };
         let matrix = first.file_from_mesh;
         let is_usable = matrix.is_finite() && DMat3::from_mat4(matrix).determinant() != 0.0;
         if is_usable && others.iter().all(|other| agree(first, other)) {
-            Rest::At(matrix)
+            RestPose::At(matrix)
         } else {
-            Rest::Posed
+            RestPose::Posed
         }
     }
 
     /// Returns the transform of the mesh `name`; this is `bound` unless the skin defines another one.
     pub(super) fn file_from_bound(self, bound: DMat4, name: &str, warnings: &mut Warnings) -> DMat4 {
         match self {
-            Rest::Unknown => bound,
-            Rest::At(file_from_mesh) => {
+            RestPose::Unknown => bound,
+            RestPose::At(file_from_mesh) => {
                 warnings.add(format!("The skin of `{name}` is left out: it is taken at rest."));
                 file_from_mesh
             }
-            Rest::Posed => {
+            RestPose::Posed => {
                 warnings.add(format!(
                     "The skeleton of `{name}` stands in a pose; the mesh is taken as it was bound, without it."
                 ));
                 bound
             }
-            Rest::TooLarge => {
+            RestPose::TooLarge => {
                 warnings.add(format!(
                     "The skin of `{name}` cannot be read ({TOO_MANY_JOINTS}); the mesh is taken as it was bound."
                 ));
@@ -91,7 +91,7 @@ impl Rest {
 }
 
 /// Returns true if two joints place a mesh in the same way, up to rounding.
-pub(super) fn agree(a: &Placement, b: &Placement) -> bool {
+pub(super) fn agree(a: &JointPlacement, b: &JointPlacement) -> bool {
     let [a_turns, b_turns] = [a, b].map(|placement| DMat3::from_mat4(placement.file_from_mesh));
     let size = a_turns
         .to_cols_array()

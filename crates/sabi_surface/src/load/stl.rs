@@ -9,12 +9,12 @@ use std::collections::{BTreeSet, HashMap};
 use glam::DMat4;
 
 use super::LoadOptions;
-use super::assembly::{Assembly, Instance};
+use super::assembly::{Assembly, MeshInstance};
 use super::completion::{Completion, LACKING_NORMALS};
-use super::error::{Fault, damaged};
+use super::error::{ModelFault, damaged};
 use super::faces::Faces;
 use super::gltf::Resolve;
-use super::normals::Missing;
+use super::normals::NormalMethod;
 use super::numbers::number;
 use super::polygon::Budget;
 use super::size::check_size;
@@ -37,7 +37,12 @@ const START_BYTES: usize = 4096;
 const REMARKS: [&[u8]; 4] = [b"#", b"//", b";", b"!"];
 
 /// Reads an `.stl` file.
-pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    resolve: &mut Resolve,
+    options: &LoadOptions,
+) -> Result<Model, ModelFault> {
     let mut warnings = Warnings::default();
     let mut solids = if is_binary(bytes) {
         vec![read_binary(bytes, options.memory_bytes, &mut warnings)?]
@@ -49,7 +54,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     check_size(claim, solids.len() as u64, options.memory_bytes)?;
     let completion = Completion {
         repaired_normals: LACKING_NORMALS,
-        missing: Missing::Flat,
+        missing: NormalMethod::Flat,
         smooth_degrees: options.smooth_degrees,
     };
     let mut assembly = Assembly::default();
@@ -57,7 +62,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     for solid in solids {
         let mut submesh = solid.faces.triangulated(&mut budget, &mut warnings);
         completion.complete(&mut submesh, &BTreeSet::new(), "the model", &mut warnings);
-        assembly.instances.push(Instance {
+        assembly.instances.push(MeshInstance {
             mesh: assembly.meshes.len(),
             name: if solid.name.is_empty() {
                 super::stem(name)
@@ -135,7 +140,7 @@ impl Solid {
     }
 }
 
-fn read_binary(bytes: &[u8], memory_bytes: u64, warnings: &mut Warnings) -> Result<Solid, Fault> {
+fn read_binary(bytes: &[u8], memory_bytes: u64, warnings: &mut Warnings) -> Result<Solid, ModelFault> {
     let Some(size) = binary_size(bytes) else {
         return damaged("it is no STL file: it does not begin with `solid`, and is too short for a binary one");
     };
@@ -192,7 +197,7 @@ struct TextReader<'w> {
 
 /// Reads the solids of a text, each `solid NAME` followed by `facet … outer loop vertex x y z … endloop endfacet`. The end
 /// keywords may be written as two words.
-fn read_text(text: &str, warnings: &mut Warnings) -> Result<Vec<Solid>, Fault> {
+fn read_text(text: &str, warnings: &mut Warnings) -> Result<Vec<Solid>, ModelFault> {
     let mut reader = TextReader {
         solids: Vec::new(),
         first: 0,
@@ -206,7 +211,7 @@ fn read_text(text: &str, warnings: &mut Warnings) -> Result<Vec<Solid>, Fault> {
             continue;
         }
         let read = reader.read(line);
-        read.map_err(|what| Fault::Damaged(format!("line {number}: {what}")))?;
+        read.map_err(|what| ModelFault::Damaged(format!("line {number}: {what}")))?;
     }
     for solid in &mut reader.solids {
         let whole = solid.faces.faces.last().map_or(0, |face| face.corners.end);

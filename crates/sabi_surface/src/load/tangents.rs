@@ -61,7 +61,7 @@ fn mikktspace(submesh: &Submesh) -> Option<Vec<[f32; 4]>> {
     if crowding(submesh) > MOST_CROWDED {
         return None;
     }
-    let mut corners = Corners {
+    let mut corners = MikktspaceMesh {
         positions_scale: power_of_two_scale(submesh.positions.as_flattened()),
         uvs_scale: power_of_two_scale(submesh.uvs.as_flattened()),
         submesh,
@@ -118,7 +118,7 @@ fn power_of_two_scale(values: &[f32]) -> f32 {
 }
 
 /// A submesh as the input of MikkTSpace.
-struct Corners<'a> {
+struct MikktspaceMesh<'a> {
     submesh: &'a Submesh,
     positions_scale: f32,
     uvs_scale: f32,
@@ -127,13 +127,13 @@ struct Corners<'a> {
     cancel: Cancel,
 }
 
-impl Corners<'_> {
+impl MikktspaceMesh<'_> {
     fn vertex(&self, face: usize, corner: usize) -> usize {
         self.submesh.triangles[face][corner] as usize
     }
 }
 
-impl Geometry for Corners<'_> {
+impl Geometry for MikktspaceMesh<'_> {
     fn num_faces(&self) -> usize {
         self.submesh.triangles.len()
     }

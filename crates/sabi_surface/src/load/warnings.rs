@@ -1,6 +1,6 @@
 //! Warnings about repairs and omissions, collected while reading.
 
-use super::error::Fault;
+use super::error::ModelFault;
 
 /// Maximum number of sentences that are collected, since a broken file may repeat a fault many times.
 const MOST: usize = 40;
@@ -50,7 +50,7 @@ impl Warnings {
     }
 
     /// Returns the fault of a model without any triangle, with the warnings as reasons.
-    pub(super) fn into_fault(self) -> Fault {
+    pub(super) fn into_fault(self) -> ModelFault {
         let reasons = self
             .sentences
             .into_iter()
@@ -58,7 +58,7 @@ impl Warnings {
             .fold(String::new(), |reasons, reason| {
                 reasons + "; " + reason.trim_end_matches('.')
             });
-        Fault::NoTriangles(reasons)
+        ModelFault::NoTriangles(reasons)
     }
 
     /// Returns the sentences, followed by one about the number of those that were dropped.

@@ -4,7 +4,7 @@ use super::TextureRef;
 
 /// A factor, and the texture that it multiplies.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scaled<T> {
+pub struct TexturedFactor<T> {
     /// The factor, linear.
     pub factor: T,
     /// The texture.
@@ -15,23 +15,23 @@ pub struct Scaled<T> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModelFinish {
     /// Strength of a clear coat, 0..1; R of the texture (KHR_materials_clearcoat).
-    pub coat: Scaled<f32>,
+    pub coat: TexturedFactor<f32>,
     /// Roughness of the coat; G of the texture.
-    pub coat_roughness: Scaled<f32>,
+    pub coat_roughness: TexturedFactor<f32>,
     /// Strength, 0..1; B of the texture, which contains the direction in the tangent frame in R and G (KHR_materials_anisotropy).
-    pub anisotropy: Scaled<f32>,
+    pub anisotropy: TexturedFactor<f32>,
     /// Angle by which the direction is turned, counter-clockwise, radians.
     pub anisotropy_rotation: f32,
     /// Color of the sheen; the texture is sRGB (KHR_materials_sheen).
-    pub sheen: Scaled<[f32; 3]>,
+    pub sheen: TexturedFactor<[f32; 3]>,
     /// Roughness of the sheen; A of the texture.
-    pub sheen_roughness: Scaled<f32>,
+    pub sheen_roughness: TexturedFactor<f32>,
     /// Share of the light that spreads below the surface; A of the texture (KHR_materials_diffuse_transmission).
-    pub subsurface: Scaled<f32>,
+    pub subsurface: TexturedFactor<f32>,
     /// Color of that light; the texture is sRGB.
-    pub subsurface_color: Scaled<[f32; 3]>,
+    pub subsurface_color: TexturedFactor<[f32; 3]>,
     /// Share of the light that passes through; R of the texture (KHR_materials_transmission).
-    pub transmission: Scaled<f32>,
+    pub transmission: TexturedFactor<f32>,
 }
 
 impl ModelFinish {

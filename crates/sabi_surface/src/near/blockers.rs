@@ -10,7 +10,7 @@ const MOST_ROWS: usize = 8;
 /// Triangles that can stop rays, in scaled space.
 #[derive(Default)]
 pub(super) struct Blockers {
-    rows: Vec<Row>,
+    rows: Vec<TriangleRow>,
     count: usize,
     counts: bool,
     is_overfull: bool,
@@ -19,7 +19,7 @@ pub(super) struct Blockers {
 /// For each triangle: the first corner, the edge from the second corner to the first, the edge from the first to the third,
 /// and the cross product of both edges. Each component is stored for all triangles of the row. Zero for unused entries.
 #[derive(Clone, Copy, Default)]
-struct Row {
+struct TriangleRow {
     corner: [[f32; LANES]; 3],
     one: [[f32; LANES]; 3],
     two: [[f32; LANES]; 3],
@@ -53,7 +53,7 @@ impl Blockers {
             if self.is_overfull {
                 return;
             }
-            self.rows.push(Row::default());
+            self.rows.push(TriangleRow::default());
         }
         let Some(row) = self.rows.last_mut() else { return };
         let (one, two) = (v0 - v1, v2 - v0);
@@ -95,7 +95,7 @@ impl Blockers {
     }
 }
 
-impl Row {
+impl TriangleRow {
     /// Distance of each triangle along a ray; infinite where the ray misses it (Möller and Trumbore, 1997).
     fn distances(&self, [ox, oy, oz]: [f32; 3], [dx, dy, dz]: [f32; 3]) -> [f32; LANES] {
         let mut distances = [0.0; LANES];

@@ -88,9 +88,9 @@ fn ball(rings: usize) -> Vec<[DVec3; 3]> {
 }
 
 /// Name, triangles, and the axes and side lengths of the box.
-type Case = (&'static str, Vec<[DVec3; 3]>, [DVec3; 3], DVec3);
+type BoxCase = (&'static str, Vec<[DVec3; 3]>, [DVec3; 3], DVec3);
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<BoxCase> {
     let upright = DMat3::IDENTITY;
     let board = |turn: DMat3| turned(solid(-BOARD / 2.0, BOARD / 2.0, 1), turn);
     let [x, y, z] = DVec3::AXES;

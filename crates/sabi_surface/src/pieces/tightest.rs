@@ -30,7 +30,7 @@ pub(super) fn piece_box(mesh: &Mesh, triangles: &[u32]) -> PieceBox {
         frames.extend(symmetry.axes());
         frames.extend([normals.directions, spread.directions]);
     }
-    let mut extents = vec![Extent::default(); frames.len()];
+    let mut extents = vec![FrameBounds::default(); frames.len()];
     for corner in triangles.iter().flat_map(corners) {
         for (frame, extent) in frames.iter().zip(&mut extents) {
             extent.take(frame.transpose_mul_vec3(corner));
@@ -60,21 +60,21 @@ pub(super) fn piece_box(mesh: &Mesh, triangles: &[u32]) -> PieceBox {
 
 /// Lowest and highest coordinates in a frame.
 #[derive(Clone, Copy)]
-struct Extent {
+struct FrameBounds {
     low: DVec3,
     high: DVec3,
 }
 
-impl Default for Extent {
+impl Default for FrameBounds {
     fn default() -> Self {
-        Extent {
+        FrameBounds {
             low: DVec3::INFINITY,
             high: DVec3::NEG_INFINITY,
         }
     }
 }
 
-impl Extent {
+impl FrameBounds {
     fn take(&mut self, at: DVec3) {
         self.low = self.low.min(at);
         self.high = self.high.max(at);

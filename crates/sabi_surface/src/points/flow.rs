@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::spread::Cells;
+use super::dart_throwing::Cells;
 use super::texels::TexelGraph;
 use super::{Flow, Lists};
 
@@ -16,7 +16,7 @@ const LEAST_AREA: f64 = 0.25;
 
 /// A corner of a cell, and the point beyond the side that starts there.
 #[derive(Clone, Copy)]
-struct Corner {
+struct CellCorner {
     place: DVec2,
     beyond: Option<u32>,
 }
@@ -122,7 +122,7 @@ fn conductances(graph: &TexelGraph, cells: &Cells, [members, around]: [&[u32]; 2
 }
 
 /// Polygon around the texels of a cell, which are given by their places and widths.
-fn bound(texels: &[(DVec2, f64)]) -> Vec<Corner> {
+fn bound(texels: &[(DVec2, f64)]) -> Vec<CellCorner> {
     let step = std::f64::consts::TAU / f64::from(BOUND_SIDES);
     let reach = |direction: DVec2| {
         let reach = texels.iter().map(|(place, width)| place.dot(direction) + width);
@@ -137,7 +137,7 @@ fn bound(texels: &[(DVec2, f64)]) -> Vec<Corner> {
         .map(|((direction, reach), (_, next))| {
             // The corner at which the two sides meet.
             let along = (next - reach * step.cos()) / step.sin();
-            Corner {
+            CellCorner {
                 place: *direction * *reach + direction.perp() * along,
                 beyond: None,
             }
@@ -146,8 +146,8 @@ fn bound(texels: &[(DVec2, f64)]) -> Vec<Corner> {
 }
 
 /// Cuts off the part of a convex cell that is nearer to another point than to the origin.
-fn cut(cell: &[Corner], other: DVec2, number: u32) -> Vec<Corner> {
-    let beyond = |corner: &Corner| corner.place.dot(other) - 0.5 * other.length_squared();
+fn cut(cell: &[CellCorner], other: DVec2, number: u32) -> Vec<CellCorner> {
+    let beyond = |corner: &CellCorner| corner.place.dot(other) - 0.5 * other.length_squared();
     let mut kept = Vec::with_capacity(cell.len() + 1);
     for (corner, next) in cell.iter().zip(cell.iter().cycle().skip(1)) {
         let [from, to] = [beyond(corner), beyond(next)];
@@ -155,13 +155,13 @@ fn cut(cell: &[Corner], other: DVec2, number: u32) -> Vec<Corner> {
         if from <= 0.0 {
             kept.push(*corner);
             if to > 0.0 {
-                kept.push(Corner {
+                kept.push(CellCorner {
                     place: crossing(),
                     beyond: Some(number),
                 });
             }
         } else if to <= 0.0 {
-            kept.push(Corner {
+            kept.push(CellCorner {
                 place: crossing(),
                 beyond: corner.beyond,
             });

@@ -33,7 +33,7 @@ pub(super) struct TexelGraph {
 }
 
 /// Plane of a triangle over the texels of its chart: a point, and the steps for a texel along u and v.
-struct Plane {
+struct TrianglePlane {
     origin: DVec3,
     texel: [f64; 2],
     steps: [DVec3; 2],
@@ -42,9 +42,9 @@ struct Plane {
 
 impl TexelGraph {
     pub(super) fn new(mesh: &Mesh, atlas: &Atlas) -> TexelGraph {
-        let planes: Vec<Plane> = (0..mesh.triangles.len())
+        let planes: Vec<TrianglePlane> = (0..mesh.triangles.len())
             .into_par_iter()
-            .map(|triangle| Plane::of(mesh, atlas, triangle))
+            .map(|triangle| TrianglePlane::of(mesh, atlas, triangle))
             .collect();
         let [width, height] = atlas.page_size.map(|side| side as usize);
         let owned = atlas
@@ -148,8 +148,8 @@ fn is_at_border(atlas: &Atlas, index: u32) -> bool {
     })
 }
 
-impl Plane {
-    fn of(mesh: &Mesh, atlas: &Atlas, triangle: usize) -> Plane {
+impl TrianglePlane {
+    fn of(mesh: &Mesh, atlas: &Atlas, triangle: usize) -> TrianglePlane {
         let corners = mesh.triangles[triangle].map(|vertex| vertex as usize);
         let position = corners.map(|corner| glam::Vec3::from(mesh.positions[corner]).as_dvec3());
         // Differences of UVs are used, since corners on the page are rounded.
@@ -166,7 +166,7 @@ impl Plane {
             ]
         };
         let face = first.cross(second).normalize_or_zero();
-        Plane {
+        TrianglePlane {
             origin: position[0],
             texel: atlas.triangle_texels[triangle][0].map(f64::from),
             steps,

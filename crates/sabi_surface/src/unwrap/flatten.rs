@@ -28,7 +28,7 @@ pub(super) struct FlatChart {
 }
 
 /// All charts of a mesh.
-pub(super) struct Flattened {
+pub(super) struct FlatCharts {
     pub(super) charts: Vec<FlatChart>,
     /// Number of components that were flattened; the others are copies of these.
     pub(super) distinct: u32,
@@ -37,7 +37,7 @@ pub(super) struct Flattened {
 }
 
 /// Flattens all components; similar ones are flattened once. Triangles without area are on no chart.
-pub(super) fn flatten(mesh: &Mesh, components: &[Component]) -> Flattened {
+pub(super) fn flatten(mesh: &Mesh, components: &[Component]) -> FlatCharts {
     let is_first = |&index: &usize| components[index].similar_to.0 == index;
     let firsts: Vec<usize> = (0..components.len()).filter(is_first).collect();
     let cancel = Cancel::current();
@@ -68,7 +68,7 @@ pub(super) fn flatten(mesh: &Mesh, components: &[Component]) -> Flattened {
             }
         }));
     }
-    Flattened {
+    FlatCharts {
         charts,
         distinct: firsts.len() as u32,
         warnings: failed

@@ -7,7 +7,7 @@ use sabi_cancel::look;
 use super::area::{area, flat_area};
 use super::flatten::FlatChart;
 use super::{GAP, UnwrapError, UnwrapLayout, UnwrapReport};
-use crate::atlas::fixed::UNIT;
+use crate::atlas::fixed_point_uvs::UNIT;
 use crate::atlas::mask::Mask;
 use crate::atlas::pack::Packer;
 use crate::atlas::raster::spans;
@@ -25,27 +25,27 @@ const TOO_FULL: f64 = 0.95;
 const MOST_BOXED: f64 = (1u64 << 27) as f64;
 
 /// Two corners of a triangle, model units.
-type Edge = [DVec2; 2];
+type BorderEdge = [DVec2; 2];
 
 /// A chart to be packed.
-struct Shape<'a> {
+struct ChartOutline<'a> {
     chart: &'a FlatChart,
     /// Lower corner of its bounding box, model units.
     origin: DVec2,
     /// Width and height, model units.
     side: DVec2,
     /// Border edges.
-    outline: Vec<Edge>,
+    outline: Vec<BorderEdge>,
 }
 
-impl Shape<'_> {
-    fn new(chart: &FlatChart) -> Shape<'_> {
+impl ChartOutline<'_> {
+    fn new(chart: &FlatChart) -> ChartOutline<'_> {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for &corner in chart.corners.iter().flatten() {
             (low, high) = (low.min(corner), high.max(corner));
         }
         let edges = chart.corners.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        let mut keyed: Vec<([[u64; 2]; 2], Edge)> = edges
+        let mut keyed: Vec<([[u64; 2]; 2], BorderEdge)> = edges
             .map(|[a, b]| {
                 let mut key = [a, b].map(|corner| corner.to_array().map(f64::to_bits));
                 key.sort_unstable();
@@ -54,7 +54,7 @@ impl Shape<'_> {
             .collect();
         keyed.sort_unstable_by_key(|(key, _)| *key);
         let outline = keyed.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() == 1);
-        Shape {
+        ChartOutline {
             chart,
             origin: low,
             side: high - low,
@@ -72,7 +72,7 @@ impl Shape<'_> {
         (self.side * scale).floor().as_uvec2().to_array().map(|side| side + 1)
     }
 
-    /// Returns a corner like [`Shape::texel`], after quarter turns like those of [`Mask::turned`].
+    /// Returns a corner like [`ChartOutline::texel`], after quarter turns like those of [`Mask::turned`].
     fn turned_texel(&self, corner: DVec2, scale: f64, turns: u32) -> DVec2 {
         let DVec2 { x, y } = self.texel(corner, scale);
         let [width, height] = self.texels(scale).map(f64::from);
@@ -111,7 +111,7 @@ impl Shape<'_> {
 }
 
 /// Placement of all charts on the sheet.
-struct Packing {
+struct SheetPacking {
     /// Texels per model unit.
     scale: f64,
     /// Side of the sheet for which it was packed, in texels.
@@ -123,7 +123,7 @@ struct Packing {
 /// Packs charts as large as they fit, with [`GAP`] texels between them, on a sheet of `size` texels. If there are too many
 /// charts, the sheet has more texels, up to `finest`, so that gaps are narrower.
 pub(super) fn pack(mesh: &Mesh, charts: &[FlatChart], [size, finest]: [u32; 2]) -> Result<UnwrapLayout, UnwrapError> {
-    let shapes: Vec<Shape> = charts.par_iter().map(Shape::new).collect();
+    let shapes: Vec<ChartOutline> = charts.par_iter().map(ChartOutline::new).collect();
     let total: f64 = charts
         .iter()
         .flat_map(|chart| &chart.corners)
@@ -161,7 +161,7 @@ pub(super) fn pack(mesh: &Mesh, charts: &[FlatChart], [size, finest]: [u32; 2]) 
 }
 
 /// Returns the packing at the largest scale found by bisection; `None` when none fits.
-fn largest(shapes: &[Shape], total: f64, size: u32) -> Option<Packing> {
+fn largest(shapes: &[ChartOutline], total: f64, size: u32) -> Option<SheetPacking> {
     // Even a point takes a texel and the gap around it.
     let (cell, limit) = cells(shapes.len(), size);
     let least = u64::from((1 + GAP).div_ceil(cell)).pow(2);
@@ -186,13 +186,13 @@ fn largest(shapes: &[Shape], total: f64, size: u32) -> Option<Packing> {
 }
 
 /// Packs the shapes at a scale; `None` when they do not fit.
-fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
+fn fit(shapes: &[ChartOutline], scale: f64, size: u32) -> Option<SheetPacking> {
     look();
     let room = f64::from(size - GAP.min(size - 1));
     if shapes.iter().any(|shape| shape.side.max_element() * scale > room) {
         return None;
     }
-    let boxed = |shape: &Shape| {
+    let boxed = |shape: &ChartOutline| {
         let [width, height] = shape.texels(scale).map(|texels| f64::from(texels + GAP));
         width * height
     };
@@ -232,7 +232,7 @@ fn fit(shapes: &[Shape], scale: f64, size: u32) -> Option<Packing> {
         let place = |cells: u32| f64::from(cells * cell + GAP / 2);
         places[index] = (turns as u32, DVec2::new(place(position.column), place(position.row)));
     }
-    Some(Packing { scale, size, places })
+    Some(SheetPacking { scale, size, places })
 }
 
 /// Texels along a side of a packed cell, and cells along a side of the sheet.

@@ -11,6 +11,9 @@ pub(crate) const U16: u32 = 5123;
 pub(crate) const U32: u32 = 5125;
 pub(crate) const F32: u32 = 5126;
 
+/// Change to a file under construction.
+pub(crate) type GltfEdit = fn(&mut Gltf);
+
 /// A file under construction; `json` may be edited at will.
 #[derive(Clone, Debug)]
 pub(crate) struct Gltf {

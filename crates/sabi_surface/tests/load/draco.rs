@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::builder::{Gltf, I8, I16, U8, floats};
-use crate::packed_quad::{CORNERS, Corner, check, draco};
+use crate::builder::{Gltf, GltfEdit, I8, I16, U8, floats};
+use crate::packed_quad::{CORNERS, QuadCorner, check, draco};
 
 const DRACO: &str = "KHR_draco_mesh_compression";
 
@@ -71,7 +71,7 @@ fn plain_data_are_read_where_draco_is_not_required() {
     let mut file = draco();
     file.json.as_object_mut().unwrap().remove("extensionsRequired");
     check(&file.model());
-    let corner = |part: fn(&Corner) -> Vec<f32>| -> Vec<f32> { CORNERS.iter().flat_map(part).collect() };
+    let corner = |part: fn(&QuadCorner) -> Vec<f32>| -> Vec<f32> { CORNERS.iter().flat_map(part).collect() };
     let plain = [
         file.accessor(U8, "SCALAR", 6, &[0, 1, 2, 0, 2, 3]),
         file.floats("VEC3", &corner(|(position, ..)| position.to_vec())),
@@ -103,9 +103,7 @@ fn another_number_of_vertices_is_told() {
     assert_eq!(model.warnings[0], sentence);
 }
 
-type Edit = fn(&mut Gltf);
-
-const FAULTS: &[(Edit, &str)] = &[
+const FAULTS: &[(GltfEdit, &str)] = &[
     (
         |f| *extension(f) = json!({}),
         "mesh `leaf` has no `bufferView` or no `attributes` in its KHR_draco_mesh_compression",

@@ -3,7 +3,7 @@
 use sabi_surface::load::{LoadOptions, load_bytes};
 use serde_json::{Value, json};
 
-use crate::builder::{F32, Gltf, I16, U8, U32, nothing};
+use crate::builder::{F32, Gltf, GltfEdit, I16, U8, U32, nothing};
 
 /// Returns the error message for the bytes of a file.
 pub(crate) fn said(name: &str, bytes: &[u8]) -> String {
@@ -12,10 +12,8 @@ pub(crate) fn said(name: &str, bytes: &[u8]) -> String {
         .to_string()
 }
 
-type Edit = fn(&mut Gltf);
-
 /// Edits of a good file, and what is said then.
-const FAULTS: &[(Edit, &str)] = &[
+const FAULTS: &[(GltfEdit, &str)] = &[
     (
         |f| f.json["asset"] = json!({}),
         "the file is damaged: its asset does not say which version of glTF it is",

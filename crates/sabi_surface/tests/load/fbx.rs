@@ -5,7 +5,7 @@ use sabi_surface::load::{LoadOptions, Up, load_bytes};
 use sabi_surface::model::{Model, ModelMaterial};
 
 use crate::faults::said;
-use crate::fbx_builder::{Element, Fbx, Value, element, layer, mesh, properties, text};
+use crate::fbx_builder::{Fbx, FbxElement, FbxValue, element, layer, mesh, properties, text};
 
 /// Positions of the model, in the order of its vertices.
 fn corners(model: &Model) -> Vec<Vec3> {
@@ -137,7 +137,7 @@ fn vertices_far_from_the_origin_of_their_mesh_keep_their_shape() {
 }
 
 /// Two squares that meet at a right angle in the y axis, with a layer of smoothing.
-fn folded(smoothing: Option<Element>) -> Model {
+fn folded(smoothing: Option<FbxElement>) -> Model {
     let corners = [
         -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0,
     ];
@@ -157,9 +157,9 @@ fn missing_normals_follow_the_smoothing_of_the_file_or_the_crease() {
         let below = vec![
             element("MappingInformationType", vec![text("ByPolygon")], vec![]),
             element("ReferenceInformationType", vec![text("Direct")], vec![]),
-            element("Smoothing", vec![Value::Indices(values)], vec![]),
+            element("Smoothing", vec![FbxValue::Indices(values)], vec![]),
         ];
-        element("LayerElementSmoothing", vec![Value::Id(0)], below)
+        element("LayerElementSmoothing", vec![FbxValue::Id(0)], below)
     };
     for (smoothing, vertices, why) in [
         (None, 8, "90° are a crease"),
@@ -227,7 +227,7 @@ fn boned(swing: f64) -> Fbx {
         let rows = [
             1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x, y, 0.0, 1.0,
         ];
-        vec![Value::Numbers(rows.to_vec())]
+        vec![FbxValue::Numbers(rows.to_vec())]
     };
     for (bone, y, swing) in [(40, 0.0, 0.0), (41, 50.0, swing)] {
         file.add(
@@ -239,8 +239,8 @@ fn boned(swing: f64) -> Fbx {
         );
         file.connect(bone, 0, None);
         let below = vec![
-            element("Indexes", vec![Value::Indices(vec![0, 1, 2, 3])], vec![]),
-            element("Weights", vec![Value::Numbers(vec![0.5; 4])], vec![]),
+            element("Indexes", vec![FbxValue::Indices(vec![0, 1, 2, 3])], vec![]),
+            element("Weights", vec![FbxValue::Numbers(vec![0.5; 4])], vec![]),
             element("Transform", matrix(0.0, -y), vec![]),
             element("TransformLink", matrix(0.0, y), vec![]),
         ];

@@ -5,7 +5,7 @@ use sabi_surface::model::Model;
 
 /// A value of an element.
 #[derive(Clone)]
-pub(crate) enum Value {
+pub(crate) enum FbxValue {
     Id(i64),
     Number(f64),
     Text(String),
@@ -16,18 +16,18 @@ pub(crate) enum Value {
 
 /// An element with values and elements below it.
 #[derive(Clone)]
-pub(crate) struct Element {
+pub(crate) struct FbxElement {
     pub(crate) name: String,
-    pub(crate) values: Vec<Value>,
-    pub(crate) below: Vec<Element>,
+    pub(crate) values: Vec<FbxValue>,
+    pub(crate) below: Vec<FbxElement>,
 }
 
-pub(crate) fn text(text: &str) -> Value {
-    Value::Text(text.into())
+pub(crate) fn text(text: &str) -> FbxValue {
+    FbxValue::Text(text.into())
 }
 
-pub(crate) fn element(name: &str, values: Vec<Value>, below: Vec<Element>) -> Element {
-    Element {
+pub(crate) fn element(name: &str, values: Vec<FbxValue>, below: Vec<FbxElement>) -> FbxElement {
+    FbxElement {
         name: name.into(),
         values,
         below,
@@ -35,28 +35,32 @@ pub(crate) fn element(name: &str, values: Vec<Value>, below: Vec<Element>) -> El
 }
 
 /// `Properties70` with properties of one or three numbers.
-pub(crate) fn properties(entries: &[(&str, &str, &[f64])]) -> Element {
+pub(crate) fn properties(entries: &[(&str, &str, &[f64])]) -> FbxElement {
     let property = |(name, kind, numbers): &(&str, &str, &[f64])| {
         let mut values = vec![text(name), text(kind), text(""), text("A")];
-        values.extend(numbers.iter().map(|number| Value::Number(*number)));
+        values.extend(numbers.iter().map(|number| FbxValue::Number(*number)));
         element("P", values, vec![])
     };
     element("Properties70", vec![], entries.iter().map(property).collect())
 }
 
 /// A layer of values by corner, with indices where there are any.
-pub(crate) fn layer(kind: &str, index: i64, list: &str, values: Vec<f64>, indices: Option<Vec<i32>>) -> Element {
+pub(crate) fn layer(kind: &str, index: i64, list: &str, values: Vec<f64>, indices: Option<Vec<i32>>) -> FbxElement {
     let reference = if indices.is_some() { "IndexToDirect" } else { "Direct" };
     let mut below = vec![
         element("Name", vec![text(&format!("{list}{index}"))], vec![]),
         element("MappingInformationType", vec![text("ByPolygonVertex")], vec![]),
         element("ReferenceInformationType", vec![text(reference)], vec![]),
-        element(list, vec![Value::Numbers(values)], vec![]),
+        element(list, vec![FbxValue::Numbers(values)], vec![]),
     ];
     if let Some(indices) = indices {
-        below.push(element(&format!("{list}Index"), vec![Value::Indices(indices)], vec![]));
+        below.push(element(
+            &format!("{list}Index"),
+            vec![FbxValue::Indices(indices)],
+            vec![],
+        ));
     }
-    element(kind, vec![Value::Id(index)], below)
+    element(kind, vec![FbxValue::Id(index)], below)
 }
 
 /// A file under construction; its lists may be edited at will.
@@ -65,7 +69,7 @@ pub(crate) struct Fbx {
     /// Up, front and side axes (0 to 2, negative ones as −1 − axis), and centimeters of a unit.
     pub(crate) axes: [i64; 3],
     pub(crate) unit_cm: f64,
-    pub(crate) objects: Vec<Element>,
+    pub(crate) objects: Vec<FbxElement>,
     /// Child, parent, and the property of the parent.
     pub(crate) connections: Vec<(i64, i64, Option<String>)>,
 }
@@ -93,7 +97,7 @@ impl Fbx {
     }
 
     /// Adds an object.
-    pub(crate) fn add(&mut self, kind: &str, id: i64, name: &str, class: &str, below: Vec<Element>) {
+    pub(crate) fn add(&mut self, kind: &str, id: i64, name: &str, class: &str, below: Vec<FbxElement>) {
         self.objects.push(object(kind, id, name, class, below));
     }
 
@@ -103,19 +107,19 @@ impl Fbx {
     }
 
     /// The geometry 1.
-    pub(crate) fn geometry(&mut self) -> &mut Element {
+    pub(crate) fn geometry(&mut self) -> &mut FbxElement {
         &mut self.objects[0]
     }
 
-    fn roots(&self) -> Vec<Element> {
+    fn roots(&self) -> Vec<FbxElement> {
         let number = |name: &str, value: i64| {
             element(
                 "P",
-                vec![text(name), text("int"), text("Integer"), text(""), Value::Id(value)],
+                vec![text(name), text("int"), text("Integer"), text(""), FbxValue::Id(value)],
                 vec![],
             )
         };
-        let mut settings: Vec<Element> = Vec::new();
+        let mut settings: Vec<FbxElement> = Vec::new();
         for (name, axis) in ["UpAxis", "FrontAxis", "CoordAxis"].into_iter().zip(self.axes) {
             settings.push(number(name, if axis < 0 { -1 - axis } else { axis }));
             settings.push(number(&format!("{name}Sign"), if axis < 0 { -1 } else { 1 }));
@@ -125,14 +129,14 @@ impl Fbx {
             text("double"),
             text("Number"),
             text(""),
-            Value::Number(self.unit_cm),
+            FbxValue::Number(self.unit_cm),
         ];
         settings.push(element("P", unit, vec![]));
         let connection = |(child, parent, property): &(i64, i64, Option<String>)| {
             let mut values = vec![
                 text(if property.is_some() { "OP" } else { "OO" }),
-                Value::Id(*child),
-                Value::Id(*parent),
+                FbxValue::Id(*child),
+                FbxValue::Id(*parent),
             ];
             values.extend(property.iter().map(|property| text(property)));
             element("C", values, vec![])
@@ -141,7 +145,7 @@ impl Fbx {
             element(
                 "FBXHeaderExtension",
                 vec![],
-                vec![element("FBXVersion", vec![Value::Id(7400)], vec![])],
+                vec![element("FBXVersion", vec![FbxValue::Id(7400)], vec![])],
             ),
             element(
                 "GlobalSettings",
@@ -183,7 +187,7 @@ impl Fbx {
 }
 
 /// A geometry of polygons, the last index of each as −1 − index.
-pub(crate) fn mesh(id: i64, corners: &[f64], polygons: &[i32], layers: Vec<Element>) -> Element {
+pub(crate) fn mesh(id: i64, corners: &[f64], polygons: &[i32], layers: Vec<FbxElement>) -> FbxElement {
     let entries = layers.iter().map(|layer| {
         let kind = vec![
             element("Type", vec![text(&layer.name)], vec![]),
@@ -192,52 +196,52 @@ pub(crate) fn mesh(id: i64, corners: &[f64], polygons: &[i32], layers: Vec<Eleme
         element("LayerElement", vec![], kind)
     });
     // Each layer element has a layer of its own number.
-    let number = |layer: &Element| match layer.values[..] {
-        [Value::Id(number)] => number,
+    let number = |layer: &FbxElement| match layer.values[..] {
+        [FbxValue::Id(number)] => number,
         _ => 0,
     };
     let numbers: Vec<i64> = layers.iter().map(number).collect();
     let mut below = vec![
-        element("Vertices", vec![Value::Numbers(corners.to_vec())], vec![]),
-        element("PolygonVertexIndex", vec![Value::Indices(polygons.to_vec())], vec![]),
+        element("Vertices", vec![FbxValue::Numbers(corners.to_vec())], vec![]),
+        element("PolygonVertexIndex", vec![FbxValue::Indices(polygons.to_vec())], vec![]),
     ];
-    let entries: Vec<Element> = entries.collect();
+    let entries: Vec<FbxElement> = entries.collect();
     below.extend(layers);
     for layer in 0..=numbers.iter().copied().max().unwrap_or(0) {
         let of = entries.iter().zip(&numbers).filter(|(_, number)| **number == layer);
         below.push(element(
             "Layer",
-            vec![Value::Id(layer)],
+            vec![FbxValue::Id(layer)],
             of.map(|(entry, _)| entry.clone()).collect(),
         ));
     }
     object("Geometry", id, "shape", "Mesh", below)
 }
 
-fn object(kind: &str, id: i64, name: &str, class: &str, below: Vec<Element>) -> Element {
+fn object(kind: &str, id: i64, name: &str, class: &str, below: Vec<FbxElement>) -> FbxElement {
     element(
         kind,
-        vec![Value::Id(id), text(&format!("{kind}::{name}")), text(class)],
+        vec![FbxValue::Id(id), text(&format!("{kind}::{name}")), text(class)],
         below,
     )
 }
 
-fn write_text(element: &Element, file: &mut String) {
+fn write_text(element: &FbxElement, file: &mut String) {
     *file += &format!("{}: ", element.name);
     let mut list = None;
     let words = element.values.iter().map(|value| match value {
-        Value::Id(id) => id.to_string(),
-        Value::Number(number) => format!("{number:?}"),
-        Value::Text(text) => format!("\"{text}\""),
-        Value::Numbers(numbers) => {
+        FbxValue::Id(id) => id.to_string(),
+        FbxValue::Number(number) => format!("{number:?}"),
+        FbxValue::Text(text) => format!("\"{text}\""),
+        FbxValue::Numbers(numbers) => {
             list = Some(numbers.iter().map(f64::to_string).collect::<Vec<_>>());
             format!("*{}", numbers.len())
         }
-        Value::Indices(indices) => {
+        FbxValue::Indices(indices) => {
             list = Some(indices.iter().map(i32::to_string).collect());
             format!("*{}", indices.len())
         }
-        Value::Bytes(_) => "\"\"".to_string(),
+        FbxValue::Bytes(_) => "\"\"".to_string(),
     });
     let words: Vec<String> = words.collect();
     *file += &words.join(",");
@@ -252,14 +256,14 @@ fn write_text(element: &Element, file: &mut String) {
     }
 }
 
-fn write_binary(element: &Element, file: &mut Vec<u8>) {
+fn write_binary(element: &FbxElement, file: &mut Vec<u8>) {
     let start = file.len();
     let mut values = Vec::new();
     for value in &element.values {
         match value {
-            Value::Id(id) => values.extend([b"L".to_vec(), id.to_le_bytes().to_vec()].concat()),
-            Value::Number(number) => values.extend([b"D".to_vec(), number.to_le_bytes().to_vec()].concat()),
-            Value::Text(text) => {
+            FbxValue::Id(id) => values.extend([b"L".to_vec(), id.to_le_bytes().to_vec()].concat()),
+            FbxValue::Number(number) => values.extend([b"D".to_vec(), number.to_le_bytes().to_vec()].concat()),
+            FbxValue::Text(text) => {
                 // In binary files the class follows the name.
                 let text = match text.split_once("::") {
                     Some((class, name)) => format!("{name}\0\x01{class}"),
@@ -274,15 +278,15 @@ fn write_binary(element: &Element, file: &mut Vec<u8>) {
                     .concat(),
                 );
             }
-            Value::Numbers(numbers) => {
+            FbxValue::Numbers(numbers) => {
                 let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
                 values.extend(array(b'd', numbers.len(), &bytes));
             }
-            Value::Indices(indices) => {
+            FbxValue::Indices(indices) => {
                 let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
                 values.extend(array(b'i', indices.len(), &bytes));
             }
-            Value::Bytes(bytes) => {
+            FbxValue::Bytes(bytes) => {
                 values.extend(
                     [
                         b"R".to_vec(),

@@ -3,7 +3,7 @@
 use sabi_surface::load::{LoadOptions, load};
 use sabi_surface::model::{ModelMaterial, TextureRef, Wrap};
 
-use crate::fbx_builder::{Fbx, Value, element, layer, mesh, properties, text};
+use crate::fbx_builder::{Fbx, FbxValue, element, layer, mesh, properties, text};
 use crate::promises;
 
 /// Coordinates of a texture as they are.
@@ -54,7 +54,7 @@ fn picture(file: &mut Fbx, id: i64, path: &str, bytes: Option<&[u8]>, words: &[(
     file.add("Texture", id, "texture", "", below);
     let mut video = names(path);
     if let Some(bytes) = bytes {
-        video.push(element("Content", vec![Value::Bytes(bytes.to_vec())], vec![]));
+        video.push(element("Content", vec![FbxValue::Bytes(bytes.to_vec())], vec![]));
     }
     file.add("Video", id + 1000, "video", "Clip", video);
     file.connect(id + 1000, id, None);

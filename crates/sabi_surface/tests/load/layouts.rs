@@ -7,10 +7,10 @@ use crate::builder::{F32, Gltf, I16, U8, U16, U32, floats, shorts};
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// Adds positions to a file and gives their accessor.
-type Store = fn(&mut Gltf) -> usize;
+type StorePositions = fn(&mut Gltf) -> usize;
 
 /// The triangle with its positions stored by `store`, which gives their accessor.
-fn stored(store: Store) -> Gltf {
+fn stored(store: StorePositions) -> Gltf {
     let mut file = Gltf::new();
     let positions = store(&mut file);
     file.place("leaf", json!({ "attributes": { "POSITION": positions } }));
@@ -26,7 +26,7 @@ fn edited(file: &mut Gltf, accessor: usize, edit: Value) -> usize {
 
 #[test]
 fn positions_read_the_same_however_they_are_stored() {
-    let ways: [(&str, Store); 9] = [
+    let ways: [(&str, StorePositions); 9] = [
         ("floats", |file| file.floats("VEC3", CORNERS.as_flattened())),
         ("floats apart", |file| {
             let padded: Vec<f32> = CORNERS.iter().flat_map(|[x, y, z]| [*x, *y, *z, 7.0, 7.0]).collect();

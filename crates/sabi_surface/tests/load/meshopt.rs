@@ -178,10 +178,10 @@ fn plain_bytes_are_read_where_the_extension_is_not_required() {
     check(&read(&file, Some(fallback)).unwrap());
 }
 
-type Edit = fn(&mut Value);
+type JsonEdit = fn(&mut Value);
 
 /// Edits of the extension of the positions, and what is said then.
-const FAULTS: &[(Edit, &str)] = &[
+const FAULTS: &[(JsonEdit, &str)] = &[
     (
         |e| e["count"] = json!(null),
         "bufferViews[2] has no `count` in its EXT_meshopt_compression",

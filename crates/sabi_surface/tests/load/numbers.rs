@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::builder::{Gltf, nothing};
 use crate::faults::said;
-use crate::fbx_builder::{Fbx, Value};
+use crate::fbx_builder::{Fbx, FbxValue};
 use crate::promises;
 
 const COMMAS: &str = "The file writes numbers with decimal commas, such as `0,5`; they are read as decimal points.";
@@ -94,7 +94,7 @@ fn a_model_without_any_good_position_says_so() {
     gltf.primitive()["attributes"]["POSITION"] = json!(positions);
     let mut fbx = Fbx::square();
     let vertices = fbx.geometry().below.iter_mut().find(|list| list.name == "Vertices");
-    vertices.unwrap().values = vec![Value::Numbers(vec![f64::NAN; 12])];
+    vertices.unwrap().values = vec![FbxValue::Numbers(vec![f64::NAN; 12])];
     let nan = "nan nan nan ".repeat(4);
     for (name, bytes, who) in [
         ("a.glb", gltf.glb(), "1 triangle of mesh `leaf`"),

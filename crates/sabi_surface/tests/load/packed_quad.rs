@@ -20,10 +20,10 @@ pub(crate) fn meshopt() -> Gltf {
 }
 
 /// Position, UV and color.
-pub(crate) type Corner = ([f32; 3], [f32; 2], [f32; 4]);
+pub(crate) type QuadCorner = ([f32; 3], [f32; 2], [f32; 4]);
 
 /// The corners of the quad, whose normals are +z.
-pub(crate) const CORNERS: [Corner; 4] = [
+pub(crate) const CORNERS: [QuadCorner; 4] = [
     ([0.0, 0.0, 0.0], [0.0, 1.0], [1.0, 0.0, 0.0, 1.0]),
     ([1.0, 0.0, 0.0], [1.0, 1.0], [0.0, 1.0, 0.0, 1.0]),
     ([1.0, 1.0, 0.0], [1.0, 0.0], [0.0, 0.0, 1.0, 1.0]),
@@ -38,7 +38,7 @@ pub(crate) fn check(model: &Model) {
     for corners in &mesh.triangles {
         let corner = |vertex: &u32| {
             let at = *vertex as usize;
-            let is_there = |(position, uv, color): &Corner| {
+            let is_there = |(position, uv, color): &QuadCorner| {
                 near(&mesh.positions[at], position) && near(&mesh.uvs[at], uv) && near(&mesh.colors[at], color)
             };
             assert!(near(&mesh.normals[at], &[0.0, 0.0, 1.0]), "{:?}", mesh.normals[at]);

@@ -1,7 +1,7 @@
 //! Parts that count: chosen by their names, or told by what these mean to engines.
 
 use sabi_surface::load::{LoadOptions, PartChoice, load_bytes};
-use sabi_surface::model::{FilePart, LeftOut, Model};
+use sabi_surface::model::{ExclusionReason, FilePart, Model};
 use serde_json::json;
 
 use crate::builder::{Gltf, nothing};
@@ -34,7 +34,7 @@ fn rock() -> Gltf {
     file
 }
 
-fn left_out(model: &Model) -> Vec<(&str, LeftOut)> {
+fn left_out(model: &Model) -> Vec<(&str, ExclusionReason)> {
     let parts = model.file_parts.iter();
     let out = parts.filter_map(|FilePart { name, left_out, .. }| Some((name.as_str(), (*left_out)?)));
     out.collect()
@@ -46,7 +46,10 @@ fn hulls_and_coarser_levels_are_no_parts_of_the_model() {
     assert_eq!(model.parts, ["Rock_LOD0", "Moss"]);
     assert_eq!(
         left_out(&model),
-        [("Rock_LOD1", LeftOut::CoarserLevel), ("UCX_Rock", LeftOut::Hull)]
+        [
+            ("Rock_LOD1", ExclusionReason::CoarserLevel),
+            ("UCX_Rock", ExclusionReason::Hull)
+        ]
     );
     let materials: Vec<&str> = model.materials.iter().map(|material| material.name.as_str()).collect();
     assert_eq!(materials, ["Rock_LOD0", "Moss"]);
@@ -141,8 +144,8 @@ fn names_of_nodes_above_parts_say_what_the_parts_are() {
         of_groups.collect::<Vec<_>>(),
         [
             (None, None),
-            (Some(LeftOut::CoarserLevel), Some("LOD1")),
-            (Some(LeftOut::Hull), Some("collision"))
+            (Some(ExclusionReason::CoarserLevel), Some("LOD1")),
+            (Some(ExclusionReason::Hull), Some("collision"))
         ]
     );
     let triangles = |parts: &[&str], without: &[&str]| {

@@ -4,13 +4,11 @@ use sabi_surface::load::{LoadOptions, load_bytes};
 use sabi_surface::model::Mesh;
 use serde_json::json;
 
-use crate::builder::{Gltf, U8, U16, floats, nothing, shorts};
+use crate::builder::{Gltf, GltfEdit, U8, U16, floats, nothing, shorts};
 use crate::promises;
 
-type Edit = fn(&mut Gltf);
-
 /// Edits of a good file with one material, and the only warning that follows.
-const REPAIRS: &[(Edit, &str)] = &[
+const REPAIRS: &[(GltfEdit, &str)] = &[
     (
         |f| {
             let indices = f.accessor(U8, "SCALAR", 3, &[0, 9, 1, 9, 2]);

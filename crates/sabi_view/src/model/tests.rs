@@ -49,7 +49,7 @@ fn fork() -> Model {
 }
 
 /// Returns a copy that is cut into many triangles and raised everywhere by `height` model units.
-fn raised(model: &Model, atlas: &Atlas, height: f32) -> Displaced {
+fn raised(model: &Model, atlas: &Atlas, height: f32) -> DisplacedMesh {
     let options = DisplaceOptions {
         edge_length: 0.0,
         triangle_budget: 40_000,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_image::{Declared, Picture, Pixels};
+use sabi_image::{DeclaredColorSpace, Picture, Pixels};
 
 use sabi_surface::patch::weights_at;
 
@@ -25,7 +25,7 @@ pub(super) fn flag() -> (PictureTip, StampPictures) {
         height: 2,
         channels: 4,
         pixels: Pixels::U8([row, row].as_flattened().as_flattened().to_vec()),
-        color_space: Declared::Srgb,
+        color_space: DeclaredColorSpace::Srgb,
     };
     let name = PictureName::of(b"flag", "png").unwrap();
     let tip = PictureTip {

@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::shapes::*;
+use crate::atlas::build_inputs::BuildInputs;
 use crate::atlas::charts::partition;
-use crate::atlas::fixed::Uvs;
+use crate::atlas::fixed_point_uvs::Uvs;
 use crate::atlas::gaps::Gaps;
 use crate::atlas::mask::{Mask, texel_box};
-use crate::atlas::plan::Plan;
 use crate::atlas::topology::Topology;
 use crate::atlas::{Atlas, AtlasOptions, Chart, Owner, UvChart};
 use crate::model::Mesh;
@@ -129,7 +129,7 @@ fn a_chart_is_divided_only_at_narrow_gaps() {
             "{teeth} teeth, {gap} texels apart: {count} charts"
         );
     }
-    for mesh in [cube(4), ball(16), square(Frame::straight([0.5, 0.5], 0.9), 8)] {
+    for mesh in [cube(4), ball(16), square(PatchFrame::straight([0.5, 0.5], 0.9), 8)] {
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(SIZE)).unwrap();
         let topology = Topology::new(&mesh);
         let uvs = Uvs::check(&mesh, SIZE).unwrap();
@@ -143,7 +143,7 @@ fn all_gaps_are_separated_even_if_there_are_too_many_to_find_good_cuts() {
     let mesh = comb(12, 2.0, 0.0);
     let topology = Topology::new(&mesh);
     let uvs = Uvs::check(&mesh, SIZE).unwrap();
-    let plan = Plan {
+    let plan = BuildInputs {
         mesh: &mesh,
         topology: &topology,
         uvs,

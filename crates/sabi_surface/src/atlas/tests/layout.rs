@@ -7,10 +7,10 @@ use crate::model::Mesh;
 
 /// Creates charts of random size, rotation and place, which may cover each other.
 fn scattered(seed: u32, charts: u32) -> Mesh {
-    let mut dice = Dice(seed);
+    let mut dice = PcgRandom(seed);
     let mut mesh = Mesh::default();
     for number in 0..charts {
-        let frame = Frame {
+        let frame = PatchFrame {
             center: [dice.between(-0.5, 1.5), dice.between(-0.5, 1.5)],
             scale: dice.between(0.005, 0.3),
             turn: dice.between(0.0, 6.3),
@@ -131,7 +131,7 @@ fn a_valid_layout_keeps_its_place() {
 
 #[test]
 fn a_layout_that_touches_the_border_is_moved_as_a_whole() {
-    let mesh = square(Frame::straight([0.5, 0.5], 1.0), 2);
+    let mesh = square(PatchFrame::straight([0.5, 0.5], 1.0), 2);
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(64)).unwrap();
     assert_eq!(atlas.page_size, [80, 80]);
     assert_eq!(atlas.charts[0].texel_from_uv, [8, 8]);

@@ -3,9 +3,9 @@
 use glam::{DMat2, DVec2, DVec3};
 
 use super::shapes::*;
-use crate::atlas::fixed::Uvs;
+use crate::atlas::fixed_point_uvs::Uvs;
 use crate::atlas::topology::Topology;
-use crate::atlas::walk::Walker;
+use crate::atlas::walk::WalkMesh;
 use crate::atlas::{Atlas, AtlasOptions, EMPTY, GHOST_BIT, Ghost};
 use crate::model::Mesh;
 
@@ -42,7 +42,7 @@ fn offset(atlas: &Atlas, triangle: u32) -> [i32; 2] {
     atlas.charts[atlas.triangle_chart[triangle as usize] as usize].texel_from_uv
 }
 
-struct Case {
+struct WalkCase {
     start: DVec3,
     step: DVec3,
     /// The anchor triangle's texel axes in space.
@@ -55,7 +55,7 @@ struct Case {
     transport: DMat2,
 }
 
-fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<Case> {
+fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<WalkCase> {
     let case = |ghost: &Ghost| {
         let (anchor, triangle) = anchor(atlas, ghost);
         let from = Affine::new(mesh, atlas.size, offset(atlas, triangle), triangle);
@@ -68,7 +68,7 @@ fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<Case> {
         let [x, y, _] = ghost.texel.map(f64::from);
         let center = DVec2::new(x, y) + 0.5;
         let transport = DMat2::from_cols_array_2d(&ghost.target_from_own.map(|column| column.map(f64::from)));
-        Case {
+        WalkCase {
             start: from.position(anchor),
             step: from.vector(center - anchor),
             axes: from.axes,
@@ -182,13 +182,13 @@ fn carrying_vectors_keeps_their_lengths_and_angles() {
 #[test]
 fn a_strip_cut_into_two_charts_is_one_plane_for_its_links() {
     let mut mesh = Mesh::default();
-    let left = Frame {
+    let left = PatchFrame {
         center: [0.25, 0.3],
         scale: 0.3,
         turn: 0.5,
         mirrored: false,
     };
-    let right = Frame {
+    let right = PatchFrame {
         center: [0.7, 0.6],
         scale: 0.22,
         turn: 2.1,
@@ -223,13 +223,13 @@ fn links_bend_over_the_edge_of_two_sheets_at_a_right_angle() {
     patch(
         &mut mesh,
         [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        Frame::straight([0.25, 0.25], 0.3),
+        PatchFrame::straight([0.25, 0.25], 0.3),
         2,
     );
     patch(
         &mut mesh,
         [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
-        Frame::straight([0.7, 0.7], 0.4),
+        PatchFrame::straight([0.7, 0.7], 0.4),
         2,
     );
     let atlas = atlas(&mesh, 200);
@@ -249,7 +249,7 @@ fn links_bend_over_the_edge_of_two_sheets_at_a_right_angle() {
 #[test]
 fn links_are_mirrored_at_a_border() {
     let mesh = square(
-        Frame {
+        PatchFrame {
             center: [0.5, 0.5],
             scale: 0.7,
             turn: 0.3,
@@ -290,7 +290,7 @@ fn walking_back_along_a_link_returns_to_its_anchor() {
     let uvs = Uvs::check(&mesh, atlas.size).unwrap();
     let topology = Topology::new(&mesh);
     let usable = vec![true; mesh.triangles.len()];
-    let walker = Walker {
+    let walker = WalkMesh {
         mesh: &mesh,
         topology: &topology,
         uvs,

@@ -1,7 +1,7 @@
 //! Every texel center belongs to exactly one of the triangles that contain it.
 
 use super::shapes::*;
-use crate::atlas::fixed::{UNIT, Uvs};
+use crate::atlas::fixed_point_uvs::{UNIT, Uvs};
 use crate::atlas::raster::spans;
 use crate::atlas::{Atlas, AtlasOptions, EMPTY, GHOST_BIT, Owner};
 use crate::model::Mesh;
@@ -17,7 +17,7 @@ fn painted(corners: [[i64; 2]; 3], side: usize, counts: &mut [u32]) {
 #[test]
 fn a_fan_of_triangles_covers_each_center_exactly_once() {
     let side = 40;
-    let mut dice = Dice(7);
+    let mut dice = PcgRandom(7);
     for _ in 0..200 {
         let hub = [dice.between(2000.0, 8000.0) as i64, dice.between(2000.0, 8000.0) as i64];
         // Corners on texel centers and on texel borders are the difficult cases.
@@ -45,7 +45,7 @@ fn a_fan_of_triangles_covers_each_center_exactly_once() {
 #[test]
 fn spans_contain_the_centers_that_exact_edge_functions_find() {
     let side = 32;
-    let mut dice = Dice(3);
+    let mut dice = PcgRandom(3);
     for _ in 0..500 {
         let mut corner = || {
             [
@@ -122,7 +122,7 @@ fn moving_the_layout_by_whole_texels_only_moves_the_atlas() {
         patch(
             &mut mesh,
             [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            Frame::straight([0.25, 0.25], 0.25),
+            PatchFrame::straight([0.25, 0.25], 0.25),
             3,
         );
         // Exact in single precision, so that the UVs move by exactly whole texels.

@@ -17,19 +17,19 @@ fn build(mesh: &Mesh, size: u32) -> Atlas {
 #[test]
 fn stacked_and_mirrored_copies_are_found() {
     let mut mesh = Mesh::default();
-    let frame = Frame::straight([0.25, 0.25], 0.25);
+    let frame = PatchFrame::straight([0.25, 0.25], 0.25);
     patch(&mut mesh, at(0.0), frame, 2);
     patch(&mut mesh, at(2.0), frame, 2);
     patch(
         &mut mesh,
         at(4.0),
-        Frame {
+        PatchFrame {
             mirrored: true,
             ..frame
         },
         2,
     );
-    patch(&mut mesh, at(6.0), Frame::straight([0.75, 0.75], 0.25), 2);
+    patch(&mut mesh, at(6.0), PatchFrame::straight([0.75, 0.75], 0.25), 2);
     let atlas = build(&mesh, 64);
     let report = &atlas.report;
     assert_eq!(report.overlapping_charts, [(0, 1, 256), (0, 2, 256), (1, 2, 256)]);
@@ -50,11 +50,11 @@ fn stacked_and_mirrored_copies_are_found() {
 #[test]
 fn charts_in_other_tiles_overlap_as_repeating_textures_do() {
     let mut mesh = Mesh::default();
-    patch(&mut mesh, at(0.0), Frame::straight([0.25, 0.25], 0.25), 1);
-    patch(&mut mesh, at(2.0), Frame::straight([3.25, -1.75], 0.25), 1);
+    patch(&mut mesh, at(0.0), PatchFrame::straight([0.25, 0.25], 0.25), 1);
+    patch(&mut mesh, at(2.0), PatchFrame::straight([3.25, -1.75], 0.25), 1);
     // Across the border of the square: half of it is wrapped to the left side.
-    patch(&mut mesh, at(4.0), Frame::straight([1.0, 0.75], 0.25), 1);
-    patch(&mut mesh, at(6.0), Frame::straight([0.0, 0.75], 0.25), 1);
+    patch(&mut mesh, at(4.0), PatchFrame::straight([1.0, 0.75], 0.25), 1);
+    patch(&mut mesh, at(6.0), PatchFrame::straight([0.0, 0.75], 0.25), 1);
     let atlas = build(&mesh, 64);
     assert_eq!(atlas.charts[1].uv_tile, [3, -2]);
     assert_eq!(atlas.report.overlapping_charts, [(0, 1, 256), (2, 3, 256)]);
@@ -70,8 +70,8 @@ fn charts_in_other_tiles_overlap_as_repeating_textures_do() {
 #[test]
 fn each_material_has_its_own_unit_square_and_links_cross_between_them() {
     let mut mesh = Mesh::default();
-    patch(&mut mesh, at(0.0), Frame::straight([0.5, 0.5], 0.5), 1);
-    patch(&mut mesh, at(1.0), Frame::straight([0.5, 0.5], 0.5), 1);
+    patch(&mut mesh, at(0.0), PatchFrame::straight([0.5, 0.5], 0.5), 1);
+    patch(&mut mesh, at(1.0), PatchFrame::straight([0.5, 0.5], 0.5), 1);
     mesh.triangle_material[2..].fill(1);
     let atlas = build(&mesh, 64);
     assert_eq!(
@@ -86,7 +86,7 @@ fn each_material_has_its_own_unit_square_and_links_cross_between_them() {
 
 #[test]
 fn a_texture_that_repeats_within_one_chart_does_not_count_as_overlap() {
-    let atlas = build(&square(Frame::straight([0.5, 0.5], 3.0), 2), 64);
+    let atlas = build(&square(PatchFrame::straight([0.5, 0.5], 3.0), 2), 64);
     assert_eq!(atlas.charts.len(), 1);
     assert_eq!(atlas.report.overlap_texels, 0);
     assert_eq!(atlas.report.coverage, 9.0);
@@ -95,8 +95,8 @@ fn a_texture_that_repeats_within_one_chart_does_not_count_as_overlap() {
 #[test]
 fn texels_of_uneven_size_are_reported() {
     let mut mesh = Mesh::default();
-    patch(&mut mesh, at(0.0), Frame::straight([0.3, 0.3], 0.5), 1);
-    patch(&mut mesh, at(2.0), Frame::straight([0.8, 0.8], 0.1), 1);
+    patch(&mut mesh, at(0.0), PatchFrame::straight([0.3, 0.3], 0.5), 1);
+    patch(&mut mesh, at(2.0), PatchFrame::straight([0.8, 0.8], 0.1), 1);
     assert_eq!(
         build(&mesh, 128).report.warnings,
         ["texels are up to 5.0 times as dense on some UV charts as on others; scale them alike when you unwrap"]
@@ -110,7 +110,7 @@ fn many_stacked_charts_of_a_tiling_wall_are_counted_in_limited_time() {
         patch(
             &mut mesh,
             at(f64::from(brick) * 2.0),
-            Frame::straight([0.5, 0.5], 0.9),
+            PatchFrame::straight([0.5, 0.5], 0.9),
             1,
         );
     }

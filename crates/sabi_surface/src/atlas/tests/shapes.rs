@@ -5,9 +5,9 @@ use glam::{DVec2, DVec3};
 use crate::model::Mesh;
 
 /// Generator of numbers that are the same in every run (PCG hash).
-pub(super) struct Dice(pub(super) u32);
+pub(super) struct PcgRandom(pub(super) u32);
 
-impl Dice {
+impl PcgRandom {
     pub(super) fn next(&mut self) -> u32 {
         self.0 = self.0.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
         let word = ((self.0 >> ((self.0 >> 28) + 4)) ^ self.0).wrapping_mul(277_803_737);
@@ -26,16 +26,16 @@ impl Dice {
 
 /// An affine map from a patch's own coordinates to UV: rotated by `turn` radians about `center`.
 #[derive(Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct PatchFrame {
     pub(super) center: [f64; 2],
     pub(super) scale: f64,
     pub(super) turn: f64,
     pub(super) mirrored: bool,
 }
 
-impl Frame {
-    pub(super) fn straight(center: [f64; 2], scale: f64) -> Frame {
-        Frame {
+impl PatchFrame {
+    pub(super) fn straight(center: [f64; 2], scale: f64) -> PatchFrame {
+        PatchFrame {
             center,
             scale,
             turn: 0.0,
@@ -52,7 +52,7 @@ impl Frame {
 }
 
 /// Adds a grid of `cells × cells` quads over `origin + x·a + y·b`, with x and y from 0 to 1, as a separate chart.
-pub(super) fn patch(mesh: &mut Mesh, axes: [[f64; 3]; 3], frame: Frame, cells: u32) {
+pub(super) fn patch(mesh: &mut Mesh, axes: [[f64; 3]; 3], frame: PatchFrame, cells: u32) {
     let [origin, a, b] = axes.map(DVec3::from);
     let first = mesh.positions.len() as u32;
     for y in 0..=cells {
@@ -100,7 +100,7 @@ pub(super) fn cube(cells: u32) -> Mesh {
         let a = DVec3::AXES[(axis + 1) % 3];
         let b = normal.cross(a);
         let origin = (normal - a - b) * 0.5;
-        let frame = Frame {
+        let frame = PatchFrame {
             center: centers[face],
             scale: scales[face],
             turn: turns[face].to_radians(),
@@ -112,7 +112,7 @@ pub(super) fn cube(cells: u32) -> Mesh {
 }
 
 /// One chart: a square of side 1 in the plane z = 0.
-pub(super) fn square(frame: Frame, cells: u32) -> Mesh {
+pub(super) fn square(frame: PatchFrame, cells: u32) -> Mesh {
     let mut mesh = Mesh::default();
     patch(&mut mesh, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], frame, cells);
     mesh

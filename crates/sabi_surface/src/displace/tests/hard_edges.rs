@@ -43,7 +43,7 @@ fn places_keep_their_order_beside_a_sunk_edge() {
     let plain = displaced(&mesh, &atlas, &options(0.03, 200_000), |_, _| Some(0.0));
     let sunk = displaced(&mesh, &atlas, &options(0.03, 200_000), |_, _| Some(-0.1));
     for &[a, b, c] in &sunk.triangles {
-        let normal = |copy: &Displaced| {
+        let normal = |copy: &DisplacedMesh| {
             let [a, b, c] = [a, b, c].map(|vertex| Vec3::from(copy.positions[vertex as usize]));
             (b - a).cross(c - a)
         };

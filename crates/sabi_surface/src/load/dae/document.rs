@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3};
 use roxmltree::{Node, ParsingOptions};
 
 use crate::load::Up;
-use crate::load::error::{Fault, damaged};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::numbers::number;
 use crate::load::warnings::Warnings;
 
@@ -22,7 +22,7 @@ const ATTRIBUTE_BYTES: u64 = 80;
 
 /// Parses the text, whose tree takes at most `memory_bytes`; definitions of entities, by which a short text may become a long one, are
 /// refused.
-pub(super) fn parsed(text: &str, memory_bytes: u64) -> Result<roxmltree::Document<'_>, Fault> {
+pub(super) fn parsed(text: &str, memory_bytes: u64) -> Result<roxmltree::Document<'_>, ModelFault> {
     if let Some(count) = most_attributes(text).filter(|count| *count > MOST_ATTRIBUTES) {
         return damaged(format!(
             "one of its elements has {count} attributes, and at most {MOST_ATTRIBUTES} are read"
@@ -31,7 +31,7 @@ pub(super) fn parsed(text: &str, memory_bytes: u64) -> Result<roxmltree::Documen
     let count = |mark: u8| text.bytes().filter(|byte| *byte == mark).count() as u64;
     let needed = ELEMENT_BYTES * count(b'<') + ATTRIBUTE_BYTES * count(b'=');
     if needed > memory_bytes {
-        return Err(Fault::memory(needed, memory_bytes));
+        return Err(ModelFault::memory(needed, memory_bytes));
     }
     if text.contains("<!ENTITY") {
         return damaged("it defines entities (`<!ENTITY`), which a COLLADA file has no use for");
@@ -67,15 +67,18 @@ fn most_attributes(text: &str) -> Option<usize> {
 }
 
 /// Elements of the file, by their ids.
-pub(super) struct Document<'d> {
+pub(super) struct DaeDocument<'d> {
     pub(super) root: Node<'d, 'd>,
     ids: HashMap<&'d str, Node<'d, 'd>>,
     /// Transform to meters and +Y up.
     pub(super) file_from_scene: DMat4,
 }
 
-impl<'d> Document<'d> {
-    pub(super) fn new(tree: &'d roxmltree::Document<'d>, warnings: &mut Warnings) -> Result<Document<'d>, Fault> {
+impl<'d> DaeDocument<'d> {
+    pub(super) fn new(
+        tree: &'d roxmltree::Document<'d>,
+        warnings: &mut Warnings,
+    ) -> Result<DaeDocument<'d>, ModelFault> {
         let root = tree.root_element();
         if root.tag_name().name() != "COLLADA" {
             return damaged("it is no COLLADA file");
@@ -102,7 +105,7 @@ impl<'d> Document<'d> {
                 Up::Y
             }
         };
-        Ok(Document {
+        Ok(DaeDocument {
             root,
             ids,
             file_from_scene: DMat4::from_mat3(up.turned()) * DMat4::from_scale(DVec3::splat(unit)),

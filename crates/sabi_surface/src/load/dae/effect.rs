@@ -5,18 +5,18 @@ use std::collections::BTreeMap;
 use roxmltree::Node;
 use sabi_files::Uri;
 
-use super::document::{Document, child, children, numbers, text};
+use super::document::{DaeDocument, child, children, numbers, text};
 use super::geometry::Geometry;
-use super::scene::Shown;
+use super::scene::DaeMeshInstance;
 use crate::load::faces::NONE;
+use crate::load::material_images::{ImageLocation, MaterialImages, file_name, places};
 use crate::load::opacity::{set_opacity, set_opacity_map};
-use crate::load::pictures::{Pictures, Place, file_name, places};
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
 
 /// Materials of the file, and how the instances use them.
-pub(super) struct Looks<'d, 'r> {
-    document: &'r Document<'d>,
+pub(super) struct DaeMaterials<'d, 'r> {
+    document: &'r DaeDocument<'d>,
     /// Materials in the file's order.
     materials: Vec<Node<'d, 'd>>,
     by_id: BTreeMap<&'d str, u32>,
@@ -24,15 +24,15 @@ pub(super) struct Looks<'d, 'r> {
     sets: BTreeMap<(u32, &'d str), u32>,
 }
 
-impl<'d, 'r> Looks<'d, 'r> {
-    pub(super) fn new(document: &'r Document<'d>) -> Looks<'d, 'r> {
+impl<'d, 'r> DaeMaterials<'d, 'r> {
+    pub(super) fn new(document: &'r DaeDocument<'d>) -> DaeMaterials<'d, 'r> {
         let library = document.first("library_materials");
         let materials: Vec<Node> = library
             .into_iter()
             .flat_map(|library| children(library, "material"))
             .collect();
         let ids = materials.iter().map(|material| material.attribute("id")).zip(0..);
-        Looks {
+        DaeMaterials {
             document,
             by_id: ids.filter_map(|(id, number)| Some((id?, number))).collect(),
             materials,
@@ -42,7 +42,7 @@ impl<'d, 'r> Looks<'d, 'r> {
 
     /// Returns the material of the file for each symbol of a geometry, and records the UV sets that the instance assigns to
     /// their textures.
-    pub(super) fn bound(&mut self, shown: &Shown<'d>, geometry: &Geometry<'d>) -> Vec<u32> {
+    pub(super) fn bound(&mut self, shown: &DaeMeshInstance<'d>, geometry: &Geometry<'d>) -> Vec<u32> {
         let techniques = child(shown.instance, "bind_material").and_then(|bound| child(bound, "technique_common"));
         let bindings = techniques
             .into_iter()
@@ -73,7 +73,7 @@ impl<'d, 'r> Looks<'d, 'r> {
     }
 
     /// Reads all materials, in the file's order.
-    pub(super) fn materials(&self, pictures: &mut Pictures, warnings: &mut Warnings) -> Vec<ModelMaterial> {
+    pub(super) fn materials(&self, pictures: &mut MaterialImages, warnings: &mut Warnings) -> Vec<ModelMaterial> {
         let materials = self.materials.iter().zip(0..);
         let read = materials.map(|(node, number)| {
             let name = node.attribute("name").filter(|name| !name.is_empty());
@@ -103,11 +103,11 @@ impl<'d, 'r> Looks<'d, 'r> {
 
 /// Reader of the effect of one material.
 struct Effect<'e, 'd> {
-    looks: &'e Looks<'d, 'e>,
+    looks: &'e DaeMaterials<'d, 'e>,
     number: u32,
     profile: Node<'d, 'd>,
     label: String,
-    pictures: &'e mut Pictures,
+    pictures: &'e mut MaterialImages,
     warnings: &'e mut Warnings,
 }
 
@@ -251,11 +251,14 @@ fn path<'d>(image: Node<'d, 'd>) -> &'d str {
     inner.map_or("", text)
 }
 
-fn place(path: &str) -> (String, Place) {
+fn place(path: &str) -> (String, ImageLocation) {
     match Uri::parse(path) {
-        Uri::Data(bytes) => ("a picture in the file".to_string(), Place::Inside(bytes.into())),
-        Uri::Beside(decoded) => (file_name(&decoded), Place::Beside(places(&[&decoded, path], &[]))),
+        Uri::Data(bytes) => ("a picture in the file".to_string(), ImageLocation::Inside(bytes.into())),
+        Uri::Beside(decoded) => (
+            file_name(&decoded),
+            ImageLocation::Beside(places(&[&decoded, path], &[])),
+        ),
         // Absolute paths are written with a URI scheme.
-        Uri::Damaged(_) | Uri::Unusable(_) => (file_name(path), Place::Beside(places(&[path], &[]))),
+        Uri::Damaged(_) | Uri::Unusable(_) => (file_name(path), ImageLocation::Beside(places(&[path], &[]))),
     }
 }

@@ -6,10 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use roxmltree::Node;
 use sabi_color::linear_from_srgb;
 
-use super::document::{Document, child};
+use super::document::{DaeDocument, child};
 use super::polygons::Polygons;
-use super::sources::Sources;
-use crate::load::error::{Fault, damaged};
+use super::sources::DaeSources;
+use crate::load::error::{ModelFault, damaged};
 use crate::load::faces::{Faces, NONE};
 use crate::load::submesh::Smoothing;
 use crate::load::warnings::Warnings;
@@ -22,11 +22,11 @@ pub(super) struct Geometry<'d> {
     pub(super) uv_sets: Vec<u32>,
     /// Symbols of the materials. Instances assign materials to them.
     pub(super) symbols: Vec<&'d str>,
-    pub(super) lists: Vec<List<'d>>,
+    pub(super) lists: Vec<PolygonList<'d>>,
 }
 
 /// Polygons with one material.
-pub(super) struct List<'d> {
+pub(super) struct PolygonList<'d> {
     polygons: Polygons<'d>,
     /// Index in [`Geometry::symbols`]; [`NONE`] without a material.
     material: u32,
@@ -35,10 +35,10 @@ pub(super) struct List<'d> {
 impl<'d> Geometry<'d> {
     /// `node` is a `geometry`.
     pub(super) fn new(
-        document: &Document<'d>,
+        document: &DaeDocument<'d>,
         node: Node<'d, 'd>,
         warnings: &mut Warnings,
-    ) -> Result<Geometry<'d>, Fault> {
+    ) -> Result<Geometry<'d>, ModelFault> {
         // A geometry that is instantiated has at least an id.
         let name = node.attribute("name").or(node.attribute("id")).unwrap_or_default();
         let mut geometry = Geometry {
@@ -67,7 +67,7 @@ impl<'d> Geometry<'d> {
                     geometry.symbols.len() as u32 - 1
                 })
             });
-            geometry.lists.push(List {
+            geometry.lists.push(PolygonList {
                 polygons,
                 material: material.unwrap_or(NONE),
             });
@@ -90,12 +90,12 @@ impl<'d> Geometry<'d> {
     /// Reads one of its lists, with the chosen UV set and further `wanted` ones.
     pub(super) fn read(
         &self,
-        list: &List<'d>,
+        list: &PolygonList<'d>,
         chosen: u32,
         wanted: &BTreeSet<u32>,
-        sources: &mut Sources,
+        sources: &mut DaeSources,
         warnings: &mut Warnings,
-    ) -> Result<Faces, Fault> {
+    ) -> Result<Faces, ModelFault> {
         let mut faces = Faces::default();
         let Some(positions) = list.polygons.input("POSITION") else {
             warnings.add(format!("A part of {} has no positions and is left out.", self.who));
@@ -120,10 +120,10 @@ impl<'d> Geometry<'d> {
     fn read_attributes(
         &self,
         faces: &mut Faces,
-        list: &List<'d>,
+        list: &PolygonList<'d>,
         chosen: u32,
         wanted: &BTreeSet<u32>,
-        sources: &mut Sources,
+        sources: &mut DaeSources,
         warnings: &mut Warnings,
     ) {
         let polygons = &list.polygons;

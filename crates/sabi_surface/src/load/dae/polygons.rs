@@ -3,8 +3,8 @@
 use roxmltree::Node;
 use sabi_cancel::Looking as _;
 
-use super::document::{Document, child, children};
-use crate::load::error::{Fault, damaged};
+use super::document::{DaeDocument, child, children};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::warnings::Warnings;
 
 /// Maximum number of indices of a corner. A real file has a few attributes and sets of texture coordinates.
@@ -12,7 +12,7 @@ const MOST_OFFSETS: usize = 1024;
 
 /// Attribute of the corners.
 #[derive(Clone, Copy)]
-pub(super) struct Input<'d> {
+pub(super) struct DaeInput<'d> {
     semantic: &'d str,
     /// The `source` of its numbers.
     pub(super) source: Node<'d, 'd>,
@@ -24,7 +24,7 @@ pub(super) struct Input<'d> {
 
 /// Polygons with the same inputs.
 pub(super) struct Polygons<'d> {
-    inputs: Vec<Input<'d>>,
+    inputs: Vec<DaeInput<'d>>,
     /// Corners of each polygon, three or more.
     pub(super) counts: Vec<u32>,
     /// Rows of `stride` indices, one for each corner.
@@ -35,11 +35,11 @@ pub(super) struct Polygons<'d> {
 impl<'d> Polygons<'d> {
     /// Reads a list of the mesh `who`; `None` if the element is not a list of polygons.
     pub(super) fn read(
-        document: &Document<'d>,
+        document: &DaeDocument<'d>,
         list: Node<'d, 'd>,
         who: &str,
         warnings: &mut Warnings,
-    ) -> Result<Option<Polygons<'d>>, Fault> {
+    ) -> Result<Option<Polygons<'d>>, ModelFault> {
         let kind = list.tag_name().name();
         match kind {
             "triangles" | "polylist" | "polygons" | "trifans" | "tristrips" => {}
@@ -91,22 +91,27 @@ impl<'d> Polygons<'d> {
     }
 
     /// Returns the first input with this semantic.
-    pub(super) fn input(&self, semantic: &str) -> Option<Input<'d>> {
+    pub(super) fn input(&self, semantic: &str) -> Option<DaeInput<'d>> {
         self.inputs.iter().copied().find(|input| input.semantic == semantic)
     }
 
     /// The inputs of texture coordinates.
-    pub(super) fn uv_inputs(&self) -> impl Iterator<Item = Input<'d>> {
+    pub(super) fn uv_inputs(&self) -> impl Iterator<Item = DaeInput<'d>> {
         self.inputs.iter().copied().filter(|input| input.semantic == "TEXCOORD")
     }
 
     /// The index of each corner for an input.
-    pub(super) fn corners(&self, input: Input<'d>) -> impl Iterator<Item = u32> {
+    pub(super) fn corners(&self, input: DaeInput<'d>) -> impl Iterator<Item = u32> {
         self.indices.iter().skip(input.offset).step_by(self.stride).copied()
     }
 
     /// Adds polygons with the given numbers of corners.
-    fn add(&mut self, rows: &[u32], counts: impl Iterator<Item = u32>, warnings: &mut Warnings) -> Result<(), Fault> {
+    fn add(
+        &mut self,
+        rows: &[u32],
+        counts: impl Iterator<Item = u32>,
+        warnings: &mut Warnings,
+    ) -> Result<(), ModelFault> {
         let mut rest = rows;
         for count in counts.looking() {
             if rest.len() < self.stride {
@@ -145,14 +150,14 @@ impl<'d> Polygons<'d> {
 }
 
 /// Returns the attributes of a list's corners. Attributes of vertices share the index of the vertex.
-fn inputs<'d>(document: &Document<'d>, list: Node<'d, 'd>) -> Vec<Input<'d>> {
+fn inputs<'d>(document: &DaeDocument<'d>, list: Node<'d, 'd>) -> Vec<DaeInput<'d>> {
     let mut inputs = Vec::new();
     for input in children(list, "input") {
         let number = |name: &str| input.attribute(name).and_then(|value| value.parse().ok());
         // Without offsets, all inputs share one index. Without sets, there is one set.
         let [offset, set] = ["offset", "set"].map(|name| number(name).unwrap_or(0u32));
         let add = |of: Node<'d, 'd>| {
-            Some(Input {
+            Some(DaeInput {
                 semantic: of.attribute("semantic")?,
                 source: document.referenced(of, "source")?,
                 offset: offset as usize,
@@ -174,11 +179,11 @@ fn inputs<'d>(document: &Document<'d>, list: Node<'d, 'd>) -> Vec<Input<'d>> {
     inputs
 }
 
-fn indices(list: Node<'_, '_>) -> Result<Vec<u32>, Fault> {
+fn indices(list: Node<'_, '_>) -> Result<Vec<u32>, ModelFault> {
     let words = list.text().map_or("", str::trim).split_ascii_whitespace();
     let indices = words.looking().map(|word| {
         let index = word.parse();
-        index.map_err(|_| Fault::Damaged(format!("`{word}` is not an index")))
+        index.map_err(|_| ModelFault::Damaged(format!("`{word}` is not an index")))
     });
     indices.collect()
 }

@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use glam::{DMat4, DQuat, DVec3};
 use roxmltree::{Node, NodeId};
 
-use super::document::{Document, child, children, numbers};
-use super::skin::{Joints, Skins};
-use crate::load::error::{Fault, damaged};
-use crate::load::parts::Groups;
+use super::document::{DaeDocument, child, children, numbers};
+use super::skin::{DaeSkins, Joints};
+use crate::load::error::{ModelFault, damaged};
+use crate::load::parts::NodeGroups;
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
@@ -18,7 +18,7 @@ const MOST_NODES: usize = 1 << 20;
 const MOST_ELEMENTS: usize = 1 << 26;
 
 /// A mesh that a node instantiates.
-pub(super) struct Shown<'d> {
+pub(super) struct DaeMeshInstance<'d> {
     /// The `geometry`.
     pub(super) mesh: Node<'d, 'd>,
     /// The `instance_geometry` or `instance_controller`.
@@ -31,7 +31,7 @@ pub(super) struct Shown<'d> {
 
 /// A node of the scene, as often as it is used.
 #[derive(Clone, Copy)]
-struct Visit<'d> {
+struct DaeNodeVisit<'d> {
     node: Node<'d, 'd>,
     /// The node above it.
     group: Option<usize>,
@@ -41,20 +41,20 @@ struct Visit<'d> {
 
 /// The meshes of the scene in the order of its nodes, and the nodes above them.
 pub(super) fn shown<'d>(
-    document: &Document<'d>,
-    groups: &mut Groups,
+    document: &DaeDocument<'d>,
+    groups: &mut NodeGroups,
     warnings: &mut Warnings,
-) -> Result<Vec<Shown<'d>>, Fault> {
+) -> Result<Vec<DaeMeshInstance<'d>>, ModelFault> {
     let mut joints = Joints::default();
-    let mut visited: Vec<Visit> = Vec::new();
+    let mut visited: Vec<DaeNodeVisit> = Vec::new();
     // An explicit stack is used, since a chain of nodes may be as long as the file.
-    let mut stack: Vec<Visit> = Vec::new();
+    let mut stack: Vec<DaeNodeVisit> = Vec::new();
     if let Some(scene) = scene(document) {
         push_nodes(children(scene, "node"), None, DMat4::IDENTITY, &mut stack);
     }
     let mut transforms: HashMap<NodeId, DMat4> = HashMap::new();
     let mut elements = 0;
-    while let Some(Visit { node, group, placed }) = stack.pop() {
+    while let Some(DaeNodeVisit { node, group, placed }) = stack.pop() {
         elements += elements_of(node);
         if visited.len() + stack.len() >= MOST_NODES {
             return damaged(format!(
@@ -74,7 +74,7 @@ pub(super) fn shown<'d>(
         {
             joints.add(name, placed);
         }
-        visited.push(Visit { node, group, placed });
+        visited.push(DaeNodeVisit { node, group, placed });
         let below = node.children().filter_map(|below| match below.tag_name().name() {
             "node" => Some(below),
             "instance_node" => document.referenced(below, "url"),
@@ -93,7 +93,7 @@ pub(super) fn shown<'d>(
         }
     }
     let mut all = Vec::new();
-    let mut skins = Skins::default();
+    let mut skins = DaeSkins::default();
     for visit in visited {
         for geometry in children(visit.node, "instance_geometry") {
             let mesh = document.referenced(geometry, "url");
@@ -117,7 +117,7 @@ fn elements_of(node: Node<'_, '_>) -> usize {
 }
 
 /// Returns the scene that the file selects, otherwise its first scene.
-fn scene<'d>(document: &Document<'d>) -> Option<Node<'d, 'd>> {
+fn scene<'d>(document: &DaeDocument<'d>) -> Option<Node<'d, 'd>> {
     let instance = document
         .first("scene")
         .and_then(|scene| child(scene, "instance_visual_scene"));
@@ -129,16 +129,16 @@ fn push_nodes<'d>(
     nodes: impl Iterator<Item = Node<'d, 'd>>,
     group: Option<usize>,
     placed: DMat4,
-    stack: &mut Vec<Visit<'d>>,
+    stack: &mut Vec<DaeNodeVisit<'d>>,
 ) {
     let first = stack.len();
-    stack.extend(nodes.map(|node| Visit { node, group, placed }));
+    stack.extend(nodes.map(|node| DaeNodeVisit { node, group, placed }));
     // Reversed, so that the stack returns them in order.
     stack[first..].reverse();
 }
 
 /// A mesh that an `instance` of the visited node shows.
-fn shown_mesh<'d>(visit: Visit<'d>, instance: Node<'d, 'd>, mesh: Node<'d, 'd>) -> Option<Shown<'d>> {
+fn shown_mesh<'d>(visit: DaeNodeVisit<'d>, instance: Node<'d, 'd>, mesh: Node<'d, 'd>) -> Option<DaeMeshInstance<'d>> {
     let names = [
         visit.node.attribute("name"),
         visit.node.attribute("id"),
@@ -146,7 +146,7 @@ fn shown_mesh<'d>(visit: Visit<'d>, instance: Node<'d, 'd>, mesh: Node<'d, 'd>) 
         mesh.attribute("id"),
     ];
     let name = names.into_iter().flatten().find(|name| !name.is_empty());
-    (mesh.tag_name().name() == "geometry").then(|| Shown {
+    (mesh.tag_name().name() == "geometry").then(|| DaeMeshInstance {
         mesh,
         instance,
         name: part_name(name.unwrap_or("mesh")),
@@ -157,13 +157,13 @@ fn shown_mesh<'d>(visit: Visit<'d>, instance: Node<'d, 'd>, mesh: Node<'d, 'd>) 
 
 /// Returns a mesh with a skin or morph targets. These are ignored.
 fn controlled<'d>(
-    document: &Document<'d>,
-    visit: Visit<'d>,
+    document: &DaeDocument<'d>,
+    visit: DaeNodeVisit<'d>,
     instance: Node<'d, 'd>,
     joints: &Joints<'d>,
-    skins: &mut Skins,
+    skins: &mut DaeSkins,
     warnings: &mut Warnings,
-) -> Option<Shown<'d>> {
+) -> Option<DaeMeshInstance<'d>> {
     let mut source = document.referenced(instance, "url")?;
     let node = visit.node;
     let mut placed = visit.placed;
@@ -183,7 +183,7 @@ fn controlled<'d>(
             source = document.referenced(skin, "source")?;
         }
     }
-    shown_mesh(Visit { placed, ..visit }, instance, source)
+    shown_mesh(DaeNodeVisit { placed, ..visit }, instance, source)
 }
 
 /// Returns the transform of a node. Its transforms apply in order, the last one first to the mesh (COLLADA 1.4, 5.3.2).

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use glam::DMat4;
 use roxmltree::{Node, NodeId};
 
-use super::document::{Document, child, children, numbers, text};
-use crate::load::skin_rest::{JointBudget, Placement, Rest};
+use super::document::{DaeDocument, child, children, numbers, text};
+use crate::load::skin_rest::{JointBudget, JointPlacement, RestPose};
 use crate::load::warnings::Warnings;
 
 /// Transforms of nodes by their ids, and by the names with which skins refer to joints. If several nodes share a name, the first is used.
@@ -26,23 +26,23 @@ impl<'d> Joints<'d> {
 
 /// Rest poses of the skins of a file, each computed once.
 #[derive(Default)]
-pub(super) struct Skins {
+pub(super) struct DaeSkins {
     /// Rest poses with the transform of the mesh that applies before the joints.
-    known: HashMap<NodeId, (Rest, DMat4)>,
+    known: HashMap<NodeId, (RestPose, DMat4)>,
     joints: JointBudget,
 }
 
-impl Skins {
+impl DaeSkins {
     /// Returns the transform of a skinned mesh. A joint transforms a vertex by its own transform times its inverse bind
     /// matrix times the bind shape matrix (COLLADA 1.4, 4.7). In the rest pose these transforms are equal for all joints.
     pub(super) fn scene_from_bound<'d>(
         &mut self,
-        document: &Document<'d>,
+        document: &DaeDocument<'d>,
         skin: Node<'d, 'd>,
         scene_from_node: DMat4,
         joints: &Joints<'d>,
         warnings: &mut Warnings,
-    ) -> (Rest, DMat4) {
+    ) -> (RestPose, DMat4) {
         let (rest, shape) = match self.known.get(&skin.id()) {
             Some(known) => *known,
             None => {
@@ -51,7 +51,7 @@ impl Skins {
                 // If a skin is incomplete, its mesh gets the transform of its node.
                 let rest = self
                     .rest(document, skin, shape, joints, warnings)
-                    .unwrap_or(Rest::Unknown);
+                    .unwrap_or(RestPose::Unknown);
                 self.known.insert(skin.id(), (rest, shape));
                 (rest, shape)
             }
@@ -62,12 +62,12 @@ impl Skins {
     /// Returns the rest pose according to all joints that exist in the scene; `None` if the skin is incomplete.
     fn rest<'d>(
         &mut self,
-        document: &Document<'d>,
+        document: &DaeDocument<'d>,
         skin: Node<'d, 'd>,
         shape: DMat4,
         joints: &Joints<'d>,
         warnings: &mut Warnings,
-    ) -> Option<Rest> {
+    ) -> Option<RestPose> {
         let list = child(skin, "joints")?;
         let source = |semantic: &str| {
             let input = children(list, "input").find(|input| input.attribute("semantic") == Some(semantic))?;
@@ -79,18 +79,18 @@ impl Skins {
         // Skins may share these lists. A name takes at least a letter and a space, and a matrix sixteen digits with a space each.
         let most = text(names).len() / 2 + text(binds).len() / 32;
         if self.joints.take(most as u64).is_none() {
-            return Some(Rest::TooLarge);
+            return Some(RestPose::TooLarge);
         }
         let binds = numbers(binds, warnings);
         let bound = text(names).split_ascii_whitespace().zip(binds.as_chunks::<16>().0);
         let placements = bound.filter_map(|(name, bind)| {
             let scene_from_joint = joints.scene_from_joint(name)?;
-            Some(Placement {
+            Some(JointPlacement {
                 file_from_mesh: scene_from_joint * matrix(bind) * shape,
                 reach: scene_from_joint.w_axis.truncate().length(),
             })
         });
-        Some(Rest::of(&placements.collect::<Vec<Placement>>()))
+        Some(RestPose::of(&placements.collect::<Vec<JointPlacement>>()))
     }
 }
 

@@ -7,24 +7,24 @@ use std::rc::Rc;
 use roxmltree::{Node, NodeId};
 
 use super::document::{child, children, numbers};
-use super::polygons::{Input, Polygons};
+use super::polygons::{DaeInput, Polygons};
 use crate::load::faces::{Attribute, NONE};
 use crate::load::warnings::Warnings;
 
 /// Rows of numbers.
 #[derive(Default)]
-struct Source {
+struct DaeSource {
     numbers: Vec<f64>,
     offset: usize,
     stride: usize,
 }
 
-impl Source {
-    fn read<'d>(node: Node<'d, 'd>, warnings: &mut Warnings) -> Source {
+impl DaeSource {
+    fn read<'d>(node: Node<'d, 'd>, warnings: &mut Warnings) -> DaeSource {
         let accessor = child(node, "technique_common").and_then(|technique| child(technique, "accessor"));
         let number = |name: &str| accessor.and_then(|accessor| accessor.attribute(name)?.parse().ok());
         let parameters = accessor.map_or(1, |accessor| children(accessor, "param").count());
-        Source {
+        DaeSource {
             numbers: child(node, "float_array")
                 .map(|array| numbers(array, warnings))
                 // A source of names contains no numbers.
@@ -43,28 +43,28 @@ impl Source {
 
 /// Sources that were read, each once.
 #[derive(Default)]
-pub(super) struct Sources(HashMap<NodeId, Rc<Source>>);
+pub(super) struct DaeSources(HashMap<NodeId, Rc<DaeSource>>);
 
 /// An attribute of the corners of polygons.
-pub(super) struct Gathered<const N: usize, T> {
+pub(super) struct CornerAttribute<const N: usize, T> {
     pub(super) attribute: Attribute<N, T>,
     /// An index that the source does not have, or whose row is too short. Its corners have no value.
     pub(super) beyond: Option<u32>,
 }
 
-impl Sources {
+impl DaeSources {
     /// Returns the values of an input that corners use, in the order of their first use. `value` converts a row to a value.
     pub(super) fn gathered<'d, const N: usize, T: Default>(
         &mut self,
         polygons: &Polygons<'d>,
-        input: Input<'d>,
+        input: DaeInput<'d>,
         value: impl Fn(&[f64]) -> Option<[T; N]>,
         warnings: &mut Warnings,
-    ) -> Gathered<N, T> {
+    ) -> CornerAttribute<N, T> {
         let source = self.0.entry(input.source.id());
-        let source = Rc::clone(source.or_insert_with(|| Rc::new(Source::read(input.source, warnings))));
+        let source = Rc::clone(source.or_insert_with(|| Rc::new(DaeSource::read(input.source, warnings))));
         let mut numbers: HashMap<u32, u32> = HashMap::new();
-        let mut gathered = Gathered {
+        let mut gathered = CornerAttribute {
             attribute: Attribute::default(),
             beyond: None,
         };

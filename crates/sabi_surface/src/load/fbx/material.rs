@@ -5,33 +5,33 @@ use std::collections::BTreeMap;
 
 use ufbx::{Material, MaterialMap, Mesh, ShaderType};
 
-use super::nodes::Shown;
-use super::textures::{Textures, connected};
+use super::nodes::FbxMeshNode;
+use super::textures::{FbxTextures, connected};
+use crate::load::material_images::MaterialImages;
 use crate::load::opacity::{set_opacity, set_opacity_map};
-use crate::load::pictures::Pictures;
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
 
 /// Reader of materials.
-pub(super) struct Looks<'s> {
-    textures: Textures<'s>,
-    pub(super) pictures: Pictures,
+pub(super) struct FbxMaterials<'s> {
+    textures: FbxTextures<'s>,
+    pub(super) pictures: MaterialImages,
     /// The first mesh that uses each material: textures refer to UV sets by the names in this mesh.
     mesh_of: BTreeMap<u32, &'s Mesh>,
 }
 
-impl<'s> Looks<'s> {
+impl<'s> FbxMaterials<'s> {
     /// `stem` is the name of the model's file without its ending.
-    pub(super) fn new(scene: &'s ufbx::Scene, shown: &[Shown<'s>], stem: String) -> Looks<'s> {
+    pub(super) fn new(scene: &'s ufbx::Scene, shown: &[FbxMeshNode<'s>], stem: String) -> FbxMaterials<'s> {
         let mut mesh_of = BTreeMap::new();
-        for Shown { node, mesh, .. } in shown {
+        for FbxMeshNode { node, mesh, .. } in shown {
             for material in &node.materials {
                 mesh_of.entry(material.element.typed_id).or_insert(*mesh);
             }
         }
-        Looks {
-            textures: Textures::new(scene, stem),
-            pictures: Pictures::default(),
+        FbxMaterials {
+            textures: FbxTextures::new(scene, stem),
+            pictures: MaterialImages::default(),
             mesh_of,
         }
     }

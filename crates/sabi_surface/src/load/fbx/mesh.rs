@@ -4,26 +4,26 @@ use glam::DVec3;
 use sabi_color::linear_from_srgb;
 use ufbx::{Mesh, VertexVec2, VertexVec3, VertexVec4};
 
-use super::Source;
+use super::FbxSourceMesh;
 use crate::load::LoadOptions;
-use crate::load::assembly::TextureSets;
+use crate::load::assembly::TextureUvSets;
 use crate::load::completion::{Completion, LACKING_NORMALS};
 use crate::load::faces::{Attribute, Faces, NONE};
-use crate::load::normals::Missing;
+use crate::load::normals::NormalMethod;
 use crate::load::polygon::Budget;
 use crate::load::submesh::{Smoothing, Submesh};
 use crate::load::warnings::Warnings;
 
 /// Reader of one mesh.
-pub(super) struct Reader<'r> {
+pub(super) struct FbxMeshReader<'r> {
     pub(super) options: &'r LoadOptions,
-    pub(super) sets: &'r TextureSets,
+    pub(super) sets: &'r TextureUvSets,
 }
 
-impl Reader<'_> {
+impl FbxMeshReader<'_> {
     /// Reads a mesh in its own space.
-    pub(super) fn read(&self, source: &Source, budget: &mut Budget, warnings: &mut Warnings) -> Submesh {
-        let Source { mesh, who, .. } = source;
+    pub(super) fn read(&self, source: &FbxSourceMesh, budget: &mut Budget, warnings: &mut Warnings) -> Submesh {
+        let FbxSourceMesh { mesh, who, .. } = source;
         let mut faces = outlines(mesh, who, warnings);
         let corners = kept_corners(mesh);
         if has_own_smoothing(mesh) {
@@ -43,7 +43,7 @@ impl Reader<'_> {
         let mut submesh = faces.triangulated(budget, warnings);
         let completion = Completion {
             repaired_normals: LACKING_NORMALS,
-            missing: Missing::Crease,
+            missing: NormalMethod::Crease,
             smooth_degrees: self.options.smooth_degrees,
         };
         completion.complete(&mut submesh, &self.sets.framed, who, warnings);

@@ -3,15 +3,15 @@
 use glam::{DMat4, DVec3};
 use ufbx::{ElementType, Matrix, Mesh, Node};
 
-use super::Source;
-use crate::load::assembly::Instance;
-use crate::load::parts::Groups;
-use crate::load::skin_rest::{JointBudget, Placement, Rest};
+use super::FbxSourceMesh;
+use crate::load::assembly::MeshInstance;
+use crate::load::parts::NodeGroups;
+use crate::load::skin_rest::{JointBudget, JointPlacement, RestPose};
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
 /// A node with its mesh.
-pub(super) struct Shown<'s> {
+pub(super) struct FbxMeshNode<'s> {
     pub(super) node: &'s Node,
     pub(super) mesh: &'s Mesh,
     /// The node above it.
@@ -19,7 +19,11 @@ pub(super) struct Shown<'s> {
 }
 
 /// The meshes of the scene in the order of its nodes, and the nodes above them.
-pub(super) fn shown<'s>(scene: &'s ufbx::Scene, groups: &mut Groups, warnings: &mut Warnings) -> Vec<Shown<'s>> {
+pub(super) fn shown<'s>(
+    scene: &'s ufbx::Scene,
+    groups: &mut NodeGroups,
+    warnings: &mut Warnings,
+) -> Vec<FbxMeshNode<'s>> {
     let mut shown = Vec::new();
     // An explicit stack is used, since a chain of nodes may be as long as the file.
     let mut stack: Vec<(&Node, Option<usize>)> = vec![(&scene.root_node, None)];
@@ -31,7 +35,7 @@ pub(super) fn shown<'s>(scene: &'s ufbx::Scene, groups: &mut Groups, warnings: &
             continue;
         }
         if let Some(mesh) = node.mesh.as_deref() {
-            shown.push(Shown {
+            shown.push(FbxMeshNode {
                 node,
                 mesh,
                 group: above,
@@ -66,7 +70,7 @@ fn has_mesh(node: &Node) -> bool {
     false
 }
 
-impl Shown<'_> {
+impl FbxMeshNode<'_> {
     /// Name of the node, else of the mesh.
     pub(super) fn name(&self) -> String {
         let names = [&self.node.element.name, &self.mesh.element.name];
@@ -78,7 +82,7 @@ impl Shown<'_> {
     }
 
     /// Returns the instance of the mesh at index `place` in the assembly.
-    pub(super) fn instance(&self, place: usize, source: &Source, warnings: &mut Warnings) -> Instance {
+    pub(super) fn instance(&self, place: usize, source: &FbxSourceMesh, warnings: &mut Warnings) -> MeshInstance {
         let name = self.name();
         let bound = matrix(&self.node.geometry_to_world);
         let file_from_mesh = source.rest.file_from_bound(bound, &name, warnings);
@@ -87,7 +91,7 @@ impl Shown<'_> {
                 "Morph targets of mesh `{name}` are left out: it is taken at rest."
             ));
         }
-        Instance {
+        MeshInstance {
             mesh: place,
             name,
             group: self.group,
@@ -104,23 +108,23 @@ impl Shown<'_> {
 }
 
 /// The rest of the skins of a mesh.
-pub(super) fn rest(mesh: &Mesh, joints: &mut JointBudget) -> Rest {
+pub(super) fn rest(mesh: &Mesh, joints: &mut JointBudget) -> RestPose {
     let skins = || mesh.skin_deformers.into_iter();
     let most: usize = skins().map(|skin| skin.clusters.len()).sum();
     if joints.take(most as u64).is_none() {
-        return Rest::TooLarge;
+        return RestPose::TooLarge;
     }
     let clusters = skins()
         .flat_map(|skin| &skin.clusters)
         .filter(|cluster| cluster.num_weights > 0);
-    let placements = clusters.map(|cluster| Placement {
+    let placements = clusters.map(|cluster| JointPlacement {
         file_from_mesh: matrix(&cluster.geometry_to_world),
         reach: cluster.bone_node.as_ref().map_or(0.0, |bone| {
             let at = bone.node_to_world;
             DVec3::new(at.m03, at.m13, at.m23).length()
         }),
     });
-    Rest::of(&placements.collect::<Vec<Placement>>())
+    RestPose::of(&placements.collect::<Vec<JointPlacement>>())
 }
 
 fn matrix(from: &Matrix) -> DMat4 {

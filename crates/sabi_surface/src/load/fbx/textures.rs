@@ -3,7 +3,7 @@
 use glam::DAffine2;
 use ufbx::{MaterialMap, Texture, TextureFile, TextureType, WrapMode};
 
-use crate::load::pictures::{Pictures, Place, file_name, places};
+use crate::load::material_images::{ImageLocation, MaterialImages, file_name, places};
 use crate::load::warnings::Warnings;
 use crate::model::{TextureRef, Wrap};
 
@@ -13,15 +13,15 @@ pub(super) fn connected(map: &MaterialMap) -> Option<&Texture> {
 }
 
 /// Converts textures of the scene to images of the model.
-pub(super) struct Textures<'s> {
+pub(super) struct FbxTextures<'s> {
     scene: &'s ufbx::Scene,
     /// Name of the model's file without its ending.
     stem: String,
 }
 
-impl<'s> Textures<'s> {
-    pub(super) fn new(scene: &'s ufbx::Scene, stem: String) -> Textures<'s> {
-        Textures { scene, stem }
+impl<'s> FbxTextures<'s> {
+    pub(super) fn new(scene: &'s ufbx::Scene, stem: String) -> FbxTextures<'s> {
+        FbxTextures { scene, stem }
     }
 
     /// Returns how a texture is used. `set` returns the UV set for its name. In warnings, `of` is the material and `what` the value.
@@ -30,7 +30,7 @@ impl<'s> Textures<'s> {
         texture: &Texture,
         set: impl FnOnce(&str) -> u32,
         [what, of]: [&str; 2],
-        pictures: &mut Pictures,
+        pictures: &mut MaterialImages,
         warnings: &mut Warnings,
     ) -> Option<TextureRef> {
         // Layered textures and procedural textures have image textures below them.
@@ -71,7 +71,7 @@ impl<'s> Textures<'s> {
     /// Returns the name of an image and the places where it may be: inside the file, at the path relative to the file, in
     /// the folder of the same name into which FBX programs extract images, and by its bare file name. Absolute paths belong
     /// to another computer, so only their last part is used.
-    fn place(&self, picture: &TextureFile, texture: &Texture) -> (String, Place) {
+    fn place(&self, picture: &TextureFile, texture: &Texture) -> (String, ImageLocation) {
         let paths = [
             &picture.relative_filename,
             &picture.filename,
@@ -90,10 +90,10 @@ impl<'s> Textures<'s> {
             .into_iter()
             .find(|content| !content.is_empty());
         if let Some(content) = content {
-            return (name, Place::Inside(content.to_vec().into()));
+            return (name, ImageLocation::Inside(content.to_vec().into()));
         }
         let unpacked = [format!("{}.fbm", self.stem)];
-        (name, Place::Beside(places(&paths, &unpacked)))
+        (name, ImageLocation::Beside(places(&paths, &unpacked)))
     }
 }
 

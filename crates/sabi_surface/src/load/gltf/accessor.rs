@@ -5,9 +5,9 @@ use json::accessor::{ComponentType, Type};
 use json::validation::Checked;
 use sabi_cancel::Looking as _;
 
-use super::source::Source;
-use super::storage::{Meaning, Storage, largest};
-use crate::load::error::{Fault, damaged};
+use super::source::GltfSource;
+use super::storage::{AccessorSemantic, Storage, largest};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::warnings::Warnings;
 
 /// Number of elements without stored bytes that any file may have. A larger file may have one for each of its bytes.
@@ -32,7 +32,7 @@ pub(super) struct Indices {
     pub(super) restart: u32,
 }
 
-impl Source<'_> {
+impl GltfSource<'_> {
     /// Returns the maximum number of elements that an accessor may have without storing them.
     pub(super) fn most_unstored(&self) -> u64 {
         UNSTORED.max(self.buffers.total_bytes())
@@ -57,10 +57,10 @@ impl Source<'_> {
     pub(super) fn floats<const N: usize>(
         &self,
         index: usize,
-        meaning: Meaning,
+        meaning: AccessorSemantic,
         what: &str,
         warnings: &mut Warnings,
-    ) -> Result<Vec<[f32; N]>, Fault> {
+    ) -> Result<Vec<[f32; N]>, ModelFault> {
         let head = self.head(index, what)?;
         let Head {
             component, shape, who, ..
@@ -105,19 +105,24 @@ impl Source<'_> {
     }
 
     /// Vertex colors, RGB or RGBA.
-    pub(super) fn colors(&self, index: usize, what: &str, warnings: &mut Warnings) -> Result<Vec<[f32; 4]>, Fault> {
+    pub(super) fn colors(
+        &self,
+        index: usize,
+        what: &str,
+        warnings: &mut Warnings,
+    ) -> Result<Vec<[f32; 4]>, ModelFault> {
         if self.head(index, what)?.shape == Type::Vec4 {
-            return self.floats(index, Meaning::Color, what, warnings);
+            return self.floats(index, AccessorSemantic::Color, what, warnings);
         }
         Ok(self
-            .floats::<3>(index, Meaning::Color, what, warnings)?
+            .floats::<3>(index, AccessorSemantic::Color, what, warnings)?
             .into_iter()
             .map(|[r, g, b]| [r, g, b, 1.0])
             .collect())
     }
 
     /// Vertex numbers.
-    pub(super) fn indices(&self, index: usize, what: &str, warnings: &mut Warnings) -> Result<Indices, Fault> {
+    pub(super) fn indices(&self, index: usize, what: &str, warnings: &mut Warnings) -> Result<Indices, ModelFault> {
         let head = self.head(index, what)?;
         let Head {
             component, shape, who, ..
@@ -157,7 +162,7 @@ impl Source<'_> {
         }
     }
 
-    fn head(&self, index: usize, what: &str) -> Result<Head<'_>, Fault> {
+    fn head(&self, index: usize, what: &str) -> Result<Head<'_>, ModelFault> {
         let who = format!("accessors[{index}] ({what})");
         let Some(accessor) = self.document.accessors.get(index) else {
             return damaged(format!("{who} is not there"));
@@ -183,7 +188,7 @@ impl Source<'_> {
         zero: T,
         read: impl Fn(&[u8]) -> T,
         warnings: &mut Warnings,
-    ) -> Result<Vec<T>, Fault> {
+    ) -> Result<Vec<T>, ModelFault> {
         let Head {
             accessor,
             component,
@@ -234,7 +239,7 @@ impl Source<'_> {
         values: &mut [T],
         read: impl Fn(&[u8]) -> T,
         warnings: &mut Warnings,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ModelFault> {
         let Some(sparse) = &head.accessor.sparse else {
             return Ok(());
         };

@@ -7,14 +7,14 @@ use std::sync::Arc;
 use sabi_files::{Uri, find_beside};
 
 use super::Resolve;
-use super::document::Document;
-use super::meshopt::{PackedView, Place};
-use crate::load::error::{Fault, damaged};
+use super::document::GltfDocument;
+use super::meshopt::{BufferRange, PackedView};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::warnings::Warnings;
 
 /// All buffers of a file. A missing buffer is a fault only when it is read.
 pub(super) struct Buffers<'a> {
-    buffers: Vec<Result<Bytes<'a>, Fault>>,
+    buffers: Vec<Result<Bytes<'a>, ModelFault>>,
     /// Packed buffer views, by number.
     packed: BTreeMap<usize, PackedView>,
     unpacked_bytes: u64,
@@ -58,12 +58,12 @@ impl<'a> Elements<'a> {
 impl<'a> Buffers<'a> {
     /// Reads the buffers that the views of the file use. Unpacked data takes at most `memory_bytes`.
     pub(super) fn gather(
-        document: &Document,
+        document: &GltfDocument,
         binary: Option<&'a [u8]>,
         resolve: &mut Resolve,
         memory_bytes: u64,
         warnings: &mut Warnings,
-    ) -> Result<Buffers<'a>, Fault> {
+    ) -> Result<Buffers<'a>, ModelFault> {
         let views = document.views.iter().enumerate();
         let packed: BTreeMap<usize, PackedView> = views
             .filter_map(|(index, view)| Some((index, PackedView::of(view, index)?)))
@@ -71,7 +71,7 @@ impl<'a> Buffers<'a> {
         let plain = document.views.iter().map(|view| view.buffer.value());
         let used: BTreeSet<usize> = plain.chain(packed.values().map(PackedView::buffer)).collect();
         let mut fetched = BTreeMap::new();
-        let buffers: Vec<Result<Bytes, Fault>> = document
+        let buffers: Vec<Result<Bytes, ModelFault>> = document
             .buffers
             .iter()
             .enumerate()
@@ -102,7 +102,7 @@ impl<'a> Buffers<'a> {
             ));
         }
         if unpacked_bytes > memory_bytes {
-            return Err(Fault::memory(unpacked_bytes, memory_bytes));
+            return Err(ModelFault::memory(unpacked_bytes, memory_bytes));
         }
         Ok(Buffers {
             buffers,
@@ -128,11 +128,11 @@ impl<'a> Buffers<'a> {
     }
 
     /// Returns the bytes of a buffer view, unpacked. A file that does not require the extension also has the plain bytes.
-    pub(super) fn view(&self, document: &Document, index: usize) -> Result<&[u8], Fault> {
+    pub(super) fn view(&self, document: &GltfDocument, index: usize) -> Result<&[u8], ModelFault> {
         let Some(view) = document.views.get(index) else {
             return damaged(format!("there is no bufferViews[{index}]"));
         };
-        let plain = Place {
+        let plain = BufferRange {
             buffer: view.buffer.value(),
             // 0 is glTF's default.
             offset: view.byte_offset.unwrap_or_default().0,
@@ -147,8 +147,8 @@ impl<'a> Buffers<'a> {
     }
 
     /// Returns a range of a buffer; `index` is the buffer view for messages.
-    fn range(&self, place: Place, index: usize) -> Result<&[u8], Fault> {
-        let Place { buffer, offset, length } = place;
+    fn range(&self, place: BufferRange, index: usize) -> Result<&[u8], ModelFault> {
+        let BufferRange { buffer, offset, length } = place;
         let Some(bytes) = self.buffers.get(buffer) else {
             return damaged(format!(
                 "bufferViews[{index}] is in buffers[{buffer}], which is not there"
@@ -170,13 +170,13 @@ impl<'a> Buffers<'a> {
     /// Returns `count` elements of `size` bytes in a buffer view. `who` describes the accessor in messages.
     pub(super) fn elements(
         &self,
-        document: &Document,
+        document: &GltfDocument,
         who: &str,
         view: usize,
         offset: u64,
         size: usize,
         count: u64,
-    ) -> Result<Elements<'_>, Fault> {
+    ) -> Result<Elements<'_>, ModelFault> {
         let bytes = self.view(document, view)?;
         let stride = document.views[view].byte_stride.map_or(size, |stride| stride.0);
         if stride < size {
@@ -206,10 +206,10 @@ impl<'a> Buffers<'a> {
 fn fetch<'a>(
     uri: &str,
     index: usize,
-    fetched: &mut BTreeMap<String, Result<Arc<[u8]>, Fault>>,
+    fetched: &mut BTreeMap<String, Result<Arc<[u8]>, ModelFault>>,
     resolve: &mut Resolve,
-) -> Result<Bytes<'a>, Fault> {
-    let fault = |reason| Fault::NoBuffer {
+) -> Result<Bytes<'a>, ModelFault> {
+    let fault = |reason| ModelFault::NoBuffer {
         uri: uri.chars().take(80).collect(),
         reason,
     };

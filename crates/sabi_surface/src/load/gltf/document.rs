@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::tidy::gltf_json;
-use crate::load::error::{Fault, damaged};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::warnings::Warnings;
 
 /// Material extensions that describe more than base color, roughness, metallic and emission.
@@ -25,7 +25,7 @@ pub(super) const MESHOPT: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_c
 
 /// A scene of a file.
 #[derive(Deserialize)]
-pub(super) struct Scene {
+pub(super) struct GltfScene {
     pub(super) name: Option<String>,
     /// Root nodes.
     #[serde(default)]
@@ -35,7 +35,7 @@ pub(super) struct Scene {
 /// A node of a file. Its numbers have 64 bits, since it may place a mesh far away.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Node {
+pub(super) struct GltfNode {
     pub(super) name: Option<String>,
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<usize>,
@@ -52,38 +52,38 @@ pub(super) struct Node {
 
 /// The lists of a glTF file that are used here.
 #[derive(Default)]
-pub(super) struct Document {
+pub(super) struct GltfDocument {
     pub(super) accessors: Vec<json::Accessor>,
     pub(super) buffers: Vec<json::Buffer>,
     pub(super) views: Vec<json::buffer::View>,
     pub(super) images: Vec<json::Image>,
     pub(super) materials: Vec<json::Material>,
     pub(super) meshes: Vec<json::Mesh>,
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Vec<GltfNode>,
     /// Skins, not parsed yet, since an invalid skin is no reason to refuse the mesh.
     pub(super) skins: Vec<Value>,
     pub(super) samplers: Vec<json::texture::Sampler>,
     pub(super) textures: Vec<json::Texture>,
-    pub(super) scenes: Vec<Scene>,
+    pub(super) scenes: Vec<GltfScene>,
     pub(super) default_scene: Option<u64>,
     used: Vec<String>,
     required: Vec<String>,
 }
 
-impl Document {
+impl GltfDocument {
     /// Splits a GLB container, if the file is one, and parses the JSON. Also returns the binary chunk.
     pub(super) fn parse<'a>(
         bytes: &'a [u8],
         memory_bytes: u64,
         warnings: &mut Warnings,
-    ) -> Result<(Document, Option<&'a [u8]>), Fault> {
+    ) -> Result<(GltfDocument, Option<&'a [u8]>), ModelFault> {
         let (text, binary) = if bytes.starts_with(b"glTF") {
             chunks(bytes, warnings)?
         } else {
             (bytes, None)
         };
         check_json(text, memory_bytes)?;
-        let root = gltf_json(text).map_err(|error| Fault::Damaged(json_fault(text, &error)))?;
+        let root = gltf_json(text).map_err(|error| ModelFault::Damaged(json_fault(text, &error)))?;
         let Value::Object(mut root) = root else {
             return damaged("its JSON is not an object");
         };
@@ -99,11 +99,15 @@ impl Document {
             Some("2") => {}
             Some("") => return damaged("its asset does not say which version of glTF it is"),
             Some("1" | "0") => return Err(old_version()),
-            Some(other) => return Err(Fault::Format(format!("this is glTF {other}, and glTF 2 is read here"))),
+            Some(other) => {
+                return Err(ModelFault::Format(format!(
+                    "this is glTF {other}, and glTF 2 is read here"
+                )));
+            }
             None => return damaged("its asset does not say which version of glTF it is"),
         }
         let root = &mut root;
-        let document = Document {
+        let document = GltfDocument {
             accessors: list(root, "accessors", serde_json::from_value)?,
             buffers: list(root, "buffers", serde_json::from_value)?,
             views: list(root, "bufferViews", serde_json::from_value)?,
@@ -129,7 +133,7 @@ impl Document {
     }
 
     /// Refuses files that require an unsupported extension.
-    pub(super) fn check_extensions(&self, warnings: &mut Warnings) -> Result<(), Fault> {
+    pub(super) fn check_extensions(&self, warnings: &mut Warnings) -> Result<(), ModelFault> {
         for name in &self.required {
             match name.as_str() {
                 "KHR_mesh_quantization" | "KHR_texture_transform" | "KHR_materials_emissive_strength" => {}
@@ -146,7 +150,7 @@ impl Document {
                     warnings.add(format!("The file needs {name}, which is left out of its materials."));
                 }
                 _ => {
-                    return Err(Fault::Extension {
+                    return Err(ModelFault::Extension {
                         extension: name.clone(),
                     });
                 }
@@ -201,8 +205,8 @@ impl Document {
     }
 }
 
-fn old_version() -> Fault {
-    Fault::Format(
+fn old_version() -> ModelFault {
+    ModelFault::Format(
         "this is glTF 1, and glTF 2 is read here; convert it (gltf-pipeline does so) or export it anew".into(),
     )
 }
@@ -212,14 +216,14 @@ fn list<T>(
     root: &mut serde_json::Map<String, Value>,
     key: &str,
     read: impl Fn(Value) -> serde_json::Result<T>,
-) -> Result<Vec<T>, Fault> {
+) -> Result<Vec<T>, ModelFault> {
     match root.get_mut(key).map(Value::take) {
         None => Ok(Vec::new()),
         Some(Value::Array(values)) => values
             .into_iter()
             .enumerate()
             .map(|(index, value)| {
-                read(value).map_err(|error| Fault::Damaged(format!("{key}[{index}] cannot be read ({error})")))
+                read(value).map_err(|error| ModelFault::Damaged(format!("{key}[{index}] cannot be read ({error})")))
             })
             .collect(),
         Some(_) => damaged(format!("{key} is not a list")),
@@ -233,20 +237,20 @@ const VALUE_BYTES: u64 = 64;
 
 /// Checks that JSON takes no more than `memory_bytes` once it is read, by its brackets and commas: a few bytes of a file can claim
 /// hundreds in memory. Those in texts count as well, which are few.
-fn check_json(text: &[u8], memory_bytes: u64) -> Result<(), Fault> {
+fn check_json(text: &[u8], memory_bytes: u64) -> Result<(), ModelFault> {
     let needed = text.iter().fold(0u64, |sum, byte| match byte {
         b'{' => sum + OBJECT_BYTES,
         b',' | b'[' => sum + VALUE_BYTES,
         _ => sum,
     });
     match needed > memory_bytes {
-        true => Err(Fault::memory(needed, memory_bytes)),
+        true => Err(ModelFault::memory(needed, memory_bytes)),
         false => Ok(()),
     }
 }
 
 /// The JSON and binary chunks of a GLB container.
-fn chunks<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(&'a [u8], Option<&'a [u8]>), Fault> {
+fn chunks<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(&'a [u8], Option<&'a [u8]>), ModelFault> {
     let word = |at: usize| {
         bytes
             .get(at..at + 4)
@@ -260,7 +264,7 @@ fn chunks<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<(&'a [u8], Opt
         2 => {}
         1 => return Err(old_version()),
         _ => {
-            return Err(Fault::Format(format!(
+            return Err(ModelFault::Format(format!(
                 "this is version {version} of GLB, and version 2 is read here"
             )));
         }

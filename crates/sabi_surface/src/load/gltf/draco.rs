@@ -6,7 +6,7 @@ use draco_core::{DataType, DecodeLimits, DecoderBuffer, ErrorKind, Mesh, MeshDec
 use gltf::json::accessor::ComponentType;
 
 use super::storage::largest;
-use crate::load::error::{Fault, damaged};
+use crate::load::error::{ModelFault, damaged};
 
 /// Number of vertices that a packed primitive may have in addition to those of its triangles.
 const UNUSED_VERTICES: u64 = 1 << 16;
@@ -24,7 +24,7 @@ pub(super) struct UnpackedMesh {
 
 /// Maximum number of triangles and vertices of a primitive.
 #[derive(Clone, Copy)]
-pub(super) struct Claim {
+pub(super) struct PrimitiveSize {
     pub(super) triangles: u64,
     pub(super) vertices: u64,
 }
@@ -34,10 +34,10 @@ impl UnpackedMesh {
     pub(super) fn unpack(
         bytes: &[u8],
         attribute_of: BTreeMap<usize, u32>,
-        claim: Claim,
+        claim: PrimitiveSize,
         label: &str,
-    ) -> Result<UnpackedMesh, Fault> {
-        let Claim { triangles, vertices } = claim;
+    ) -> Result<UnpackedMesh, ModelFault> {
+        let PrimitiveSize { triangles, vertices } = claim;
         let of_triangles = triangles.saturating_mul(3).saturating_add(UNUSED_VERTICES);
         let attributes = attribute_of.len() as u64 + UNLISTED_ATTRIBUTES;
         let values = vertices.min(of_triangles).saturating_mul(attributes);
@@ -47,7 +47,7 @@ impl UnpackedMesh {
         let mut mesh = Mesh::new();
         let unpacked = MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh);
         unpacked.map_err(|error| {
-            Fault::Damaged(match error.kind() {
+            ModelFault::Damaged(match error.kind() {
                 ErrorKind::LimitExceeded => format!(
                     "the Draco data of {label} has more triangles or vertices than its accessors ({triangles} and {vertices})"
                 ),
@@ -59,7 +59,7 @@ impl UnpackedMesh {
 
     /// Returns the corners of the triangles of a primitive with `vertices` vertices. Draco has no strips: they were
     /// converted to triangles when the file was written.
-    pub(super) fn triangles(&self, label: &str, vertices: usize) -> Result<Vec<[u32; 3]>, Fault> {
+    pub(super) fn triangles(&self, label: &str, vertices: usize) -> Result<Vec<[u32; 3]>, ModelFault> {
         let triangles: Vec<[u32; 3]> = self.mesh.faces().iter().map(|face| face.map(|point| point.0)).collect();
         match triangles
             .as_flattened()
@@ -80,7 +80,7 @@ impl UnpackedMesh {
         component: ComponentType,
         parts: usize,
         normalized: bool,
-    ) -> Result<Option<Vec<u8>>, Fault> {
+    ) -> Result<Option<Vec<u8>>, ModelFault> {
         let Some(id) = self.attribute_of.get(&accessor) else {
             return Ok(None);
         };

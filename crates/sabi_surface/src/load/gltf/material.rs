@@ -10,8 +10,8 @@ use json::validation::Checked;
 use serde_json::{Map, Value};
 
 use super::Resolve;
-use super::picture::PictureCache;
-use super::source::Source;
+use super::picture::GltfImageCache;
+use super::source::GltfSource;
 use super::texture_use::{TRANSFORM, finite, overridden, raw_transform, rows};
 use super::uv_decoding::UvDecodings;
 use crate::load::warnings::Warnings;
@@ -60,7 +60,7 @@ impl Materials {
     /// Reads the materials that are used and their images into `model`, and sorts the triangles' materials in file order.
     pub(super) fn finish(
         self,
-        source: &Source,
+        source: &GltfSource,
         decodings: &UvDecodings,
         name: &str,
         resolve: &mut Resolve,
@@ -68,7 +68,7 @@ impl Materials {
         warnings: &mut Warnings,
     ) {
         let mut new_from_slot = vec![0; self.slots.len()];
-        let mut pictures = Pictures {
+        let mut pictures = GltfImages {
             source,
             slots: BTreeMap::new(),
             warnings,
@@ -90,7 +90,7 @@ impl Materials {
         }
         let mut slots: Vec<_> = pictures.slots.into_iter().collect();
         slots.sort_unstable_by_key(|(_, slot)| *slot);
-        let mut cache = PictureCache::default();
+        let mut cache = GltfImageCache::default();
         for ((image, unread), _) in slots {
             let image = cache.read(source, name, image, unread, resolve);
             if let Err(sentence) = &image.bytes {
@@ -102,21 +102,21 @@ impl Materials {
 }
 
 /// Images in the order in which materials refer to them.
-struct Pictures<'a> {
-    source: &'a Source<'a>,
+struct GltfImages<'a> {
+    source: &'a GltfSource<'a>,
     /// Index in the model, by the image of the file and whether it is in an unsupported format.
     slots: BTreeMap<(usize, Option<&'static str>), usize>,
     warnings: &'a mut Warnings,
 }
 
 /// Properties common to all kinds of texture use.
-struct Use<'a> {
+struct GltfTextureRef<'a> {
     texture: usize,
     uv_set: u32,
     transform: Option<&'a json::extensions::texture::TextureTransform>,
 }
 
-impl Pictures<'_> {
+impl GltfImages<'_> {
     fn material(&mut self, index: usize, material: &json::Material) -> ModelMaterial {
         let pbr = &material.pbr_metallic_roughness;
         let label = self.source.document.material_label(Some(index));
@@ -205,7 +205,7 @@ impl Pictures<'_> {
             .and_then(|extensions| extensions.texture_transform.as_ref());
         self.texture(
             label,
-            Use {
+            GltfTextureRef {
                 texture: info.index.value(),
                 uv_set: info.tex_coord,
                 transform,
@@ -229,7 +229,7 @@ impl Pictures<'_> {
         }
         self.texture(
             label,
-            Use {
+            GltfTextureRef {
                 texture,
                 uv_set,
                 transform: transform.as_ref(),
@@ -237,7 +237,7 @@ impl Pictures<'_> {
         )
     }
 
-    fn texture(&mut self, label: &str, used: Use) -> Option<TextureRef> {
+    fn texture(&mut self, label: &str, used: GltfTextureRef) -> Option<TextureRef> {
         let document = self.source.document;
         let index = used.texture;
         let Some(texture) = document.textures.get(index) else {

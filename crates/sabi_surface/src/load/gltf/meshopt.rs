@@ -11,7 +11,7 @@ use meshoptimizer_rs::{Error, Limits, Workspace};
 use serde_json::Value;
 
 use super::document::MESHOPT;
-use crate::load::error::{Fault, damaged};
+use crate::load::error::{ModelFault, damaged};
 
 /// Maximum number of unpacked bytes for each packed byte. A block of 256 vertices takes at least one byte for every four
 /// bytes of a vertex; a triangle and an index take at least one byte each (EXT_meshopt_compression, "Bitstream").
@@ -23,37 +23,37 @@ const INDICES_BEST_RATIO: u64 = 4;
 pub(super) struct PackedView {
     /// The extension that describes it.
     pub(super) extension: &'static str,
-    packed: Result<Packed, Fault>,
-    unpacked: OnceLock<Result<Vec<u8>, Fault>>,
+    packed: Result<CompressedView, ModelFault>,
+    unpacked: OnceLock<Result<Vec<u8>, ModelFault>>,
 }
 
 /// Bytes of a buffer, and the form into which they are unpacked.
-struct Packed {
+struct CompressedView {
     index: usize,
-    place: Place,
+    place: BufferRange,
     stride: u64,
     count: u64,
-    mode: Mode,
-    filter: Filter,
+    mode: MeshoptMode,
+    filter: MeshoptFilter,
 }
 
 /// A range of a buffer.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct BufferRange {
     pub(super) buffer: usize,
     pub(super) offset: u64,
     pub(super) length: u64,
 }
 
 #[derive(Clone, Copy)]
-enum Mode {
+enum MeshoptMode {
     Attributes,
     Triangles,
     Indices,
 }
 
 #[derive(Clone, Copy)]
-enum Filter {
+enum MeshoptFilter {
     None,
     Octahedral,
     Quaternion,
@@ -68,14 +68,14 @@ impl PackedView {
         let extension = MESHOPT.into_iter().find(|name| others.contains_key(*name))?;
         Some(PackedView {
             extension,
-            packed: Packed::read(&others[extension], extension, index),
+            packed: CompressedView::read(&others[extension], extension, index),
             unpacked: OnceLock::new(),
         })
     }
 
     /// Returns the unpacked size that the view declares.
     pub(super) fn claimed_bytes(&self) -> u64 {
-        self.packed.as_ref().map_or(0, Packed::claimed_bytes)
+        self.packed.as_ref().map_or(0, CompressedView::claimed_bytes)
     }
 
     /// Returns the buffer that contains the packed bytes; if it is unknown, the number of a buffer that does not exist.
@@ -86,8 +86,8 @@ impl PackedView {
     /// The unpacked bytes; `packed_bytes` returns a range of a buffer.
     pub(super) fn bytes<'p>(
         &self,
-        packed_bytes: impl FnOnce(Place) -> Result<&'p [u8], Fault>,
-    ) -> Result<&[u8], Fault> {
+        packed_bytes: impl FnOnce(BufferRange) -> Result<&'p [u8], ModelFault>,
+    ) -> Result<&[u8], ModelFault> {
         let unpacked = self.unpacked.get_or_init(|| {
             let packed = self.packed.as_ref().map_err(Clone::clone)?;
             packed.unpack(packed_bytes(packed.place)?)
@@ -96,13 +96,13 @@ impl PackedView {
     }
 }
 
-impl Packed {
-    fn read(value: &Value, extension: &str, index: usize) -> Result<Packed, Fault> {
+impl CompressedView {
+    fn read(value: &Value, extension: &str, index: usize) -> Result<CompressedView, ModelFault> {
         let number = |key: &str, default: Option<u64>| match (value.get(key), default) {
             (None, Some(default)) => Ok(default),
             (given, _) => given
                 .and_then(Value::as_u64)
-                .ok_or_else(|| Fault::Damaged(format!("bufferViews[{index}] has no `{key}` in its {extension}"))),
+                .ok_or_else(|| ModelFault::Damaged(format!("bufferViews[{index}] has no `{key}` in its {extension}"))),
         };
         let word = |key: &str| value.get(key).and_then(Value::as_str);
         let unknown = |key: &str| {
@@ -110,9 +110,9 @@ impl Packed {
                 "bufferViews[{index}] has a `{key}` in its {extension} that is not known"
             ))
         };
-        Ok(Packed {
+        Ok(CompressedView {
             index,
-            place: Place {
+            place: BufferRange {
                 // A number that no buffer has stands for an invalid one.
                 buffer: usize::try_from(number("buffer", None)?).unwrap_or(usize::MAX),
                 // 0 is the extension's default.
@@ -122,18 +122,18 @@ impl Packed {
             stride: number("byteStride", None)?,
             count: number("count", None)?,
             mode: match word("mode") {
-                Some("ATTRIBUTES") => Mode::Attributes,
-                Some("TRIANGLES") => Mode::Triangles,
-                Some("INDICES") => Mode::Indices,
+                Some("ATTRIBUTES") => MeshoptMode::Attributes,
+                Some("TRIANGLES") => MeshoptMode::Triangles,
+                Some("INDICES") => MeshoptMode::Indices,
                 _ => return unknown("mode"),
             },
             filter: match (word("filter"), extension) {
-                (None, _) if value.get("filter").is_none() => Filter::None,
-                (Some("NONE"), _) => Filter::None,
-                (Some("OCTAHEDRAL"), _) => Filter::Octahedral,
-                (Some("QUATERNION"), _) => Filter::Quaternion,
-                (Some("EXPONENTIAL"), _) => Filter::Exponential,
-                (Some("COLOR"), _) if extension == MESHOPT[0] => Filter::Color,
+                (None, _) if value.get("filter").is_none() => MeshoptFilter::None,
+                (Some("NONE"), _) => MeshoptFilter::None,
+                (Some("OCTAHEDRAL"), _) => MeshoptFilter::Octahedral,
+                (Some("QUATERNION"), _) => MeshoptFilter::Quaternion,
+                (Some("EXPONENTIAL"), _) => MeshoptFilter::Exponential,
+                (Some("COLOR"), _) if extension == MESHOPT[0] => MeshoptFilter::Color,
                 _ => return unknown("filter"),
             },
         })
@@ -143,11 +143,11 @@ impl Packed {
         self.count.saturating_mul(self.stride)
     }
 
-    fn unpack(&self, bytes: &[u8]) -> Result<Vec<u8>, Fault> {
+    fn unpack(&self, bytes: &[u8]) -> Result<Vec<u8>, ModelFault> {
         let ratio = match self.mode {
-            Mode::Attributes => ATTRIBUTES_BEST_RATIO,
-            Mode::Triangles => TRIANGLES_BEST_RATIO,
-            Mode::Indices => INDICES_BEST_RATIO,
+            MeshoptMode::Attributes => ATTRIBUTES_BEST_RATIO,
+            MeshoptMode::Triangles => TRIANGLES_BEST_RATIO,
+            MeshoptMode::Indices => INDICES_BEST_RATIO,
         };
         let claimed = self.claimed_bytes();
         if claimed / ratio > bytes.len() as u64 {
@@ -158,7 +158,7 @@ impl Packed {
             ));
         }
         self.decode(bytes)
-            .map_err(|error| Fault::Damaged(format!("bufferViews[{}] cannot be unpacked ({error})", self.index)))
+            .map_err(|error| ModelFault::Damaged(format!("bufferViews[{}] cannot be unpacked ({error})", self.index)))
     }
 
     fn decode(&self, bytes: &[u8]) -> Result<Vec<u8>, Error> {
@@ -170,16 +170,16 @@ impl Packed {
             max_work: u64::MAX,
         });
         let mut unpacked = match self.mode {
-            Mode::Attributes => decode_vertex_buffer(count, stride, bytes, workspace)?,
-            Mode::Triangles => decode_index_buffer(count, stride, bytes, workspace)?,
-            Mode::Indices => decode_index_sequence(count, stride, bytes, workspace)?,
+            MeshoptMode::Attributes => decode_vertex_buffer(count, stride, bytes, workspace)?,
+            MeshoptMode::Triangles => decode_index_buffer(count, stride, bytes, workspace)?,
+            MeshoptMode::Indices => decode_index_sequence(count, stride, bytes, workspace)?,
         };
         match self.filter {
-            Filter::None => {}
-            Filter::Octahedral => decode_filter_oct(&mut unpacked, count, stride, workspace)?,
-            Filter::Quaternion => decode_filter_quat(&mut unpacked, count, stride, workspace)?,
-            Filter::Exponential => decode_filter_exp(&mut unpacked, count, stride, workspace)?,
-            Filter::Color => decode_filter_color(&mut unpacked, count, stride, workspace)?,
+            MeshoptFilter::None => {}
+            MeshoptFilter::Octahedral => decode_filter_oct(&mut unpacked, count, stride, workspace)?,
+            MeshoptFilter::Quaternion => decode_filter_quat(&mut unpacked, count, stride, workspace)?,
+            MeshoptFilter::Exponential => decode_filter_exp(&mut unpacked, count, stride, workspace)?,
+            MeshoptFilter::Color => decode_filter_color(&mut unpacked, count, stride, workspace)?,
         }
         Ok(unpacked)
     }

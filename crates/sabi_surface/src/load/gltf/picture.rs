@@ -6,12 +6,12 @@ use std::sync::Arc;
 use sabi_files::{Uri, find_beside};
 
 use super::Resolve;
-use super::source::Source;
+use super::source::GltfSource;
 use crate::model::ModelImage;
 
 /// Images that were read. Each is in memory only once, however many textures use it.
 #[derive(Default)]
-pub(super) struct PictureCache {
+pub(super) struct GltfImageCache {
     beside: BTreeMap<String, Result<Arc<[u8]>, String>>,
     /// Images in buffer views, by buffer, offset and length.
     in_views: BTreeMap<[u64; 3], Arc<[u8]>>,
@@ -19,11 +19,11 @@ pub(super) struct PictureCache {
     bytes_in_views: u64,
 }
 
-impl PictureCache {
+impl GltfImageCache {
     /// Reads the image `index` of the file. `unread` is the unsupported extension that its format needs, if any.
     pub(super) fn read(
         &mut self,
-        source: &Source,
+        source: &GltfSource,
         model: &str,
         index: usize,
         unread: Option<&'static str>,
@@ -54,7 +54,7 @@ impl PictureCache {
     }
 
     /// Reads an image in a buffer view. If different images together have more bytes than the buffers, they overlap, which is refused.
-    fn in_view(&mut self, source: &Source, index: usize) -> Result<Arc<[u8]>, String> {
+    fn in_view(&mut self, source: &GltfSource, index: usize) -> Result<Arc<[u8]>, String> {
         let bytes = source.buffers.view(source.document, index);
         let bytes = bytes.map_err(|fault| fault.to_string())?;
         let view = &source.document.views[index];

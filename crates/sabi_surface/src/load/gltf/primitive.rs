@@ -11,15 +11,15 @@ use json::validation::Checked;
 use rayon::prelude::*;
 
 use super::accessor::Indices;
-use super::draco::Claim;
-use super::packed;
-use super::source::Source;
-use super::storage::Meaning;
-use super::texture_use::TextureSets;
+use super::draco::PrimitiveSize;
+use super::packed_vertices;
+use super::source::GltfSource;
+use super::storage::AccessorSemantic;
+use super::texture_use::GltfTextureUvSets;
 use crate::load::blur::{StorageErrors, blurred};
 use crate::load::completion::Completion;
-use crate::load::error::{Fault, damaged};
-use crate::load::normals::Missing;
+use crate::load::error::{ModelFault, damaged};
+use crate::load::normals::NormalMethod;
 use crate::load::submesh::Submesh;
 use crate::load::warnings::Warnings;
 use crate::model::TextureUvs;
@@ -39,12 +39,12 @@ pub(super) struct LoadedPrimitive {
     pub(super) warnings: Warnings,
 }
 
-impl Source<'_> {
+impl GltfSource<'_> {
     /// Reads the primitives of the meshes, each mesh once.
     pub(super) fn read_primitives(
         &self,
         meshes: impl Iterator<Item = usize>,
-    ) -> Result<BTreeMap<usize, Vec<LoadedPrimitive>>, Fault> {
+    ) -> Result<BTreeMap<usize, Vec<LoadedPrimitive>>, ModelFault> {
         let meshes: BTreeSet<usize> = meshes.collect();
         let primitives: Vec<(usize, usize)> = meshes
             .iter()
@@ -72,7 +72,7 @@ impl Source<'_> {
     /// Returns the number of vertices that a primitive declares, limited by the size of the file if that bounds their number.
     pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
         let claimed = self.claimed_vertices(primitive);
-        match packed::extension(primitive) {
+        match packed_vertices::extension(primitive) {
             Some(_) => claimed,
             None => claimed.min(self.most_unstored().max(self.buffers.unpacked_bytes())),
         }
@@ -93,12 +93,12 @@ impl Source<'_> {
     pub(super) fn texture_sets(&self, primitive: &json::mesh::Primitive) -> BTreeSet<u32> {
         let material = primitive.material.map(|index| index.value());
         let material = material.and_then(|index| self.document.materials.get(index));
-        let mut sets = material.map_or_else(BTreeSet::new, |material| TextureSets::of(material).all);
+        let mut sets = material.map_or_else(BTreeSet::new, |material| GltfTextureUvSets::of(material).all);
         sets.retain(|set| attribute(primitive, Semantic::TexCoords(*set)).is_some());
         sets
     }
 
-    fn read(&self, mesh: usize, number: usize) -> Result<LoadedPrimitive, Fault> {
+    fn read(&self, mesh: usize, number: usize) -> Result<LoadedPrimitive, ModelFault> {
         look();
         let primitive = &self.document.meshes[mesh].primitives[number];
         let label = self.document.mesh_label(mesh);
@@ -130,19 +130,19 @@ impl Source<'_> {
                 .warnings
                 .add(format!("Morph targets of {label} are left out: it is taken at rest."));
         }
-        let claim = Claim {
+        let claim = PrimitiveSize {
             triangles: self.claim(primitive),
             vertices: self.claimed_vertices(primitive),
         };
         let unpacked = self.unpacked_mesh(primitive, claim, &label)?;
-        let source = Source {
+        let source = GltfSource {
             unpacked: unpacked.as_ref(),
             ..*self
         };
         let LoadedPrimitive { submesh, warnings, .. } = &mut loaded;
         submesh.positions = source.floats(
             positions.value(),
-            Meaning::Position,
+            AccessorSemantic::Position,
             &format!("positions of {label}"),
             warnings,
         )?;
@@ -170,7 +170,7 @@ impl Source<'_> {
         label: &str,
         vertices: usize,
         warnings: &mut Warnings,
-    ) -> Result<Vec<[u32; 3]>, Fault> {
+    ) -> Result<Vec<[u32; 3]>, ModelFault> {
         if let Some(mesh) = self.unpacked {
             return mesh.triangles(label, vertices);
         }
@@ -200,17 +200,17 @@ impl Source<'_> {
         label: &str,
         submesh: &mut Submesh,
         warnings: &mut Warnings,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ModelFault> {
         let what = |what: &str| format!("{what} of {label}");
         let mut tangents = Vec::new();
         let count = submesh.positions.len();
         let check = |what: &str, length: usize| check_count(label, count, what, length);
         if let Some(index) = attribute(primitive, Semantic::Normals) {
-            submesh.normals = self.floats(index.value(), Meaning::Direction, &what("normals"), warnings)?;
+            submesh.normals = self.floats(index.value(), AccessorSemantic::Direction, &what("normals"), warnings)?;
             check("normals", submesh.normals.len())?;
             // glTF requires that tangents without normals are ignored.
             if let Some(index) = attribute(primitive, Semantic::Tangents) {
-                tangents = self.floats(index.value(), Meaning::Direction, &what("tangents"), warnings)?;
+                tangents = self.floats(index.value(), AccessorSemantic::Direction, &what("tangents"), warnings)?;
                 check("tangents", tangents.len())?;
             }
         }
@@ -229,11 +229,11 @@ impl Source<'_> {
         mut tangents: Vec<[f32; 4]>,
         submesh: &mut Submesh,
         warnings: &mut Warnings,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ModelFault> {
         let count = submesh.positions.len();
         let material = primitive.material.map(|index| index.value());
         let material = material.and_then(|index| self.document.materials.get(index));
-        let sets = material.map_or_else(TextureSets::default, TextureSets::of);
+        let sets = material.map_or_else(GltfTextureUvSets::default, GltfTextureUvSets::of);
         // A file's tangents belong to the texture coordinates of the normal map (glTF 2.0, 3.7.2.1), or to set 0 if there
         // is no normal map.
         let framed_set = sets.normal.unwrap_or(0);
@@ -245,7 +245,8 @@ impl Source<'_> {
                 continue;
             };
             let what = format!("coordinates of UV set {set} of {label}");
-            let uvs: Vec<[f32; 2]> = self.floats(index.value(), Meaning::TextureCoordinate, &what, warnings)?;
+            let uvs: Vec<[f32; 2]> =
+                self.floats(index.value(), AccessorSemantic::TextureCoordinate, &what, warnings)?;
             check_count(label, count, "texture coordinates", uvs.len())?;
             let mut own = || {
                 if set == framed_set {
@@ -270,7 +271,7 @@ impl Source<'_> {
 }
 
 /// Checks that an attribute has a value for each of the `count` positions.
-fn check_count(label: &str, count: usize, what: &str, length: usize) -> Result<(), Fault> {
+fn check_count(label: &str, count: usize, what: &str, length: usize) -> Result<(), ModelFault> {
     if length == count {
         Ok(())
     } else {
@@ -287,7 +288,7 @@ fn complete(loaded: &mut LoadedPrimitive, label: &str, smooth_degrees: Option<f3
         ..
     } = loaded;
     let completion = Completion {
-        missing: Missing::Flat,
+        missing: NormalMethod::Flat,
         repaired_normals: "had normals without a direction; these were made anew",
         smooth_degrees,
     };

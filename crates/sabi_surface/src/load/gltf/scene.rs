@@ -4,12 +4,12 @@ use glam::{DMat4, DQuat, DVec3};
 use sabi_cancel::look;
 use serde_json::Value;
 
-use super::document::{Document, Node};
-use super::skin::Skins;
-use super::source::Source;
-use crate::load::error::{Fault, damaged};
-use crate::load::listed::joined;
-use crate::load::parts::Groups;
+use super::document::{GltfDocument, GltfNode};
+use super::skin::GltfSkins;
+use super::source::GltfSource;
+use crate::load::error::{ModelFault, damaged};
+use crate::load::name_lists::joined;
+use crate::load::parts::NodeGroups;
 use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
@@ -17,7 +17,7 @@ use crate::load::warnings::Warnings;
 const ROUNDED: f64 = 2e-3;
 
 /// A mesh that a node places.
-pub(super) struct Instance {
+pub(super) struct GltfInstance {
     /// Node that places the mesh; `None` if the scene contains no mesh.
     pub(super) node: Option<usize>,
     pub(super) mesh: usize,
@@ -28,15 +28,15 @@ pub(super) struct Instance {
 }
 
 /// The meshes of a scene.
-pub(super) struct Scene {
+pub(super) struct SceneMeshes {
     /// In the order of their nodes.
-    pub(super) instances: Vec<Instance>,
+    pub(super) instances: Vec<GltfInstance>,
     /// Nodes above them.
-    pub(super) groups: Groups,
+    pub(super) groups: NodeGroups,
 }
 
 /// A node that shows a mesh.
-struct Shown {
+struct GltfMeshNode {
     node: usize,
     mesh: usize,
     group: Option<usize>,
@@ -44,7 +44,7 @@ struct Shown {
 }
 
 /// A node to be visited.
-struct Step {
+struct NodeVisit {
     node: u64,
     /// The node above it.
     group: Option<usize>,
@@ -53,13 +53,13 @@ struct Step {
 }
 
 /// Reads the meshes of the file's scene.
-pub(super) fn read(source: &Source, warnings: &mut Warnings) -> Result<Scene, Fault> {
+pub(super) fn read(source: &GltfSource, warnings: &mut Warnings) -> Result<SceneMeshes, ModelFault> {
     let document = source.document;
     let mut shown = Vec::new();
-    let mut groups = Groups::default();
+    let mut groups = NodeGroups::default();
     let mut file_from_node: Vec<Option<DMat4>> = vec![None; document.nodes.len()];
     // An explicit stack is used, since a chain of nodes may be as long as the file.
-    let mut stack: Vec<Step> = below(&roots(source, warnings)?, None, DMat4::IDENTITY, false).collect();
+    let mut stack: Vec<NodeVisit> = below(&roots(source, warnings)?, None, DMat4::IDENTITY, false).collect();
     while let Some(step) = stack.pop() {
         look();
         let Some((index, node)) = usize::try_from(step.node)
@@ -80,7 +80,7 @@ pub(super) fn read(source: &Source, warnings: &mut Warnings) -> Result<Scene, Fa
             if is_hidden {
                 warnings.add("Nodes that the file hides (KHR_node_visibility) are left out.");
             } else {
-                shown.push(Shown {
+                shown.push(GltfMeshNode {
                     node: index,
                     mesh,
                     group: step.group,
@@ -96,29 +96,34 @@ pub(super) fn read(source: &Source, warnings: &mut Warnings) -> Result<Scene, Fa
     }
     if shown.is_empty() && !document.meshes.is_empty() {
         warnings.add("The file's scene shows no mesh; all meshes are taken as they are stored.");
-        let instances = (0..document.meshes.len()).map(|mesh| Instance {
+        let instances = (0..document.meshes.len()).map(|mesh| GltfInstance {
             node: None,
             mesh,
             name: name(document, None, mesh),
             group: None,
             file_from_mesh: DMat4::IDENTITY,
         });
-        return Ok(Scene {
+        return Ok(SceneMeshes {
             instances: instances.collect(),
             groups,
         });
     }
-    let mut skins = Skins::new(source, &file_from_node);
+    let mut skins = GltfSkins::new(source, &file_from_node);
     let instances = shown
         .into_iter()
         .map(|shown| instance(document, shown, &mut skins, warnings))
         .collect();
-    Ok(Scene { instances, groups })
+    Ok(SceneMeshes { instances, groups })
 }
 
 /// Returns the steps in reverse, so that a stack returns them in order.
-fn below(nodes: &[u64], group: Option<usize>, file_from_parent: DMat4, is_hidden: bool) -> impl Iterator<Item = Step> {
-    nodes.iter().rev().map(move |node| Step {
+fn below(
+    nodes: &[u64],
+    group: Option<usize>,
+    file_from_parent: DMat4,
+    is_hidden: bool,
+) -> impl Iterator<Item = NodeVisit> {
+    nodes.iter().rev().map(move |node| NodeVisit {
         node: *node,
         group,
         file_from_parent,
@@ -126,20 +131,25 @@ fn below(nodes: &[u64], group: Option<usize>, file_from_parent: DMat4, is_hidden
     })
 }
 
-fn is_hidden(node: &Node) -> bool {
+fn is_hidden(node: &GltfNode) -> bool {
     let extension = node.extensions.get("KHR_node_visibility");
     let visible = extension.and_then(|extension| extension.get("visible"));
     visible.and_then(Value::as_bool) == Some(false)
 }
 
-fn instance(document: &Document, shown: Shown, skins: &mut Skins, warnings: &mut Warnings) -> Instance {
+fn instance(
+    document: &GltfDocument,
+    shown: GltfMeshNode,
+    skins: &mut GltfSkins,
+    warnings: &mut Warnings,
+) -> GltfInstance {
     let node = &document.nodes[shown.node];
     let name = name(document, node.name.as_deref(), shown.mesh);
     let file_from_mesh = match node.skin {
         Some(skin) => skins.file_from_bound(skin, &name, warnings),
         None => shown.placed,
     };
-    Instance {
+    GltfInstance {
         node: Some(shown.node),
         mesh: shown.mesh,
         name,
@@ -150,17 +160,19 @@ fn instance(document: &Document, shown: Shown, skins: &mut Skins, warnings: &mut
 
 /// Returns the root nodes of the chosen scene, otherwise of the default scene, otherwise of the first scene, otherwise all
 /// nodes without a parent.
-fn roots(source: &Source, warnings: &mut Warnings) -> Result<Vec<u64>, Fault> {
-    let Source { document, scene, .. } = *source;
+fn roots(source: &GltfSource, warnings: &mut Warnings) -> Result<Vec<u64>, ModelFault> {
+    let GltfSource { document, scene, .. } = *source;
     if let Some(asked) = scene {
         let chosen = usize::try_from(asked).ok().and_then(|index| document.scenes.get(index));
-        return chosen.map(|scene| scene.nodes.clone()).ok_or_else(|| Fault::Scene {
-            asked,
-            there: match document.scenes.len() {
-                0 => "the file has no scenes".to_owned(),
-                count => format!("it has {}", scene_labels(document, 0..count)),
-            },
-        });
+        return chosen
+            .map(|scene| scene.nodes.clone())
+            .ok_or_else(|| ModelFault::Scene {
+                asked,
+                there: match document.scenes.len() {
+                    0 => "the file has no scenes".to_owned(),
+                    count => format!("it has {}", scene_labels(document, 0..count)),
+                },
+            });
     }
     // If the file names no scene, glTF viewers show the first one.
     let index = document.default_scene.unwrap_or(0);
@@ -189,7 +201,7 @@ fn roots(source: &Source, warnings: &mut Warnings) -> Result<Vec<u64>, Fault> {
 const MOST_SCENES_NAMED: usize = 8;
 
 /// Labels of scenes, as a list.
-fn scene_labels(document: &Document, scenes: impl Iterator<Item = usize>) -> String {
+fn scene_labels(document: &GltfDocument, scenes: impl Iterator<Item = usize>) -> String {
     joined(
         scenes.map(|scene| document.scene_label(scene)).collect(),
         MOST_SCENES_NAMED,
@@ -197,7 +209,7 @@ fn scene_labels(document: &Document, scenes: impl Iterator<Item = usize>) -> Str
 }
 
 /// Nodes that are no children.
-fn parentless(document: &Document) -> Vec<u64> {
+fn parentless(document: &GltfDocument) -> Vec<u64> {
     let mut is_child = vec![false; document.nodes.len()];
     for child in document.nodes.iter().flat_map(|node| &node.children) {
         let place = usize::try_from(*child).ok();
@@ -210,13 +222,13 @@ fn parentless(document: &Document) -> Vec<u64> {
 }
 
 /// Returns the name of the node, otherwise of the mesh, otherwise its number.
-fn name(document: &Document, node: Option<&str>, mesh: usize) -> String {
+fn name(document: &GltfDocument, node: Option<&str>, mesh: usize) -> String {
     let of_mesh = document.meshes.get(mesh).and_then(|mesh| mesh.name.as_deref());
     let named = [node, of_mesh].into_iter().flatten().find(|name| !name.is_empty());
     named.map_or_else(|| format!("mesh {mesh}"), part_name)
 }
 
-fn parent_from_node(node: &Node, label: &str, warnings: &mut Warnings) -> DMat4 {
+fn parent_from_node(node: &GltfNode, label: &str, warnings: &mut Warnings) -> DMat4 {
     if let Some(matrix) = node.matrix {
         if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
             warnings.add(format!(

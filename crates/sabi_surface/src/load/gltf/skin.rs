@@ -5,30 +5,30 @@ use std::collections::BTreeMap;
 use glam::{DMat3, DMat4, DVec4};
 use serde_json::Value;
 
-use super::source::Source;
-use super::storage::Meaning;
-use crate::load::skin_rest::{JointBudget, Placement, TOO_MANY_JOINTS, agree};
+use super::source::GltfSource;
+use super::storage::AccessorSemantic;
+use crate::load::skin_rest::{JointBudget, JointPlacement, TOO_MANY_JOINTS, agree};
 use crate::load::warnings::Warnings;
 
 /// Rest poses of the skins of a file, each computed once.
-pub(super) struct Skins<'s> {
-    source: &'s Source<'s>,
+pub(super) struct GltfSkins<'s> {
+    source: &'s GltfSource<'s>,
     file_from_node: &'s [Option<DMat4>],
-    known: BTreeMap<usize, Result<Rest, String>>,
+    known: BTreeMap<usize, Result<GltfRestPose, String>>,
     joints: JointBudget,
 }
 
 /// Rest pose of a skin.
 #[derive(Clone, Copy)]
-struct Rest {
+struct GltfRestPose {
     file_from_mesh: DMat4,
     /// False if its joints have different transforms.
     is_at_rest: bool,
 }
 
-impl<'s> Skins<'s> {
-    pub(super) fn new(source: &'s Source<'s>, file_from_node: &'s [Option<DMat4>]) -> Skins<'s> {
-        Skins {
+impl<'s> GltfSkins<'s> {
+    pub(super) fn new(source: &'s GltfSource<'s>, file_from_node: &'s [Option<DMat4>]) -> GltfSkins<'s> {
+        GltfSkins {
             source,
             file_from_node,
             known: BTreeMap::new(),
@@ -65,16 +65,16 @@ impl<'s> Skins<'s> {
         }
     }
 
-    fn rest(&mut self, skin: usize, warnings: &mut Warnings) -> Result<Rest, String> {
+    fn rest(&mut self, skin: usize, warnings: &mut Warnings) -> Result<GltfRestPose, String> {
         let claimed = claimed(self.source, skin);
         self.joints.take(claimed).ok_or(TOO_MANY_JOINTS)?;
         let placements = placements(self.source, skin, self.file_from_node, warnings)?;
         Ok(match placements.as_slice() {
-            [] => Rest {
+            [] => GltfRestPose {
                 file_from_mesh: DMat4::IDENTITY,
                 is_at_rest: true,
             },
-            [first, others @ ..] => Rest {
+            [first, others @ ..] => GltfRestPose {
                 file_from_mesh: first.file_from_mesh,
                 is_at_rest: others.iter().all(|other| agree(first, other)),
             },
@@ -83,7 +83,7 @@ impl<'s> Skins<'s> {
 }
 
 /// Returns the number of joints and matrices that a skin declares. Skins may share matrices, which are read again for each skin.
-fn claimed(source: &Source, index: usize) -> u64 {
+fn claimed(source: &GltfSource, index: usize) -> u64 {
     let Some(skin) = source.document.skins.get(index) else {
         return 0;
     };
@@ -96,11 +96,11 @@ fn claimed(source: &Source, index: usize) -> u64 {
 /// Returns the placements by the joints. A joint transforms its mesh by its global transform times its inverse bind matrix
 /// (glTF 2.0, 3.7.3). In the rest pose these transforms are equal for all joints. The node of the mesh is ignored.
 fn placements(
-    source: &Source,
+    source: &GltfSource,
     index: usize,
     file_from_node: &[Option<DMat4>],
     warnings: &mut Warnings,
-) -> Result<Vec<Placement>, String> {
+) -> Result<Vec<JointPlacement>, String> {
     let skin = source
         .document
         .skins
@@ -118,7 +118,7 @@ fn placements(
         Some(accessor) => {
             let accessor = accessor.as_u64().and_then(|accessor| usize::try_from(accessor).ok());
             let accessor = accessor.ok_or("its inverse bind matrices are nowhere")?;
-            let read = source.floats::<16>(accessor, Meaning::Matrix, "inverse bind matrices", warnings);
+            let read = source.floats::<16>(accessor, AccessorSemantic::Matrix, "inverse bind matrices", warnings);
             read.map_err(|fault| fault.to_string())?
         }
     };
@@ -146,7 +146,7 @@ fn placements(
                 return Err(format!("its joint {joint} leaves nothing of it"));
             }
             let reach = file_from_joint.w_axis.truncate().length();
-            Ok(Placement { file_from_mesh, reach })
+            Ok(JointPlacement { file_from_mesh, reach })
         })
         .collect()
 }

@@ -4,7 +4,7 @@ use gltf::json::accessor::ComponentType;
 
 /// Meaning of an accessor's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Meaning {
+pub(super) enum AccessorSemantic {
     Position,
     /// A normal or a tangent.
     Direction,
@@ -27,31 +27,31 @@ pub(super) enum Storage {
     Forbidden,
 }
 
-impl Meaning {
+impl AccessorSemantic {
     /// Returns the validity of a component type with its `normalized` mark.
     pub(super) fn storage(self, component: ComponentType, normalized: bool) -> Storage {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
         match (self, component) {
             (_, F32) => Storage::Plain,
-            (_, U32) | (Meaning::Matrix, _) => Storage::Forbidden,
-            (Meaning::Color, U8 | U16) if normalized => Storage::Plain,
-            (Meaning::Color, U8 | U16) => Storage::Unmarked,
-            (Meaning::TextureCoordinate, U8 | U16) if normalized => Storage::Plain,
-            (Meaning::Position | Meaning::TextureCoordinate, _) => Storage::Quantized,
-            (Meaning::Direction, I8 | I16) if normalized => Storage::Quantized,
-            (Meaning::Direction, I8 | I16) => Storage::Unmarked,
-            (Meaning::Direction | Meaning::Color, _) => Storage::Forbidden,
+            (_, U32) | (AccessorSemantic::Matrix, _) => Storage::Forbidden,
+            (AccessorSemantic::Color, U8 | U16) if normalized => Storage::Plain,
+            (AccessorSemantic::Color, U8 | U16) => Storage::Unmarked,
+            (AccessorSemantic::TextureCoordinate, U8 | U16) if normalized => Storage::Plain,
+            (AccessorSemantic::Position | AccessorSemantic::TextureCoordinate, _) => Storage::Quantized,
+            (AccessorSemantic::Direction, I8 | I16) if normalized => Storage::Quantized,
+            (AccessorSemantic::Direction, I8 | I16) => Storage::Unmarked,
+            (AccessorSemantic::Direction | AccessorSemantic::Color, _) => Storage::Forbidden,
         }
     }
 
     /// Plural in messages.
     pub(super) fn plural(self) -> &'static str {
         match self {
-            Meaning::Position => "positions",
-            Meaning::Direction => "normals and tangents",
-            Meaning::TextureCoordinate => "texture coordinates",
-            Meaning::Color => "colors",
-            Meaning::Matrix => "matrices",
+            AccessorSemantic::Position => "positions",
+            AccessorSemantic::Direction => "normals and tangents",
+            AccessorSemantic::TextureCoordinate => "texture coordinates",
+            AccessorSemantic::Color => "colors",
+            AccessorSemantic::Matrix => "matrices",
         }
     }
 }

@@ -78,17 +78,17 @@ pub(super) fn all_texture_uses(material: &json::Material) -> Vec<TextureUse> {
 
 /// The UV sets that the textures of a material use.
 #[derive(Default)]
-pub(super) struct TextureSets {
+pub(super) struct GltfTextureUvSets {
     pub(super) all: BTreeSet<u32>,
     /// Set of its normal map.
     pub(super) normal: Option<u32>,
 }
 
-impl TextureSets {
+impl GltfTextureUvSets {
     /// Of a material of the file.
-    pub(super) fn of(material: &json::Material) -> TextureSets {
+    pub(super) fn of(material: &json::Material) -> GltfTextureUvSets {
         let uses = texture_uses(material);
-        TextureSets {
+        GltfTextureUvSets {
             all: uses.iter().map(|used| used.uv_set).collect(),
             normal: uses.iter().find(|used| used.is_normal_map).map(|used| used.uv_set),
         }

@@ -9,7 +9,7 @@
 use std::collections::BTreeMap;
 
 use super::primitive::LoadedPrimitive;
-use super::source::Source;
+use super::source::GltfSource;
 use super::texture_use::{TextureUse, all_texture_uses};
 use crate::model::UvDecoding;
 
@@ -26,7 +26,7 @@ pub(super) struct UvDecodings {
 
 /// Stored coordinates of all primitives of a material.
 #[derive(Clone, Copy)]
-struct Stored {
+struct StoredRange {
     are_integers: bool,
     low: [f32; 2],
     high: [f32; 2],
@@ -35,13 +35,13 @@ struct Stored {
 impl UvDecodings {
     /// Chooses a transform for each material whose primitives need one.
     pub(super) fn of_primitives<'a>(
-        source: &Source,
+        source: &GltfSource,
         primitives: impl Iterator<Item = &'a LoadedPrimitive>,
     ) -> UvDecodings {
-        let mut stored: BTreeMap<usize, Stored> = BTreeMap::new();
+        let mut stored: BTreeMap<usize, StoredRange> = BTreeMap::new();
         for primitive in primitives.filter(|primitive| !primitive.submesh.uvs.is_empty()) {
             let Some(material) = primitive.material else { continue };
-            let all = stored.entry(material).or_insert(Stored {
+            let all = stored.entry(material).or_insert(StoredRange {
                 are_integers: true,
                 low: [f32::INFINITY; 2],
                 high: [f32::NEG_INFINITY; 2],
@@ -76,7 +76,7 @@ impl UvDecodings {
     }
 }
 
-impl Stored {
+impl StoredRange {
     /// Returns the decoding according to the textures of the material, which are listed in order of precedence; `None` if
     /// the stored coordinates are the layout.
     fn decoding(&self, uses: &[TextureUse], uv_set: u32) -> Option<UvDecoding> {

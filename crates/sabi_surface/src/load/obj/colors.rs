@@ -16,14 +16,14 @@ const DIGITS: usize = 8;
 
 /// Colors as stored in the file, sRGB.
 #[derive(Default)]
-pub(super) struct Colors {
+pub(super) struct ObjColors {
     /// Colors of positions, by number of the position.
     behind_positions: Vec<[f32; 4]>,
     /// Colors of the file's vertices, in order.
     in_remarks: Vec<[f32; 4]>,
 }
 
-impl Colors {
+impl ObjColors {
     /// Adds the color of the position that follows `before` others. Positions without a color are white.
     pub(super) fn push(&mut self, before: usize, color: [f32; 4]) {
         self.behind_positions.resize(before, ABSENT);

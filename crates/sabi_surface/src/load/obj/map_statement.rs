@@ -21,12 +21,12 @@ pub(super) struct MapStatement<'s> {
 }
 
 /// Values of an option, at most three of which are read.
-struct Values<'s> {
+struct OptionValues<'s> {
     written: &'s str,
     numbers: [Option<f32>; 3],
 }
 
-impl Values<'_> {
+impl OptionValues<'_> {
     /// Returns the numbers, with `otherwise` for missing ones.
     fn or(&self, otherwise: f32) -> [f32; 3] {
         self.numbers.map(|number| number.unwrap_or(otherwise))
@@ -71,7 +71,7 @@ impl<'s> MapStatement<'s> {
         }
     }
 
-    fn apply(&mut self, option: &str, values: &Values, is_color: bool) {
+    fn apply(&mut self, option: &str, values: &OptionValues, is_color: bool) {
         let is_applied = match option {
             "-s" => {
                 let [u, v, _] = values.or(1.0);
@@ -150,7 +150,7 @@ fn option_behind(text: &str) -> Option<usize> {
 }
 
 /// Splits off up to `most` values. There may be fewer numbers, and the first value may be a word.
-fn values<'s>(tail: &'s str, most: usize, warnings: &mut Warnings) -> (Values<'s>, &'s str) {
+fn values<'s>(tail: &'s str, most: usize, warnings: &mut Warnings) -> (OptionValues<'s>, &'s str) {
     let mut numbers = [None; 3];
     let mut rest = tail;
     for (taken, place) in numbers.iter_mut().take(most).enumerate() {
@@ -163,5 +163,5 @@ fn values<'s>(tail: &'s str, most: usize, warnings: &mut Warnings) -> (Values<'s
         rest = after;
     }
     let written = tail[..tail.len() - rest.len()].trim_ascii_end();
-    (Values { written, numbers }, rest)
+    (OptionValues { written, numbers }, rest)
 }

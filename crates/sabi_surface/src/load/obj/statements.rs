@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::colors::Colors;
+use super::colors::ObjColors;
 use super::unknown::Unknown;
-use crate::load::error::{Fault, damaged};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::faces::{Attribute, Face, Faces, NONE};
 use crate::load::numbers::number;
 use crate::load::submesh::Smoothing;
@@ -29,7 +29,7 @@ pub(super) struct Statements {
     pub(super) object_of: BTreeMap<u32, usize>,
     /// Arguments of each `mtllib`.
     pub(super) libraries: Vec<String>,
-    colors: Colors,
+    colors: ObjColors,
 }
 
 /// Statements of curves, surfaces, merging groups and display, which do not affect polygons.
@@ -62,7 +62,7 @@ const WITHOUT_EFFECT: [&str; 25] = [
 ];
 
 /// State that applies to the faces that follow.
-struct State {
+struct ObjState {
     material: u32,
     part: u32,
     /// Number of `o` statements so far.
@@ -76,9 +76,9 @@ struct State {
 
 impl Statements {
     /// Reads the whole text.
-    pub(super) fn read(text: &str, warnings: &mut Warnings) -> Result<Statements, Fault> {
+    pub(super) fn read(text: &str, warnings: &mut Warnings) -> Result<Statements, ModelFault> {
         let mut statements = Statements::default();
-        let mut state = State {
+        let mut state = ObjState {
             material: 0,
             part: 0,
             object: 0,
@@ -99,7 +99,7 @@ impl Statements {
                 }
                 read => read,
             };
-            let is_known = read.map_err(|what| Fault::Damaged(format!("line {line}: {what}")))?;
+            let is_known = read.map_err(|what| ModelFault::Damaged(format!("line {line}: {what}")))?;
             if !is_known && !keyword.starts_with('#') {
                 state.unknown.note(keyword, line);
             }
@@ -120,7 +120,7 @@ impl Statements {
         &mut self,
         keyword: &str,
         rest: &str,
-        state: &mut State,
+        state: &mut ObjState,
         warnings: &mut Warnings,
     ) -> Result<bool, String> {
         match keyword {
@@ -199,7 +199,7 @@ impl Statements {
         Ok(())
     }
 
-    fn face(&mut self, rest: &str, state: &State, warnings: &mut Warnings) -> Result<(), String> {
+    fn face(&mut self, rest: &str, state: &ObjState, warnings: &mut Warnings) -> Result<(), String> {
         let faces = &mut self.faces;
         let first = faces.corners.len();
         let words = rest.split_ascii_whitespace();
@@ -237,7 +237,7 @@ impl Statements {
     }
 
     /// Checks the indices of faces. This is done at the end, since faces may come before the vertices to which they refer.
-    fn check_indices(&mut self, warnings: &mut Warnings) -> Result<(), Fault> {
+    fn check_indices(&mut self, warnings: &mut Warnings) -> Result<(), ModelFault> {
         let faces = &mut self.faces;
         let positions = faces.positions.len();
         if let Some(beyond) = faces.corners.iter().find(|position| **position as usize >= positions) {

@@ -1,28 +1,28 @@
 //! The elements after the header of a PLY file.
 
-use super::header::{Element, Encoding, Kind};
-use crate::load::error::{Fault, damaged};
+use super::header::{NumberType, PlyElement, PlyEncoding};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::numbers::number;
 use crate::load::warnings::Warnings;
 use sabi_cancel::Looking as _;
 
 /// Value of a property.
-pub(super) enum Value {
+pub(super) enum PropertyValue {
     Number(f64),
     List(Vec<f64>),
 }
 
 /// Bytes that have not been read yet.
-pub(super) struct Body<'b> {
-    encoding: Encoding,
+pub(super) struct PlyBody<'b> {
+    encoding: PlyEncoding,
     rest: &'b [u8],
     /// Warnings about numbers of a text.
     pub(super) warnings: Warnings,
 }
 
-impl<'b> Body<'b> {
-    pub(super) fn new(encoding: Encoding, rest: &'b [u8]) -> Body<'b> {
-        Body {
+impl<'b> PlyBody<'b> {
+    pub(super) fn new(encoding: PlyEncoding, rest: &'b [u8]) -> PlyBody<'b> {
+        PlyBody {
             encoding,
             rest,
             warnings: Warnings::default(),
@@ -30,10 +30,10 @@ impl<'b> Body<'b> {
     }
 
     /// Returns a fault if the file is too short for the element's count.
-    pub(super) fn check_room(&self, element: &Element) -> Result<(), Fault> {
+    pub(super) fn check_room(&self, element: &PlyElement) -> Result<(), ModelFault> {
         let least = |binary: usize| match self.encoding {
             // A digit and a space.
-            Encoding::Text => 2,
+            PlyEncoding::Text => 2,
             _ => binary,
         };
         let properties = element.properties.iter();
@@ -52,18 +52,18 @@ impl<'b> Body<'b> {
     }
 
     /// Reads the properties of one element.
-    pub(super) fn row(&mut self, element: &Element, row: &mut Vec<Value>) -> Result<(), Fault> {
+    pub(super) fn row(&mut self, element: &PlyElement, row: &mut Vec<PropertyValue>) -> Result<(), ModelFault> {
         row.truncate(element.properties.len());
         for (place, property) in element.properties.iter().enumerate() {
             let value = match property.list {
-                None => Value::Number(self.number(property.kind)?),
+                None => PropertyValue::Number(self.number(property.kind)?),
                 Some(count) => {
                     let mut entries = match row.get_mut(place) {
-                        Some(Value::List(entries)) => std::mem::take(entries),
+                        Some(PropertyValue::List(entries)) => std::mem::take(entries),
                         _ => Vec::new(),
                     };
                     self.list(count, property.kind, &mut entries)?;
-                    Value::List(entries)
+                    PropertyValue::List(entries)
                 }
             };
             match row.get_mut(place) {
@@ -75,7 +75,7 @@ impl<'b> Body<'b> {
     }
 
     /// Skips the elements.
-    pub(super) fn skip(&mut self, element: &Element) -> Result<(), Fault> {
+    pub(super) fn skip(&mut self, element: &PlyElement) -> Result<(), ModelFault> {
         if element.properties.is_empty() {
             return Ok(());
         }
@@ -86,10 +86,10 @@ impl<'b> Body<'b> {
         Ok(())
     }
 
-    fn list(&mut self, count: Kind, kind: Kind, entries: &mut Vec<f64>) -> Result<(), Fault> {
+    fn list(&mut self, count: NumberType, kind: NumberType, entries: &mut Vec<f64>) -> Result<(), ModelFault> {
         let count = self.number(count)?;
         let most = match self.encoding {
-            Encoding::Text => self.rest.len() / 2 + 1,
+            PlyEncoding::Text => self.rest.len() / 2 + 1,
             _ => self.rest.len() / kind.bytes(),
         };
         if !(0.0..=most as f64).contains(&count) {
@@ -102,15 +102,15 @@ impl<'b> Body<'b> {
         Ok(())
     }
 
-    fn number(&mut self, kind: Kind) -> Result<f64, Fault> {
+    fn number(&mut self, kind: NumberType) -> Result<f64, ModelFault> {
         match self.encoding {
-            Encoding::Text => self.word(),
-            Encoding::LittleEndian => self.binary(kind, |_| {}),
-            Encoding::BigEndian => self.binary(kind, <[u8]>::reverse),
+            PlyEncoding::Text => self.word(),
+            PlyEncoding::LittleEndian => self.binary(kind, |_| {}),
+            PlyEncoding::BigEndian => self.binary(kind, <[u8]>::reverse),
         }
     }
 
-    fn word(&mut self) -> Result<f64, Fault> {
+    fn word(&mut self) -> Result<f64, ModelFault> {
         let start = self.rest.trim_ascii_start();
         let end = start.iter().position(u8::is_ascii_whitespace).unwrap_or(start.len());
         let (word, rest) = start.split_at(end);
@@ -120,11 +120,11 @@ impl<'b> Body<'b> {
         }
         // A word that is not UTF-8 is not a number.
         let text = String::from_utf8_lossy(word);
-        number(&text, &mut self.warnings).ok_or_else(|| Fault::Damaged(format!("`{text}` is not a number")))
+        number(&text, &mut self.warnings).ok_or_else(|| ModelFault::Damaged(format!("`{text}` is not a number")))
     }
 
     /// Reads a number; `turn` puts its bytes in little-endian order.
-    fn binary(&mut self, kind: Kind, turn: impl Fn(&mut [u8])) -> Result<f64, Fault> {
+    fn binary(&mut self, kind: NumberType, turn: impl Fn(&mut [u8])) -> Result<f64, ModelFault> {
         let count = kind.bytes();
         let Some((bytes, rest)) = self.rest.split_at_checked(count) else {
             return damaged("it ends in the middle of its elements; it was cut off");
@@ -135,14 +135,14 @@ impl<'b> Body<'b> {
         turn(&mut word[..count]);
         let [a, b, c, d, ..] = word;
         Ok(match kind {
-            Kind::I8 => f64::from(a as i8),
-            Kind::U8 => f64::from(a),
-            Kind::I16 => f64::from(i16::from_le_bytes([a, b])),
-            Kind::U16 => f64::from(u16::from_le_bytes([a, b])),
-            Kind::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
-            Kind::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
-            Kind::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
-            Kind::F64 => f64::from_le_bytes(word),
+            NumberType::I8 => f64::from(a as i8),
+            NumberType::U8 => f64::from(a),
+            NumberType::I16 => f64::from(i16::from_le_bytes([a, b])),
+            NumberType::U16 => f64::from(u16::from_le_bytes([a, b])),
+            NumberType::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
+            NumberType::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
+            NumberType::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+            NumberType::F64 => f64::from_le_bytes(word),
         })
     }
 }

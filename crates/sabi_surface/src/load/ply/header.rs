@@ -1,6 +1,6 @@
 //! The header of a PLY file.
 
-use crate::load::error::{Fault, damaged};
+use crate::load::error::{ModelFault, damaged};
 use crate::load::text::decoded;
 
 /// Most bytes of a header.
@@ -8,7 +8,7 @@ const MOST_BYTES: usize = 1 << 20;
 
 /// Encoding of the data after the header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(super) enum PlyEncoding {
     Text,
     LittleEndian,
     BigEndian,
@@ -16,7 +16,7 @@ pub(super) enum Encoding {
 
 /// Type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum NumberType {
     I8,
     U8,
     I16,
@@ -27,17 +27,17 @@ pub(super) enum Kind {
     F64,
 }
 
-impl Kind {
-    fn named(word: &str) -> Option<Kind> {
+impl NumberType {
+    fn named(word: &str) -> Option<NumberType> {
         Some(match word {
-            "char" | "int8" => Kind::I8,
-            "uchar" | "uint8" => Kind::U8,
-            "short" | "int16" => Kind::I16,
-            "ushort" | "uint16" => Kind::U16,
-            "int" | "int32" => Kind::I32,
-            "uint" | "uint32" => Kind::U32,
-            "float" | "float32" => Kind::F32,
-            "double" | "float64" => Kind::F64,
+            "char" | "int8" => NumberType::I8,
+            "uchar" | "uint8" => NumberType::U8,
+            "short" | "int16" => NumberType::I16,
+            "ushort" | "uint16" => NumberType::U16,
+            "int" | "int32" => NumberType::I32,
+            "uint" | "uint32" => NumberType::U32,
+            "float" | "float32" => NumberType::F32,
+            "double" | "float64" => NumberType::F64,
             _ => return None,
         })
     }
@@ -45,23 +45,23 @@ impl Kind {
     /// Bytes in a binary file.
     pub(super) fn bytes(self) -> usize {
         match self {
-            Kind::I8 | Kind::U8 => 1,
-            Kind::I16 | Kind::U16 => 2,
-            Kind::I32 | Kind::U32 | Kind::F32 => 4,
-            Kind::F64 => 8,
+            NumberType::I8 | NumberType::U8 => 1,
+            NumberType::I16 | NumberType::U16 => 2,
+            NumberType::I32 | NumberType::U32 | NumberType::F32 => 4,
+            NumberType::F64 => 8,
         }
     }
 
     /// Returns the code of full intensity, for integer colors.
     pub(super) fn largest_code(self) -> Option<f32> {
         match self {
-            Kind::U8 => Some(f32::from(u8::MAX)),
-            Kind::U16 => Some(f32::from(u16::MAX)),
-            Kind::U32 => Some(u32::MAX as f32),
-            Kind::I8 => Some(f32::from(i8::MAX)),
-            Kind::I16 => Some(f32::from(i16::MAX)),
-            Kind::I32 => Some(i32::MAX as f32),
-            Kind::F32 | Kind::F64 => None,
+            NumberType::U8 => Some(f32::from(u8::MAX)),
+            NumberType::U16 => Some(f32::from(u16::MAX)),
+            NumberType::U32 => Some(u32::MAX as f32),
+            NumberType::I8 => Some(f32::from(i8::MAX)),
+            NumberType::I16 => Some(f32::from(i16::MAX)),
+            NumberType::I32 => Some(i32::MAX as f32),
+            NumberType::F32 | NumberType::F64 => None,
         }
     }
 }
@@ -69,19 +69,19 @@ impl Kind {
 /// A number or a list of numbers of each element.
 pub(super) struct Property {
     pub(super) name: String,
-    pub(super) kind: Kind,
+    pub(super) kind: NumberType,
     /// Type of the number of entries of a list.
-    pub(super) list: Option<Kind>,
+    pub(super) list: Option<NumberType>,
 }
 
 /// A list of items with the same properties.
-pub(super) struct Element {
+pub(super) struct PlyElement {
     pub(super) name: String,
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }
 
-impl Element {
+impl PlyElement {
     /// Place of a property among those of the element.
     pub(super) fn place(&self, name: &str) -> Option<usize> {
         self.properties.iter().position(|property| property.name == name)
@@ -89,25 +89,25 @@ impl Element {
 }
 
 /// Content of a header.
-pub(super) struct Header {
-    pub(super) encoding: Encoding,
-    pub(super) elements: Vec<Element>,
+pub(super) struct PlyHeader {
+    pub(super) encoding: PlyEncoding,
+    pub(super) elements: Vec<PlyElement>,
     /// Paths of pictures, from comments `TextureFile`.
     pub(super) pictures: Vec<String>,
 }
 
-impl Header {
+impl PlyHeader {
     /// The first element of a name.
-    pub(super) fn element(&self, name: &str) -> Option<&Element> {
+    pub(super) fn element(&self, name: &str) -> Option<&PlyElement> {
         self.elements.iter().find(|element| element.name == name)
     }
 
     /// Parses the header, and also returns the rest of the file.
-    pub(super) fn parse(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
+    pub(super) fn parse(bytes: &[u8]) -> Result<(PlyHeader, &[u8]), ModelFault> {
         let (text, rest) = split(bytes)?;
         let mut encoding = None;
-        let mut header = Header {
-            encoding: Encoding::Text,
+        let mut header = PlyHeader {
+            encoding: PlyEncoding::Text,
             elements: Vec::new(),
             pictures: Vec::new(),
         };
@@ -121,7 +121,7 @@ impl Header {
                     let Ok(count) = count.parse() else {
                         return damaged(format!("`{count}` is not a number of elements"));
                     };
-                    header.elements.push(Element {
+                    header.elements.push(PlyElement {
                         name: name.to_string(),
                         count,
                         properties: Vec::new(),
@@ -145,7 +145,7 @@ impl Header {
 }
 
 /// Splits a file after the line `end_header`.
-fn split(bytes: &[u8]) -> Result<(&[u8], &[u8]), Fault> {
+fn split(bytes: &[u8]) -> Result<(&[u8], &[u8]), ModelFault> {
     let start = &bytes[..bytes.len().min(MOST_BYTES)];
     let mut from = 0;
     while let Some(length) = start[from..].iter().position(|byte| matches!(byte, b'\n' | b'\r')) {
@@ -160,18 +160,19 @@ fn split(bytes: &[u8]) -> Result<(&[u8], &[u8]), Fault> {
     damaged("its header has no end")
 }
 
-fn encoding_named(name: &str) -> Result<Encoding, Fault> {
+fn encoding_named(name: &str) -> Result<PlyEncoding, ModelFault> {
     match name {
-        "ascii" => Ok(Encoding::Text),
-        "binary_little_endian" => Ok(Encoding::LittleEndian),
-        "binary_big_endian" => Ok(Encoding::BigEndian),
+        "ascii" => Ok(PlyEncoding::Text),
+        "binary_little_endian" => Ok(PlyEncoding::LittleEndian),
+        "binary_big_endian" => Ok(PlyEncoding::BigEndian),
         other => damaged(format!("its format `{other}` is unknown")),
     }
 }
 
-fn property(words: &[&str]) -> Result<Property, Fault> {
-    let kind =
-        |word: &str| Kind::named(word).ok_or_else(|| Fault::Damaged(format!("`{word}` is no type of a property")));
+fn property(words: &[&str]) -> Result<Property, ModelFault> {
+    let kind = |word: &str| {
+        NumberType::named(word).ok_or_else(|| ModelFault::Damaged(format!("`{word}` is no type of a property")))
+    };
     match words {
         ["list", count, entries, name, ..] => Ok(Property {
             name: name.to_string(),

@@ -3,12 +3,12 @@
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions, Owner};
 use crate::model::{Mesh, TextureUvs};
-use crate::unwrap::{GAP, UnwrapError, Unwrapped, area, components, flatten, pack, unwrap, unwrap_cached};
+use crate::unwrap::{GAP, UnwrapError, UnwrappedMesh, area, components, flatten, pack, unwrap, unwrap_cached};
 
 /// The size that gaps are counted at.
 const SIZE: u32 = 1024;
 
-fn unwrapped(mesh: &Mesh, size: u32) -> (Unwrapped, Atlas) {
+fn unwrapped(mesh: &Mesh, size: u32) -> (UnwrappedMesh, Atlas) {
     let found = unwrap(mesh).unwrap();
     let atlas = Atlas::build(&found.mesh, &AtlasOptions::new(size)).unwrap();
     (found, atlas)

@@ -3,19 +3,19 @@
 use gltf::json;
 use serde_json::Value;
 
-use super::Pictures;
+use super::GltfImages;
 use crate::load::gltf::document::FINISHES;
 use crate::load::gltf::texture_use::{RawUse, members, raw_use};
-use crate::model::{ModelFinish, Scaled, TextureRef};
+use crate::model::{ModelFinish, TextureRef, TexturedFactor};
 
 /// Reader of the extensions of one material.
 struct FinishReader<'r, 'a, 'm> {
-    pictures: &'r mut Pictures<'a>,
+    pictures: &'r mut GltfImages<'a>,
     material: &'m json::Material,
     label: &'r str,
 }
 
-impl Pictures<'_> {
+impl GltfImages<'_> {
     /// Reads the extensions of a material.
     pub(super) fn finish(&mut self, material: &json::Material, label: &str) -> ModelFinish {
         let mut reader = FinishReader {
@@ -66,7 +66,7 @@ impl FinishReader<'_, '_, '_> {
         factor: &str,
         default: [f32; N],
         texture: &str,
-    ) -> Scaled<T> {
+    ) -> TexturedFactor<T> {
         let members = members(self.material, extension);
         let given = members.and_then(|members| numbers(members.get(factor)?));
         let factors = match (members, given) {
@@ -76,7 +76,7 @@ impl FinishReader<'_, '_, '_> {
             (None, _) => [0.0; N],
         };
         let used = members.and_then(|members| raw_use(members.get(texture)?));
-        Scaled {
+        TexturedFactor {
             factor: Factors(factors).into(),
             texture: used.and_then(|used| self.texture(&used)),
         }

@@ -1,13 +1,13 @@
 //! Inputs of a build that do not depend on where charts are placed, and the charts with their masks.
 
 use super::charts::{Partition, is_seam};
-use super::fixed::Uvs;
+use super::fixed_point_uvs::Uvs;
 use super::mask::Mask;
 use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
 /// Inputs of a build that do not depend on the placement of charts.
-pub(super) struct Plan<'a> {
+pub(super) struct BuildInputs<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
     pub(super) uvs: Uvs<'a>,
@@ -19,7 +19,7 @@ pub(super) struct Plan<'a> {
     pub(super) memory_bytes: u64,
 }
 
-impl Plan<'_> {
+impl BuildInputs<'_> {
     /// Returns the triangle on the other side of a half-edge, if the edge is no seam.
     pub(super) fn across(&self, edge: u32) -> Option<u32> {
         let twin = self.topology.twins[edge as usize];
@@ -29,7 +29,7 @@ impl Plan<'_> {
 
 /// The chart in UV to which a chart of the atlas belongs.
 #[derive(Clone, Copy)]
-pub(super) struct Origin {
+pub(super) struct UvOrigin {
     pub(super) uv_chart: u32,
     /// Tile of the chart in UV.
     pub(super) uv_tile: [i32; 2],
@@ -39,5 +39,5 @@ pub(super) struct Origin {
 pub(super) struct ChartSet {
     pub(super) partition: Partition,
     pub(super) masks: Vec<Mask>,
-    pub(super) origins: Vec<Origin>,
+    pub(super) origins: Vec<UvOrigin>,
 }

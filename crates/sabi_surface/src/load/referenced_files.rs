@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use sabi_files::{FolderSearch, PathBase, Refusal, TrustedPaths, Unread, is_local, read_plain};
 
-use super::error::{Fault, mib};
+use super::error::{ModelFault, mib};
 use super::{LoadOptions, MAX_FILE_BYTES, reason, reason_beside};
 
 /// Maximum number of recorded paths of missing files, and of recorded refusals.
@@ -16,7 +16,7 @@ const MOST_RECORDED: usize = 256;
 const MOST_LISTINGS: usize = 1000;
 
 /// Reader of the files that a model names.
-pub(super) struct FilesBeside<'t> {
+pub(super) struct ReferencedFiles<'t> {
     base: PathBase,
     trusted: &'t TrustedPaths,
     /// Folder in which files are looked for that are not where the model says.
@@ -37,19 +37,19 @@ pub(super) struct FilesBeside<'t> {
     too_large: Option<(u64, String)>,
 }
 
-impl<'t> FilesBeside<'t> {
+impl<'t> ReferencedFiles<'t> {
     /// Reads the model's own file and returns it with a reader for the other files. All files together have at most `memory_bytes`.
     pub(super) fn of_model(
         path: &Path,
         trusted: &'t TrustedPaths,
         options: &LoadOptions,
-    ) -> Result<(Vec<u8>, FilesBeside<'t>), Fault> {
+    ) -> Result<(Vec<u8>, ReferencedFiles<'t>), ModelFault> {
         let memory_bytes = options.memory_bytes;
         let bytes = read_plain(path, memory_bytes.min(MAX_FILE_BYTES)).map_err(|unread| match unread {
-            Unread::TooLarge(needed) if needed <= MAX_FILE_BYTES => Fault::memory(needed, memory_bytes),
-            unread => reason(unread).map_or(Fault::NoFile, Fault::Unreadable),
+            Unread::TooLarge(needed) if needed <= MAX_FILE_BYTES => ModelFault::memory(needed, memory_bytes),
+            unread => reason(unread).map_or(ModelFault::NoFile, ModelFault::Unreadable),
         })?;
-        let beside = FilesBeside {
+        let beside = ReferencedFiles {
             base: PathBase::of_file(path),
             trusted,
             elsewhere: options.textures.as_deref().map(FolderSearch::new),
@@ -76,17 +76,17 @@ impl<'t> FilesBeside<'t> {
     }
 
     /// Replaces a fault caused by a file that did not fit by a more precise fault.
-    pub(super) fn explained(&self, fault: Fault) -> Fault {
-        let Fault::NoBuffer { uri, reason } = fault else {
+    pub(super) fn explained(&self, fault: ModelFault) -> ModelFault {
+        let ModelFault::NoBuffer { uri, reason } = fault else {
             return fault;
         };
         if let Some(refusal) = self.refused.iter().find(|refusal| refusal.to_string() == reason) {
             let refusal = refusal.clone();
-            return Fault::Refused { uri, refusal };
+            return ModelFault::Refused { uri, refusal };
         }
         match &self.too_large {
-            Some((needed, known)) if reason == *known => Fault::memory(*needed, self.memory[0]),
-            _ => Fault::NoBuffer { uri, reason },
+            Some((needed, known)) if reason == *known => ModelFault::memory(*needed, self.memory[0]),
+            _ => ModelFault::NoBuffer { uri, reason },
         }
     }
 

@@ -2,19 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::groups::{Groups, NamedPart};
-use crate::model::LeftOut;
+use super::node_groups::{NamedPart, NodeGroups};
+use crate::model::ExclusionReason;
 
 /// What leaves a part out.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Meaning {
-    pub(super) left_out: LeftOut,
+pub(super) struct NameMeaning {
+    pub(super) left_out: ExclusionReason,
     /// Name of the node above the part that says so; none where its own name does.
     pub(super) of_group: Option<String>,
 }
 
 /// Returns what leaves each part out by its name or by that of a node above it. Where that would be all, none is.
-pub(super) fn by_names(parts: &[NamedPart], groups: &Groups) -> Vec<Option<Meaning>> {
+pub(super) fn by_names(parts: &[NamedPart], groups: &NodeGroups) -> Vec<Option<NameMeaning>> {
     let names: Vec<Name> = parts.iter().map(|part| Name::new(part.name, part.group)).collect();
     let group_names: Vec<Name> = groups
         .all()
@@ -25,19 +25,19 @@ pub(super) fn by_names(parts: &[NamedPart], groups: &Groups) -> Vec<Option<Meani
     let of_groups = group_meanings(&group_names, &names);
     let of_groups = groups.inherited(|number, group| {
         let left_out = of_groups[number]?;
-        Some(Meaning {
+        Some(NameMeaning {
             left_out,
             of_group: Some(group.name.clone()),
         })
     });
-    let meaning = |(part, own): (&NamedPart, Option<LeftOut>)| {
-        let own = own.map(|left_out| Meaning {
+    let meaning = |(part, own): (&NamedPart, Option<ExclusionReason>)| {
+        let own = own.map(|left_out| NameMeaning {
             left_out,
             of_group: None,
         });
         own.or_else(|| of_groups[part.group?].clone())
     };
-    let found: Vec<Option<Meaning>> = parts.iter().zip(own).map(meaning).collect();
+    let found: Vec<Option<NameMeaning>> = parts.iter().zip(own).map(meaning).collect();
     if found.iter().all(Option::is_some) {
         return vec![None; parts.len()];
     }
@@ -50,12 +50,12 @@ struct Name {
     plain: String,
     /// Node above it.
     above: Option<usize>,
-    level: Option<Level>,
+    level: Option<DetailLevel>,
 }
 
 /// A level of detail that a name says.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Level {
+struct DetailLevel {
     /// The rest of the name in lower case.
     of: String,
     number: u32,
@@ -73,7 +73,7 @@ impl Name {
 }
 
 /// Returns what leaves parts out by their own names.
-fn own_meanings(names: &[Name]) -> Vec<Option<LeftOut>> {
+fn own_meanings(names: &[Name]) -> Vec<Option<ExclusionReason>> {
     let known: BTreeSet<&str> = names.iter().map(|name| name.plain.as_str()).collect();
     let is_hull: Vec<bool> = names.iter().map(|name| is_hull(&name.plain, &known)).collect();
     let mut finest: BTreeMap<&str, u32> = BTreeMap::new();
@@ -89,14 +89,14 @@ fn own_meanings(names: &[Name]) -> Vec<Option<LeftOut>> {
         *least = number.min(*least);
     }
     let left_out = |(name, is_hull): (&Name, bool)| {
-        let is_coarser = |level: &Level| {
+        let is_coarser = |level: &DetailLevel| {
             finest
                 .get(level.of.as_str())
                 .is_some_and(|finest| level.number > *finest)
         };
         match &name.level {
-            _ if is_hull => Some(LeftOut::Hull),
-            Some(level) if is_coarser(level) => Some(LeftOut::CoarserLevel),
+            _ if is_hull => Some(ExclusionReason::Hull),
+            Some(level) if is_coarser(level) => Some(ExclusionReason::CoarserLevel),
             _ => None,
         }
     };
@@ -104,7 +104,7 @@ fn own_meanings(names: &[Name]) -> Vec<Option<LeftOut>> {
 }
 
 /// Returns what leaves out all below each node. Levels of detail count among the nodes and parts below the same node.
-fn group_meanings(groups: &[Name], parts: &[Name]) -> Vec<Option<LeftOut>> {
+fn group_meanings(groups: &[Name], parts: &[Name]) -> Vec<Option<ExclusionReason>> {
     let known: BTreeSet<&str> = groups.iter().chain(parts).map(|name| name.plain.as_str()).collect();
     let beside: BTreeSet<(Option<usize>, &str)> = groups
         .iter()
@@ -121,11 +121,11 @@ fn group_meanings(groups: &[Name], parts: &[Name]) -> Vec<Option<LeftOut>> {
     }
     let left_out = |name: &Name| {
         if is_hull(&name.plain, &known) || is_group_of_hulls(&name.plain) {
-            return Some(LeftOut::Hull);
+            return Some(ExclusionReason::Hull);
         }
         let level = name.level.as_ref()?;
         let finest = finest.get(&(name.above, level.of.as_str()))?;
-        (level.number > *finest).then_some(LeftOut::CoarserLevel)
+        (level.number > *finest).then_some(ExclusionReason::CoarserLevel)
     };
     groups.iter().map(left_out).collect()
 }
@@ -171,7 +171,7 @@ fn unnumbered(name: &str) -> &str {
 }
 
 /// Level of detail that a plain name says: `rock_lod1`, `rock_lod_1`; none for other names.
-fn level(name: &str) -> Option<Level> {
+fn level(name: &str) -> Option<DetailLevel> {
     let is_apart = |letter: Option<char>| letter.is_none_or(|letter| BEFORE_ENDING.contains(&letter));
     let (at, number) = name.rmatch_indices("lod").find_map(|(at, word)| {
         let behind = at + word.len();
@@ -182,7 +182,7 @@ fn level(name: &str) -> Option<Level> {
         (digits > 0 && is_word).then_some((at, number))
     })?;
     let before = name[..at].strip_suffix(BEFORE_ENDING).unwrap_or(&name[..at]);
-    Some(Level {
+    Some(DetailLevel {
         of: format!("{before}{}", &name[number.end..]),
         number: name[number].parse().ok()?,
     })
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
 
     fn left_out_below<'n>(groups: &[(&str, Option<usize>)], parts: &[(&'n str, Option<usize>)]) -> Vec<&'n str> {
-        let mut nodes = Groups::default();
+        let mut nodes = NodeGroups::default();
         for (name, above) in groups {
             nodes.add(name, *above, false);
         }

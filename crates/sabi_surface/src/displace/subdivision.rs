@@ -10,7 +10,7 @@ use crate::model::Mesh;
 
 /// Attributes that are interpolated over a triangle.
 #[derive(Clone, Copy)]
-pub(super) struct Vertex {
+pub(super) struct SplitVertex {
     pub(super) position: [f32; 3],
     pub(super) normal: [f32; 3],
     pub(super) tangent: [f32; 4],
@@ -18,9 +18,9 @@ pub(super) struct Vertex {
     pub(super) texel: [f32; 2],
 }
 
-impl Vertex {
-    fn middle(&self, other: &Vertex) -> Vertex {
-        Vertex {
+impl SplitVertex {
+    fn middle(&self, other: &SplitVertex) -> SplitVertex {
+        SplitVertex {
             position: middle(self.position, other.position),
             normal: middle(self.normal, other.normal),
             tangent: middle(self.tangent, other.tangent),
@@ -36,22 +36,22 @@ fn middle<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
 }
 
 /// Result of subdividing a triangle of the mesh.
-pub(super) struct Split {
+pub(super) struct SplitTriangle {
     /// The three corners of the triangle first.
-    pub(super) vertices: Vec<Vertex>,
+    pub(super) vertices: Vec<SplitVertex>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// Angles at the three corners, radians; all zero for a triangle without area, which has no normal.
     angles: [f64; 3],
 }
 
-impl Split {
-    pub(super) fn new(mesh: &Mesh, atlas: &Atlas, triangle: usize, edge_length: f32) -> Split {
+impl SplitTriangle {
+    pub(super) fn new(mesh: &Mesh, atlas: &Atlas, triangle: usize, edge_length: f32) -> SplitTriangle {
         let corners = mesh.triangles[triangle];
         let texels = atlas.triangle_texels[triangle];
-        let vertices: Vec<Vertex> = corners
+        let vertices: Vec<SplitVertex> = corners
             .iter()
             .zip(texels)
-            .map(|(&vertex, texel)| Vertex {
+            .map(|(&vertex, texel)| SplitVertex {
                 position: mesh.positions[vertex as usize],
                 // Attributes that the mesh does not have are zero in its copy, too.
                 normal: mesh.normals.get(vertex as usize).copied().unwrap_or_default(),
@@ -63,7 +63,7 @@ impl Split {
             })
             .collect();
         let angles = angles([0, 1, 2].map(|corner| vertices[corner].position));
-        let mut split = Split {
+        let mut split = SplitTriangle {
             vertices,
             triangles: vec![[0, 1, 2]],
             angles,
@@ -105,7 +105,7 @@ impl Split {
         let before = std::mem::take(&mut self.triangles);
         self.triangles.reserve(before.len() * 4);
         for &corners in &before {
-            let cut = Cut::new(
+            let cut = SubdivisionStep::new(
                 corners.map(|corner| self.vertices[corner as usize].position),
                 edge_length,
             );
@@ -130,7 +130,7 @@ pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 
     let mut open = vec![corners];
     let mut found = 0;
     while let Some(corners) = open.pop() {
-        let cut = Cut::new(corners, edge_length);
+        let cut = SubdivisionStep::new(corners, edge_length);
         if cut.long == [false; 3] {
             found += 1;
         } else {
@@ -146,15 +146,15 @@ pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 
 }
 
 /// One subdivision step of a triangle, at the midpoints of the edges that are too long.
-struct Cut {
+struct SubdivisionStep {
     /// Its corners, and the middles of its edges: edge `k`, from corner `k` to the next, has slot `3 + k`.
     slots: [[f32; 3]; 6],
     /// True for each edge that is too long.
     long: [bool; 3],
 }
 
-impl Cut {
-    fn new([a, b, c]: [[f32; 3]; 3], edge_length: f32) -> Cut {
+impl SubdivisionStep {
+    fn new([a, b, c]: [[f32; 3]; 3], edge_length: f32) -> SubdivisionStep {
         let slots = [a, b, c, middle(a, b), middle(b, c), middle(c, a)];
         let most = f64::from(edge_length).powi(2);
         let is_long = |a, b| {
@@ -162,7 +162,7 @@ impl Cut {
             square > most && square.is_finite()
         };
         let long = [is_long(a, b), is_long(b, c), is_long(c, a)];
-        Cut { slots, long }
+        SubdivisionStep { slots, long }
     }
 
     /// Returns the parts as slots, wound as the triangle is.

@@ -10,7 +10,7 @@ const IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// Stored coordinates of a triangle, by kind of accessor.
 #[derive(Clone, Copy)]
-enum Stored {
+enum StoredUvs {
     /// 16-bit integers as they are.
     Integers([u16; 6]),
     /// 16-bit integers as fractions of 1.
@@ -23,17 +23,17 @@ fn transform(scale: [f32; 2], offset: [f32; 2]) -> Value {
 }
 
 /// A textured triangle with stored coordinates; its base color and normal map have transforms.
-fn triangle(stored: Stored, base_color: Option<Value>, normal: Option<Value>) -> Gltf {
+fn triangle(stored: StoredUvs, base_color: Option<Value>, normal: Option<Value>) -> Gltf {
     let mut file = Gltf::new();
     let positions = file.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
     let uvs = match stored {
-        Stored::Integers(values) => file.accessor(U16, "VEC2", 3, &shorts(&values)),
-        Stored::Fractions(values) => {
+        StoredUvs::Integers(values) => file.accessor(U16, "VEC2", 3, &shorts(&values)),
+        StoredUvs::Fractions(values) => {
             let uvs = file.accessor(U16, "VEC2", 3, &shorts(&values));
             file.json["accessors"][uvs]["normalized"] = json!(true);
             uvs
         }
-        Stored::Floats(values) => file.accessor(F32, "VEC2", 3, &floats(&values)),
+        StoredUvs::Floats(values) => file.accessor(F32, "VEC2", 3, &floats(&values)),
     };
     file.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
     file.push("images", json!({ "uri": "data:image/png;base64,AQID" }));
@@ -52,10 +52,10 @@ fn triangle(stored: Stored, base_color: Option<Value>, normal: Option<Value>) ->
 }
 
 /// The coordinates of the maps, how they were decoded, and the transforms that are left of base color and normal map.
-type Loaded = (Vec<[f32; 2]>, Option<UvDecoding>, [[[f32; 3]; 2]; 2]);
+type LoadedUvs = (Vec<[f32; 2]>, Option<UvDecoding>, [[[f32; 3]; 2]; 2]);
 
 /// Loads a file without a warning.
-fn loaded(file: &Gltf) -> Loaded {
+fn loaded(file: &Gltf) -> LoadedUvs {
     let model: Model = file.model();
     assert_eq!(model.warnings, [""; 0]);
     let material = &model.materials[0];
@@ -67,7 +67,7 @@ fn loaded(file: &Gltf) -> Loaded {
 fn integers_under_one_transform_are_laid_out_by_it() {
     let scale = [1.0 / 4096.0, 1.0 / 2048.0];
     let decode = || Some(transform(scale, [0.125, 0.25]));
-    let file = triangle(Stored::Integers([0, 0, 2048, 0, 0, 1024]), decode(), decode());
+    let file = triangle(StoredUvs::Integers([0, 0, 2048, 0, 0, 1024]), decode(), decode());
     let decoding = UvDecoding {
         scale,
         offset: [0.125, 0.25],
@@ -79,7 +79,7 @@ fn integers_under_one_transform_are_laid_out_by_it() {
 #[test]
 fn twelve_bits_of_sixteen_are_laid_out_by_their_transform() {
     let decode = || Some(transform([16.0, 16.0], [0.0, 0.0]));
-    let file = triangle(Stored::Fractions([0, 0, 4095, 0, 0, 4095]), decode(), decode());
+    let file = triangle(StoredUvs::Fractions([0, 0, 4095, 0, 0, 4095]), decode(), decode());
     let (uvs, decoding, left) = loaded(&file);
     let most = 4095.0 / 65535.0 * 16.0;
     assert_eq!(uvs, [[0.0, 0.0], [most, 0.0], [0.0, most]]);
@@ -90,7 +90,7 @@ fn twelve_bits_of_sixteen_are_laid_out_by_their_transform() {
 #[test]
 fn where_transforms_differ_that_of_the_normal_map_counts_before_that_of_base_color() {
     let file = triangle(
-        Stored::Integers([0, 0, 1024, 0, 0, 1024]),
+        StoredUvs::Integers([0, 0, 1024, 0, 0, 1024]),
         Some(transform([1.0 / 2048.0; 2], [0.5, 0.0])),
         Some(transform([1.0 / 1024.0; 2], [0.0, 0.0])),
     );
@@ -107,7 +107,7 @@ fn where_transforms_differ_that_of_the_normal_map_counts_before_that_of_base_col
 #[test]
 fn a_transform_that_leads_into_the_unit_square_counts_before_one_that_does_not() {
     let file = triangle(
-        Stored::Integers([0, 0, 1024, 0, 0, 1024]),
+        StoredUvs::Integers([0, 0, 1024, 0, 0, 1024]),
         Some(transform([1.0 / 1024.0; 2], [0.0, 0.0])),
         Some(transform([1.0 / 256.0; 2], [0.0, 0.0])),
     );
@@ -119,8 +119,8 @@ fn a_transform_that_leads_into_the_unit_square_counts_before_one_that_does_not()
 fn a_tiled_texture_over_an_ordinary_layout_is_no_decoding() {
     let tiled = || Some(transform([4.0, 4.0], [0.0, 0.0]));
     for stored in [
-        Stored::Fractions([0, 0, 65535, 0, 0, 65535]),
-        Stored::Floats([0.0, 0.0, 1.0, 0.0, 0.0, 1.0]),
+        StoredUvs::Fractions([0, 0, 65535, 0, 0, 65535]),
+        StoredUvs::Floats([0.0, 0.0, 1.0, 0.0, 0.0, 1.0]),
     ] {
         let (uvs, decoding, left) = loaded(&triangle(stored, tiled(), tiled()));
         assert_eq!(uvs, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
@@ -130,7 +130,7 @@ fn a_tiled_texture_over_an_ordinary_layout_is_no_decoding() {
 
 #[test]
 fn floats_are_decoded_only_from_a_tiny_corner_into_the_unit_square() {
-    let stored = |side: f32| Stored::Floats([0.0, 0.0, side, 0.0, 0.0, side]);
+    let stored = |side: f32| StoredUvs::Floats([0.0, 0.0, side, 0.0, 0.0, side]);
     let cases = [
         (1.0 / 16.0, 16.0, Some(16.0)),
         (1.0 / 4.0, 4.0, None),
@@ -149,7 +149,7 @@ fn a_texture_that_is_turned_or_mirrored_leaves_the_scale_of_the_quantizer() {
         json!({ "KHR_texture_transform": { "rotation": 1.0, "scale": [0.001, 0.0005], "offset": [3.0, 4.0] } });
     let mirrored = transform([-0.001, 0.0005], [1.0, 0.0]);
     for extensions in [turned, mirrored] {
-        let stored = Stored::Integers([0, 0, 1000, 0, 0, 2000]);
+        let stored = StoredUvs::Integers([0, 0, 1000, 0, 0, 2000]);
         let (uvs, decoding, [base_color, normal]) =
             loaded(&triangle(stored, Some(extensions.clone()), Some(extensions)));
         let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
@@ -164,7 +164,7 @@ fn a_texture_that_is_turned_or_mirrored_leaves_the_scale_of_the_quantizer() {
 #[test]
 fn a_turned_texture_over_an_ordinary_layout_is_no_decoding() {
     let turned = || Some(json!({ "KHR_texture_transform": { "rotation": 1.0 } }));
-    let stored = Stored::Fractions([0, 0, 65535, 0, 0, 65535]);
+    let stored = StoredUvs::Fractions([0, 0, 65535, 0, 0, 65535]);
     let (uvs, decoding, _) = loaded(&triangle(stored, turned(), turned()));
     assert_eq!((uvs[1], decoding), ([1.0, 0.0], None));
 }
@@ -174,7 +174,7 @@ fn a_texture_on_another_set_tells_the_way_back_where_those_on_the_set_do_not() {
     let plain = json!({ "KHR_texture_transform": { "scale": [0.001, 0.001], "offset": [0.0, 0.0], "texCoord": 1 } });
     let turned = json!({ "KHR_texture_transform": { "rotation": 1.0, "scale": [0.004, 0.004] } });
     for base_color in [turned, plain.clone()] {
-        let stored = Stored::Integers([0, 0, 1000, 0, 0, 1000]);
+        let stored = StoredUvs::Integers([0, 0, 1000, 0, 0, 1000]);
         let mut file = triangle(stored, Some(base_color), Some(plain.clone()));
         let second = file.floats("VEC2", &[0.0, 0.0, 250.0, 0.0, 0.0, 250.0]);
         file.primitive()["attributes"]["TEXCOORD_1"] = json!(second);
@@ -190,7 +190,7 @@ fn a_texture_that_is_not_read_tells_the_way_back() {
         ("KHR_materials_clearcoat", "clearcoatNormalTexture"),
         ("KHR_materials_iridescence", "iridescenceTexture"),
     ] {
-        let mut file = triangle(Stored::Integers([0, 0, 1000, 0, 0, 1000]), None, None);
+        let mut file = triangle(StoredUvs::Integers([0, 0, 1000, 0, 0, 1000]), None, None);
         let texture = json!({ "index": 0, "extensions": transform([0.001, 0.001], [0.0, 0.0]) });
         file.json["materials"] = json!([{ "extensions": { extension: { member: texture } } }]);
         let model = file.model();
@@ -201,7 +201,7 @@ fn a_texture_that_is_not_read_tells_the_way_back() {
 #[test]
 fn a_transform_of_another_set_leaves_an_ordinary_layout_alone() {
     let halved = || Some(json!({ "KHR_texture_transform": { "scale": [0.5, 0.5], "texCoord": 1 } }));
-    let mut file = triangle(Stored::Fractions([0, 0, 65535, 0, 0, 65535]), halved(), halved());
+    let mut file = triangle(StoredUvs::Fractions([0, 0, 65535, 0, 0, 65535]), halved(), halved());
     let second = file.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
     file.primitive()["attributes"]["TEXCOORD_1"] = json!(second);
     let (uvs, decoding, _) = loaded(&file);
@@ -211,7 +211,7 @@ fn a_transform_of_another_set_leaves_an_ordinary_layout_alone() {
 #[test]
 fn only_the_chosen_set_is_decoded() {
     let decode = || Some(transform([1.0 / 1024.0; 2], [0.0, 0.0]));
-    let mut file = triangle(Stored::Integers([0, 0, 1024, 0, 0, 1024]), decode(), decode());
+    let mut file = triangle(StoredUvs::Integers([0, 0, 1024, 0, 0, 1024]), decode(), decode());
     let plain = file.floats("VEC2", &[0.0, 0.0, 0.5, 0.0, 0.0, 0.5]);
     file.primitive()["attributes"]["TEXCOORD_1"] = json!(plain);
     let options = LoadOptions {

@@ -49,16 +49,25 @@ fn errors_advise_what_to_do() {
         "a page limit of 100 texels was asked for, but it has to be a multiple of 8 between 32 and 16384"
     );
     assert_eq!(
-        told(&square(Frame::straight([0.5, 0.5], 8.0), 1), AtlasOptions::new(2048)),
+        told(
+            &square(PatchFrame::straight([0.5, 0.5], 8.0), 1),
+            AtlasOptions::new(2048)
+        ),
         "a UV chart (the one with triangle 0) is 16385 × 16385 texels large at size 2048, but a page holds 8188 × 8188"
     );
     assert_eq!(
-        told(&square(Frame::straight([3e6, 0.5], 0.5), 1), AtlasOptions::new(1024)),
+        told(
+            &square(PatchFrame::straight([3e6, 0.5], 0.5), 1),
+            AtlasOptions::new(1024)
+        ),
         "the texture coordinate (2.9999998e6, 2.5e-1) of vertex 0 lies too far from the unit square to be placed at 1024 \
          texels"
     );
     assert_eq!(
-        told(&square(Frame::straight([0.5, 0.5], 0.001), 1), AtlasOptions::new(64)),
+        told(
+            &square(PatchFrame::straight([0.5, 0.5], 0.001), 1),
+            AtlasOptions::new(64)
+        ),
         "the model's texture coordinates cover no texel at 64 texels for the unit square: they have no area, or next \
          to none; unwrap it in your modeling program or bake at a larger size"
     );
@@ -84,7 +93,7 @@ fn sizes_that_do_not_fit_into_memory_are_refused_before_allocation() {
         patch(
             &mut mesh,
             [place, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            Frame::straight([0.25, 0.25], 0.49),
+            PatchFrame::straight([0.25, 0.25], 0.49),
             1,
         );
     }
@@ -96,7 +105,7 @@ fn sizes_that_do_not_fit_into_memory_are_refused_before_allocation() {
 
 #[test]
 fn a_third_triangle_at_an_edge_is_a_border_and_the_sheet_stays_connected() {
-    let mut mesh = square(Frame::straight([0.3, 0.5], 0.4), 2);
+    let mut mesh = square(PatchFrame::straight([0.3, 0.5], 0.4), 2);
     // The middle edge of the sheet gets a third triangle with its own vertices.
     let first = mesh.positions.len() as u32;
     mesh.positions
@@ -126,12 +135,12 @@ fn a_third_triangle_at_an_edge_is_a_border_and_the_sheet_stays_connected() {
 
 #[test]
 fn two_coincident_sheets_stay_separate() {
-    let mut mesh = square(Frame::straight([0.3, 0.5], 0.4), 3);
+    let mut mesh = square(PatchFrame::straight([0.3, 0.5], 0.4), 3);
     let front = mesh.triangles.len();
     patch(
         &mut mesh,
         [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        Frame::straight([0.75, 0.5], 0.4),
+        PatchFrame::straight([0.75, 0.5], 0.4),
         3,
     );
     for corners in &mut mesh.triangles[front..] {
@@ -192,19 +201,19 @@ fn links_pass_through_triangles_without_a_place_on_the_maps() {
     patch(
         &mut mesh,
         [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        Frame::straight([0.25, 0.5], 0.3),
+        PatchFrame::straight([0.25, 0.5], 0.3),
         1,
     );
     patch(
         &mut mesh,
         [[1.0, 0.0, 0.0], [0.001, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        Frame::straight([0.5, 0.1], 0.0),
+        PatchFrame::straight([0.5, 0.1], 0.0),
         1,
     );
     patch(
         &mut mesh,
         [[1.001, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        Frame::straight([0.75, 0.5], 0.3),
+        PatchFrame::straight([0.75, 0.5], 0.3),
         1,
     );
     let atlas = build(&mesh, 100).unwrap();
@@ -238,7 +247,7 @@ fn charts_too_small_for_a_texel_are_reported() {
     patch(
         &mut mesh,
         [[9.0, 0.0, 0.0], [0.3, 0.0, 0.0], [0.0, 0.3, 0.0]],
-        Frame::straight([0.9, 0.9], 0.0005),
+        PatchFrame::straight([0.9, 0.9], 0.0005),
         1,
     );
     let atlas = build(&mesh, 128).unwrap();
@@ -262,7 +271,7 @@ fn charts_too_small_for_a_texel_are_reported() {
 #[test]
 fn an_atlas_that_needs_too_much_memory_is_refused_before_allocation() {
     // Charts of the whole square: 4 at 2048 texels have 16 MiB of texels with 8 bytes each.
-    let mut mesh = square(Frame::straight([0.0, 0.0], 1.0), 1);
+    let mut mesh = square(PatchFrame::straight([0.0, 0.0], 1.0), 1);
     let one = mesh.clone();
     for copy in 1..4 {
         let first = mesh.positions.len() as u32;

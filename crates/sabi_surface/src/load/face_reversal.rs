@@ -7,13 +7,13 @@ use crate::model::{Mesh, Model, TextureUvs};
 use crate::orientation::turned_faces;
 
 /// Copies of the placed triangles, kept only if faces are to be reversed.
-pub(super) struct Turning {
+pub(super) struct FaceReversal {
     held: Option<Vec<Submesh>>,
 }
 
-impl Turning {
-    pub(super) fn new(is_wanted: bool) -> Turning {
-        Turning {
+impl FaceReversal {
+    pub(super) fn new(is_wanted: bool) -> FaceReversal {
+        FaceReversal {
             held: is_wanted.then(Vec::new),
         }
     }

@@ -7,11 +7,11 @@ use json::validation::Checked;
 
 use super::Resolve;
 use super::buffers::Buffers;
-use super::document::Document;
-use super::draco::{Claim, UnpackedMesh};
-use super::source::Source;
+use super::document::GltfDocument;
+use super::draco::{PrimitiveSize, UnpackedMesh};
+use super::source::GltfSource;
 use crate::load::LoadOptions;
-use crate::load::error::Fault;
+use crate::load::error::ModelFault;
 use crate::load::warnings::Warnings;
 
 /// Packed vertices of a glTF file as plain bytes.
@@ -24,10 +24,10 @@ pub struct UnpackedVertices {
 }
 
 /// Unpacks all buffer views and primitives that are packed.
-pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<UnpackedVertices, Fault> {
+pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<UnpackedVertices, ModelFault> {
     // The warnings were reported when the model was read.
     let warnings = &mut Warnings::default();
-    let (document, binary) = Document::parse(bytes, u64::MAX, warnings)?;
+    let (document, binary) = GltfDocument::parse(bytes, u64::MAX, warnings)?;
     let buffers = Buffers::gather(&document, binary, resolve, u64::MAX, warnings)?;
     let LoadOptions {
         uv_set,
@@ -35,7 +35,7 @@ pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<Unp
         smooth_degrees,
         ..
     } = LoadOptions::default();
-    let source = Source {
+    let source = GltfSource {
         document: &document,
         buffers: &buffers,
         unpacked: None,
@@ -50,7 +50,7 @@ pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<Unp
     for (mesh, primitives) in document.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
         let label = document.mesh_label(mesh);
         for (number, primitive) in primitives.iter().enumerate() {
-            let claim = Claim {
+            let claim = PrimitiveSize {
                 triangles: source.claim(primitive),
                 vertices: source.claimed_vertices(primitive),
             };
@@ -72,7 +72,7 @@ pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<Unp
     Ok(unpacked)
 }
 
-impl Source<'_> {
+impl GltfSource<'_> {
     /// Returns the accessors of the weights of a primitive that are floats. Integers are packed without loss.
     fn float_weights(&self, primitive: &json::mesh::Primitive) -> impl Iterator<Item = usize> {
         let is_float =
@@ -83,7 +83,7 @@ impl Source<'_> {
     }
 
     /// The elements of an accessor; `None` where they are not packed.
-    fn stored_elements(&self, vertices: &UnpackedMesh, index: usize) -> Result<Option<Vec<u8>>, Fault> {
+    fn stored_elements(&self, vertices: &UnpackedMesh, index: usize) -> Result<Option<Vec<u8>>, ModelFault> {
         let accessor = self.document.accessors.get(index);
         let Some((accessor, Checked::Valid(component), Checked::Valid(shape))) =
             accessor.map(|accessor| (accessor, accessor.component_type, accessor.type_))

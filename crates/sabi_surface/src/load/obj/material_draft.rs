@@ -1,9 +1,9 @@
 //! A material of a library (`.mtl`) while its statements are read and converted to metallic-roughness as far as possible.
 
 use super::map_statement::MapStatement;
+use crate::load::material_images::MaterialImages;
 use crate::load::numbers::number;
 use crate::load::opacity::{set_opacity, set_opacity_map};
-use crate::load::pictures::Pictures;
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
 
@@ -38,7 +38,7 @@ fn is_map(keyword: &str) -> bool {
 }
 
 /// A material whose statements are being read.
-pub(super) struct Draft {
+pub(super) struct MaterialDraft {
     material: ModelMaterial,
     /// Value of `d`, the opacity.
     opacity: Option<f32>,
@@ -50,9 +50,9 @@ pub(super) struct Draft {
     ambient: Option<(usize, String)>,
 }
 
-impl Draft {
-    pub(super) fn new(name: &str) -> Draft {
-        Draft {
+impl MaterialDraft {
+    pub(super) fn new(name: &str) -> MaterialDraft {
+        MaterialDraft {
             material: ModelMaterial {
                 name: name.to_owned(),
                 ..ModelMaterial::plain()
@@ -69,7 +69,7 @@ impl Draft {
         &mut self,
         keyword: &Keyword,
         rest: &str,
-        pictures: &mut Pictures,
+        pictures: &mut MaterialImages,
         warnings: &mut Warnings,
     ) {
         let whose = format!("`{}` of {}", keyword.written, self.material.label());
@@ -125,7 +125,14 @@ impl Draft {
     }
 
     /// Reads a statement that names an image. The image replaces the value, as in the programs that write these files.
-    fn map(&mut self, keyword: &Keyword, rest: &str, whose: &str, pictures: &mut Pictures, warnings: &mut Warnings) {
+    fn map(
+        &mut self,
+        keyword: &Keyword,
+        rest: &str,
+        whose: &str,
+        pictures: &mut MaterialImages,
+        warnings: &mut Warnings,
+    ) {
         let lower = keyword.lower.as_str();
         let is_color = matches!(lower, "map_kd" | "map_ke");
         let statement = MapStatement::parse(rest, is_color, warnings);

@@ -16,22 +16,22 @@ const LONGEST: f64 = 2.0;
 const LEAST_WEIGHT: f64 = 1e-9;
 
 /// Rounded normals of a mesh for heights up to a limit.
-pub(super) struct Rounding<'e> {
+pub(super) struct NormalRounding<'e> {
     edges: &'e HardEdges,
     /// Distance from an edge at which the normal equals that of the face again.
     reach: f64,
 }
 
-impl<'e> Rounding<'e> {
+impl<'e> NormalRounding<'e> {
     /// Creates rounded normals near `edges`, which must have been found for the same `reach`.
-    pub(super) fn new(edges: &'e HardEdges, reach: f64) -> Rounding<'e> {
-        Rounding { edges, reach }
+    pub(super) fn new(edges: &'e HardEdges, reach: f64) -> NormalRounding<'e> {
+        NormalRounding { edges, reach }
     }
 
     /// Returns the rounded normal of a place where faces with these `normals` meet, whose mean is `mean`; `None` if there
     /// is no hard edge nearby, so that the mean can be used.
     pub(super) fn at(&self, place: DVec3, normals: &[DVec3], mean: DVec3) -> Option<DVec3> {
-        let mut system = System::new(mean);
+        let mut system = LeastSquares::new(mean);
         let mut is_hard = false;
         for &normal in normals {
             system.require(normal, 1.0, 1.0);
@@ -57,14 +57,14 @@ impl<'e> Rounding<'e> {
 }
 
 /// Least squares system for a direction that makes given steps along given normals, and otherwise equals a mean direction.
-struct System {
+struct LeastSquares {
     matrix: DMat3,
     right: DVec3,
 }
 
-impl System {
-    fn new(mean: DVec3) -> System {
-        System {
+impl LeastSquares {
+    fn new(mean: DVec3) -> LeastSquares {
+        LeastSquares {
             matrix: DMat3::from_diagonal(DVec3::splat(LEAST_WEIGHT)),
             right: mean * LEAST_WEIGHT,
         }

@@ -19,24 +19,24 @@ const LEAST_CHART_CELLS: f64 = 16.0;
 
 /// Pages and the place of each chart.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Placement {
+pub(super) struct ChartPlacement {
     pub(super) page_size: [u32; 2],
     pub(super) pages: u32,
-    pub(super) charts: Vec<Place>,
+    pub(super) charts: Vec<ChartPlace>,
     /// True if charts keep their positions relative to each other.
     pub(super) kept: bool,
 }
 
 /// Place of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct ChartPlace {
     pub(super) page: u32,
     /// Offset that is added to texel coordinates of the user's layout to get those on the page.
     pub(super) offset: [i32; 2],
 }
 
 /// Places all charts so that no two rings of ghosts touch.
-pub(super) fn place(masks: &[Mask], size: u32, page_limit: u32) -> Result<Placement, AtlasError> {
+pub(super) fn place(masks: &[Mask], size: u32, page_limit: u32) -> Result<ChartPlacement, AtlasError> {
     let placement = match keep(masks, size, page_limit) {
         Some(placement) => placement,
         None => repack(masks, size, page_limit),
@@ -68,7 +68,7 @@ pub(super) fn too_many_texels(size: u32, charts: usize, texels: u64) -> AtlasErr
 }
 
 /// Keeps the user's own layout; `None` unless all charts lie inside the unit square with space for their rings.
-fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
+fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<ChartPlacement> {
     let (ring, side) = (i64::from(RINGS), i64::from(size));
     let within = |edge: i64| {
         masks.iter().all(|mask| {
@@ -99,8 +99,8 @@ fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
         }
     }
     let offset = [margin as i32; 2];
-    let charts = vec![Place { page: 0, offset }; masks.len()];
-    Some(Placement {
+    let charts = vec![ChartPlace { page: 0, offset }; masks.len()];
+    Some(ChartPlacement {
         page_size: [page, page],
         pages: 1,
         charts,
@@ -127,7 +127,7 @@ fn cell_side(size: u32, masks: &[Mask], page_limit: u32) -> u32 {
 }
 
 /// Packs the charts in cells, the largest first.
-fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
+fn repack(masks: &[Mask], size: u32, page_limit: u32) -> ChartPlacement {
     let cell = cell_side(size, masks, page_limit);
     let grown: Vec<([i64; 2], Mask)> = masks
         .par_iter()
@@ -146,20 +146,20 @@ fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
         let (width, height) = (u64::from(shape.width), u64::from(shape.height));
         (std::cmp::Reverse((width.max(height), width * height)), chart)
     });
-    let mut charts = vec![Place::default(); masks.len()];
+    let mut charts = vec![ChartPlace::default(); masks.len()];
     for chart in order {
         look();
         let (origin, shape) = &grown[chart];
         let CellPosition { page, column, row } = packer.place(shape);
         let offset = [i64::from(column * cell) - origin[0], i64::from(row * cell) - origin[1]];
-        charts[chart] = Place {
+        charts[chart] = ChartPlace {
             page,
             offset: offset.map(|value| value as i32),
         };
     }
     let (columns, rows) = packer.extent();
     let page_size = [columns, rows].map(|cells| (cells * cell).next_multiple_of(TILE));
-    Placement {
+    ChartPlacement {
         page_size,
         pages: packer.pages().max(1),
         charts,

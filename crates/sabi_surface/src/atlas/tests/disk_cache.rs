@@ -63,7 +63,7 @@ fn a_damaged_file_is_replaced() {
 #[test]
 fn bytes_that_only_resemble_an_atlas_are_refused() {
     let bytes = crate::atlas::codec::encode(&Atlas::build(&cube(1), &AtlasOptions::new(32)).unwrap());
-    let mut dice = Dice(11);
+    let mut dice = PcgRandom(11);
     for _ in 0..2000 {
         let mut damaged = bytes.clone();
         let at = dice.next() as usize % bytes.len();

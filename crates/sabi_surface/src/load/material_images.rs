@@ -9,7 +9,7 @@ use super::warnings::Warnings;
 use crate::model::{Model, ModelImage, ModelMaterial};
 
 /// Where an image is stored.
-pub(super) enum Place {
+pub(super) enum ImageLocation {
     /// In the model's own file; these are its encoded bytes.
     Inside(Arc<[u8]>),
     /// Beside the model; these are possible paths, most likely first.
@@ -18,14 +18,14 @@ pub(super) enum Place {
 
 /// Images by the key with which materials refer to them, each once. They are read when it is known which materials are used.
 #[derive(Default)]
-pub(super) struct Pictures {
-    places: Vec<(String, Place)>,
+pub(super) struct MaterialImages {
+    places: Vec<(String, ImageLocation)>,
     numbers: BTreeMap<String, usize>,
 }
 
-impl Pictures {
+impl MaterialImages {
     /// Returns the number of the image `key`. A new image is at `place`, with a name for messages.
-    pub(super) fn number(&mut self, key: &str, place: impl FnOnce() -> (String, Place)) -> usize {
+    pub(super) fn number(&mut self, key: &str, place: impl FnOnce() -> (String, ImageLocation)) -> usize {
         if let Some(number) = self.numbers.get(key) {
             return *number;
         }
@@ -37,12 +37,14 @@ impl Pictures {
 
     /// Returns the number of a picture in a file that the model names.
     pub(super) fn beside(&mut self, path: &str) -> usize {
-        self.number(path, || (file_name(path), Place::Beside(vec![path.to_string()])))
+        self.number(path, || {
+            (file_name(path), ImageLocation::Beside(vec![path.to_string()]))
+        })
     }
 
     /// Reads the images that the model's materials use. Until then, textures refer to the numbers given here.
     pub(super) fn read(self, resolve: &mut Resolve, model: &mut Model, warnings: &mut Warnings) {
-        let mut places: Vec<Option<(String, Place)>> = self.places.into_iter().map(Some).collect();
+        let mut places: Vec<Option<(String, ImageLocation)>> = self.places.into_iter().map(Some).collect();
         let mut new_from_old = BTreeMap::new();
         for texture in model.materials.iter_mut().flat_map(ModelMaterial::textures_mut) {
             let next = model.images.len();
@@ -98,10 +100,10 @@ fn is_relative(path: &str) -> bool {
 /// Word in a path that stands for the number of a UV tile.
 const TILES: &str = "<UDIM>";
 
-fn bytes(place: Place, resolve: &mut Resolve) -> Result<Arc<[u8]>, String> {
+fn bytes(place: ImageLocation, resolve: &mut Resolve) -> Result<Arc<[u8]>, String> {
     let paths = match place {
-        Place::Inside(bytes) => return Ok(bytes),
-        Place::Beside(paths) => paths,
+        ImageLocation::Inside(bytes) => return Ok(bytes),
+        ImageLocation::Beside(paths) => paths,
     };
     let mut first_reason = None;
     // Programs write the word as it is.

@@ -3,7 +3,7 @@
 use crate::load::text::part_name;
 
 /// A node that may have parts below it.
-pub(in crate::load) struct Group {
+pub(in crate::load) struct NodeGroup {
     /// Empty for a node without a name.
     pub(super) name: String,
     /// Node above it, which stands before it in the list.
@@ -14,7 +14,7 @@ pub(in crate::load) struct Group {
 
 /// Nodes of a file, each behind the one above it.
 #[derive(Default)]
-pub(in crate::load) struct Groups(Vec<Group>);
+pub(in crate::load) struct NodeGroups(Vec<NodeGroup>);
 
 /// A part by its name, and the node above it.
 #[derive(Clone, Copy, Debug)]
@@ -23,10 +23,10 @@ pub(in crate::load) struct NamedPart<'n> {
     pub(in crate::load) group: Option<usize>,
 }
 
-impl Groups {
+impl NodeGroups {
     /// Adds a node and returns its number.
     pub(in crate::load) fn add(&mut self, name: &str, above: Option<usize>, is_part: bool) -> usize {
-        self.0.push(Group {
+        self.0.push(NodeGroup {
             name: part_name(name),
             above,
             is_part,
@@ -34,12 +34,12 @@ impl Groups {
         self.0.len() - 1
     }
 
-    pub(super) fn all(&self) -> &[Group] {
+    pub(super) fn all(&self) -> &[NodeGroup] {
         &self.0
     }
 
     /// Returns for each node what `of` says of it, or else what holds for the one above it.
-    pub(super) fn inherited<T: Clone>(&self, of: impl Fn(usize, &Group) -> Option<T>) -> Vec<Option<T>> {
+    pub(super) fn inherited<T: Clone>(&self, of: impl Fn(usize, &NodeGroup) -> Option<T>) -> Vec<Option<T>> {
         let mut found: Vec<Option<T>> = Vec::with_capacity(self.0.len());
         for (number, group) in self.0.iter().enumerate() {
             let above = || group.above.and_then(|above| found[above].clone());

@@ -3,9 +3,9 @@
 use sabi_cancel::look;
 use std::collections::VecDeque;
 
+use super::build_inputs::BuildInputs;
 use super::charts::Partition;
-use super::fixed::{UNIT, Uvs};
-use super::plan::Plan;
+use super::fixed_point_uvs::{UNIT, Uvs};
 use super::raster::spans;
 
 /// Marks a texel that no triangle has claimed.
@@ -13,7 +13,7 @@ const UNCLAIMED: u32 = u32::MAX;
 
 /// Inputs of a split.
 pub(super) struct Splitter<'a> {
-    pub(super) plan: &'a Plan<'a>,
+    pub(super) plan: &'a BuildInputs<'a>,
     pub(super) partition: &'a Partition,
 }
 
@@ -24,7 +24,7 @@ impl Splitter<'_> {
     /// Returns for each triangle of the chart, in order, the first triangle of its new chart.
     pub(super) fn split(&self, chart: usize) -> Vec<u32> {
         let triangles = self.partition.triangles(chart);
-        let mut grid = Grid::covering(&self.plan.uvs, triangles);
+        let mut grid = OwnerGrid::covering(&self.plan.uvs, triangles);
         // Index of a triangle within the chart.
         let local = |triangle: u32| triangles.binary_search(&triangle).ok();
         let mut labels = vec![UNCLAIMED; triangles.len()];
@@ -66,7 +66,7 @@ impl Splitter<'_> {
     }
 
     /// Returns true if all texel centers of a triangle are free or belong to triangles that touch it.
-    fn fits(&self, grid: &Grid, triangle: u32) -> bool {
+    fn fits(&self, grid: &OwnerGrid, triangle: u32) -> bool {
         let mut fits = true;
         spans(
             self.plan.uvs.fixed(triangle),
@@ -94,14 +94,14 @@ impl Splitter<'_> {
 }
 
 /// Owners of a chart's texels while it grows.
-struct Grid {
+struct OwnerGrid {
     origin: [i64; 2],
     width: usize,
     owners: Vec<u32>,
 }
 
-impl Grid {
-    fn covering(uvs: &Uvs, triangles: &[u32]) -> Grid {
+impl OwnerGrid {
+    fn covering(uvs: &Uvs, triangles: &[u32]) -> OwnerGrid {
         let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
         for corner in triangles.iter().flat_map(|&triangle| uvs.fixed(triangle)) {
             for axis in 0..2 {
@@ -110,7 +110,7 @@ impl Grid {
             }
         }
         let [width, height] = [0, 1].map(|axis| (high[axis] - low[axis]).max(0) as usize);
-        Grid {
+        OwnerGrid {
             origin: low,
             width,
             owners: vec![UNCLAIMED; width * height],

@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::draft::{Draft, Keyword, is_known};
+use super::material_draft::{Keyword, MaterialDraft, is_known};
 use super::statements::{MOST_LIBRARIES, logical_lines, named, split_word};
 use super::unknown::Unknown;
 use crate::load::gltf::Resolve;
-use crate::load::pictures::Pictures;
+use crate::load::material_images::MaterialImages;
 use crate::load::text::decoded;
 use crate::load::warnings::Warnings;
 use crate::model::ModelMaterial;
@@ -16,15 +16,15 @@ const MOST_MATERIALS: usize = 1 << 16;
 
 /// Materials by name, and the pictures that they name.
 #[derive(Default)]
-pub(super) struct Library {
+pub(super) struct MaterialLibrary {
     materials: Vec<ModelMaterial>,
     places: BTreeMap<String, usize>,
     /// Names of libraries that were searched already.
     known: BTreeSet<String>,
-    pub(super) pictures: Pictures,
+    pub(super) pictures: MaterialImages,
 }
 
-impl Library {
+impl MaterialLibrary {
     /// Returns the index of a material by its name. A comment may follow the name.
     pub(super) fn place(&self, name: &str) -> Option<usize> {
         let bare = name.split_once(" #").map_or(name, |(bare, _)| bare.trim_ascii_end());
@@ -100,7 +100,7 @@ impl Library {
 
     /// Returns the draft of a material of a name, unless it is in vain: the first of two materials of one name stays, and there are
     /// not too many.
-    fn draft(&self, name: &str, warnings: &mut Warnings) -> Option<Draft> {
+    fn draft(&self, name: &str, warnings: &mut Warnings) -> Option<MaterialDraft> {
         if self.places.contains_key(name) {
             return None;
         }
@@ -110,7 +110,7 @@ impl Library {
             ));
             return None;
         }
-        Some(Draft::new(name))
+        Some(MaterialDraft::new(name))
     }
 
     fn parse(&mut self, file: &str, bytes: &[u8], warnings: &mut Warnings) {
@@ -139,7 +139,7 @@ impl Library {
     }
 
     /// Adds a material after all its statements were read.
-    fn finish(&mut self, draft: Option<Draft>, warnings: &mut Warnings) {
+    fn finish(&mut self, draft: Option<MaterialDraft>, warnings: &mut Warnings) {
         let Some(draft) = draft else { return };
         let material = draft.finished(warnings);
         self.places.insert(material.name.clone(), self.materials.len());

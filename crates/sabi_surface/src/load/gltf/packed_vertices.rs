@@ -7,23 +7,23 @@ use json::validation::Checked;
 use serde_json::Value;
 
 use super::document::DRACO;
-use super::draco::{Claim, UnpackedMesh};
-use super::source::Source;
-use crate::load::error::{Fault, damaged};
+use super::draco::{PrimitiveSize, UnpackedMesh};
+use super::source::GltfSource;
+use crate::load::error::{ModelFault, damaged};
 
 /// The extension of a primitive, where it is packed.
 pub(super) fn extension(primitive: &json::mesh::Primitive) -> Option<&Value> {
     primitive.extensions.as_ref()?.others.get(DRACO)
 }
 
-impl Source<'_> {
+impl GltfSource<'_> {
     /// Unpacks the primitive `label`; `None` if it is not packed, or if the file has the same data unpacked.
     pub(super) fn unpacked_mesh(
         &self,
         primitive: &json::mesh::Primitive,
-        claim: Claim,
+        claim: PrimitiveSize,
         label: &str,
-    ) -> Result<Option<UnpackedMesh>, Fault> {
+    ) -> Result<Option<UnpackedMesh>, ModelFault> {
         let Some(extension) = extension(primitive).filter(|_| self.needs_unpacking(primitive)) else {
             return Ok(None);
         };
