@@ -13,27 +13,18 @@ use crate::open_document::OpenDocument;
 /// The path cannot be named in a file.
 pub fn relative(document: &OpenDocument, path: &Path) -> Result<String, NotText> {
     match document.session.file() {
-        Some(_) => from_own_folder(document, path),
+        Some(_) => PathBase::of_folder(absolute(document.session.graph().folder())).write(&absolute(path)),
         None => path_text(&absolute(path)),
     }
 }
 
-/// Writes the path of a file that the user chose, as [`relative`] does; From now on the document may open it.
+/// Writes the path of a file that the user chose, as [`relative`] does; from now on the document may open it.
 ///
 /// # Errors
 /// The path cannot be named in a file.
 pub fn chosen(document: &mut OpenDocument, path: &Path) -> Result<String, NotText> {
     document.trust_chosen(path);
     relative(document, path)
-}
-
-/// Writes a path relative to the document's folder. A document without a file has the working directory as its folder.
-///
-/// # Errors
-/// The path cannot be named in a file.
-pub fn from_own_folder(document: &OpenDocument, path: &Path) -> Result<String, NotText> {
-    let folder = absolute(document.session.graph().folder());
-    PathBase::of_folder(folder).write(&absolute(path))
 }
 
 /// Returns the canonical path of an existing file, or the path itself if the file does not exist.

@@ -269,6 +269,7 @@ impl Editor {
     fn autosave(&mut self, context: &Context) {
         let drafts_revision = self.views.page.revision();
         if self.documents.is_autosave_due() {
+            self.documents.name_model_of_unsaved(&self.evaluation);
             let drafts = self.views.page.unsaved();
             let saved = self.documents.autosave(&drafts, drafts_revision);
             self.shell.report_on(Work::Autosave, saved);
@@ -293,6 +294,7 @@ impl Editor {
 
     /// Hands the session over to a window on another device, since this one's is lost.
     fn hand_over(&mut self, context: &Context) {
+        self.documents.name_model_of_unsaved(&self.evaluation);
         let mut document = self.documents.take();
         // In case the other window cannot be opened.
         autosave_at_end(&mut document, &self.views.page.unsaved());
@@ -315,6 +317,7 @@ impl Editor {
     /// Closes the open graph as the window ends. Changes that were neither saved nor discarded are kept for recovery, since
     /// a system may end programs without a question.
     fn end(&mut self) {
+        self.documents.name_model_of_unsaved(&self.evaluation);
         let mut document = self.documents.take();
         let drafts = self.views.page.unsaved();
         if self.may_close || !document.session.is_dirty() && drafts.is_empty() {

@@ -12,7 +12,7 @@ pub(crate) mod system_dialog;
 
 use std::path::{Path, PathBuf};
 
-use egui::{Button, Id, Modal, RichText, Ui};
+use egui::{Button, Id, Key, Modal, RichText, Ui};
 
 use crate::action::{Action, ExportAction, FileAction, ModelAction, Next, PaintAction};
 use crate::context::{View, ViewContext};
@@ -26,6 +26,10 @@ use system_dialog::{PathFor, SystemDialog};
 
 /// Button that leads to the question for a path.
 const ANOTHER_NAME: &str = "Another name…";
+/// Label of the button that replaces a file.
+const REPLACE: &str = "Replace it";
+/// Label of the button that stops an export and closes the window.
+const CANCEL_EXPORT: &str = "Cancel the export and close";
 
 /// Reason for asking before a file is replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -220,8 +224,8 @@ impl Questions {
             ReplaceReason::OpenElsewhere => ("This file is open in another window", false),
         };
         let buttons: &[&str] = match is_own {
-            true => &["Keep theirs beside it", "Replace it", ANOTHER_NAME],
-            false => &["Replace it", ANOTHER_NAME],
+            true => &["Keep theirs beside it", REPLACE, ANOTHER_NAME],
+            false => &[REPLACE, ANOTHER_NAME],
         };
         match (
             buttons_question(ui, "replace question", 460.0, title, &text, buttons),
@@ -295,7 +299,7 @@ impl Questions {
 
     /// Closes the window as soon as textures are written, or without them.
     fn exporting(&mut self, ui: &Ui, context: &ViewContext<'_>) -> Option<Action> {
-        let buttons = ["Cancel the export and close", "Keep the window open"];
+        let buttons = [CANCEL_EXPORT, "Keep the window open"];
         let text = "The window closes when the export is done.";
         let title = "An export is running";
         let answer = buttons_question(ui, "exporting question", 420.0, title, text, &buttons);
@@ -342,7 +346,10 @@ enum Answer {
     Closed,
 }
 
-/// Shows a question with buttons, of which the first is the suggested one.
+/// Buttons that replace or stop something, which Enter does not press.
+const NOT_BY_ENTER: [&str; 2] = [REPLACE, CANCEL_EXPORT];
+
+/// Shows a question with buttons, of which the first is the suggested one. A click beside it does not answer it.
 fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, buttons: &[&str]) -> Answer {
     let mut answer = Answer::None;
     let modal = Modal::new(Id::new(id)).show(ui.ctx(), |ui| {
@@ -359,8 +366,12 @@ fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, butt
             }
         });
     });
+    let is_on_top = modal.is_top_modal && !modal.any_popup_open;
+    let is_pressed = |key: Key| is_on_top && ui.input(|input| input.key_pressed(key));
+    let by_enter = buttons.first().is_some_and(|first| !NOT_BY_ENTER.contains(first));
     match answer {
-        Answer::None if modal.should_close() => Answer::Closed,
+        Answer::None if is_pressed(Key::Escape) => Answer::Closed,
+        Answer::None if by_enter && is_pressed(Key::Enter) => Answer::Button(0),
         answer => answer,
     }
 }

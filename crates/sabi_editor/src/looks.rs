@@ -108,6 +108,15 @@ impl Looks {
         self.shown = Some(result);
     }
 
+    /// Shows the whole material: on the model that of all outputs, and in the 2D view that of the shown graph's output, if it has one.
+    pub(crate) fn show_material(&mut self, document: &OpenDocument) {
+        self.followed = None;
+        let is_output = |id: &&NodeId| document.node(id).is_some_and(|node| node.kind == "output/material");
+        if let Some(id) = document.graph().ids().find(is_output) {
+            self.shown = Some(self.chosen(document, id));
+        }
+    }
+
     /// Shows no result of any node, since another graph is opened.
     pub(crate) fn clear(&mut self) {
         [self.shown, self.followed, self.pinned_2d, self.pinned_3d] = [const { None }; 4];

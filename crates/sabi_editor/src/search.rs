@@ -182,6 +182,22 @@ pub(crate) fn ranked<'c>(candidates: &'c [Candidate], query: &str) -> Vec<&'c Ca
     found.into_iter().map(|(_, _, candidate)| candidate).collect()
 }
 
+/// Returns the other name by which a query finds a candidate, where its own name does not have the words of the query.
+pub(crate) fn found_alias<'c>(candidate: &'c Candidate, query: &str) -> Option<&'c str> {
+    let label = candidate.interface.label.to_lowercase();
+    let query = query.to_lowercase();
+    let mut missing = query.split_whitespace().filter(|word| !label.contains(word));
+    missing.find_map(|word| {
+        let begins = |alias: &&String| {
+            alias
+                .to_lowercase()
+                .split_whitespace()
+                .any(|part| part.starts_with(word))
+        };
+        candidate.interface.aliases.iter().find(begins).map(String::as_str)
+    })
+}
+
 /// Best match of a word in a candidate.
 #[derive(Clone, Copy, Default)]
 struct WordMatch {

@@ -1,5 +1,6 @@
 //! Brushes: the paint that a stroke leaves.
 
+use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::Jitter;
@@ -112,6 +113,50 @@ pub struct Symmetry {
 impl Symmetry {
     /// Maximum number of copies around the axis.
     pub const TURNS_LIMIT: u32 = 64;
+
+    /// Returns what leads from a stroke to each of its copies, about the middle of the model's box. The stroke itself is left out.
+    pub fn copies(&self) -> Vec<SymmetryCopy> {
+        let turns = self.turns.max(1);
+        let mut copies = Vec::new();
+        for turn in 0..turns {
+            let angle = std::f64::consts::TAU * f64::from(turn) / f64::from(turns);
+            let turned = DQuat::from_rotation_y(angle);
+            for mirrors in 0..8_u32 {
+                let is_meant = (0..3).all(|axis| mirrors >> axis & 1 == 0 || self.mirrors[axis]);
+                if is_meant && (turn, mirrors) != (0, 0) {
+                    let signs = [0, 1, 2].map(|axis| if mirrors >> axis & 1 == 1 { -1.0 } else { 1.0 });
+                    let signs = DVec3::from(signs);
+                    copies.push(SymmetryCopy { signs, turned });
+                }
+            }
+        }
+        copies
+    }
+}
+
+/// Way from a stroke to one of its copies: a mirror, then a turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SymmetryCopy {
+    /// Sign of each component: -1 where it is mirrored.
+    signs: DVec3,
+    turned: DQuat,
+}
+
+impl SymmetryCopy {
+    /// Maps a vector from the middle of the model, or a direction.
+    pub fn map(&self, vector: DVec3) -> DVec3 {
+        self.turned * (self.signs * vector)
+    }
+
+    /// Returns the same as a matrix.
+    pub(crate) fn matrix(&self) -> DMat3 {
+        DMat3::from_quat(self.turned) * DMat3::from_diagonal(self.signs)
+    }
+
+    /// Returns true if the copy is a mirror image.
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.signs.element_product() < 0.0
+    }
 }
 
 impl Default for Brush {

@@ -39,7 +39,7 @@ mod tips;
 mod version;
 mod way;
 
-pub use brush::{Brush, Symmetry, Turn};
+pub use brush::{Brush, Symmetry, SymmetryCopy, Turn};
 pub use canvas::{Canvas, CanvasTexel, Growth, LaidStroke, Layers, Painter};
 pub use canvases::{Canvases, Painted};
 pub use dynamics::Jitter;

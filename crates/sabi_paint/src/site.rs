@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use sabi_surface::patch::Site;
 
-use crate::brush::Symmetry;
+use crate::brush::{Symmetry, SymmetryCopy};
 use crate::limits::Eye;
 use crate::path::Path;
 use crate::pen::Touch;
@@ -195,43 +195,34 @@ pub(crate) fn copies(
     radius: f64,
 ) -> Vec<LocatedStroke> {
     let middle = surface.index().middle();
-    let turns = symmetry.turns.max(1);
-    let mut copies = Vec::new();
-    for turn in 0..turns {
-        let angle = std::f64::consts::TAU * f64::from(turn) / f64::from(turns);
-        let turned = DQuat::from_rotation_y(angle);
-        for mirrors in 0..8_u32 {
-            let is_meant = (0..3).all(|axis| mirrors >> axis & 1 == 0 || symmetry.mirrors[axis]);
-            if !is_meant || (turn == 0 && mirrors == 0) {
-                continue;
+    let copy = |copy: SymmetryCopy| {
+        let mapped = |numbers: [f32; 3]| copy.map(DVec3::from(numbers.map(f64::from)));
+        let located = |point: &StrokePoint| {
+            let position = middle + copy.map(point.site.position - middle);
+            surface.nearest(position, mapped(point.normal), TOLERANCE * radius)
+        };
+        let turn = copy.matrix();
+        let (mut points, _) = moved(surface, &stroke.points, located);
+        turn_shafts(&mut points, &turn);
+        let source = stroke
+            .source
+            .and_then(|source| moved(surface, &[source], located).0.pop());
+        let eye = stroke.eye.map(|eye| match eye {
+            Eye::Place(place) => {
+                let place = DVec3::from(place.map(f64::from));
+                Eye::Place((middle + copy.map(place - middle)).as_vec3().to_array())
             }
-            let signs = DVec3::from([0, 1, 2].map(|axis| if mirrors >> axis & 1 == 1 { -1.0 } else { 1.0 }));
-            let map = |vector: DVec3| turned * (signs * vector);
-            let mapped = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
-            let located = |point: &StrokePoint| {
-                let position = middle + map(point.site.position - middle);
-                surface.nearest(position, map(mapped(point.normal)), TOLERANCE * radius)
-            };
-            let turn = DMat3::from_quat(turned) * DMat3::from_diagonal(signs);
-            let (mut points, _) = moved(surface, &stroke.points, located);
-            turn_shafts(&mut points, &turn);
-            let source = stroke
-                .source
-                .and_then(|source| moved(surface, &[source], located).0.pop());
-            let eye = stroke.eye.map(|eye| match eye {
-                Eye::Place(place) => Eye::Place((middle + map(mapped(place) - middle)).as_vec3().to_array()),
-                Eye::Toward(direction) => Eye::Toward(map(mapped(direction)).as_vec3().to_array()),
-            });
-            copies.push(LocatedStroke {
-                points,
-                eye,
-                source,
-                moved: DAffine3::from_mat3_translation(turn, middle - turn * middle),
-                is_mirrored: mirrors.count_ones() % 2 == 1,
-            });
+            Eye::Toward(direction) => Eye::Toward(mapped(direction).as_vec3().to_array()),
+        });
+        LocatedStroke {
+            points,
+            eye,
+            source,
+            moved: DAffine3::from_mat3_translation(turn, middle - turn * middle),
+            is_mirrored: copy.is_mirrored(),
         }
-    }
-    copies
+    };
+    symmetry.copies().into_iter().map(copy).collect()
 }
 
 /// Moves points to other sites. Returns them and the number of points without a site.

@@ -359,7 +359,7 @@ impl Documents {
         let builtin = examples.and_then(|folder| builtin_name(folder, model));
         let mesh = match builtin {
             Some(name) => Ok(format!("{}{name}", Preview::BUILTIN)),
-            None => relative_paths::from_own_folder(&self.document, model),
+            None => relative_paths::relative(&self.document, model),
         };
         let texts = mesh.and_then(|mesh| Ok((mesh, self.textures_text(&reading)?)));
         let (mesh, textures) = match texts {
@@ -371,6 +371,14 @@ impl Documents {
             reading.put_into(preview, textures);
         });
         self.document.edit_aside(edit);
+    }
+
+    /// Names the shown model in a graph that was never saved, so that a recovered one comes back on it. A saved graph names its model.
+    pub(crate) fn name_model_of_unsaved(&mut self, evaluation: &Evaluation) {
+        let session = &mut self.document.session;
+        if session.file().is_none() && session.is_dirty() && !self.is_dragging {
+            self.name_model(evaluation);
+        }
     }
 
     /// Watches the files that the window depends on now.

@@ -62,7 +62,7 @@ impl Documents {
     pub(super) fn textures_text(&self, reading: &SavedReading) -> Result<Option<String>, NotText> {
         let textures = reading.textures.as_deref();
         textures
-            .map(|folder| relative_paths::from_own_folder(&self.document, folder))
+            .map(|folder| relative_paths::relative(&self.document, folder))
             .transpose()
     }
 

@@ -168,7 +168,7 @@ impl Editor {
     /// Selects nodes; without any, the model shows the outputs again.
     fn select(&mut self, ids: Vec<NodeId>) {
         if ids.is_empty() {
-            self.looks.followed = None;
+            self.looks.show_material(&self.documents.document);
         }
         self.documents.document.select(ids);
     }

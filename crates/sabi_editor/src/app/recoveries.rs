@@ -8,8 +8,9 @@ use sabi_engine::{Recovery, recoveries, recoveries_in_use};
 
 use crate::paths::canonical_if_present;
 
-/// Time for which recovery files in use are looked at again: a program that was killed holds them until the system has ended it.
-const AWAITED_FOR: Duration = Duration::from_secs(10);
+/// Time for which recovery files in use are looked at again: a program that was killed holds them until the system has ended it, which
+/// takes a loaded machine many seconds.
+const AWAITED_FOR: Duration = Duration::from_secs(60);
 /// Time between two looks.
 const LOOK_AGAIN: Duration = Duration::from_millis(200);
 

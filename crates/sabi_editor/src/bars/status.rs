@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use egui::{Align, Layout, Margin, RichText, Ui};
+use egui::{Align, Id, Layout, Margin, RichText, Ui, UiBuilder};
 use egui_phosphor::regular as icon;
 
 use super::{bar, document};
@@ -74,8 +74,15 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
             actions.push(Action::ShowPanel(Panel::Problems));
         }
     }
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    // With an id of its own, its widgets keep theirs whatever appears and disappears to the left.
+    let builder = UiBuilder::new()
+        .id(Id::new("status of the graph"))
+        .layout(Layout::right_to_left(Align::Center));
+    ui.scope_builder(builder, |ui| {
         actions.extend(document::menus(ui, context));
-        ui.label(quiet(format!("{} nodes", context.document.graph().len())));
+        ui.label(quiet(match context.document.graph().len() {
+            1 => "1 node".to_owned(),
+            count => format!("{count} nodes"),
+        }));
     });
 }

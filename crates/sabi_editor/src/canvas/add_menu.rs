@@ -9,7 +9,7 @@ use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use super::body::elided;
 use crate::action::Action;
-use crate::search::{Candidate, ranked};
+use crate::search::{Candidate, found_alias, ranked};
 use crate::theme::{Theme, space, type_size};
 
 /// Size of the list, points.
@@ -238,12 +238,11 @@ impl AddMenu {
             let width = rect.right() - at.x - right;
             painter.galley(at, elided(ui, text, FontId::proportional(size), width, color), color);
         };
-        text(
-            rect.min + vec2(16.0, 2.0),
-            &interface.label,
-            type_size::BODY,
-            theme.text,
-        );
+        let label = match found_alias(candidate, &self.query) {
+            Some(alias) => format!("{} ({alias})", interface.label),
+            None => interface.label.clone(),
+        };
+        text(rect.min + vec2(16.0, 2.0), &label, type_size::BODY, theme.text);
         text(
             rect.min + vec2(16.0, 18.0),
             &interface.summary,

@@ -3,7 +3,7 @@
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Stroke, Ui, vec2};
 use glam::{DMat4, DVec3, Vec3};
 use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Eye, Site};
+use sabi_engine::paint::{Action as BrushAction, Eye, Site, SymmetryCopy};
 use sabi_engine::view::{Camera, Lens, Picked};
 
 use super::navigation::{aspect, picked_by};
@@ -16,6 +16,8 @@ use crate::evaluation::Picture;
 
 /// Length of the arms of the cross at the place that is copied from, points.
 const CROSS: f32 = 8.0;
+/// Strength of the outline of a copy on another side of the model.
+const COPY_STRENGTH: f32 = 0.6;
 /// Corners of the outline.
 const CORNERS: usize = 48;
 
@@ -82,12 +84,13 @@ impl SeenModel {
         Some(self.rect.min + vec2(share.x * self.rect.width(), share.y * self.rect.height()))
     }
 
-    /// A circle on the tangent plane, on the screen.
-    fn outline(&self, picked: &Picked, radius: f32) -> Vec<Pos2> {
+    /// A circle on the tangent plane, on the screen, or that of a copy on another side of the model.
+    fn outline(&self, picked: &Picked, radius: f32, copy: Option<&SymmetryCopy>) -> Vec<Pos2> {
         let (x, y) = picked.normal.any_orthonormal_pair();
         let corner = |index: usize| {
             let (sine, cosine) = (index as f32 / CORNERS as f32 * std::f32::consts::TAU).sin_cos();
-            self.on_screen(picked.position_view + radius * (cosine * x + sine * y))
+            let place = picked.position_view + radius * (cosine * x + sine * y);
+            self.on_screen(copy.map_or(place, |copy| copy.map(place.as_dvec3()).as_vec3()))
         };
         (0..=CORNERS).filter_map(corner).collect()
     }
@@ -214,8 +217,12 @@ impl ModelView {
         let erases = action_of(&painted.brush, ui.input(|input| input.modifiers)) == BrushAction::Erase;
         let color = if erases { subject.theme.warning } else { Color32::WHITE };
         let hard = f64::from(painted.brush.hardness);
-        for (share, strength) in [(1.0, 1.0), (hard, 0.45)] {
-            let corners = seen.outline(&picked, (share * radius) as f32);
+        let own = [(None, 1.0, 1.0), (None, hard, 0.45)];
+        // Where the copies of the stroke will be.
+        let copies = painted.brush.symmetry.copies();
+        let copies = copies.iter().map(|copy| (Some(copy), 1.0, COPY_STRENGTH));
+        for (copy, share, strength) in own.into_iter().chain(copies) {
+            let corners = seen.outline(&picked, (share * radius) as f32, copy);
             for (width, color) in [
                 (3.0, Color32::from_black_alpha(90)),
                 (1.2, color.gamma_multiply(strength)),

@@ -17,8 +17,14 @@ use crate::remedies::{self, Request};
 use crate::settings::export::{ExportChoices, ExportPadding, ExportPlace, SIZES};
 use crate::theme::{Theme, space};
 
-/// Height that stays free below the choices for the button that exports and for the first lines of its result, points.
-const BELOW_CHOICES: f32 = 110.0;
+/// Height that stays free below the choices for the button that exports, points.
+const BELOW_CHOICES: f32 = 60.0;
+/// Height that stays free there for a result, as a share of the panel's.
+const RESULT_SHARE: f32 = 0.4;
+
+/// Sentence about maps that fit no UVs of the model's file.
+const UNWRAPPED: &str =
+    "The model was unwrapped here, so the maps fit only a copy of it: switch on \"Include the model\".";
 
 /// Panel of exports.
 #[derive(Default)]
@@ -36,9 +42,13 @@ impl View for ExportPanel {
         let mut chosen = context.settings.export.clone();
         let mut place = context.exports.place.clone();
         // The button that exports stays in sight, however long the list of files is.
+        let for_result = match context.exports.result {
+            Some(_) => RESULT_SHARE * ui.available_height(),
+            None => 0.0,
+        };
         let area = ScrollArea::vertical()
             .id_salt("choices")
-            .max_height((ui.available_height() - BELOW_CHOICES).max(0.0))
+            .max_height((ui.available_height() - BELOW_CHOICES - for_result).max(0.0))
             .auto_shrink([false, true]);
         area.show(ui, |ui| {
             let grid = Grid::new("export").num_columns(2).spacing([space::USUAL, space::USUAL]);
@@ -51,6 +61,9 @@ impl View for ExportPanel {
                 let has_variants = !context.document.contents().graph.variants().is_empty();
                 switches(&mut chosen, &mut place, has_variants, ui);
             });
+            if !chosen.has_model && is_unwrapped(context) {
+                ui.add(Label::new(RichText::new(UNWRAPPED).color(context.theme.warning)).wrap());
+            }
             self.presets.files(&chosen.preset, ui, context.theme);
         });
         if chosen != context.settings.export {
@@ -191,6 +204,12 @@ fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
         ui.add(egui::Label::new(RichText::new(why).color(theme.fault)).wrap());
         ui.end_row();
     }
+}
+
+/// Returns whether the shown model, or a part of it, was unwrapped, so that its file has other UVs.
+fn is_unwrapped(context: &ViewContext<'_>) -> bool {
+    let received = context.evaluation.model.received.as_ref();
+    received.is_some_and(|model| model.linked.unwrapped.is_some())
 }
 
 fn channels_text(channels: &[String]) -> String {

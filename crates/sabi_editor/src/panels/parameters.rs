@@ -50,7 +50,8 @@ impl Parameters {
     /// Exposed parameters, variants, inputs and outputs of the shown graph.
     fn of_graph(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let area = ScrollArea::vertical().id_salt("graph").auto_shrink(false);
+        area.show(ui, |ui| {
             actions.extend(self.exposed.show(ui, context, &mut self.memory));
             actions.extend(self.variants.show(ui, context));
             if !context.is_use_view {
@@ -105,7 +106,9 @@ impl Parameters {
             })
             .collect();
         let switches = channel_sections::switches(&interface.knobs);
-        let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // Each node opens at its top.
+        let area = ScrollArea::vertical().id_salt(id).auto_shrink(false);
+        let shown = area.show(ui, |ui| {
             histogram.show(ui, context, id);
             let of_knobs = ui.push_id(id, |ui| {
                 let sections = channel_sections::sections(&rows, &switches);

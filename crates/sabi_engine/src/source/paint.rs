@@ -34,9 +34,24 @@ pub(crate) fn kind() -> SourceKind {
         id: NAME.to_owned(),
         label: "Paint".to_owned(),
         summary: "Strokes of a brush on the surface.".to_owned(),
-        aliases: ["brush", "stroke", "draw", "hand", "mask paint", "sculpt", "projection"]
-            .map(str::to_owned)
-            .to_vec(),
+        aliases: [
+            "brush",
+            "stroke",
+            "draw",
+            "hand",
+            "mask paint",
+            "sculpt",
+            "projection",
+            "text",
+            "font",
+            "letters",
+            "writing",
+            "label",
+            "decal",
+            "stencil",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
         params: vec![
             Param::text(
                 "strokes",

@@ -102,3 +102,20 @@ fn a_file_of_another_window_is_saved_to_once_that_window_is_closed() {
         "{text}"
     );
 }
+
+#[test]
+fn a_graph_that_was_never_saved_comes_back_on_its_model() {
+    let mut window = Window::with(|folders| Session::new(folders.recovery.as_deref()));
+    let model = window.path("hero.glb");
+    fs::copy(window.editor().evaluation.model.file(), &model).expect("a model");
+    window.harness.state_mut().take_chosen_model(&model);
+    window.settle();
+    window.harness.state_mut().documents.autosave.every = Duration::ZERO;
+    window.add([0.2, 0.2], "cells");
+    window.settle();
+    let mut window = window.after_a_crash();
+    window.press("Recover");
+    window.settle();
+    let shown = window.editor().evaluation.model.file();
+    assert_eq!(shown, model.canonicalize().expect("a model"));
+}

@@ -1,6 +1,6 @@
 //! Choice of the preset, and the files that it writes.
 
-use egui::{ComboBox, Grid, RichText, Ui};
+use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
 use sabi_engine::{
     ListedPreset, PresetDescription, PresetFile, default_preset_folder, describe_preset, export_presets,
 };
@@ -65,8 +65,9 @@ impl PresetMenu {
             );
         }
         ui.collapsing(format!("Files for {}", title(listed)), |ui| {
-            ui.label(RichText::new(&preset.about).color(theme.quiet));
-            table(&preset, ui, theme);
+            ui.add(Label::new(RichText::new(&preset.about).color(theme.quiet)).wrap());
+            // A long list of channels does not widen the panel.
+            ScrollArea::horizontal().show(ui, |ui| table(&preset, ui, theme));
         });
     }
 
