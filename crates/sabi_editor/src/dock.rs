@@ -21,7 +21,7 @@ pub(crate) enum Panel {
     Export,
     History,
     Problems,
-    Performance,
+    Timing,
     Page,
 }
 
@@ -37,7 +37,7 @@ impl Panel {
         Panel::Export,
         Panel::History,
         Panel::Problems,
-        Panel::Performance,
+        Panel::Timing,
         Panel::Page,
     ];
 
@@ -53,7 +53,7 @@ impl Panel {
             Panel::Export => "Export",
             Panel::History => "History",
             Panel::Problems => "Problems",
-            Panel::Performance => "Performance",
+            Panel::Timing => "Timing",
             Panel::Page => "Node page",
         }
     }
@@ -69,7 +69,7 @@ impl Panel {
             Panel::Export => icon::EXPORT,
             Panel::History => icon::CLOCK_COUNTER_CLOCKWISE,
             Panel::Problems => icon::WARNING,
-            Panel::Performance => icon::GAUGE,
+            Panel::Timing => icon::GAUGE,
             Panel::Page => icon::BOOK_OPEN_TEXT,
         }
     }
@@ -100,7 +100,7 @@ const MORE: Tabs = &[
     Panel::Library,
     Panel::History,
     Panel::Problems,
-    Panel::Performance,
+    Panel::Timing,
     Panel::Page,
 ];
 
@@ -153,7 +153,7 @@ impl Workspace {
                                 Panel::History,
                                 Panel::Export,
                                 Panel::Problems,
-                                Panel::Performance,
+                                Panel::Timing,
                                 Panel::Page,
                             ],
                         ),

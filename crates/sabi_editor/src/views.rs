@@ -14,9 +14,9 @@ use crate::panels::history::History;
 use crate::panels::library::LibraryPanel;
 use crate::panels::page::Page;
 use crate::panels::parameters::Parameters;
-use crate::panels::performance::Performance;
 use crate::panels::problems::Problems;
 use crate::panels::stack::Layers;
+use crate::panels::timing::Timing;
 
 /// The views of the window, each with its own state.
 pub(crate) struct Views {
@@ -29,7 +29,7 @@ pub(crate) struct Views {
     pub(crate) export: ExportPanel,
     pub(crate) history: History,
     pub(crate) problems: Problems,
-    pub(crate) performance: Performance,
+    pub(crate) timing: Timing,
     pub(crate) page: Page,
     pub(crate) questions: Questions,
     pub(crate) gradient_picker: GradientPicker,
@@ -50,7 +50,7 @@ impl Views {
             Panel::Export => &mut self.export,
             Panel::History => &mut self.history,
             Panel::Problems => &mut self.problems,
-            Panel::Performance => &mut self.performance,
+            Panel::Timing => &mut self.timing,
             Panel::Page => &mut self.page,
         }
     }

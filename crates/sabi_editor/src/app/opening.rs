@@ -21,9 +21,9 @@ use crate::panels::history::History;
 use crate::panels::library::LibraryPanel;
 use crate::panels::page::{DraftEditor, Page};
 use crate::panels::parameters::Parameters;
-use crate::panels::performance::Performance;
 use crate::panels::problems::Problems;
 use crate::panels::stack::Layers;
+use crate::panels::timing::Timing;
 use crate::paths::in_canonical_folder;
 use crate::settings::Settings;
 use crate::views::Views;
@@ -113,7 +113,7 @@ impl Opened {
                 export: ExportPanel::default(),
                 history: History,
                 problems: Problems::default(),
-                performance: Performance,
+                timing: Timing,
                 page: Page::with_drafts(lost.drafts),
                 questions: Questions::default(),
                 gradient_picker: GradientPicker::default(),

@@ -10,6 +10,8 @@ use crate::settings::brush::BrushChoices;
 
 /// Way of a drag below which it is a click, points.
 const CLICK: f32 = 6.0;
+/// Least half of the longer side of a decal that a click sets down, points on the screen.
+const LEAST: f32 = 60.0;
 /// Way on the surface by which the scale of the screen is found, as a share of the model's largest side.
 const PROBE: f64 = 1e-3;
 
@@ -44,7 +46,15 @@ impl Decal {
         if self.way.length() < CLICK {
             // To the right on the screen.
             let turn = turn_of(axes, Vec2::X).map_or(0.0, |[_, turn]| turn);
+            // A brush is often too thin for a picture or a word.
+            let scale = axes.map(Vec2::length).into_iter().fold(0.0, f32::max);
+            let least = LEAST / scale;
             return Brush {
+                radius: if least.is_finite() {
+                    brush.radius.max(least)
+                } else {
+                    brush.radius
+                },
                 angle_degrees: wrapped(brush.angle_degrees + turn),
                 ..brush
             };

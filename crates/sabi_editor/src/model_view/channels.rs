@@ -27,7 +27,7 @@ pub(crate) const CHANNELS: [(&str, Mode); 17] = [
 pub(super) const MODEL_MODES: [(&str, Mode); 4] = [
     ("Checker", Mode::Checker),
     ("Texel density", Mode::Density),
-    ("Interface orientation", Mode::Facing),
+    ("Face orientation", Mode::Facing),
     ("Clay", Mode::Clay),
 ];
 

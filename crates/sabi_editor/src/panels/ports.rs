@@ -1,6 +1,6 @@
 //! Name, inputs and outputs of the shown graph as a group.
 
-use egui::{RichText, Ui, WidgetInfo, WidgetType};
+use egui::{RichText, TextWrapMode, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::PortCommand;
 use sabi_editing::{OpenDocument, connections, groups, ports};
@@ -9,6 +9,9 @@ use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
 
 use super::field::Field;
 use crate::theme::{Theme, space, type_size};
+
+/// Width of the button that removes a row, with the space beside it, points.
+const REMOVE_BUTTON: f32 = 34.0;
 
 /// Shows the name, inputs and outputs, and returns the requested edits.
 pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortCommand> {
@@ -158,20 +161,23 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut V
                 let name = name.clone();
                 commands.push(PortCommand::RenameOutput { name, to });
             }
-            let menu = ui.menu_button(title_of_result(document, from), |ui| {
-                let results = ports::results(document);
-                list(
-                    ui,
-                    results.iter().map(|from| (title_of_result(document, from), from)),
-                    |from| {
-                        commands.push(PortCommand::Retarget {
-                            name: name.clone(),
-                            from: from.clone(),
-                        });
-                    },
-                );
+            let chosen = ui.scope(|ui| {
+                // A long title leaves room for the button beside it.
+                ui.set_max_width((ui.available_width() - REMOVE_BUTTON).max(0.0));
+                ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
+                let mut chosen = None;
+                let menu = ui.menu_button(title_of_result(document, from), |ui| {
+                    let results = ports::results(document);
+                    let entries = results.iter().map(|from| (title_of_result(document, from), from));
+                    list(ui, entries, |from| chosen = Some(from.clone()));
+                });
+                menu.response.on_hover_text("Result that it gives");
+                chosen
             });
-            menu.response.on_hover_text("Result that it gives");
+            commands.extend(chosen.inner.map(|from| PortCommand::Retarget {
+                name: name.clone(),
+                from,
+            }));
             if small(ui, icon::TRASH, &format!("Remove the output {name}")) {
                 commands.push(PortCommand::RemoveOutput(name.clone()));
             }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{JoinHandle, sleep};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::queue::WorkerQueue;
 use crate::error::EngineError;
@@ -13,11 +13,16 @@ use crate::phases::{Phase, Progress, stop_if_canceled, unless_left};
 /// Interval for checking whether the reading of an abandoned model has ended.
 const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
-/// Reading of models, one after another. The reading of an abandoned model ends at its next check, on its own thread. Only
-/// then the next model is read, so that only one model takes memory.
+/// Time for which the next model waits for the end of an abandoned one. The flattening of one huge chart cannot be interrupted.
+const WAITS_FOR: Duration = Duration::from_secs(2);
+/// Abandoned models that may be at work while another one is read.
+const MOST_LEFT: usize = 2;
+
+/// Reading of models, one after another. The reading of an abandoned model ends at its next check, on its own thread. The next
+/// model waits a moment for that, and however long it takes while several are at work, so that few models take memory.
 #[derive(Default)]
 pub(super) struct ModelReading {
-    left: Option<JoinHandle<()>>,
+    left: Vec<JoinHandle<()>>,
 }
 
 /// Progress of reading a model. It is canceled once another model is requested.
@@ -67,17 +72,19 @@ impl ModelReading {
         work: impl FnOnce(&dyn Progress) -> Result<LinkedModel, EngineError> + Send + 'static,
     ) -> Result<LinkedModel, EngineError> {
         progress.advance(Phase::Load, 0, 1);
-        while self.left.as_ref().is_some_and(|left| !left.is_finished()) {
+        let begun = Instant::now();
+        self.left.retain(|left| !left.is_finished());
+        while self.left.len() > MOST_LEFT || !self.left.is_empty() && begun.elapsed() < WAITS_FOR {
             stop_if_canceled(&Wanted(progress))?;
             sleep(LOOK_AGAIN);
+            self.left.retain(|left| !left.is_finished());
         }
-        self.left = None;
         let shared = progress.clone();
         match unless_left(&Wanted(progress), move || work(shared.as_ref())) {
             Ok(read) => read,
             Err(stopped) => {
                 progress.is_left.store(true, Ordering::Relaxed);
-                self.left = stopped.left;
+                self.left.extend(stopped.left);
                 Err(stopped.error)
             }
         }
@@ -128,7 +135,7 @@ mod tests {
         let error = reading.read(&progress, waiting).err();
         assert_eq!(error.map(|error| error.kind), Some(ErrorKind::Interrupted));
         closing.join().unwrap();
-        let left = reading.left.take().unwrap();
+        let left = reading.left.pop().unwrap();
         assert!(!left.is_finished(), "it is still at work");
         queue.activity.clear();
         progress.advance(Phase::Atlas, 0, 1);
@@ -161,7 +168,32 @@ mod tests {
         let next = Arc::new(LoadProgress::new(&queue, 2));
         let read = reading.read(&next, |_| Err(no_model()));
         assert_eq!(read.err(), Some(no_model()));
-        assert!(reading.left.is_none(), "the one before has ended");
+        assert!(reading.left.is_empty(), "the one before has ended");
+    }
+
+    #[test]
+    fn the_next_model_does_not_wait_for_an_abandoned_one_that_cannot_be_interrupted() {
+        let queue = Arc::new(WorkerQueue::new(&LiveOptions::default()));
+        let progress = Arc::new(LoadProgress::new(&queue, 1));
+        let mut reading = ModelReading::default();
+        let ((begun, begins), (go, told)) = (channel(), channel::<()>());
+        let leaves = progress.clone();
+        let leaving = std::thread::spawn(move || {
+            begins.recv().unwrap();
+            leaves.is_left.store(true, Ordering::Relaxed);
+        });
+        let deaf = move |_: &dyn Progress| {
+            begun.send(()).unwrap();
+            let _ = told.recv();
+            Err(no_model())
+        };
+        assert!(reading.read(&progress, deaf).is_err());
+        leaving.join().unwrap();
+        let next = Arc::new(LoadProgress::new(&queue, 2));
+        let read = reading.read(&next, |_| Err(no_model()));
+        assert_eq!(read.err(), Some(no_model()));
+        assert!(!reading.left.iter().all(JoinHandle::is_finished), "it is still at work");
+        drop(go);
     }
 
     #[test]

@@ -14,12 +14,15 @@ pub(crate) fn kind() -> SourceKind {
         label: "Material output".to_owned(),
         summary: "The material that is exported and shown.".to_owned(),
         aliases: ["export", "result"].map(str::to_owned).to_vec(),
-        params: vec![Param::text(
-            "materials",
-            "*",
-            "Names of the model's materials that get this result, separated by commas; * means all. Of several \
-             outputs, one that lists a material takes precedence over one with *; otherwise the first by id.",
-        )],
+        params: vec![
+            Param::text(
+                "materials",
+                "*",
+                "Names of the model's materials that get this result, separated by commas; * means all. Of several \
+                 outputs, one that lists a material takes precedence over one with *; otherwise the first by id.",
+            )
+            .labeled("Materials (* = all)"),
+        ],
         inputs: vec![SourcePort::new(
             "material",
             PortType::Material,

@@ -64,7 +64,7 @@ impl Keyboard {
             | Panel::Export
             | Panel::History
             | Panel::Problems
-            | Panel::Performance
+            | Panel::Timing
             | Panel::Page => Scope::Window,
         }
     }

@@ -17,8 +17,8 @@ fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
             .iter()
             .all(|node| editor.evaluation.results.time(node).is_some())
     });
-    window.open(Panel::Performance);
-    let panel = window.editor().shell.dock.rects[&Panel::Performance];
+    window.open(Panel::Timing);
+    let panel = window.editor().shell.dock.rects[&Panel::Timing];
     let row = |window: &Window, title: &str| {
         let found = window
             .harness

@@ -9,9 +9,9 @@ use crate::context::{View, ViewContext};
 use crate::time_text::time_text;
 
 /// Panel of times and memory.
-pub(crate) struct Performance;
+pub(crate) struct Timing;
 
-impl View for Performance {
+impl View for Timing {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         summary(ui, context);
         ui.separator();
@@ -32,7 +32,7 @@ fn summary(ui: &mut Ui, context: &ViewContext<'_>) {
         sorted.get(sorted.len() / 2).copied()
     };
     let longest = frames.iter().copied().max();
-    egui::Grid::new("performance")
+    egui::Grid::new("timing")
         .num_columns(2)
         .spacing([16.0, 2.0])
         .show(ui, |ui| {
