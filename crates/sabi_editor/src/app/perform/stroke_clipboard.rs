@@ -69,7 +69,7 @@ impl Editor {
     }
 }
 
-/// Steps that add strokes; their groups get numbers from a free one on.
+/// Steps that add strokes. Their groups are numbered from `free` on.
 fn additions(strokes: Vec<Stroke>, free: u32) -> Vec<Step> {
     let mut numbers: BTreeMap<u32, u32> = BTreeMap::new();
     let added = strokes.into_iter().map(|stroke| {

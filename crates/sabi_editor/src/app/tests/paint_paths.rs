@@ -109,7 +109,7 @@ fn a_drag_pulls_handles_out_of_a_new_knot_and_moves_one_that_is_there() {
 }
 
 #[test]
-fn a_press_on_the_way_puts_a_knot_into_it() {
+fn a_press_on_a_path_between_two_knots_inserts_a_knot() {
     let mut window = drawing(Hand::Path);
     let [from, to, beside] = window.corners();
     for knot in [from, to] {
@@ -144,7 +144,7 @@ fn a_click_near_an_edge_lays_a_path_along_it() {
 }
 
 #[test]
-fn a_mere_click_on_a_knot_is_no_step_and_leaves_the_path_as_it_was() {
+fn a_click_on_a_knot_makes_no_undo_step_and_leaves_the_path_unchanged() {
     let mut window = drawing(Hand::Path);
     let [first, ..] = window.click_corners();
     window.key(Key::Enter);

@@ -163,7 +163,7 @@ impl Window {
 }
 
 #[test]
-fn a_muted_node_shows_what_it_passes_on() {
+fn a_muted_node_shows_the_picture_of_the_input_that_it_passes_on() {
     let mut window = Window::opened(WIRED);
     let pixels = |window: &Window, node: &str| {
         let editor = window.editor();
@@ -186,7 +186,7 @@ fn a_muted_node_shows_what_it_passes_on() {
 }
 
 #[test]
-fn what_is_put_into_a_wire_by_its_menu_is_only_what_fits_both_ends() {
+fn the_menu_of_a_wire_offers_only_nodes_that_fit_both_ends() {
     let mut window = Window::opened(WIRED);
     let [one, other] = [window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source")];
     let gap = between(one, other);
