@@ -64,7 +64,7 @@ pub(crate) enum FileCommand {
     SaveAs,
     /// Asks for a picture, or a folder of pictures, to add.
     ImportPictures,
-    /// Writes the textures as the export panel says.
+    /// Exports the textures with the choices of the export panel.
     Export,
     /// Asks for an archive to write the graph to, with all files that it uses.
     Pack,
@@ -108,7 +108,7 @@ pub(crate) enum GraphCommand {
     SwapInputs,
     /// Mutes or unmutes the selected nodes.
     Mute,
-    /// Has the selected nodes show their titles alone, or everything again.
+    /// Collapses the selected nodes to their titles, or shows everything again.
     Collapse,
     /// Hides the unused ports of the selected nodes, or shows them again.
     HidePorts,
@@ -186,7 +186,7 @@ pub(crate) enum CanvasCommand {
     Wire,
 }
 
-/// Command about which result is shown where.
+/// Command about the results that views show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum LookCommand {
     /// Shows the selected node in the 2D view and on the model.
@@ -239,7 +239,7 @@ pub(crate) enum BrushCommand {
     Larger,
     /// Makes the brush smaller.
     Smaller,
-    /// Has the brush take paint away, or lay it again.
+    /// Switches the brush between erasing and painting.
     Erase,
 }
 

@@ -15,7 +15,8 @@ use crate::action::{Action, PaintAction};
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 10.0;
-/// Distance of what is seen at the middle of a decal from it, from which on it is hidden, as a share of the model's largest side.
+/// Distance between the middle of a decal and the visible surface there from which on the decal is hidden, as a share
+/// of the model's largest side.
 const HIDDEN: f64 = 0.01;
 /// Least size of a decal, as a share of the model's largest side.
 const LEAST: f64 = 0.002;
@@ -40,14 +41,14 @@ enum Part {
 /// A decal that is moved, or turned and sized.
 pub(super) struct HeldDecal {
     pub(super) node: NodeId,
-    /// Versions of the node's strokes before it.
+    /// Versions of the node's strokes before the drag.
     before: String,
     model: Arc<LiveModel>,
     stroke: Arc<Stroke>,
     part: Part,
     /// Half of its width, in radii.
     half_width: f32,
-    /// Way from the pointer to the handle, so that it does not jump.
+    /// Vector from the pointer to the handle, so that the handle does not jump.
     grip: Vec2,
 }
 

@@ -50,7 +50,7 @@ pub(crate) fn font_bytes(file: &Path) -> Result<Vec<u8>, String> {
         return Err(format!("{name} is no font file; choose a .ttf, .otf or .ttc file"));
     }
     let bytes = fs::read(file).map_err(|error| format!("{} cannot be read: {error}", file.display()))?;
-    // The layout ends the program where a font cannot be read.
+    // The layout would panic at a font that cannot be read.
     match skrifa::FontRef::from_index(&bytes, 0) {
         Ok(_) => Ok(bytes),
         Err(error) => Err(format!(
@@ -59,7 +59,7 @@ pub(crate) fn font_bytes(file: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Cover of each pixel by a text.
+/// Coverage of each pixel by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextPicture {
     /// Pixels across and down.
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_text_stays_within_the_largest_picture_and_none_is_none() {
+    fn a_long_text_stays_within_the_largest_picture_and_an_empty_one_has_none() {
         let long = plain(&"WARNING ".repeat(40)).expect("letters");
         assert!(long.size[0] < 8192, "{:?}", long.size);
         assert_eq!(plain("   "), None);
@@ -166,7 +166,7 @@ mod tests {
         fs::write(&file, hack).expect("a writable folder");
         let width = |text: &str, font: &TextFont| picture_of(text, font).expect("a font").expect("letters").size[0];
         for font in [TextFont::monospace(), TextFont::of_file(file.clone())] {
-            // All letters of one width, unlike those of the window.
+            // In this font all letters have one width, unlike in that of the window.
             let [narrow, wide] = ["iMMi", "MiiM"].map(|text| width(text, &font));
             assert!(narrow.abs_diff(wide) < 120, "{font:?}: {narrow} {wide}");
             assert!(
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_font_is_refused_with_a_sentence() {
+    fn a_file_that_is_no_font_is_refused_with_a_sentence() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("noise.ttf");
         fs::write(&file, [7; 500]).expect("a writable folder");

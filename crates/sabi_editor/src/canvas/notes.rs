@@ -149,8 +149,8 @@ fn paint(ui: &Ui, theme: &Theme, note: &Note, corner: Pos2, width: f32, zoom: f3
     rect
 }
 
-/// Shows the field in which a note is written. It ends by a click beside it, Ctrl+Enter or Escape, and what
-/// was written stays: undo takes it back.
+/// Shows the field in which a note is written. A click beside it, Ctrl+Enter and Escape close it and keep the text,
+/// which can be undone.
 pub(super) fn write(open: &mut Option<NoteText>, ui: &Ui, camera: &Camera, actions: &mut Vec<Action>) {
     let (Some(writing), Some(panel)) = (open.as_mut(), camera.panel) else {
         return;

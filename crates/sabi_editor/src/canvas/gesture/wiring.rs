@@ -108,7 +108,7 @@ pub(in crate::canvas) fn target(
     best.map(|(_, place)| place).or(under.map(|(_, place)| place))
 }
 
-/// Returns whether a port is none for a mask that multiplies a parameter.
+/// Returns whether a port is not the input for the mask of a parameter.
 fn is_plain(document: &OpenDocument, place: &PortRef) -> bool {
     let PortRef::Input(slot) = place else { return true };
     document
@@ -128,8 +128,9 @@ fn choices(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2)
     port_question::choices(canvas, document, panel, from, pointer)
 }
 
-/// Drops the dragged wire: connects it to the port there, asks on a node's body which of its parameters it multiplies, says why a
-/// port under the pointer refuses it, or in a free place opens the menu of nodes that take it. A wire that was taken off an input is disconnected in a free place.
+/// Drops the dragged wire. At a port, connects it or says why the port refuses it; on a node's body, asks which
+/// parameter it multiplies; in a free place, opens the menu of nodes that fit it. A wire that was taken off an input is
+/// disconnected in a free place.
 pub(super) fn drop_wire(
     canvas: &mut Canvas,
     context: &CanvasContext<'_>,
