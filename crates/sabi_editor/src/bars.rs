@@ -1,4 +1,4 @@
-//! The bars around the panels: menus, models, the path into groups, and what is going on.
+//! The bars around the panels: menus, models, the path into groups, and the status.
 
 mod document;
 mod menus;

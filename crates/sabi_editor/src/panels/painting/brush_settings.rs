@@ -1,4 +1,4 @@
-//! The brush: what it does, its tip, its size, and all that strokes depend on.
+//! Settings of the brush: its action, its tip, its size, and everything else that strokes depend on.
 
 use egui::epaint::Hsva;
 use egui::{Button, Color32, Popup, PopupCloseBehavior, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
@@ -34,7 +34,8 @@ const ACTIONS: [(BrushAction, &str, &str); 6] = [
     ),
 ];
 
-/// Shows the brush; changes it. `text` is what is typed to be stamped, `curve` the curve of the fade.
+/// Shows the settings of the brush, and changes it. `text` is the text to stamp, `curve` the state of the curve of the
+/// fade.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
@@ -84,7 +85,7 @@ pub(super) fn show(
     actions
 }
 
-/// Settings of the action and of the area alone.
+/// Settings that only some actions or areas have.
 fn details(ui: &mut Ui, brush: &mut BrushChoices) {
     if brush.action == BrushAction::Clone {
         ui.horizontal(|ui| choice(ui, "Copies", &mut brush.copy_of, &CopyOf::ALL))
@@ -208,7 +209,7 @@ fn color_button(ui: &mut Ui, color: &mut [f32; 3]) {
     });
 }
 
-/// The way between stamps, their turn, and their fade.
+/// Distance between stamps, their turn, and their fade.
 fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
     ui.add(
         Slider::new(&mut brush.spacing, SPACINGS)
@@ -273,7 +274,7 @@ fn symmetry(ui: &mut Ui, brush: &mut BrushChoices) {
         .on_hover_text("Copies strokes around the upright axis");
 }
 
-/// Places that are left alone, and the hand.
+/// Settings of the places that strokes change, and of how the brush follows the pointer.
 fn limits(ui: &mut Ui, brush: &mut BrushChoices) {
     ui.add(
         Slider::new(&mut brush.limits.angle_degrees, 10.0..=180.0)

@@ -49,7 +49,7 @@ enum Named {
 
 /// State of the field for a name.
 enum Typed {
-    /// It is not there.
+    /// The field is not shown.
     Nothing,
     Still,
     /// Another name was typed.
@@ -58,9 +58,9 @@ enum Typed {
 
 /// Request of a row or a tool.
 enum Asked {
-    /// Steps in the list, with their name in the history.
+    /// Change the list by these steps, with their name in the history.
     Steps(&'static str, Vec<Step>),
-    /// These strokes marked.
+    /// Mark these strokes.
     Mark(BTreeSet<Version>),
 }
 
@@ -291,7 +291,7 @@ fn named_row(ui: &mut Ui, is_marked: bool, title: &str) -> Response {
     label.interact(Sense::click_and_drag())
 }
 
-/// The brush of a stroke as its picture shows it: a decal upright, and once.
+/// Brush that the picture of a stroke is drawn with: a decal is drawn upright, and once.
 fn shown_brush(stroke: &Stroke) -> Brush {
     let brush = stroke.brush.clone();
     if !stroke.area.is_single() {

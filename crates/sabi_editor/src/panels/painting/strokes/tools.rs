@@ -15,7 +15,7 @@ use crate::context::ViewContext;
 /// Tools for marked strokes.
 #[derive(Default)]
 pub(super) struct Tools {
-    /// Place of the opacity slider while it is dragged: a step is taken once it is let go.
+    /// Value of the opacity slider while it is dragged; a step is made when it is released.
     slid: Option<f32>,
 }
 
@@ -70,7 +70,7 @@ impl Tools {
         if slider.changed() {
             self.slid = Some(opacity);
         }
-        // One step once it is let go, so that the list stays short.
+        // One step when the slider is released, so that the list of steps stays short.
         let is_done = slider.drag_stopped() || slider.lost_focus() || (slider.changed() && !slider.dragged());
         let opacity = self.slid.take_if(|_| is_done)?;
         if let Some(group) = group {
