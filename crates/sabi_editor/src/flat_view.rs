@@ -51,12 +51,12 @@ pub(crate) struct FlatView {
     has_wires: bool,
     /// Picture that is shown until another one is made.
     shown: Option<ShownPicture>,
-    /// Source of which no picture could be made.
+    /// Source for which making a picture has failed.
     failed: Option<PictureSource>,
     /// Picture that is being made.
     loading: Option<(PictureSource, Task<(ColorImage, Histogram)>)>,
     wires: Wires,
-    /// Triangles that the brush looks for.
+    /// Triangles by their places in the texture, among which the brush finds the one under the pointer.
     triangles: Triangles,
     brush: BrushTool,
 }
@@ -220,14 +220,15 @@ impl FlatView {
     fn canvas(&mut self, evaluation: &Evaluation, square: Rect, set: SetKey) -> SeenTexture {
         let model = evaluation.model.received.as_ref();
         SeenTexture {
-            // Without a model, no place is asked for.
+            // Without a model, no place is looked up.
             triangles: model.map_or_else(Default::default, |model| self.triangles.of(model, set)),
             square,
             set,
         }
     }
 
-    /// Has the brush paint on the texture, and draws the marked path over it. Returns whether the drag is the brush's.
+    /// Lets the brush paint on the texture, and draws the marked path over it. Returns whether the drag belongs to the
+    /// brush.
     fn paint_on(
         &mut self,
         ui: &Ui,

@@ -96,7 +96,7 @@ mod tests {
         const COUNT: u32 = 600;
         let grid = TriangleGrid::new((0..COUNT).map(|number| (number, square(number))));
         assert!(!grid.wide.is_empty() && grid.cells.iter().any(|cell| !cell.is_empty()));
-        // From beside the square to beside it.
+        // Places in the square and beyond it on all sides.
         for step in 0..3600_u32 {
             let at = 0.025 * DVec2::new(f64::from(step % 60), f64::from(step / 60)) - 0.25;
             for least in [0, COUNT / 2] {

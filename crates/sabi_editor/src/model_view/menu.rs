@@ -159,7 +159,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
     if let Some(remark) = quality.remark() {
         ui.separator();
         ui.set_max_width(260.0);
-        // Labels of menus are justified, which tears the words of a sentence apart.
+        // Labels of menus are justified, which would spread the words of a sentence.
         ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| ui.weak(remark));
     }
 }

@@ -18,7 +18,7 @@ struct Screen {
     texture: Option<(TextureId, wgpu::Texture)>,
 }
 
-/// First picture of another model than the main one, after those of the shown and of the pinned result.
+/// Index of the first picture of a model beside the main one, after those of the shown and of the pinned result.
 pub(super) const FIRST_BESIDE: usize = 2;
 
 /// Pictures of the shown result and of the pinned one beside it, and of other models.
@@ -62,7 +62,7 @@ impl<'a> Lighting<'a> {
             return Ok(true);
         };
         let scene = self.scene(picture, environment);
-        // Another environment or light makes another picture, too.
+        // The revision also changes with the environment and the lights.
         viewport.show(gpu, &scene, &self.revision_of(picture), shot, size, false)
     }
 
@@ -206,7 +206,7 @@ impl Pictures {
             return Ok(false);
         };
         let scene = request.lighting.scene(request.picture, environment);
-        // Another environment or light makes another picture, too.
+        // The revision also changes with the environment and the lights.
         let revision = request.lighting.revision_of(request.picture);
         let viewport = &mut screen.viewport;
         Ok(viewport.show(gpu, &scene, &revision, &request.shot, size, request.is_moving)?)

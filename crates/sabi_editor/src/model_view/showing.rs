@@ -12,7 +12,8 @@ use crate::evaluation::Evaluation;
 use crate::settings::brush::Hand;
 use crate::theme::{Theme, space, type_size};
 
-/// Height of a hint over the titles at the foot, points: under the menus it would lie on them where the view is narrow.
+/// Height of a hint above the titles at the lower edge, in points. At the top it would cover the menus of a narrow
+/// view.
 const HINT: f32 = 24.0;
 /// Border of the ground of a caption, points.
 const GROUND: Vec2 = vec2(4.0, 2.0);
@@ -86,7 +87,7 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<A
     ui.weak(format!("{look}  {}", Command::Viewport(ViewportCommand::Focus).title()));
 }
 
-/// Writes on the picture what it shows; of two pictures, on either side of the line between them.
+/// Writes the title of the shown result on the picture; of two pictures, on either side of the line between them.
 pub(super) fn label(view: &mut ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, subject: &Subject<'_>) {
     let showing = subject.showing;
     let theme = subject.theme;
