@@ -22,7 +22,7 @@ const NODE: [f32; 2] = [160.0, 90.0];
 const LARGEST_SCALE: f32 = 0.25;
 /// Most height of the rows, points; more of them are scrolled.
 const MOST_HEIGHT: f32 = 240.0;
-/// Names of nodes that are said.
+/// Most names of nodes in the text about a graph.
 const MOST_NAMES: usize = 4;
 
 /// Rows of what can be recovered.
@@ -63,7 +63,7 @@ impl RecoveryList {
         let theme = context.theme;
         let mut chosen = None;
         ui.colored_label(theme.warning, "The program ended before this was saved:");
-        // As many rows as sessions have ended; what stands below them stays in sight.
+        // There is a row for each session that ended; the limited height keeps the contents below in view.
         let rows = ScrollArea::vertical()
             .max_height(MOST_HEIGHT)
             .auto_shrink([false, true]);

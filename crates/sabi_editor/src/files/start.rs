@@ -95,7 +95,7 @@ fn title(ui: &mut Ui, theme: &Theme) {
 }
 
 impl StartPage {
-    /// Shows all that is on the page. Returns the action of what was clicked.
+    /// Shows the contents of the page. Returns the action of what was clicked.
     fn page(&mut self, ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) -> Option<Action> {
         title(ui, context.theme);
         ui.add_space(space::WIDE);

@@ -21,7 +21,7 @@ pub(crate) struct ExportChoices {
     /// Padding around the UV islands.
     pub(crate) padding: ExportPadding,
     pub(crate) has_model: bool,
-    /// True if the copy of the model keeps what the textures do not replace of its look.
+    /// True if the copy of the model keeps the parts of its materials that the textures do not replace.
     pub(crate) keeps_look: bool,
     /// True if the copy of the model is one file with the maps in it.
     pub(crate) embeds: bool,
@@ -35,7 +35,7 @@ pub(crate) enum ExportPadding {
     /// As wide as the mip levels of game engines need it at a size.
     #[default]
     Automatic,
-    /// So many texels.
+    /// This many texels.
     Texels(u32),
     /// Everything around the islands is filled.
     Everything,
@@ -98,7 +98,7 @@ impl ExportChoices {
         })
     }
 
-    /// Choices with what is not known replaced by the default, since settings may have been edited by hand.
+    /// Choices with unknown values replaced by the default, since settings may have been edited by hand.
     pub(crate) fn sanitized(mut self) -> ExportChoices {
         let usual = ExportChoices::default();
         if self.preset.is_empty() {
