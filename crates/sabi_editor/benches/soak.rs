@@ -56,7 +56,7 @@ fn main() {
             Step::Redo => window.redo(),
         }
         window.frame(Vec::new());
-        // As soon as a hand could do the next: some results come, others are overtaken.
+        // About as soon as a user could act again: some results arrive, others are replaced before.
         window.wait(Duration::from_millis(5));
     }
 }

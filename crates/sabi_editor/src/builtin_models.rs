@@ -16,7 +16,7 @@ macro_rules! models {
     };
 }
 
-/// Models of the examples, the one that new graphs are shown on first.
+/// Models of the examples. New graphs are shown on the first one.
 pub(crate) const MODELS: [(&str, &[u8]); 11] = models![
     "bench.glb" "barrel.glb" "chain.glb" "chair.glb" "column.glb" "crate.glb" "cube.glb" "figure.glb" "sphere.glb" "table.glb"
     "wall.glb"
@@ -54,7 +54,7 @@ pub(crate) fn model_of(session: &Session, examples: Option<&Path>) -> Option<Res
     let graph = session.graph();
     Some(match graph.trusted.check(&graph.base(), &named) {
         Err(Unread::Refused(refusal)) => Err(refusal),
-        // Everything else is told when it is read.
+        // Other errors are reported when the file is read.
         _ => Ok(graph.base().resolve(&named)),
     })
 }

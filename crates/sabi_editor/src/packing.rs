@@ -1,4 +1,4 @@
-//! Packing of the graph for another machine, while the window goes on.
+//! Packing of the graph for another machine, in the background.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ pub(crate) struct Packing {
     cancel: Arc<Cancel>,
 }
 
-/// Word to a packing to break off.
+/// Request to cancel the packing.
 #[derive(Default)]
 struct Cancel(AtomicBool);
 
@@ -47,7 +47,7 @@ impl Packing {
         }));
     }
 
-    /// Sentence for the artist once the archive is written, or why it is not.
+    /// Sentence about the archive, or the reason that it is not written, once the work has ended.
     pub(crate) fn take(&mut self) -> Option<Result<String, String>> {
         let packed = self.task.as_ref()?.poll()?;
         self.task = None;

@@ -129,7 +129,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Optio
             | Remedy::RaiseMemory
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
-            // Problems asks for each picture that is missing.
+            // The panel Problems has a button for each missing picture.
             | Remedy::TextureFolder
             | Remedy::NameModel,
             _,
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_window_cannot_do_has_no_button() {
+    fn a_remedy_that_the_window_cannot_apply_has_no_button() {
         let request = Request::Evaluation { size: 512 };
         for remedy in [Remedy::SoftwareAdapter, Remedy::TryAgain, Remedy::RaiseBudget] {
             assert!(

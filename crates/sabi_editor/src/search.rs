@@ -76,8 +76,8 @@ impl LibraryGroup {
         graph.variants().keys().map(|name| label_of(name)).collect()
     }
 
-    /// Key of the favorite: by the name of the library, as links have it, since its folder may move. Those of a project go by
-    /// their paths.
+    /// Key of the favorite: it begins with the name of the library, as links do, since the folder may move. Groups of a
+    /// project have their paths as keys.
     fn favorite(&self) -> String {
         let prefix = match self.library {
             LibraryKind::Sabi => SABI_PREFIX,
@@ -312,12 +312,12 @@ mod tests {
     }
 
     #[test]
-    fn nothing_typed_shows_everything() {
+    fn an_empty_query_shows_everything() {
         assert!(found("").len() > 40);
     }
 
     #[test]
-    fn effects_are_found_by_what_one_sees() {
+    fn effects_are_found_by_words_for_their_look() {
         let all = with_effects();
         let wanted: [(&str, &[&str]); 8] = [
             ("bronze", &["Bare metal"]),
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn a_favorite_of_the_effect_library_stays_one_when_the_next_release_has_another_folder() {
+    fn a_favorite_effect_stays_one_when_the_next_release_has_another_folder() {
         let group = |folder: &str, library| LibraryGroup {
             library,
             category: Some("weathering".to_owned()),
