@@ -1,6 +1,7 @@
-//! `cargo xtask interop`: what Sabi writes, held against the libraries and programs of others.
+//! `cargo xtask interop`: checks of the files that Sabi writes, by libraries and programs of others.
 //!
-//! The tools come from the ordinary registries of Python and Node.js, into a folder of their own below the target folder.
+//! The tools come from the ordinary registries of Python and Node.js, into a folder of their own below the target
+//! folder.
 
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -136,7 +137,7 @@ impl Tools {
         finish(command, script)
     }
 
-    /// Bakes into a folder of the work.
+    /// Bakes into a folder inside of the working folder.
     fn bake(&self, project: &Project, graph: &str, model: &str, options: &[&str]) -> Result<PathBuf, TaskError> {
         let output = self.work.join(format!("{graph}-{model}-{}", options.join("")));
         let mut command = project.command(&project.sabi("release"))?;

@@ -72,7 +72,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Has `sabi_assets` write files of the repository.
+/// Runs `sabi_assets`, which writes files of the repository.
 fn make_assets(project: &Project, task: &str, arguments: &[String]) -> Result<(), TaskError> {
     let mut command = project.cargo(&["run", "--quiet", "--package", "sabi_assets", "--", task])?;
     command.args(arguments);
