@@ -1,4 +1,4 @@
-//! At the borders of charts, where the data jumps, pictures show what exported maps hold, up to the very border.
+//! At the borders of charts, where the data jumps, pictures show the values of exported maps, right up to the border.
 
 use std::time::Duration;
 
@@ -42,12 +42,12 @@ fn two_squares() -> MadeMesh {
 }
 
 #[test]
-fn a_picture_shows_what_the_exported_maps_hold_up_to_the_border_where_the_data_jumps() {
+fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps() {
     let mesh = two_squares();
     let model = ModelOptions::new(mesh.path(), TEXELS);
     let baked = Baked::of(GRAPH, model, Seams::Erase);
     let mut pictured = Pictured::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
-    // A code of 8 bits may be lost in the file, which is dithered, and a half float's step in the picture.
+    // A code of 8 bits may be lost in the file, which is dithered, and a step of a half float in the picture.
     let color = map(&baked, "base_color.png", true);
     let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
     assert!(apart < 5e-3, "colors are {apart} apart");
@@ -186,7 +186,7 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             changed > 50 && kept > 50,
             "{plane:?}: {changed} ghosts are changed, {kept} are kept"
         );
-        // Texels without a chart hold anything, numbers that equal none among them.
+        // Texels without a chart have any values, among them some that equal no number.
         let differing = expected
             .iter()
             .zip(&shown)

@@ -58,7 +58,7 @@ fn light_of(pictured: &Pictured, samples: u32) -> [f32; 2] {
 }
 
 #[test]
-fn what_is_under_a_roof_is_dark_in_light_from_above() {
+fn a_floor_under_a_roof_is_dark_in_light_from_above() {
     let far = Light {
         place: LightPlace::Directional([0.0, 1.0, 0.0]),
         color: [3.0; 3],
@@ -94,7 +94,7 @@ const VEILED: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
 } }"##;
 
 #[test]
-fn a_roof_keeps_the_light_that_its_opacity_says() {
+fn a_roof_blocks_light_in_proportion_to_its_opacity() {
     let far = Light {
         place: LightPlace::Directional([0.0, 1.0, 0.0]),
         color: [3.0; 3],
