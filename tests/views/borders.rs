@@ -16,7 +16,7 @@ use crate::sharing::{SIZE, TEXELS, difference, map, square};
 
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// A color by vertex, and a layer on the second chart alone.
+/// A color by vertex, and a layer on the second chart only.
 const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "fields", "nodes": {
     "vertex": { "kind": "source/vertex_color" },
     "second": { "kind": "surface/id", "params": { "by": "chart", "pick": "1" } },
@@ -79,7 +79,7 @@ fn without_borders_the_neighbor_would_show() {
     assert!(leaking > 20, "{leaking} pixels lie between the two squares");
 }
 
-/// A field that jumps at the borders of some charts and goes on over others, with all that a material stores.
+/// A field that jumps at the borders of some charts and continues over others, with every plane that a material stores.
 const FIELDS: &str = r##"{ "format": "sabi", "version": 1, "name": "fields", "nodes": {
     "clouds": { "kind": "noise/simplex", "params": { "size": 0.3, "octaves": 3 } },
     "parts": { "kind": "surface/id", "params": { "by": "chart" } },

@@ -1,4 +1,4 @@
-//! Coat, anisotropy, sheen and light below the surface: what they add, and that they add no energy.
+//! Coat, anisotropy, sheen and light below the surface: their effects, and that they add no energy.
 
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;

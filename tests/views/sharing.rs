@@ -261,7 +261,7 @@ fn exported(on_mesh: &OnMesh, result: &Evaluated, overlap: Overlap) -> Vec<u32> 
 }
 
 #[test]
-fn of_stacked_charts_the_exported_one_is_evaluated_and_its_values_are_the_same() {
+fn only_the_exported_one_of_stacked_charts_is_evaluated_with_the_same_values() {
     // Least factor by which fewer texels are evaluated if only shown charts are. Occlusion also needs the texels on the
     // other side of seams.
     let cases = [("coat", 12), ("dirt", 2), ("soft", 1), ("half", 1)];

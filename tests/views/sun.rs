@@ -68,7 +68,8 @@ fn a_floor_under_a_roof_is_dark_in_light_from_above() {
     };
     let [shaded, open] = floor_light(vec![far]);
     assert!(shaded < 0.02 * open, "{shaded} under the roof, {open} beside it");
-    // A matte floor that faces the light sends out its color over pi of what falls on it, and its lobe a little.
+    // A matte floor that faces the light reflects its color over pi of the light that falls on it, and its lobe adds a
+    // little.
     let matte = 0.5 * 3.0 / std::f32::consts::PI;
     assert!(
         (matte * 0.85..matte * 1.25).contains(&open),

@@ -165,7 +165,7 @@ fn only_the_changed_part_of_a_scene_is_drawn_again_if_it_is_known() {
         .expect("a sample")
     {}
     let old = viewport.picture().expect("a picture").read(&gpu).expect("pixels");
-    // The upper right quarter of what is seen.
+    // The upper right quarter of the view.
     let bounds = [Vec3::new(0.0, 0.0, -0.5), Vec3::splat(0.5)];
     let revision = SceneRevision {
         number: 1,

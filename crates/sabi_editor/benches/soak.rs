@@ -16,7 +16,7 @@ use walk::{FIRST, Step, Walk};
 const EDITS: usize = 10_000;
 const EVERY: usize = 1000;
 
-/// Memory that this program takes, MiB; none where the system does not say so in a file.
+/// Memory that this program takes, MiB; `None` where the system does not say so in a file.
 fn resident_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

@@ -63,7 +63,7 @@ pub(crate) enum Action {
     ShowChannel { node: NodeId, mode: Mode },
     /// Keep a node's result in the 2D view, or release it.
     Pin { node: NodeId },
-    /// Change what the model and the 2D view show.
+    /// Change the results that the model and the 2D view show.
     Look(LookAction),
     /// Change a parameter of a node, and of the selected nodes of its kind.
     Knob { node: NodeId, event: KnobEvent },

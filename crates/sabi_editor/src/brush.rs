@@ -60,7 +60,7 @@ pub(crate) struct BrushTool {
     source: Option<(String, StrokePoint)>,
     /// Force of a finger on the screen, or of a pen that is reported as a finger; `None` for a mouse.
     force: Option<f32>,
-    /// Pen at the last place of the pointer; none for a mouse.
+    /// Pen at the last place of the pointer; `None` for a mouse.
     pen: Option<PenState>,
     /// Place where a drag began that changes the size.
     resized_at: Option<Pos2>,
@@ -84,18 +84,18 @@ pub(crate) trait Canvas {
         true
     }
 
-    /// Eye that looks at the model; none in a view of its texture.
+    /// Eye that looks at the model; `None` in a view of its texture.
     fn eye(&self, model: &LiveModel) -> Option<Eye>;
 
     /// Rectangle of the view on the screen that a stencil is placed over; `None` for a view of the texture.
     fn stencil_view(&self) -> Option<Rect>;
 
-    /// Rows of the map from places of a model to places of a stencil ([`Stencil::picture_from_model`]); none in a view of its texture.
+    /// Rows of the map from places of a model to places of a stencil ([`Stencil::picture_from_model`]); `None` in a view of its texture.
     fn stencil_map(&self, model: &LiveModel, stencil: &ShownStencil) -> Option<[[f64; 4]; 3]>;
 }
 
 impl Held {
-    /// The paint node that is changed; none while the stencil is moved.
+    /// The paint node that is changed; `None` while the stencil is moved.
     fn node(&self) -> Option<&NodeId> {
         match self {
             Held::Stroke(stroke) => Some(&stroke.node),

@@ -27,7 +27,7 @@ const OWN: &str = include_str!("../../../assets/brushes.json");
 pub(crate) struct KeptBrush {
     pub(crate) name: String,
     pub(crate) brush: BrushChoices,
-    /// Its file; none for a brush that comes with the program.
+    /// Its file; `None` for a brush that comes with the program.
     pub(crate) file: Option<PathBuf>,
 }
 

@@ -22,14 +22,14 @@ pub(crate) const MODELS: [(&str, &[u8]); 11] = models![
     "wall.glb"
 ];
 
-/// File of a built-in model by its name in graphs, whether it was written or not; none if there is no such model.
+/// File of a built-in model by its name in graphs, whether it was written or not; `None` if there is no such model.
 pub(crate) fn builtin_file(folder: &Path, name: &str) -> Option<PathBuf> {
     let mut models = MODELS.iter().map(|(file, _)| *file);
     let file = models.find(|file| Path::new(file).file_stem().is_some_and(|stem| stem == name))?;
     Some(folder.join(MESHES).join(file))
 }
 
-/// Name in graphs of a built-in model; none for other files, and for one that was changed since it was written.
+/// Name in graphs of a built-in model; `None` for other files, and for one that was changed since it was written.
 pub(crate) fn builtin_name(folder: &Path, file: &Path) -> Option<String> {
     let is_same = |own: &PathBuf| canonical_if_present(own) == canonical_if_present(file);
     let (own, bytes) = MODELS

@@ -51,7 +51,7 @@ pub(crate) enum Command {
     Favorite(Favorite),
 }
 
-/// Command about the graph's file and what is written from it.
+/// Command about the graph's file and the files that are written from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FileCommand {
     /// Starts an empty graph.
@@ -132,7 +132,7 @@ pub(crate) enum GraphCommand {
     Ungroup,
     /// Shows the graph of the selected group instance.
     Enter,
-    /// Cancels what is being dragged, or else leaves the group.
+    /// Cancels the current drag, or else leaves the group.
     Leave,
 }
 
@@ -298,7 +298,7 @@ impl Command {
         self.scope() == Scope::Window && !is_history
     }
 
-    /// Returns whether the command can open a text field, which gets what is typed next.
+    /// Returns whether the command can open a text field, which gets the text that is typed next.
     pub(crate) fn may_open_text_field(self) -> bool {
         matches!(
             self,

@@ -61,7 +61,7 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) theme: &'a Arc<Theme>,
     pub(crate) keys: &'a KeyMap,
-    /// Device that the window is drawn with; none if it is only laid out.
+    /// Device that the window is drawn with; `None` if it is only laid out.
     pub(crate) render: Option<&'a RenderState>,
     /// Times of the last frames, without the drawing by the device.
     pub(crate) frame_times: &'a VecDeque<Duration>,

@@ -113,7 +113,7 @@ impl Workspace {
         (Workspace::Look, "Look"),
     ];
 
-    /// Sentence about what it shows.
+    /// Sentence about its panels.
     pub(crate) fn about(self) -> &'static str {
         match self {
             Workspace::Material => "A large model beside the graph",
@@ -299,7 +299,7 @@ impl Dock {
         }
     }
 
-    /// Draws the panels: `contents` draws what is in one.
+    /// Draws the panels: `contents` draws the contents of one.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
@@ -465,7 +465,7 @@ mod tests {
     }
 
     #[test]
-    fn every_workspace_has_every_panel_once_and_a_layout_without_one_is_not_taken() {
+    fn every_workspace_has_every_panel_once_and_an_incomplete_layout_is_replaced() {
         let mut all = Panel::ALL.to_vec();
         all.sort();
         for (workspace, title) in Workspace::ALL {

@@ -145,7 +145,7 @@ impl Exports {
         Ok(())
     }
 
-    /// Folder for the textures; none where it is not named, or is relative to the file of a graph that has none.
+    /// Folder for the textures; `None` where it is not named, or is relative to the file of a graph that has none.
     fn folder(&self, document: &OpenDocument) -> Option<PathBuf> {
         folder_of(&self.place.folder, document.session.file())
     }

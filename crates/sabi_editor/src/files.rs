@@ -145,7 +145,7 @@ impl Questions {
     fn ask_path(&mut self, what: PathFor, beside: Option<&Path>, name: String) {
         self.dialog = None;
         let folder = beside.and_then(|file| canonical_if_present(file).parent().map(Path::to_owned));
-        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default(); // Then whole paths are typed.
+        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default(); // Without one, whole paths are typed.
         self.open = Some(Question::Path(PathQuestion::new(what, folder, name)));
     }
 

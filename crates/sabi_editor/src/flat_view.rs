@@ -39,13 +39,13 @@ const BINS: usize = 128;
 pub(crate) struct FlatView {
     /// Middle of the texture relative to the middle of the panel, points.
     pan: Vec2,
-    /// Points in one texel; none to fit the texture to the panel.
+    /// Points in one texel; `None` to fit the texture to the panel.
     pub(crate) zoom: Option<f32>,
     /// Texture set of the model that is shown; the first where the model does not have this one.
     pub(crate) set: Option<SetKey>,
     /// Index of the plane that is shown.
     plane: usize,
-    /// Component of the plane that is shown alone; none for all as a color.
+    /// Component of the plane that is shown alone; `None` for all as a color.
     component: Option<usize>,
     is_tiled: bool,
     has_wires: bool,
@@ -72,7 +72,7 @@ struct ShownPicture {
 
 /// Result that the view shows, and its state.
 struct Subject<'a> {
-    /// Result to show; none before a node is clicked.
+    /// Result to show; `None` before a node is clicked.
     wanted: Option<&'a NodeRef>,
     /// Title of the result.
     title: &'a str,
@@ -391,7 +391,7 @@ impl FlatView {
         probe.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &text));
     }
 
-    /// Texel under a place, by column and row and by its index; none beside the picture.
+    /// Texel under a place, by column and row and by its index; `None` beside the picture.
     fn texel_at(&self, at: Pos2, square: Rect, size: u32) -> Option<([usize; 2], usize)> {
         let share = (at - square.min) / square.size();
         let inside = |share: f32| if self.is_tiled { share.rem_euclid(1.0) } else { share };

@@ -29,10 +29,10 @@ pub(crate) struct ImportOptions {
     pub(crate) uv: u32,
     /// Factor of all lengths.
     pub(crate) scale: f32,
-    /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
+    /// Angle between faces up to which their shading is smooth, degrees; `None` for the normals of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) smooth: Option<f32>,
-    /// Scene of a glTF file; none for the one that the file names.
+    /// Scene of a glTF file; `None` for the one that the file names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scene: Option<u32>,
     /// Treatment of UVs in several tiles.

@@ -1,4 +1,4 @@
-//! Results of nodes as tips of the brush, evaluated while the window goes on.
+//! Results of nodes as tips of the brush, evaluated in the background.
 
 use std::sync::Arc;
 

@@ -49,7 +49,7 @@ pub(crate) fn show(
     chosen
 }
 
-/// Label and action of the button that applies a remedy to a request; none where the window has no such action.
+/// Label and action of the button that applies a remedy to a request; `None` where the window has no such action.
 fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Option<(String, Action)> {
     let reread = |options: ImportOptions| Action::Model(ModelAction::Read(options));
     let read = |overlap: Overlap| {

@@ -62,7 +62,7 @@ pub(crate) struct LibraryGroup {
     pub(crate) library: LibraryKind,
     /// Folder inside the library that it lies in.
     pub(crate) category: Option<String>,
-    /// Digest of the file and of those that it uses; none where one of them cannot be read.
+    /// Digest of the file and of those that it uses; `None` where one of them cannot be read.
     pub(crate) digest: Option<String>,
     pub(crate) file: PathBuf,
     pub(crate) graph: Arc<OpenGraph>,

@@ -250,7 +250,7 @@ impl Settings {
     /// Models that are shown with a graph; none where it was never open here.
     pub(crate) fn model_strip(&self, graph: &Path) -> ModelStrip {
         let strip = self.model_strips.get(&canonical_if_present(graph));
-        strip.cloned().unwrap_or_default() // Then it begins with the model that the graph names.
+        strip.cloned().unwrap_or_default() // A new strip begins with the model of the graph.
     }
 
     /// Remembers the models that are shown with a graph, and forgets those of graphs that are no longer recent.

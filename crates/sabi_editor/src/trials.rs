@@ -47,7 +47,7 @@ pub(crate) enum Trial {
     Effect(PathBuf),
 }
 
-/// State of what a picture depends on.
+/// State of everything that a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct Version {
     /// First revision of the model's file and how it is read.

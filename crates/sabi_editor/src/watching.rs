@@ -97,7 +97,7 @@ impl Watching {
         }
     }
 
-    /// Changes since the last call; none where the system has no watcher.
+    /// Changes since the last call; `None` where the system has no watcher.
     pub(crate) fn changes(&self) -> Option<Changes> {
         self.watcher.as_ref().map(Watcher::changes)
     }

@@ -33,7 +33,7 @@ pub struct EditRequest {
     pub mesh: Option<PathBuf>,
     /// Adapter to run on.
     pub adapter: AdapterChoice,
-    /// Paths from which graphs and models may open what they name.
+    /// Paths from which graphs and models may open the files that they name.
     pub trusted: TrustedPaths,
     /// Called if the window does not end after its device was lost; the last copy of unsaved work is offered at the
     /// next start.
@@ -155,7 +155,7 @@ fn watch_loss(gpu: &Gpu, window: Weak<()>, patience: Duration, at_hang: fn()) {
     });
 }
 
-/// Configuration of a device with what Sabi needs, on an adapter.
+/// Configuration of a device that Sabi can run on, for an adapter.
 pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
     let choice = choice.clone();
     let mut setup = WgpuSetupCreateNew::without_display_handle();

@@ -73,7 +73,7 @@ fn refused() -> TaskError {
 /// Result of a target.
 struct Ran {
     target: String,
-    /// Inputs that were tried; none where the target ended before it counted them.
+    /// Inputs that were tried; `None` where the target ended before it counted them.
     inputs: Option<u64>,
     /// Files with inputs that make it fail.
     found: Vec<PathBuf>,

@@ -76,7 +76,7 @@ type Check = fn(&Project, &Tools) -> Result<(), TaskError>;
 struct Tools {
     /// Interpreter with the Python packages.
     python: PathBuf,
-    /// Interpreter with the renderers; none where these cannot be installed.
+    /// Interpreter with the renderers; `None` where these cannot be installed.
     renderers: Option<PathBuf>,
     node: PathBuf,
     /// Folder of the Node.js packages.

@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn without_root_or_apt_the_exact_command_is_said() {
+    fn without_root_or_apt_the_exact_command_is_named() {
         let told = "Run `apt-get update && apt-get install -y one two` as root, then this again.";
         assert_eq!(
             install_commands(&PACKAGES, false, false, true).unwrap_err().as_deref(),

@@ -194,7 +194,7 @@ impl Soak<'_> {
     }
 }
 
-/// Memory that a process takes, MiB; none where the system does not say.
+/// Memory that a process takes, MiB; `None` where the system does not say.
 fn resident_mib(process: &Child) -> Option<f64> {
     let path = Path::new("/proc").join(process.id().to_string()).join("status");
     let status = fs::read_to_string(path).ok()?;

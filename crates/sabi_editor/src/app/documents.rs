@@ -1,4 +1,5 @@
-//! The open graph with everything that belongs to it: what can be added, saved pictures, autosave and watched files.
+//! The open graph with everything that belongs to it: nodes and groups that can be added, saved pictures, autosave and
+//! watched files.
 
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -114,7 +115,7 @@ struct Candidates {
     own: Vec<String>,
 }
 
-/// Copies of what is not saved yet, in case the program ends.
+/// Copies of unsaved work, in case the program ends.
 pub(crate) struct Autosave {
     at: Instant,
     /// Revisions of the graph and of node files that were saved last.
@@ -188,7 +189,7 @@ impl Documents {
         self.trust(&trusted);
     }
 
-    /// Lets this graph and all later ones open what they name below these paths.
+    /// Lets this graph and all later ones open the files that they name below these paths.
     pub(crate) fn trust(&mut self, trusted: &TrustedPaths) {
         self.trusted = std::mem::take(&mut self.trusted).with(trusted);
         self.document.trust(&self.trusted);

@@ -59,7 +59,7 @@ pub(crate) struct LostWindow {
     pub(crate) was_exporting: bool,
 }
 
-/// Slot in which a window leaves what outlives it.
+/// Slot in which a window leaves the state that outlives it.
 pub(crate) type Handover = Arc<Mutex<Option<LostWindow>>>;
 
 /// Parts of a window that depend on how it was opened.
@@ -69,7 +69,7 @@ pub(super) struct Opened {
     pub(super) model: PathBuf,
     /// Models beside the main one.
     pub(super) beside: Vec<PathBuf>,
-    /// Sentences about what could not be opened or taken over.
+    /// Sentences about files that could not be opened, and state that could not be taken over.
     pub(super) fault: Vec<String>,
 }
 

@@ -27,7 +27,7 @@ pub(crate) struct Recoveries {
 }
 
 impl Recoveries {
-    /// Finds what can be recovered in a folder.
+    /// Finds the unsaved work in a folder.
     pub(super) fn in_folder(folder: Option<&Path>) -> Recoveries {
         let now = Instant::now();
         let mut new = Recoveries {

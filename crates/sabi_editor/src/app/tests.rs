@@ -190,7 +190,7 @@ impl Window {
         self.harness.query_all_by_label_contains(part).next().is_some()
     }
 
-    /// Sentence about the fault of a node, by its id in the evaluation, as the window says it.
+    /// Sentence about the fault of a node, by its id in the evaluation, as the window shows it.
     fn fault_of(&self, node: &str) -> String {
         let fault = self.editor().evaluation.faults.of(node).expect("a sentence");
         node_paths::with_titles(self.document(), fault)

@@ -53,7 +53,7 @@ pub(super) struct HeldDecal {
 }
 
 impl Handles {
-    /// The handles of a decal; none where the view does not show it. `half_sides` are those of its picture, in radii.
+    /// The handles of a decal; `None` where the view does not show it. `half_sides` are those of its picture, in radii.
     pub(crate) fn of(
         model: &LiveModel,
         canvas: &impl Canvas,
@@ -62,7 +62,7 @@ impl Handles {
     ) -> Option<Handles> {
         let placed = stroke.points.first()?;
         let middle = canvas.place(model, placed.site)?;
-        // Only in a view that draws them, and not through what lies before the decal.
+        // Only a view with an eye draws handles, and not through a surface in front of the decal.
         canvas.eye(model)?;
         let seen = canvas.site(model, middle)?;
         let distance = seen.position.distance(placed.site.position);

@@ -52,7 +52,7 @@ pub(super) struct HeldStrokes {
 }
 
 impl Mover {
-    /// The handles of some strokes; none where the view does not show them. A single decal has its own.
+    /// The handles of some strokes; `None` where the view does not show them. A single decal has its own.
     pub(crate) fn of(model: &LiveModel, canvas: &impl Canvas, strokes: &[Arc<Stroke>]) -> Option<Mover> {
         if let [only] = strokes
             && only.area.is_single()

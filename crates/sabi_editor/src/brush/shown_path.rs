@@ -23,7 +23,7 @@ const SHOWN_LIMIT: f64 = 2000.0;
 /// A path of a stroke on the screen.
 pub(crate) struct ShownPath {
     pub(super) path: Path,
-    /// Its knots with their handles; none for those that are not seen.
+    /// Its knots with their handles; `None` for those that are not seen.
     knots: Vec<Option<ShownKnot>>,
     /// Drawn points of the line between two knots, for each such pair.
     spans: Vec<Vec<ShownPlace>>,
@@ -59,7 +59,7 @@ pub(super) enum Part {
 }
 
 impl ShownPath {
-    /// A path as a view shows it; none for other strokes.
+    /// A path as a view shows it; `None` for other strokes.
     pub(crate) fn of(model: &LiveModel, canvas: &impl Canvas, stroke: &Stroke) -> Option<ShownPath> {
         on_surface(model, |surface| {
             let path = relocate(surface, stroke).0.as_path()?;

@@ -99,7 +99,7 @@ fn marked_strokes(context: &ViewContext<'_>, node: &NodeId) -> Vec<Arc<Stroke>> 
     shown.cloned().collect()
 }
 
-/// The stroke that is marked alone.
+/// The marked stroke, if it is a single one.
 fn only(marked: &[Arc<Stroke>]) -> Option<Arc<Stroke>> {
     match marked {
         [only] => Some(only.clone()),

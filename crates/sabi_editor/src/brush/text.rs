@@ -68,7 +68,7 @@ pub(crate) struct TextPicture {
     pub(crate) alpha: Vec<u8>,
 }
 
-/// The picture of a text in a font, cut to its letters; none for a text without any.
+/// The picture of a text in a font, cut to its letters; `None` for a text without any.
 ///
 /// # Errors
 /// A sentence, where the file of the font cannot be read.
@@ -110,7 +110,7 @@ fn drawn(galley: &Arc<Galley>, letters: &ColorImage) -> TextPicture {
     picture
 }
 
-/// The part of a picture that is not empty, with a margin; none where it is all empty.
+/// The part of a picture that is not empty, with a margin; `None` where it is all empty.
 fn cut(picture: &TextPicture) -> Option<TextPicture> {
     let [width, height] = picture.size;
     let is_used = |x: usize, y: usize| picture.alpha[y * width + x] > 0;

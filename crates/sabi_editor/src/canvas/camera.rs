@@ -168,7 +168,7 @@ impl Camera {
             .map_or([0.0; 2], |panel| self.view.place(panel, panel.center()))
     }
 
-    /// Place on the canvas at a place of the screen; none outside of the panel.
+    /// Place on the canvas at a place of the screen; `None` outside of the panel.
     pub(crate) fn place_at(&self, at: Pos2) -> Option<[f32; 2]> {
         let panel = self.panel.filter(|panel| panel.contains(at))?;
         Some(self.view.place(panel, at))

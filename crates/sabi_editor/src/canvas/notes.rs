@@ -27,7 +27,7 @@ pub(super) struct DraggedNote {
 
 /// Text of a note while it is typed.
 pub(super) struct NoteText {
-    /// The note; none for one that is yet to be added.
+    /// The note; `None` for one that is yet to be added.
     id: Option<String>,
     /// Its upper left corner, canvas points.
     place: [f32; 2],

@@ -24,7 +24,7 @@ pub(crate) struct RequestedModel {
     pub(super) options: Arc<ModelOptions>,
     import: ImportOptions,
     cache_dir: Option<PathBuf>,
-    /// Paths from which it may open what it names.
+    /// Paths from which the model may open the files that it names.
     trusted: TrustedPaths,
     /// Revision of the options: another one after every change.
     pub(super) revision: u64,
@@ -144,7 +144,7 @@ impl RequestedModel {
         }
     }
 
-    /// Lets the model open what it names below these paths. It is read again if that may give another result.
+    /// Lets the model open the files that it names below these paths. It is read again if that may give another result.
     pub(super) fn set_trusted(&mut self, trusted: &TrustedPaths) {
         if self.trusted == *trusted {
             return;

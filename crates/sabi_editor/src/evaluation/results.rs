@@ -13,7 +13,8 @@ use sabi_graph::NodeRef;
 
 use super::Wanted;
 
-/// Results on the model that are kept besides the wanted ones, since artists switch back to what they have just seen.
+/// Results on the model that are kept besides the wanted ones, since artists switch back to results that they have just
+/// seen.
 const KEPT_PICTURES: usize = 6;
 
 /// Maps of one result on the model.

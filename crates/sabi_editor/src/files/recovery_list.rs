@@ -25,7 +25,7 @@ const MOST_HEIGHT: f32 = 240.0;
 /// Most names of nodes in the text about a graph.
 const MOST_NAMES: usize = 4;
 
-/// Rows of what can be recovered.
+/// Rows of unsaved work that can be recovered.
 #[derive(Default)]
 pub(super) struct RecoveryList {
     /// Drawings of the graphs, in the order of the rows, with the files that they were made of.
@@ -83,7 +83,7 @@ impl RecoveryList {
     }
 }
 
-/// Shows what was not saved in words, and the buttons for it. Returns the action of a clicked one.
+/// Shows a description of unsaved work, and the buttons for it. Returns the action of a clicked one.
 fn row(
     ui: &mut Ui,
     theme: &Theme,
@@ -197,7 +197,7 @@ fn title_of(node: &Node, catalog: &Catalog) -> String {
     own.or_else(of_group).or_else(of_kind).unwrap_or_else(plain)
 }
 
-/// Ages and sizes of what was recovered and of the file that it belongs to, so that the newer one is seen.
+/// Ages and sizes of the recovered work and of the file that it belongs to, which show which one is newer.
 pub(super) fn dates_text(recovery: &Recovery) -> String {
     let with_size = |age: String, bytes: Option<u64>| match bytes {
         Some(bytes) => format!("{age}, {}", size_text(bytes)),

@@ -107,7 +107,7 @@ fn grid_of(linked: &LinkedModel, set: SetKey) -> TriangleGrid {
     }))
 }
 
-/// Corners of a triangle in the square of a texture set; none for a triangle of another set.
+/// Corners of a triangle in the square of a texture set; `None` for a triangle of another set.
 fn corners_in(linked: &LinkedModel, set: SetKey, triangle: u32) -> Option<[DVec2; 3]> {
     let mesh = &linked.model.mesh;
     let chart = linked.atlas.triangle_chart.get(triangle as usize)?;

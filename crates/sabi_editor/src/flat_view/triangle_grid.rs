@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn boxes_without_area_or_without_numbers_do_no_harm() {
+    fn boxes_that_are_points_or_not_finite_are_handled() {
         let empty = TriangleGrid::new(std::iter::empty());
         assert_eq!(empty.first(DVec2::ZERO, Some), None);
         let boxes = [[DVec2::NAN; 2], [DVec2::ONE; 2], [DVec2::ZERO, DVec2::INFINITY]];

@@ -47,7 +47,7 @@ impl Lengths {
         (metres.is_normal() && metres > 0.0).then_some(metres)
     }
 
-    /// A length on the model, such as `3.4 cm`; none where the size of the model is unknown.
+    /// A length on the model, such as `3.4 cm`; `None` where the size of the model is unknown.
     pub(super) fn text(&self, working: f64) -> Option<String> {
         let metres = working * self.metres()?;
         let (name, unit, _) = UNITS.iter().find(|(_, _, least)| metres.abs() >= *least)?;

@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_light_comes_from_where_its_angles_say() {
+    fn a_light_comes_from_the_direction_of_its_angles() {
         for (turn_degrees, height_degrees, from) in [
             (0.0, 0.0, [0.0, 0.0, 1.0]),
             (90.0, 0.0, [1.0, 0.0, 0.0]),

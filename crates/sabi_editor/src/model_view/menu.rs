@@ -1,4 +1,4 @@
-//! The menus of the viewport: what is shown, camera, channels, light and overlays.
+//! The menus of the viewport: subject, camera, channels, light and overlays.
 
 use egui::containers::menu::MenuButton;
 use egui::{Rect, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, vec2};

@@ -119,7 +119,7 @@ impl Pictures {
         screen.is_some_and(|screen| screen.texture.is_some())
     }
 
-    /// A viewport for a picture that is not shown; none while the renderer is being made.
+    /// A viewport for a picture that is not shown; `None` while the renderer is being made.
     pub(super) fn new_viewport(&self, gpu: &Gpu) -> Option<Viewport> {
         let renderer = self.renderer_loader.made()?;
         Some(Viewport::new(gpu, renderer))
@@ -214,7 +214,7 @@ impl Pictures {
 }
 
 impl Screen {
-    /// Texture of the picture in the window; none before the first picture.
+    /// Texture of the picture in the window; `None` before the first picture.
     fn texture_id(&mut self, render: &RenderState) -> Option<TextureId> {
         let shown = self.viewport.picture()?.texture().clone();
         if let Some((id, known)) = &self.texture

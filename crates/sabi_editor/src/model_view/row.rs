@@ -199,7 +199,7 @@ impl ModelView {
         for (at, (evaluation, cell)) in subject.beside.iter().zip(others).enumerate() {
             let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
             own.fault = failure_of(evaluation);
-            // A fault is told whether the main model has a picture or not.
+            // An error is shown whether or not the main model has a picture.
             let state = match (&own.fault, render, main) {
                 (Some(fault), _, _) => {
                     sentence_in_cell(ui, *cell, subject, fault);
@@ -287,7 +287,7 @@ fn state_of(evaluation: &Evaluation, has_picture: bool) -> Option<String> {
     }
 }
 
-/// Activity of the evaluation on a model; none while it waits for its turn.
+/// Activity of the evaluation on a model; `None` while it waits for its turn.
 fn doing(evaluation: &Evaluation) -> Option<String> {
     evaluation.activity().map(|activity| activity_text(&activity))
 }

@@ -20,7 +20,7 @@ const GROUND: Vec2 = vec2(4.0, 2.0);
 /// Least width of a caption beside the line between two pictures, points.
 const LEAST_SIDE: f32 = 40.0;
 
-/// Menu that chooses what the model shows.
+/// Menu that chooses the subject that the model shows.
 pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<Action>) {
     let showing = subject.showing;
     let is_compared = view.comparison.share.is_some();
@@ -143,7 +143,7 @@ pub(super) fn label(view: &mut ModelView, ui: &Ui, rect: Rect, evaluation: &Eval
     }
 }
 
-/// Sentence about what a drag or a click on the model does now, with the name of its caption.
+/// Sentence about the effect that a drag or a click on the model has now, with the name of its caption.
 fn hint(subject: &Subject<'_>) -> Option<(&'static str, String)> {
     if subject.is_picking_color {
         let text = format!("{} Click the color to take. Escape cancels.", icon::EYEDROPPER);

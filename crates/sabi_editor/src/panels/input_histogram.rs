@@ -36,7 +36,7 @@ pub(crate) fn measured(document: &OpenDocument) -> Option<NodeRef> {
     Some(result_of(document, &from.node, from.port.clone()))
 }
 
-/// Parameters of a node that stand for a value of its input; none where the input is not counted.
+/// Parameters of a node that stand for a value of its input; `None` where the input is not counted.
 fn marks_of(document: &OpenDocument, id: &NodeId) -> Option<&'static [&'static str]> {
     let kind = &document.node(id)?.kind;
     KINDS.iter().find(|(known, _)| known == kind).map(|(_, marks)| *marks)

@@ -89,7 +89,7 @@ impl Parameters {
             .knobs
             .iter()
             .zip(&links)
-            // Versions of strokes are for files; the list of strokes shows what they hold.
+            // Versions of strokes are for files; the list of strokes shows their contents.
             .filter(|(knob, _)| node.kind != PAINT || knob.name != STROKES)
             .map(|(knob, links)| KnobRow {
                 knob,

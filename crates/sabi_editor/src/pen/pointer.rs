@@ -184,7 +184,7 @@ impl PenPointer {
 
     fn state(&self) -> PenState {
         PenState {
-            pressure: self.pressure.unwrap_or(PenState::MOUSE.pressure), // Of a tool without pressure.
+            pressure: self.pressure.unwrap_or(PenState::MOUSE.pressure), // The tool has no pressure.
             tilt_degrees: self.tilt_degrees,
             is_eraser: self.is_eraser,
         }

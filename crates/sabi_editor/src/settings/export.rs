@@ -54,7 +54,7 @@ impl ExportPadding {
         ExportPadding::Everything,
     ];
 
-    /// Width in texels at a size; none to fill everything.
+    /// Width in texels at a size; `None` to fill everything.
     pub(crate) fn texels(self, size: u32) -> Option<u32> {
         match self {
             ExportPadding::Automatic => Some(default_padding(size)),
@@ -90,7 +90,7 @@ impl Default for ExportChoices {
 }
 
 impl ExportChoices {
-    /// Options of the copy of the model; none without one.
+    /// Options of the copy of the model; `None` without one.
     pub(crate) fn copy_options(&self) -> Option<CopyOptions> {
         self.has_model.then_some(CopyOptions {
             keeps_look: self.keeps_look,

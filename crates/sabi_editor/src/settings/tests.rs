@@ -24,7 +24,7 @@ fn saved_settings_are_read_again() {
 
 #[cfg(unix)]
 #[test]
-fn settings_with_a_path_that_is_not_utf_8_come_back() {
+fn settings_with_a_path_that_is_not_utf_8_are_read_again() {
     use std::os::unix::ffi::OsStrExt;
     let folder = tempfile::tempdir().expect("a folder");
     let file = Path::new(std::ffi::OsStr::from_bytes(b"/no such folder/a\xff.sabi"));

@@ -109,7 +109,8 @@ impl Hands {
             12 => words.extend(["click", "--repeat", "2", "--delay", "80", "1"]),
             13 => words.extend(["click", "3"]),
             14..16 => {
-                // The search for nodes opens where the pointer is; what is typed elsewhere goes into a field or does nothing.
+                // The search for nodes opens where the pointer is on the canvas; elsewhere the text goes into a field
+                // or has no effect.
                 words.extend(["key", "Tab", "sleep", "0.3", "type", self.one_of(&NODES)]);
                 self.send(&words)?;
                 return self.send(&["sleep", "0.3", "key", "Return"]);

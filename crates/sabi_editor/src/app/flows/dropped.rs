@@ -44,7 +44,7 @@ impl Editor {
         }
     }
 
-    /// Marks the window and says what a file that is held over it does when it is dropped.
+    /// Marks the window while a file is held over it, with a caption that says what a drop does.
     pub(in crate::app) fn mark_hovered_file(&self, ui: &Ui) {
         let hovered = ui.input(|input| input.raw.hovered_files.first().cloned());
         let Some(hovered) = hovered else { return };

@@ -28,7 +28,7 @@ enum DropTarget {
 const ABOVE_CAPTIONS: f32 = 52.0;
 
 impl Editor {
-    /// Target of a node at a place of the screen; none where it cannot be dropped.
+    /// Target of a node at a place of the screen; `None` where it cannot be dropped.
     fn drop_target(&self, interface: &Interface, at: Pos2) -> Option<DropTarget> {
         let document = &self.documents.document;
         // Hidden panels still have the rectangles of their last frame.

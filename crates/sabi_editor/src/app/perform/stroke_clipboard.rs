@@ -63,7 +63,7 @@ impl Editor {
         };
         self.edit(command, ui);
         self.keep_strokes();
-        let list = strokes_on(&self.documents.document, &node, &model).unwrap_or_default(); // As before.
+        let list = strokes_on(&self.documents.document, &node, &model).unwrap_or_default(); // Nothing is painted yet.
         let pasted = list.strokes.iter().rev().take(count).map(|stroke| stroke.id);
         self.looks.marked_strokes = pasted.collect::<BTreeSet<_>>();
     }

@@ -47,7 +47,7 @@ impl Keyboard {
         context.send_viewport_cmd(ViewportCommand::RequestPaste);
     }
 
-    /// Remembers at the end of a frame whether a text field has the keyboard.
+    /// Remembers at the end of a frame whether a text field has the keyboard focus.
     pub(crate) fn end_frame(&mut self, context: &Context) {
         self.was_typing = context.text_edit_focused();
     }

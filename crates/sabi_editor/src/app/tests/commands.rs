@@ -184,7 +184,7 @@ fn the_keys_1_to_9_add_favorites_under_the_pointer() {
 }
 
 #[test]
-fn undo_redo_groups_and_files_by_their_keys() {
+fn keys_undo_redo_group_and_open_files() {
     for (preset, name) in InputPreset::ALL {
         let mut window = window_with(preset);
         let before = window.prepare(&["mix", "clouds"], Scope::Canvas);

@@ -27,7 +27,7 @@ fn told_of(window: &Window, node: &str) -> String {
 }
 
 #[test]
-fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictures() {
+fn a_missing_input_is_reported_on_its_node_and_only_its_readers_wait() {
     let mut window = Window::opened(BROKEN);
     window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
@@ -158,7 +158,7 @@ fn a_group_shows_the_faults_and_the_time_of_its_nodes() {
 }
 
 #[test]
-fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
+fn a_missing_group_file_is_reported_on_its_node_and_nothing_else_stops() {
     let mut window = Window::opened(
         r#"
         "clouds": { "kind": "noise/simplex", "pos": [0, 330] },

@@ -93,7 +93,7 @@ fn the_canvas_returns_to_the_place_that_each_graph_was_left_at() {
 }
 
 #[test]
-fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
+fn a_group_that_was_saved_to_the_library_is_added_by_search_and_by_drag() {
     let mut window = grouped();
     window.key(Key::F2);
     window.keys(Modifiers::COMMAND, Key::A);

@@ -226,7 +226,7 @@ fn an_unsaved_node_file_is_recovered_whether_or_not_the_graph_was_changed() {
     window.press("Copy as a node of my own");
     window.fill("Id of the node", "noise/mine");
     window.settle();
-    // A save deletes the copy of the graph alone.
+    // A save deletes only the recovery copy of the graph.
     window.keys(Modifiers::COMMAND, Key::S);
     window.settle();
     let unsaved = window.editor().views.page.unsaved();
@@ -325,7 +325,7 @@ fn keys_of_the_window_work_while_text_is_typed_but_letters_run_no_commands() {
 }
 
 #[test]
-fn asking_for_a_panel_that_the_use_view_lacks_leaves_it() {
+fn showing_a_panel_that_the_use_view_lacks_ends_that_view() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().toggle_use_view();
     window.settle();

@@ -1,4 +1,4 @@
-//! The menu of nodes: what it lists for the selected node.
+//! The menu of nodes: its list for the selected node.
 
 use egui::Key;
 

@@ -312,7 +312,7 @@ fn a_frame_takes_only_its_own_nodes_along_whatever_is_selected() {
 }
 
 #[test]
-fn a_frame_takes_its_next_color_by_its_menu() {
+fn the_menu_of_a_frame_gives_it_the_next_color() {
     let mut window = Window::opened(FRAMED);
     window.click_at(window.title(&id("clouds")));
     window.key(Key::C);

@@ -428,7 +428,7 @@ fn every_workspace_is_one_entry_of_the_menu() {
 }
 
 #[test]
-fn a_graph_is_exported_beside_it_unless_another_folder_is_chosen() {
+fn textures_are_exported_beside_the_graph_unless_another_folder_is_chosen() {
     let mut window = Window::opened("");
     assert_eq!(window.editor().exports.place.folder, "graph-textures");
     window.harness.state_mut().exports.place.folder = "maps".to_owned();
@@ -444,7 +444,7 @@ fn a_graph_is_exported_beside_it_unless_another_folder_is_chosen() {
 }
 
 #[test]
-fn the_history_names_what_was_added() {
+fn the_history_names_added_nodes() {
     let mut window = new_graph();
     window.add([0.2, 0.8], "clouds");
     window.open(Panel::Stack);

@@ -13,7 +13,8 @@ use crate::pen::PenEvent;
 /// Time of a frame, milliseconds.
 const FRAME: f32 = 1000.0 / 60.0;
 
-/// Events of a log with their times, milliseconds. A line without numbers has the time of the one behind it, or of the last one.
+/// Events of a log with their times, milliseconds. A line without numbers has the time of the next place where the pen
+/// comes near or touches, and that of the last place otherwise.
 fn read(log: &str) -> Vec<(f32, PenEvent)> {
     let mut events: Vec<(f32, PenEvent)> = Vec::new();
     let mut unplaced = 0;

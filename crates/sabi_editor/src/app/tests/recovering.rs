@@ -45,7 +45,7 @@ fn work_of_a_program_that_is_still_ending_is_offered_once_it_has_ended() {
 }
 
 #[test]
-fn work_of_a_program_that_is_still_ending_comes_to_the_start_page() {
+fn work_of_a_program_that_is_still_ending_appears_on_the_start_page() {
     let (window, _) = worked();
     let ending = window.harness.into_state().documents.document.session;
     let mut next = Window::in_folder(window.folder, |folders| Session::new(folders.recovery.as_deref()));

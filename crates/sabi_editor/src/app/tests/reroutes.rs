@@ -101,7 +101,7 @@ impl Window {
 }
 
 #[test]
-fn titles_knobs_cards_and_reroutes_say_what_they_are_and_what_is_wrong() {
+fn titles_knobs_cards_and_reroutes_have_tooltips_with_names_and_faults() {
     let (mut window, reroute, _) = window_with_reroute();
     window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     let fault = window.fault_of("blur");
@@ -132,7 +132,7 @@ fn titles_knobs_cards_and_reroutes_say_what_they_are_and_what_is_wrong() {
 }
 
 #[test]
-fn the_time_of_a_node_stands_on_its_title() {
+fn the_time_of_a_node_is_shown_in_its_title() {
     let mut window = Window::opened(WIRED);
     window.until("a time", |editor| editor.evaluation.results.time("clouds").is_some());
     window.settle();

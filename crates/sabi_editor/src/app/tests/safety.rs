@@ -81,7 +81,7 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
 }
 
 #[test]
-fn a_system_dialog_that_never_took_the_focus_is_told_as_not_opened() {
+fn a_system_dialog_that_never_took_the_focus_is_reported_as_not_opened() {
     let mut window = Window::untitled();
     window.keys(Modifiers::COMMAND, Key::S);
     for (takes_focus, is_told) in [(true, false), (false, true)] {
@@ -308,7 +308,7 @@ fn a_graph_on_a_built_in_model_names_it_without_a_path_and_opens_on_it_anywhere(
     window.keys(Modifiers::COMMAND, Key::S);
     let text = fs::read_to_string(window.path("graph.sabi")).expect("a graph");
     assert!(text.contains(r#""mesh": "builtin:bench""#), "{text}");
-    // A save elsewhere leaves the name, and another computer has the model in another folder.
+    // A save to another place keeps the name, and another computer has the model in another folder.
     let other = Window::with(|folders| {
         let file = super::beside(folders).join("sent.sabi");
         fs::write(&file, &text).expect("a graph");

@@ -134,7 +134,7 @@ fn with_keys() -> Window {
 }
 
 #[test]
-fn a_key_is_added_to_those_of_a_command_and_taken_away_from_it() {
+fn a_key_is_added_to_a_command_and_removed_again() {
     let mut window = with_keys();
     let clash = "M means both \"New graph\" and \"Mute\"";
     window.press("Add a key for New graph");

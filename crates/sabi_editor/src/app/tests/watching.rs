@@ -268,7 +268,7 @@ fn the_open_graph_can_be_kept_when_another_program_writes_its_file() {
 }
 
 #[test]
-fn a_save_over_what_another_program_wrote_asks_first() {
+fn a_save_over_the_version_of_another_program_asks_first() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let theirs = watched.written_by_another();
     let on_disk = |watched: &Watched| fs::read_to_string(watched.path("graph.sabi")).expect("a file");

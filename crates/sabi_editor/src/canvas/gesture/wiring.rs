@@ -33,7 +33,7 @@ impl Gesture {
         Gesture::wire(place.pending_wire(), None)
     }
 
-    /// Returns whether the dragged wire may be dropped at a port; none if no wire is dragged.
+    /// Returns whether the dragged wire may be dropped at a port; `None` if no wire is dragged.
     pub(in crate::canvas) fn accepts(&self, document: &OpenDocument, place: &PortRef) -> Option<bool> {
         let Gesture::Wire { pending, .. } = self else {
             return None;
@@ -57,7 +57,7 @@ impl Gesture {
     }
 }
 
-/// Ends of a pending wire that is dropped at a port; none where both are inputs or both outputs.
+/// Ends of a pending wire that is dropped at a port; `None` where both are inputs or both outputs.
 fn ends<'w>(pending: &'w PendingWire, place: &'w PortRef) -> Option<(&'w OutputRef, &'w SlotRef)> {
     match (pending, place) {
         (PendingWire::From(from), PortRef::Input(to)) | (PendingWire::Into(to), PortRef::Output(from)) => {
@@ -168,7 +168,7 @@ pub(super) fn drop_wire(
     }
 }
 
-/// Reason why a port refuses a wire; none if it accepts the wire, or if both ends would be inputs or outputs.
+/// Reason why a port refuses a wire; `None` if it accepts the wire, or if both ends would be inputs or outputs.
 fn refusal(document: &OpenDocument, pending: &PendingWire, port: &PortRef) -> Option<String> {
     let (from, to) = ends(pending, port)?;
     wires::check(document, from, to).err()

@@ -191,7 +191,7 @@ fn a_preset_replaces_all_stops_at_once() {
 }
 
 #[test]
-fn a_picture_is_asked_for_to_pick_a_gradient_from() {
+fn the_menu_of_stops_asks_for_a_picture_to_pick_a_gradient_from() {
     let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
     click(&mut board, "Stops: presets and pictures");
     click(&mut board, "Pick from a picture…");

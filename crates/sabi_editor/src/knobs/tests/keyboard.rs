@@ -27,7 +27,7 @@ fn arrows_step_a_bar_and_shift_makes_the_steps_tenths() {
 }
 
 #[test]
-fn a_digit_begins_another_number_in_a_bar() {
+fn a_digit_starts_a_new_number_in_a_bar() {
     let mut board = board([knob("blend/mask.opacity")]);
     focus(&mut board, "Opacity");
     for digit in ["0", ".", "2"] {

@@ -4,7 +4,7 @@ use egui_kittest::kittest::NodeT;
 use super::*;
 
 #[test]
-fn a_switch_switches() {
+fn a_click_on_a_switch_toggles_it() {
     let mut board = board([knob("effect/layer.color_on")]);
     let toggled = |board: &Board| board.get_by_label("Color on").accesskit_node().toggled();
     assert_eq!(toggled(&board), Some(Toggled::True));

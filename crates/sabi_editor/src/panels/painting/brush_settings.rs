@@ -16,7 +16,7 @@ use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, POINTS, SIZES, S
 /// Side of the colors that were used last, points.
 const COLOR_SIDE: f32 = 15.0;
 
-/// Actions of the brush with their signs and what they do.
+/// Actions of the brush with their signs and descriptions.
 const ACTIONS: [(BrushAction, &str, &str); 6] = [
     (BrushAction::Paint, icon::PENCIL_SIMPLE, "Paint"),
     (
@@ -48,7 +48,7 @@ pub(super) fn show(
     ui.horizontal(|ui| {
         for (action, sign, doc) in ACTIONS {
             let button = ui.selectable_label(brush.action == action, sign);
-            let name = doc.split(&[':', ';']).next().unwrap_or(doc); // The whole where nothing follows.
+            let name = doc.split(&[':', ';']).next().unwrap_or(doc); // The whole text, if no sign is in it.
             button.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
             if button.on_hover_text(doc).clicked() {
                 brush.action = action;

@@ -260,8 +260,8 @@ impl StrokeRows {
         }
     }
 
-    /// The marked strokes after a click on a row: it alone, with Ctrl besides others, with Shift all from the row that was clicked
-    /// before.
+    /// The marked strokes after a click on a row: only this one; with Ctrl, this one in addition; with Shift, all from
+    /// the row that was clicked before.
     fn mark(&mut self, ui: &Ui, known: &BTreeSet<Version>, list: &StrokeList, index: usize) -> BTreeSet<Version> {
         let modifiers = ui.input(|input| input.modifiers);
         let id = list.strokes[index].id;

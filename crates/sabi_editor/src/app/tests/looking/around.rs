@@ -34,7 +34,7 @@ impl Window {
 }
 
 #[test]
-fn models_are_added_to_the_strip_switched_and_taken_off() {
+fn models_are_added_to_the_strip_switched_and_removed() {
     let mut window = Window::empty();
     window.until_model();
     let sphere = window.path("sphere.glb");
@@ -53,7 +53,7 @@ fn models_are_added_to_the_strip_switched_and_taken_off() {
 }
 
 #[test]
-fn a_model_that_cannot_be_shown_is_told_and_the_one_before_it_stays() {
+fn a_model_that_cannot_be_shown_is_reported_and_the_previous_one_stays() {
     let mut window = Window::empty();
     window.until_model();
     let cube = window.editor().evaluation.model.file().to_owned();

@@ -49,7 +49,7 @@ impl Window {
 }
 
 #[test]
-fn a_model_of_the_menu_is_shown_beside_the_first_one_and_taken_away_again() {
+fn a_model_of_the_menu_is_shown_beside_the_main_one_and_removed_again() {
     let mut window = Window::with_beside("sphere");
     assert_eq!(window.beside(), ["sphere"]);
     window.until("its texture", |editor| editor.views.model.has_picture_beside(0));

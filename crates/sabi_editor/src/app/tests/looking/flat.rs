@@ -56,7 +56,7 @@ impl Window {
 }
 
 #[test]
-fn the_exact_values_of_the_texel_under_the_pointer_are_told() {
+fn the_exact_values_of_the_texel_under_the_pointer_are_shown() {
     let mut window = painted();
     let at = window.texture().center() + vec2(1.0, 1.0);
     let told = window.probed(at);

@@ -98,7 +98,7 @@ fn a_second_node_that_is_shown_takes_the_place_of_the_first() {
 }
 
 #[test]
-fn the_menu_on_the_picture_says_and_chooses_what_the_model_shows() {
+fn the_menu_on_the_picture_shows_and_changes_the_subject_of_the_model() {
     let mut window = Window::opened(NODES);
     window.until_model();
     window.click_at(window.title(&id("cells")));
@@ -152,7 +152,7 @@ fn each_entry_of_the_menu_of_views_sets_the_camera_that_it_names() {
 }
 
 #[test]
-fn a_click_on_a_node_keeps_the_output_that_was_chosen_and_a_pin_takes_it() {
+fn a_click_on_a_node_shows_its_chosen_output_which_a_pin_keeps() {
     let mut window = Window::opened(NODES);
     window.click_at(window.port(&id("cells"), "id"));
     window.click_at(window.title(&id("dots")));

@@ -143,7 +143,7 @@ fn group_tools(ui: &mut Ui, context: &ViewContext<'_>, list: &StrokeList, marked
     None
 }
 
-/// The step that makes a path of a stroke that was drawn by hand; none for others.
+/// The step that makes a path of a stroke that was drawn by hand; `None` for others.
 fn as_path(stroke: &Stroke) -> Option<Step> {
     let path = Path::of_stroke(stroke).filter(|_| stroke.path.is_none())?;
     let (points, form) = path.places();
