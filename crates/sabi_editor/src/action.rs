@@ -75,7 +75,7 @@ pub(crate) enum Action {
     File(FileAction),
     /// Change the model that the graph is shown on.
     Model(ModelAction),
-    /// Trust in files outside of the graph's folder.
+    /// Perform an action about trust in files outside of the graph's folder.
     Trust(TrustAction),
     /// Open or use a file or a folder that was dropped on the window.
     Dropped(PathBuf),
@@ -195,9 +195,9 @@ pub(crate) enum FileAction {
 /// Trust that the user gives.
 #[derive(Clone, Debug)]
 pub(crate) enum TrustAction {
-    /// Graphs and models may open the files of a folder.
+    /// Let graphs and models open the files of a folder.
     Folder(PathBuf),
-    /// The node files of a folder are used.
+    /// Use the node files of a folder.
     Nodes(PathBuf),
     /// Leave the node files beside the open graph unused, and do not ask again until another graph is opened.
     LeaveNodes,
@@ -240,7 +240,7 @@ pub(crate) enum ExportAction {
 /// Action of the brush.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PaintAction {
-    /// Drags on the model paint on the selected paint node from now on, perhaps with another value of the brush.
+    /// Begin to paint on the selected paint node by drags on the model; with `value`, the brush gets that value.
     PaintSelected { value: Option<f32> },
     /// Begin a stroke and an undo step: the brush touches the model.
     Begin,

@@ -233,7 +233,7 @@ impl Canvas {
         dragged_node::node_at(self, document, interface, at)
     }
 
-    /// Place for a node that is dropped at a place of the screen, and the input whose wire it is inserted into; none
+    /// Place for a node that is dropped at a place of the screen, and the input whose wire it is inserted into; `None`
     /// outside of the canvas.
     pub(crate) fn place_for_dropped(
         &self,

@@ -104,7 +104,8 @@ impl Exports {
 
     /// Starts an export. With `force`, it writes to the folder even if that has files that do not belong to the graph.
     ///
-    /// # Errors It cannot start; the error is a sentence.
+    /// # Errors
+    /// It cannot start; the error is a sentence.
     pub(crate) fn start(&mut self, context: &Context, source: ExportSource<'_>, force: bool) -> Result<(), String> {
         if self.running.is_some() {
             return Err("An export is being made already.".to_owned());
@@ -117,7 +118,8 @@ impl Exports {
 
     /// Exports again, if the user wants that at every save.
     ///
-    /// # Errors It cannot start; the error is a sentence.
+    /// # Errors
+    /// It cannot start; the error is a sentence.
     pub(crate) fn after_save(&mut self, context: &Context, source: ExportSource<'_>) -> Result<(), String> {
         if !self.place.again {
             return Ok(());
@@ -318,7 +320,7 @@ impl ExportSource<'_> {
     }
 }
 
-/// Folder that was typed. A relative one is beside the graph's file, and none while the graph has no file.
+/// Folder that was typed. A relative one is beside the graph's file, and `None` while the graph has no file.
 fn folder_of(text: &str, graph: Option<&Path>) -> Option<PathBuf> {
     let typed = PathBuf::from(text.trim());
     if typed.as_os_str().is_empty() {

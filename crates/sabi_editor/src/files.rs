@@ -95,7 +95,7 @@ impl Questions {
         self.ask_for_name(document.session.file());
     }
 
-    /// Asks for a model file, beside the one that is shown.
+    /// Asks for a model file, in the folder of the one that is shown.
     pub(crate) fn ask_for_model(&mut self, shown: &Path) {
         self.ask_path(PathFor::Model, of_the_artist(shown), String::new());
     }

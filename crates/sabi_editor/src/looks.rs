@@ -25,7 +25,7 @@ pub(crate) enum ColorTarget {
 pub(crate) struct Looks {
     /// Result of the node that was clicked last.
     pub(crate) shown: Option<NodeRef>,
-    /// Result that the model shows while it follows clicks; none after a click beside all nodes.
+    /// Result that the model shows while it follows clicks; `None` after a click beside all nodes.
     pub(crate) followed: Option<NodeRef>,
     /// Result that the 2D view keeps when another node is clicked.
     pub(crate) pinned_2d: Option<NodeRef>,

@@ -17,7 +17,7 @@ type Making = Task<Result<StampSquare, String>>;
 #[derive(Default)]
 pub(crate) struct NodeTips {
     coming: Option<Making>,
-    /// Those that are not wanted any more, until they end: dropping one waits for it.
+    /// Discarded tips that are still being made: dropping one would wait for it.
     obsolete: Vec<Making>,
 }
 

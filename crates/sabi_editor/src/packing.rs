@@ -9,7 +9,7 @@ use sabi_engine::{PackReport, PackRequest, Phase, Progress, pack_graph};
 
 use crate::task::Task;
 
-/// The archive that is being written, if any. Dropping it cancels that.
+/// The archive that is being written, if any. Dropping it cancels the writing.
 #[derive(Default)]
 pub(crate) struct Packing {
     task: Option<Task<Result<PackReport, String>>>,

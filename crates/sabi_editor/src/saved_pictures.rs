@@ -38,7 +38,8 @@ impl SavedPictures {
 
     /// Stores a picture, and shows it even if it cannot be written.
     ///
-    /// # Errors It cannot be written to the cache; the error is a sentence.
+    /// # Errors
+    /// It cannot be written to the cache; the error is a sentence.
     pub(crate) fn store(&mut self, context: &Context, file: &Path, what: &str, picture: &Pixels) -> Result<(), String> {
         let small = thumbnail_of(picture);
         let texture = loaded(context, what, &small);

@@ -187,7 +187,8 @@ impl Settings {
     /// Saves the settings that differ from `before`. Settings that another window has saved since are kept, unless this
     /// one has changed the same. A file that cannot be read as settings is put aside; a sentence says so.
     ///
-    /// # Errors The file cannot be written; the error is a sentence, and the file is unchanged.
+    /// # Errors
+    /// The file cannot be written; the error is a sentence, and the file is unchanged.
     pub(crate) fn save(&self, folder: &Path, before: &Json) -> Result<Option<String>, String> {
         let file = folder.join(FILE);
         let refused = |why: String| format!("the settings cannot be kept in {}: {why}", folder.display());
@@ -247,7 +248,7 @@ impl Settings {
             .retain(|graph, _| *graph == file || recent.contains(graph));
     }
 
-    /// Models that are shown with a graph; none where it was never open here.
+    /// Models that are shown with a graph; empty if it was never open here.
     pub(crate) fn model_strip(&self, graph: &Path) -> ModelStrip {
         let strip = self.model_strips.get(&canonical_if_present(graph));
         strip.cloned().unwrap_or_default() // A new strip begins with the model of the graph.

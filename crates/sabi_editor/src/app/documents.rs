@@ -287,7 +287,8 @@ impl Documents {
 
     /// Saves copies of the graph and of node files in the background, if they have changed.
     ///
-    /// # Errors They cannot be written; the error is a sentence.
+    /// # Errors
+    /// They cannot be written; the error is a sentence.
     pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
         self.autosave.at = Instant::now();
         self.autosave.saved = Some((self.document.session.revision(), drafts_revision));

@@ -10,7 +10,7 @@ use crate::paths::canonical_if_present;
 
 /// Time for which recovery files in use are looked at again: a program that was killed holds them until the system has ended it.
 const AWAITED_FOR: Duration = Duration::from_secs(10);
-/// Time between two looks.
+/// Time between two checks.
 const LOOK_AGAIN: Duration = Duration::from_millis(200);
 
 /// Graphs and node files that were not saved when a program ended.

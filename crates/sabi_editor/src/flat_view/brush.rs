@@ -122,7 +122,7 @@ fn corners_in(linked: &LinkedModel, set: SetKey, triangle: u32) -> Option<[DVec2
     Some([place(a)?, place(b)?, place(c)?])
 }
 
-/// Weights of the corners of a triangle at a place in it, a little beyond its edges, too; none elsewhere.
+/// Weights of the corners of a triangle at a place in it, a little beyond its edges, too; `None` elsewhere.
 fn weights(at: DVec2, [a, b, c]: [DVec2; 3]) -> Option<[f64; 3]> {
     let area = (b - a).perp_dot(c - a);
     if area == 0.0 {

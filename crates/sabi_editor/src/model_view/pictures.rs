@@ -130,7 +130,7 @@ impl Pictures {
         self.renderer_loader.is_loading()
     }
 
-    /// Releases all pictures from one on.
+    /// Releases all pictures from the index `first` on.
     pub(super) fn release_from(&mut self, first: usize, render: &RenderState) {
         let released = self.screens.drain(first.min(self.screens.len())..).flatten();
         for (id, _) in released.filter_map(|screen| screen.texture) {

@@ -44,7 +44,7 @@ fn suits(known: &[(String, u32)]) -> Result<(), String> {
     }
 }
 
-/// Nothing is kept of the registry.
+/// State for the events of the registry, of which nothing is kept.
 struct Asked;
 
 impl Dispatch<WlRegistry, GlobalListContents> for Asked {

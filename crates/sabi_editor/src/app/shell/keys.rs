@@ -219,7 +219,7 @@ impl Shell {
             && self.keyboard.active != *panel
         {
             self.keyboard.active = *panel;
-            // A widget in another panel loses the keyboard; a text field keeps it.
+            // A widget in another panel loses the keyboard focus; a text field keeps it.
             if !ui.ctx().text_edit_focused() {
                 ui.memory_mut(Memory::stop_text_input);
             }

@@ -138,7 +138,7 @@ fn the_library_follows_its_folder_and_reports_unreadable_files() {
         found.any(|candidate| candidate.section == "project library")
     };
     window.until("the watch", |editor| editor.documents.watching.is_watching());
-    // As another program writes it.
+    // Writes the file as another program does.
     let group = r#"{ "format": "sabi", "version": 1, "outputs": { "mask": "n" },
         "nodes": { "n": { "kind": "noise/cells" } } }"#;
     let file = library.join("wear.sabi");

@@ -23,7 +23,7 @@ fn paths_are_chosen_from_lists_completed_by_tab_and_pasted_whole() {
     assert!(window.says("There is no folder"), "none is made without a question");
     window.press("Create it and save");
     assert_eq!(file(&window), Some(folder.join("deep/er/x.sabi")));
-    // Up, and down again into another graph.
+    // Goes to the folder above, and opens another graph from there.
     window.keys(Modifiers::COMMAND, Key::O);
     for entry in ["To the folder above", "To the folder above"] {
         window.press(entry);

@@ -246,7 +246,7 @@ fn results_of_the_previous_model_are_covered_until_those_of_the_next_arrive() {
         !editor.evaluation.is_inspected_outdated()
     });
     assert!(window.editor().evaluation.model.loaded().1);
-    // A model that cannot be shown leaves them as they are.
+    // A model that cannot be shown leaves the results as they are.
     window
         .harness
         .state_mut()
