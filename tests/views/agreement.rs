@@ -82,7 +82,8 @@ fn normals_are_those_of_the_exported_map_decoded_in_its_frame() {
             let [x, y, z, _] = between(&normals, &pictured.on_mesh, &picked);
             let [tangent, bitangent, normal] = basis(&pictured.on_mesh, &picked);
             let expected = (tangent * x + bitangent * y + normal * z).normalize();
-            // A half float has steps of 1/2048 at 1, and a step of a pixel's thousandth of a texel's slope is left.
+            // The tolerance covers the steps of a half float, 1/2048 at 1, and the tiny distance between the picked and
+            // the drawn place.
             let apart = (signed(mapped[pixel]) - Vec3::new(x, y, z)).abs().max_element();
             let apart_bent = (signed(bent[pixel]) - expected).abs().max_element();
             others += i32::from(apart.max(apart_bent) >= 4e-3);

@@ -47,7 +47,7 @@ fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps()
     let model = ModelOptions::new(mesh.path(), TEXELS);
     let baked = Baked::of(GRAPH, model, Seams::Erase);
     let mut pictured = Pictured::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
-    // A code of 8 bits may be lost in the file, which is dithered, and a step of a half float in the picture.
+    // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the picture.
     let color = map(&baked, "base_color.png", true);
     let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
     assert!(apart < 5e-3, "colors are {apart} apart");
@@ -160,7 +160,7 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             bytes
         };
         let bytes = read(&shown);
-        // Four half floats, the only format of its size.
+        // Only the format of four half floats has 8 bytes a texel.
         let is_half = before.bytes().len() == 8 * before.len();
         let own = numbers(before.bytes(), is_half);
         let components = own.len() / before.len();
@@ -186,7 +186,7 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             changed > 50 && kept > 50,
             "{plane:?}: {changed} ghosts are changed, {kept} are kept"
         );
-        // Texels without a chart have any values, among them some that equal no number.
+        // Compared as bits: texels without a chart may hold any value, even NaN.
         let differing = expected
             .iter()
             .zip(&shown)

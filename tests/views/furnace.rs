@@ -102,7 +102,7 @@ fn a_buried_place_is_as_dark_as_its_occlusion_says() {
         pictured.set_look(&buried);
         let light = pictured.light(&shot, SIZE);
         let middle = light[(SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2) as usize][0];
-        // Except for the specular lobe, which is a twentieth here and has a rule of its own for occlusion.
+        // The specular lobe, a twentieth of the light here, has a rule of its own for occlusion.
         assert!((middle - open).abs() < 0.05, "open {open}: {middle}");
     }
 }

@@ -102,7 +102,8 @@ fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
     for overlap in [Overlap::First, Overlap::Merge] {
         let baked = Baked::of(GRAPH, taken(&mesh, overlap), Seams::Erase);
         let mut pictured = pictured(&mesh, overlap);
-        // A code of 8 bits may be lost in the file, which is dithered, and a step of a half float in the picture.
+        // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the
+        // picture.
         let color = map(&baked, "base_color.png", true);
         let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
         assert!(apart < 5e-3, "{overlap:?}: colors are {apart} apart");
@@ -121,7 +122,7 @@ fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
 
 #[test]
 fn both_halves_look_alike_even_at_the_border_of_the_map() {
-    // With 0 to 1 the squares fill the map, so that no map has values beyond them.
+    // With 0 to 1 the squares fill the map, so that it has no values beyond them.
     for [low, high] in [[0.25, 0.75], [0.0, 1.0]] {
         let mesh = mirrored(low, high);
         let pictured = pictured(&mesh, Overlap::First);
@@ -158,7 +159,7 @@ fn shown_maps_are_copies_and_results_stay_unchanged() {
     let mut run = evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let shares = Shares::upload(gpu, evaluator.surface(), evaluator.linked().shared_texels().groups()).expect("shares");
-    // One of each format that a plane has.
+    // The planes include one of each format that planes have.
     let exported = Exported {
         shares: Some(&shares),
         ..Exported::default()

@@ -20,7 +20,7 @@ fn viewport(gpu: &Gpu) -> Viewport {
 
 const SIZE: [u32; 2] = [61, 40];
 
-/// A scene of which nothing is known but its number.
+/// A revision of a scene that does not say which parts have changed.
 fn numbered(number: u64) -> SceneRevision {
     SceneRevision {
         number,
@@ -127,7 +127,7 @@ fn a_picture_needs_no_more_pipelines_once_the_missing_ones_are_made() {
             .show(&gpu, &scene, &numbered(0), &lit, SIZE, false)
             .expect("a picture")
     );
-    // Pipelines that were not made before are made when a picture is drawn, and they are those that were missing.
+    // Drawing pictures makes the pipelines that are still missing.
     while first
         .show(&gpu, &scene, &numbered(1), &normals, SIZE, false)
         .expect("a picture")

@@ -147,7 +147,7 @@ impl Tools {
             .arg(graph)
             .arg("--mesh")
             .arg(model_path(project, model));
-        // The list of its files is never read.
+        // Nothing reads the list of files that `sabi bake` prints.
         command.stdout(Stdio::null());
         command
             .args(["--size", "256", "--force", "--again", "--quiet", "-o"])

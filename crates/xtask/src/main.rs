@@ -46,7 +46,7 @@ fn main() -> ExitCode {
         Some("test") => Project::find().and_then(|project| checks::run(&project)),
         Some("nightly") => Project::find().and_then(|project| checks::run_nightly(&project, &rest)),
         Some("bless") => Project::find().and_then(|project| bless::run(&project, rest.first().map(String::as_str))),
-        // A tool of its own, so that the others start without its build.
+        // A program of its own, so that the other tasks start without building it.
         Some(made @ ("assets" | "reference" | "pictures" | "library")) => {
             Project::find().and_then(|project| make_assets(&project, made, &rest))
         }

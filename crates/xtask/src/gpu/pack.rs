@@ -30,7 +30,7 @@ impl Role {
     }
 }
 
-/// A target of cargo: its package, how cargo calls its kind, its name.
+/// A target of cargo: its package, its kind as cargo names it, and its own name.
 type Target = (&'static str, &'static str, &'static str);
 
 const TESTS: [Target; 6] = [

@@ -51,7 +51,7 @@ fn last_lines(text: &str) -> String {
     lines.into_iter().rev().collect::<Vec<_>>().join(" / ")
 }
 
-/// Reads the output of a program of tests. `end` says how it ended, if that was not well.
+/// Reads the output of a program of tests. `end` says how the program ended, if it failed.
 fn read(program: &str, printed: &str, end: Option<String>) -> TestResults {
     let outcome = |line: &str, word: &str| {
         let name = line.strip_prefix("test ")?.strip_suffix(&format!(" ... {word}"))?;
