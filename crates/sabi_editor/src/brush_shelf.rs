@@ -27,15 +27,15 @@ const OWN: &str = include_str!("../../../assets/brushes.json");
 pub(crate) struct KeptBrush {
     pub(crate) name: String,
     pub(crate) brush: BrushChoices,
-    /// Its file; `None` for a brush that comes with the program.
+    /// File of the brush; `None` for a brush that comes with the program.
     pub(crate) file: Option<PathBuf>,
 }
 
 /// The brushes that are kept.
 pub(crate) struct BrushShelf {
-    /// Folder of the files; none on a system without a folder for settings.
+    /// Folder of the files; `None` on a system without a folder for settings.
     folder: Option<PathBuf>,
-    /// Those that come with the program, and after them the artist's own by name.
+    /// Brushes that come with the program, and after them the artist's own by name.
     pub(crate) brushes: Vec<KeptBrush>,
 }
 

@@ -280,7 +280,7 @@ mod tests {
             ("smart material", "effect/layer"),
             ("dirt", "relief/fill"),
             ("rust", "effect/layer"),
-            // As other programs call it.
+            // Names in other programs.
             ("flood fill", "surface/id"),
             ("anchor", "graph/reroute"),
             ("transform", "source/image"),
@@ -369,7 +369,7 @@ mod tests {
         let next = of("/data/effects/fedcba9876543210", LibraryKind::Sabi);
         let known = [
             "sabi:weathering/rust.sabi",
-            // As earlier versions kept it, which is of another folder now.
+            // Keys of earlier versions are paths, even of the folder that the library was in before.
             "/data/effects/0123456789abcdef/weathering/rust.sabi",
             "/data/effects/fedcba9876543210/weathering/rust.sabi",
         ];

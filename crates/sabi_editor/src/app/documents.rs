@@ -244,7 +244,7 @@ impl Documents {
         self.document.library_folders = named_folders(&folders);
         let library_groups = self.library.groups(folders, self.document.catalog());
         let revision = self.document.session.revision();
-        // Not while a parameter is dragged, when each frame has a revision of its own.
+        // The candidates wait for the end of the drag of a parameter, since each of its frames has a new revision.
         if has_changed || (self.candidates.revision != Some(revision) && !self.is_dragging) {
             self.candidates.revision = Some(revision);
             self.candidates.own = own_groups(&self.document, library_groups);

@@ -23,11 +23,11 @@ const LEAST: f64 = 0.002;
 
 /// Handles of a decal on the screen.
 pub(crate) struct Handles {
-    /// Its middle, which moves it.
+    /// Middle of the decal, which moves it.
     pub(crate) middle: Pos2,
-    /// The middle of its right side, which turns and sizes it.
+    /// The middle of the decal's right side, which turns and sizes it.
     pub(crate) side: Pos2,
-    /// Its corners.
+    /// Corners of the decal.
     pub(crate) corners: [Pos2; 4],
 }
 

@@ -28,7 +28,7 @@ const HIDDEN: f64 = 0.01;
 pub(crate) struct Mover {
     /// Place by which the strokes are held: the point of them that is nearest to their middle.
     held: StrokePoint,
-    /// That place on the screen.
+    /// Place of `held` on the screen.
     middle: Pos2,
 }
 

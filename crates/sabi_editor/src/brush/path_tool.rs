@@ -24,7 +24,7 @@ const EDGE_REACH: f64 = 0.04;
 /// Path that clicks add knots to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Extended {
-    /// None: a click begins a new one.
+    /// No path: a click begins a new one.
     #[default]
     None,
     /// The one that was just begun and is marked in the next frame.

@@ -23,7 +23,7 @@ const SHOWN_LIMIT: f64 = 2000.0;
 /// A path of a stroke on the screen.
 pub(crate) struct ShownPath {
     pub(super) path: Path,
-    /// Its knots with their handles; `None` for those that are not seen.
+    /// Knots of the path with their handles; `None` for knots that are not seen.
     knots: Vec<Option<ShownKnot>>,
     /// Drawn points of the line between two knots, for each such pair.
     spans: Vec<Vec<ShownPlace>>,

@@ -24,7 +24,7 @@ pub(crate) struct ShownStencil {
 
 /// A stencil on the screen.
 pub(crate) struct PlacedStencil {
-    /// Its middle, which moves it.
+    /// Middle of the stencil, which moves it.
     middle: Pos2,
     /// Vectors from the middle to its right side and to its upper side, in points.
     axes: [Vec2; 2],

@@ -34,9 +34,9 @@ pub(crate) struct Camera {
 
 /// Nodes of the shown graph before an edit.
 pub(crate) struct NodesBefore {
-    /// Those that are wholly in view.
+    /// Nodes that are wholly in view.
     seen: BTreeSet<NodeId>,
-    /// All others.
+    /// All other nodes.
     others: BTreeSet<NodeId>,
 }
 

@@ -44,7 +44,7 @@ impl UserResponseTrait for NoResponse {}
 
 impl DataTypeTrait<RowContext> for CarriedType {
     fn data_type_color(&self, _: &mut RowContext) -> Color32 {
-        // This crate draws the dots.
+        // The canvas draws the dots itself.
         Color32::TRANSPARENT
     }
 

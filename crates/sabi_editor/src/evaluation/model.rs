@@ -13,7 +13,7 @@ pub(crate) enum ModelOutcome {
     Shown,
     /// It cannot be shown, and the one before it is requested again.
     Refused {
-        /// Its file.
+        /// File of the model.
         file: PathBuf,
         error: EngineError,
     },

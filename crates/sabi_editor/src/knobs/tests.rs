@@ -62,7 +62,7 @@ struct State {
     rows: Vec<Shown>,
     memory: KnobMemory,
     theme: Theme,
-    /// All requests, except for lengths to show.
+    /// All events of knobs, except for lengths to show.
     log: Vec<KnobEvent>,
     /// The length that was shown last.
     length: Option<f64>,

@@ -105,7 +105,7 @@ fn variants(
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
         for (at, word) in words.iter().enumerate() {
-            // The first word stands for no variant.
+            // The first card is for the values without a variant.
             let name = (at > 0).then(|| word.clone());
             let label = name.as_deref().map_or_else(|| "Base".to_owned(), label_of);
             let card = Card {

@@ -37,7 +37,7 @@ pub(super) struct PenPointer {
     held: Vec<PointerButton>,
     /// Time of the frame that had its last event, seconds.
     heard: Option<f64>,
-    /// True if it lies on its tablet.
+    /// True if the pen was left on its tablet: it is near, but sends nothing.
     rests: bool,
 }
 
@@ -53,7 +53,7 @@ impl PenPointer {
         self.is_near || !self.waiting.is_empty()
     }
 
-    /// Returns true if a pen that is near lies on its tablet.
+    /// Returns true if a pen that is near was left on its tablet and sends nothing.
     pub(super) fn rests(&self) -> bool {
         self.rests
     }

@@ -32,10 +32,10 @@ pub(crate) struct ExportChoices {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ExportPadding {
-    /// As wide as the mip levels of game engines need it at a size.
+    /// The width that the mip levels of game engines need at the size of the texture.
     #[default]
     Automatic,
-    /// This many texels.
+    /// A number of texels.
     Texels(u32),
     /// Everything around the islands is filled.
     Everything,

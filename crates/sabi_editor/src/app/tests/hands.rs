@@ -128,7 +128,7 @@ impl Window {
     }
 
     pub(super) fn keys(&mut self, modifiers: Modifiers, key: Key) {
-        // Systems report these keys as clipboard events.
+        // Systems report copying and cutting as clipboard events in place of these keys.
         let told = match key {
             Key::C if modifiers == Modifiers::COMMAND => Some(Event::Copy),
             Key::X if modifiers == Modifiers::COMMAND => Some(Event::Cut),

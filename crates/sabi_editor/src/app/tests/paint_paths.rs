@@ -125,7 +125,7 @@ fn a_click_near_an_edge_lays_a_path_along_it() {
     let mut window = drawing(Hand::HardEdges);
     window.harness.state_mut().shell.settings.brush.area = Area::Ribbon;
     let [left, _] = window.way();
-    // One of the upright edges of the cube is before the middle.
+    // The clicks reach one of the upright edges of the cube, which is in front of the middle.
     for step in 0..40 {
         window.click_at(left + vec2(5.0 * step as f32 - 70.0, 0.0));
         if window.list("mask").is_some_and(|list| !list.strokes.is_empty()) {
@@ -179,7 +179,7 @@ fn a_path_is_drawn_and_bent_in_the_2d_view_too() {
     let texture = window.harness.get_by_label_contains("Texture of").rect();
     let side = texture.width().min(texture.height());
     let at = |x: f32, y: f32| texture.center() + side * vec2(x, y);
-    // Chart by chart, from the middle outward, until a click lies on the model.
+    // Tries several places of the 2D view, from the middle outward, since not every place is on a chart.
     let places: Vec<Pos2> = [[0.02, 0.02], [0.1, 0.1], [0.2, 0.1], [0.1, 0.2], [0.2, 0.2]]
         .map(|[x, y]: [f32; 2]| at(x, y))
         .to_vec();

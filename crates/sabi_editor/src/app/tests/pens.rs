@@ -46,7 +46,7 @@ fn read(log: &str) -> Vec<(f32, PenEvent)> {
         };
         let time = events.last().map_or(0.0, |(time, _)| *time);
         events.push((time, event));
-        // These take the time of the next place; other events keep that of the last one.
+        // These two events take the time of the next place; others keep the time of the last place.
         unplaced += usize::from(matches!(event, PenEvent::Near { .. } | PenEvent::Down));
     }
     events
@@ -207,7 +207,7 @@ fn wrong_numbers_of_a_driver_give_a_stroke_whose_numbers_are_in_range() {
         assert!(lean(point).0 <= 91.0);
     }
     let pressures = || points.iter().map(|point| point.pressure);
-    // No place lies exactly where the driver erred.
+    // The stroke's points lie between the places with wrong numbers, so that the extremes are not reached exactly.
     assert!(pressures().any(|pressure| pressure > 0.8) && pressures().any(|pressure| pressure < 0.25));
     assert!(
         !points.iter().skip(1).any(|point| point.starts),

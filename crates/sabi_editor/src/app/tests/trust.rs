@@ -149,7 +149,7 @@ fn a_saved_graph_opens_a_model_of_several_files_that_the_command_line_named() {
     let kept = tempfile::tempdir().expect("a folder");
     let file = kept.path().join("graph.sabi");
     let editor = window.harness.state_mut();
-    // As when the program is started with this model; this trust is not stored.
+    // Starts with the trust that a model on the command line gets; it is not stored.
     editor.documents.trust(&sabi_engine::TrustedPaths::of_file(&hero));
     editor.take_model(&hero);
     window.until("the model", |editor| {

@@ -43,7 +43,7 @@ fn add_at(window: &mut Window, place: [f32; 2], query: &str) -> NodeId {
 }
 
 fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
-    // All of it has to be on the screen.
+    // The whole graph has to be on the screen.
     window.wheel(window.on_canvas([0.0, 0.0]), -190.0);
     let ends = [window.on_canvas([0.1, 0.1]), window.on_canvas([0.14, 0.4])];
     window.drag_along(&ends, PointerButton::Middle, Modifiers::NONE);
