@@ -237,7 +237,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn captions_that_want_one_place_lie_above_each_other() {
+    fn captions_at_one_place_are_drawn_above_each_other() {
         let mut captions = Captions::default();
         let at = |left: f32, width: f32| Rect::from_min_size(pos2(left, 100.0), vec2(width, 12.0));
         let wanted = [at(0.0, 200.0), at(150.0, 100.0), at(180.0, 40.0), at(400.0, 50.0)];

@@ -27,7 +27,7 @@ fn only_changed_values_have_a_dot_which_resets_them() {
 }
 
 #[test]
-fn a_random_seed_is_no_change() {
+fn a_changed_seed_has_no_dot_that_resets_it() {
     let mut seed = knob("noise/simplex.seed");
     seed.value = Some(Value::Number(77.0));
     let board = board([seed]);
