@@ -10,7 +10,7 @@ use crate::{is_inside, seen};
 
 const SIZE: [u32; 2] = [160, 120];
 
-/// Dents and a color, on the model's own looks.
+/// Dents and a color on a material.
 const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "dents", "nodes": {
     "clouds": { "kind": "noise/simplex", "params": { "size": 0.2, "octaves": 3 } },
     "base": { "kind": "source/material", "params": { "color": "#7a4a30", "roughness": 0.4 } },
@@ -32,7 +32,7 @@ fn exported(plane: &PlaneData, on_mesh: &OnMesh) -> Vec<[f32; 4]> {
     texels
 }
 
-/// Values between the four texels around what was picked, as a texture filter of an engine would read the map.
+/// Values between the four texels around a picked place, as a texture filter of an engine would read the map.
 pub(crate) fn between(texels: &[[f32; 4]], on_mesh: &OnMesh, picked: &Picked) -> [f32; 4] {
     let at = Vec2::from(picked.texel) - 0.5;
     let (corner, weight) = (at.floor(), at - at.floor());
@@ -43,7 +43,7 @@ pub(crate) fn between(texels: &[[f32; 4]], on_mesh: &OnMesh, picked: &Picked) ->
     top.lerp(bottom, weight.y).to_array()
 }
 
-/// The frame of a normal map where something was picked: tangent, bitangent and normal, interpolated.
+/// The frame of a normal map at a picked place: tangent, bitangent and normal, interpolated.
 fn basis(on_mesh: &OnMesh, picked: &Picked) -> [Vec3; 3] {
     let mesh = &on_mesh.evaluator.linked().model.mesh;
     let corners = mesh.triangles[picked.triangle as usize].map(|vertex| vertex as usize);
@@ -58,7 +58,7 @@ fn basis(on_mesh: &OnMesh, picked: &Picked) -> [Vec3; 3] {
     [tangent, normal.cross(tangent) * sign, normal]
 }
 
-/// Turns what a picture holds of 0..1 to −1..1.
+/// Maps a picture's values from 0..1 to −1..1.
 fn signed([x, y, z, _]: [f32; 4]) -> Vec3 {
     Vec3::new(x, y, z) * 2.0 - 1.0
 }
@@ -82,13 +82,14 @@ fn normals_are_those_of_the_exported_map_decoded_in_its_frame() {
             let [x, y, z, _] = between(&normals, &pictured.on_mesh, &picked);
             let [tangent, bitangent, normal] = basis(&pictured.on_mesh, &picked);
             let expected = (tangent * x + bitangent * y + normal * z).normalize();
-            // A half float has steps of 1/2048 at 1, and a step of a pixel's thousandth of a texel's slope is left.
+            // The tolerance covers the steps of a half float, 1/2048 at 1, and the tiny distance between the picked and
+            // the drawn place.
             let apart = (signed(mapped[pixel]) - Vec3::new(x, y, z)).abs().max_element();
             let apart_bent = (signed(bent[pixel]) - expected).abs().max_element();
             others += i32::from(apart.max(apart_bent) >= 4e-3);
             compared += 1;
         }
-        // Where triangles lie on one another, a picture may show the other one.
+        // Where triangles lie on each other, a picture may show the other one.
         assert!(
             1000 * others <= compared,
             "{}: {others} normals of {compared}",

@@ -65,7 +65,7 @@ fn light_above_white_glows_in_proportion_and_less_with_distance() {
     let glow = &some_row[..edge - 1];
     assert!(glow[edge - 2] > 0.02, "beside the sphere: {glow:?}");
     assert!(glow[0] < glow[edge - 2] * 0.25, "far from it: {glow:?}");
-    // A code of eight bits is up to 0.009 wide.
+    // Neighboring codes of 8 bits are up to 0.009 of linear light apart.
     assert!(glow.windows(2).all(|pair| pair[0] <= pair[1] + 0.009), "{glow:?}");
     for (some, twice) in glow.iter().zip(&twice_row) {
         assert!((twice - 2.0 * some).abs() < 0.02, "{twice} for twice {some}");

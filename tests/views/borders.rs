@@ -1,4 +1,4 @@
-//! At the borders of charts, where the data jumps, pictures show what exported maps hold, up to the very border.
+//! At the borders of charts, where the data jumps, pictures show the values of exported maps, right up to the border.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ use crate::sharing::{SIZE, TEXELS, difference, map, square};
 
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// A color by vertex, and a layer on the second chart alone.
+/// A color by vertex, and a layer on the second chart only.
 const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "fields", "nodes": {
     "vertex": { "kind": "source/vertex_color" },
     "second": { "kind": "surface/id", "params": { "by": "chart", "pick": "1" } },
@@ -42,12 +42,12 @@ fn two_squares() -> MadeMesh {
 }
 
 #[test]
-fn a_picture_shows_what_the_exported_maps_hold_up_to_the_border_where_the_data_jumps() {
+fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps() {
     let mesh = two_squares();
     let model = ModelOptions::new(mesh.path(), TEXELS);
     let baked = Baked::of(GRAPH, model, Seams::Erase);
     let mut pictured = Pictured::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
-    // A code of 8 bits may be lost in the file, which is dithered, and a half float's step in the picture.
+    // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the picture.
     let color = map(&baked, "base_color.png", true);
     let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
     assert!(apart < 5e-3, "colors are {apart} apart");
@@ -79,7 +79,7 @@ fn without_borders_the_neighbor_would_show() {
     assert!(leaking > 20, "{leaking} pixels lie between the two squares");
 }
 
-/// A field that jumps at the borders of some charts and goes on over others, with all that a material stores.
+/// A field that jumps at the borders of some charts and continues over others, with every plane that a material stores.
 const FIELDS: &str = r##"{ "format": "sabi", "version": 1, "name": "fields", "nodes": {
     "clouds": { "kind": "noise/simplex", "params": { "size": 0.3, "octaves": 3 } },
     "parts": { "kind": "surface/id", "params": { "by": "chart" } },
@@ -160,7 +160,7 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             bytes
         };
         let bytes = read(&shown);
-        // Four half floats, the only format of its size.
+        // Only the format of four half floats has 8 bytes a texel.
         let is_half = before.bytes().len() == 8 * before.len();
         let own = numbers(before.bytes(), is_half);
         let components = own.len() / before.len();
@@ -186,7 +186,7 @@ fn shown_maps_follow_the_rule_of_exported_ones_bit_by_bit() {
             changed > 50 && kept > 50,
             "{plane:?}: {changed} ghosts are changed, {kept} are kept"
         );
-        // Texels without a chart hold anything, numbers that equal none among them.
+        // Compared as bits: texels without a chart may hold any value, even NaN.
         let differing = expected
             .iter()
             .zip(&shown)

@@ -34,7 +34,8 @@ fn the_shape_is_seen_where_a_mask_is_black_and_where_it_is_white() {
         of_gray.fold([1.0_f32, 0.0], |[low, high], value| [low.min(value), high.max(value)])
     };
     let ([dark, less_dark], [light, lighter]) = (ends(&zero), ends(&one));
-    // Clay of 0.3, and of 0.95, between 0.55 of its brightness at the rim and all of it where it faces the eye.
+    // The brightness of clay is 0.3 for a mask of 0 and 0.95 for 1, times 1 where it faces the eye, down to 0.55 at the
+    // rim.
     assert!(dark > 0.3 * 0.54 && less_dark < 0.301, "{dark} {less_dark}");
     assert!(light > 0.95 * 0.54 && lighter < 0.951, "{light} {lighter}");
     assert!(

@@ -77,7 +77,7 @@ fn saturation(transform: ViewTransform) -> f32 {
 }
 
 #[test]
-fn a_paint_keeps_its_saturation_through_the_default_transform_and_loses_some_through_agx() {
+fn the_default_transform_keeps_the_saturation_of_a_paint_and_agx_reduces_it() {
     let [neutral, agx] = [ViewTransform::default(), ViewTransform::AgX].map(saturation);
     assert!(neutral > 0.5, "{neutral} of 0.59");
     assert!(agx < neutral - 0.1, "{agx} through AgX, {neutral} by default");

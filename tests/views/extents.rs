@@ -11,7 +11,7 @@ use sabi_tests::{OnMesh, extent, project};
 
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// The extent of a component of a node's first plane, by the device and by what is read back.
+/// Extent of a component of a plane of a node's result: computed on the device, and from the values that are read back.
 fn extents(nodes: &str, node: &str, plane: usize, component: u32, mesh: &Path) -> [ValueExtent; 2] {
     let graph = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
     let mut on_mesh = OnMesh::new(&graph, mesh, 96);
@@ -37,7 +37,7 @@ fn extents(nodes: &str, node: &str, plane: usize, component: u32, mesh: &Path) -
 }
 
 #[test]
-fn extents_on_the_device_are_those_of_what_is_read_back() {
+fn extents_on_the_device_are_those_of_the_values_that_are_read_back() {
     let clouds = r#""clouds": { "kind": "noise/simplex" }"#;
     let below = format!(
         r#"{clouds}, "low": {{ "kind": "adjust/remap", "inputs": {{ "source": "clouds" }},

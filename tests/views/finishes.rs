@@ -1,4 +1,4 @@
-//! Coat, anisotropy, sheen and light below the surface: what they add, and that they add no energy.
+//! Coat, anisotropy, sheen and light below the surface: their effects, and that they add no energy.
 
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
@@ -54,7 +54,8 @@ fn no_finish_sends_out_more_light_than_falls_on_it() {
                 high < 1.01,
                 "{params}, roughness {roughness}, metallic {metallic}: {high}"
             );
-            // A sheen takes as much from below as its strongest view; nothing else loses light.
+            // A sheen takes as much light from below as it reflects in its strongest direction; nothing else loses
+            // light.
             let least = if params.contains("sheen\"") { 0.6 } else { 0.98 };
             assert!(
                 low > least,
@@ -65,7 +66,7 @@ fn no_finish_sends_out_more_light_than_falls_on_it() {
 }
 
 #[test]
-fn a_coat_over_a_dark_body_adds_its_reflection_and_none_where_it_is_none() {
+fn a_coat_over_a_dark_body_adds_its_reflection_in_proportion_to_its_strength() {
     let sphere = project("assets/meshes/sphere.glb");
     let middle = |params: &str| {
         let pictured = Pictured::new(&graph("#000000", params, 1.0, 0.0), &sphere, 64, &even_light(1.0));

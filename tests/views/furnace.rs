@@ -1,4 +1,4 @@
-//! The white furnace: in even light a body that takes nothing away cannot be seen.
+//! The white furnace: in even light a body that absorbs nothing cannot be seen.
 
 use sabi_gpu::DeviceMaps;
 use sabi_tests::{MeshFile, Pictured, Quad, even_light, project};
@@ -102,7 +102,7 @@ fn a_buried_place_is_as_dark_as_its_occlusion_says() {
         pictured.set_look(&buried);
         let light = pictured.light(&shot, SIZE);
         let middle = light[(SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2) as usize][0];
-        // All but the lobe, which is a twentieth here and is let through by a rule of its own.
+        // The specular lobe, a twentieth of the light here, has a rule of its own for occlusion.
         assert!((middle - open).abs() < 0.05, "open {open}: {middle}");
     }
 }

@@ -19,7 +19,7 @@ use glam::{UVec2, Vec2};
 use sabi_tests::Pictured;
 use sabi_view::{Camera, Picked, aspect_of, pick};
 
-/// Each pixel of a picture with what its middle sees of the model.
+/// Each pixel of a picture whose middle sees the model, with the surface point there.
 fn seen<'p>(
     pictured: &'p Pictured,
     camera: &'p Camera,

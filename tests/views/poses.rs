@@ -13,7 +13,7 @@ const NODES: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
     "out": { "kind": "output/material", "inputs": { "material": "plain" } } } }"#;
 
 #[test]
-fn each_look_of_a_pose_is_what_is_drawn_of_it_alone() {
+fn each_look_of_a_pose_equals_a_picture_of_that_look_alone() {
     let mesh = project("assets/meshes/cube.glb");
     let mut pictured = Pictured::new(NODES, &mesh, 64, &even_light(0.8));
     // A pose has the lights of a studio, with hard shadows.

@@ -37,7 +37,7 @@ fn between(texels: &[f32], width: usize, [x, y]: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn lines_of_sight_meet_the_heights_that_a_march_meets() {
+fn lines_of_sight_hit_relief_where_a_march_on_the_processor_hits_it() {
     let made = square().write();
     let texels = 128;
     let mut pictured = Pictured::new(HILLS, made.path(), texels, &even_light(1.0));
@@ -57,7 +57,7 @@ fn lines_of_sight_meet_the_heights_that_a_march_meets() {
         };
         let shifts = pictured.light(&shot, SIZE);
         let height = |place: [f64; 2]| between(&heights, width, place);
-        // Two model units, which are one working unit, over all texels.
+        // The square is two model units wide, which are one working unit.
         let texel = 1.0 / f64::from(texels);
         let frame = ReliefFrame {
             model_from_texel_u: [texel, 0.0, 0.0],
@@ -68,7 +68,7 @@ fn lines_of_sight_meet_the_heights_that_a_march_meets() {
         let (mut compared, mut others) = (0, 0);
         for (pixel, picked) in seen(&pictured, &camera, SIZE) {
             let place = picked.texel.map(f64::from);
-            // Hills beyond the border are another matter.
+            // Near the border, a line of sight may hit hills beyond it, which are not compared.
             let margin = 40.0;
             let is_far_in = picked
                 .map_texel

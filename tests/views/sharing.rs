@@ -26,7 +26,7 @@ const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "clouds", "nod
     "out": { "kind": "output/material", "inputs": { "material": "coat" } },
     "mask": { "kind": "output/mask", "inputs": { "source": "clouds" }, "params": { "name": "clouds" } } } }"##;
 
-/// A square that faces the eye, `left` of the y axis or right of it, whose picture reaches from one place of the map to
+/// A square that faces the eye, `left` of the y axis or right of it, whose UVs reach from one place of the map to
 /// another.
 pub(crate) fn square(left: f32, [from, to]: [[f32; 2]; 2]) -> Quad {
     let right = left + 0.9;
@@ -36,7 +36,7 @@ pub(crate) fn square(left: f32, [from, to]: [[f32; 2]; 2]) -> Quad {
     }
 }
 
-/// Two squares beside one another, the second one mirrored, with a place on the map that both of them fill.
+/// Two squares side by side, the second one mirrored, with a place on the map that both of them fill.
 fn mirrored(low: f32, high: f32) -> MadeMesh {
     let first = square(-1.0, [[low, low], [high, high]]);
     let second = square(0.1, [[high, low], [low, high]]);
@@ -68,8 +68,8 @@ fn read(map: &LinearPicture, texel: [f32; 2]) -> glam::Vec4 {
     top.lerp(bottom, weight.y)
 }
 
-/// The most that a mode shows beside what the engine reads of a map, in parts of the range 0 to 1; at all pixels of the
-/// model, up to its very border.
+/// Largest difference between a mode of the picture and the values that an engine reads from a map, in parts of the
+/// range 0 to 1, at all pixels of the model, up to its very border.
 pub(crate) fn difference(pictured: &Pictured, map: &LinearPicture, mode: Mode, encode: impl Fn(f32) -> f32) -> f32 {
     let camera = pictured.camera(Viewpoint::FRONT, SIZE);
     let shot = Shot {
@@ -102,7 +102,8 @@ fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
     for overlap in [Overlap::First, Overlap::Merge] {
         let baked = Baked::of(GRAPH, taken(&mesh, overlap), Seams::Erase);
         let mut pictured = pictured(&mesh, overlap);
-        // A code of 8 bits may be lost in the file, which is dithered, and a half float's step in the picture.
+        // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the
+        // picture.
         let color = map(&baked, "base_color.png", true);
         let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
         assert!(apart < 5e-3, "{overlap:?}: colors are {apart} apart");
@@ -121,7 +122,7 @@ fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
 
 #[test]
 fn both_halves_look_alike_even_at_the_border_of_the_map() {
-    // The squares fill the map: of what is beyond, no map has anything.
+    // With 0 to 1 the squares fill the map, so that it has no values beyond them.
     for [low, high] in [[0.25, 0.75], [0.0, 1.0]] {
         let mesh = mirrored(low, high);
         let pictured = pictured(&mesh, Overlap::First);
@@ -148,7 +149,7 @@ fn both_halves_look_alike_even_at_the_border_of_the_map() {
 }
 
 #[test]
-fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
+fn shown_maps_are_copies_and_results_stay_unchanged() {
     let mesh = mirrored(0.25, 0.75);
     let mut on_mesh = OnMesh::on_model(GRAPH, Kinds::builtin(), taken(&mesh, Overlap::Merge), |_| {});
     let target = on_mesh.target("coat");
@@ -158,7 +159,7 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     let mut run = evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let shares = Shares::upload(gpu, evaluator.surface(), evaluator.linked().shared_texels().groups()).expect("shares");
-    // One of each format that a plane has.
+    // The planes include one of each format that planes have.
     let exported = Exported {
         shares: Some(&shares),
         ..Exported::default()
@@ -213,7 +214,7 @@ const READERS: &str = r##"{ "format": "sabi", "version": 1, "name": "readers", "
     "half": { "kind": "adjust/coverage", "inputs": { "source": "soft" }, "params": { "amount": 0.5 } },
     "out": { "kind": "output/material", "inputs": { "material": "dirt" } } } }"##;
 
-/// Three boxes beside one another, each side of which fills the map.
+/// Three boxes side by side, each side of which fills the map.
 fn stacked_boxes() -> MadeMesh {
     let mut quads = Vec::new();
     for left in [0.0, 2.0, 4.0] {
@@ -262,9 +263,9 @@ fn exported(on_mesh: &OnMesh, result: &Evaluated, overlap: Overlap) -> Vec<u32> 
 }
 
 #[test]
-fn of_stacked_charts_the_exported_one_is_evaluated_and_its_values_are_the_same() {
-    // Most texels for one that is evaluated where only what is shown is.
-    // Occlusion also needs what it reads beside seams, on the other side of them.
+fn only_the_exported_one_of_stacked_charts_is_evaluated_with_the_same_values() {
+    // Least factor by which fewer texels are evaluated if only shown charts are. Occlusion also needs the texels on the
+    // other side of seams.
     let cases = [("coat", 12), ("dirt", 2), ("soft", 1), ("half", 1)];
     for mesh in [stacked_boxes(), mirrored(0.25, 0.75), mirrored(0.0, 1.0)] {
         for overlap in [Overlap::First, Overlap::Merge] {

@@ -58,7 +58,7 @@ fn light_of(pictured: &Pictured, samples: u32) -> [f32; 2] {
 }
 
 #[test]
-fn what_is_under_a_roof_is_dark_in_light_from_above() {
+fn a_floor_under_a_roof_is_dark_in_light_from_above() {
     let far = Light {
         place: LightPlace::Directional([0.0, 1.0, 0.0]),
         color: [3.0; 3],
@@ -68,7 +68,8 @@ fn what_is_under_a_roof_is_dark_in_light_from_above() {
     };
     let [shaded, open] = floor_light(vec![far]);
     assert!(shaded < 0.02 * open, "{shaded} under the roof, {open} beside it");
-    // A matte floor that faces the light sends out its color over pi of what falls on it, and its lobe a little.
+    // A matte floor that faces the light reflects its color over pi of the light that falls on it, and its lobe adds a
+    // little.
     let matte = 0.5 * 3.0 / std::f32::consts::PI;
     assert!(
         (matte * 0.85..matte * 1.25).contains(&open),
@@ -94,7 +95,7 @@ const VEILED: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
 } }"##;
 
 #[test]
-fn a_roof_keeps_the_light_that_its_opacity_says() {
+fn a_roof_blocks_light_in_proportion_to_its_opacity() {
     let far = Light {
         place: LightPlace::Directional([0.0, 1.0, 0.0]),
         color: [3.0; 3],

@@ -11,8 +11,7 @@ use sabi_view::{Mode, Quality, Renderer, SceneRevision, Shot, Viewpoint, Viewpor
 use crate::furnace::look;
 use crate::seen;
 
-/// A viewport with a renderer of its own.
-/// A viewport with the quality that suits a software driver, on any adapter.
+/// A viewport with a renderer of its own, and with the quality that suits a software driver, on any adapter.
 fn viewport(gpu: &Gpu) -> Viewport {
     let mut viewport = Viewport::new(gpu, Arc::new(Renderer::new(gpu).expect("a renderer")));
     viewport.quality = Quality::of(AdapterKind::Cpu);
@@ -21,7 +20,7 @@ fn viewport(gpu: &Gpu) -> Viewport {
 
 const SIZE: [u32; 2] = [61, 40];
 
-/// A scene of which nothing is known but its number.
+/// A revision of a scene that does not say which parts have changed.
 fn numbered(number: u64) -> SceneRevision {
     SceneRevision {
         number,
@@ -98,7 +97,7 @@ fn a_picture_at_rest_is_refined_to_the_one_that_is_drawn_at_once() {
 }
 
 #[test]
-fn a_picture_needs_nothing_more_once_what_was_missing_is_made() {
+fn a_picture_needs_no_more_pipelines_once_the_missing_ones_are_made() {
     let mesh = project("assets/meshes/cube.glb");
     let pictured = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
     let gpu = device();
@@ -128,7 +127,7 @@ fn a_picture_needs_nothing_more_once_what_was_missing_is_made() {
             .show(&gpu, &scene, &numbered(0), &lit, SIZE, false)
             .expect("a picture")
     );
-    // What nobody made before is made when it is drawn, and it is what was missing.
+    // Drawing pictures makes the pipelines that are still missing.
     while first
         .show(&gpu, &scene, &numbered(1), &normals, SIZE, false)
         .expect("a picture")
@@ -147,7 +146,7 @@ fn a_picture_needs_nothing_more_once_what_was_missing_is_made() {
 }
 
 #[test]
-fn where_the_changed_part_of_a_scene_is_known_that_part_is_drawn_again_and_the_rest_stays() {
+fn only_the_changed_part_of_a_scene_is_drawn_again_if_it_is_known() {
     let mesh = project("assets/meshes/cube.glb");
     let before = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
     let after = Pictured::looking(&mesh, &look(0.1, 0.3, 0.0), &even_light(0.8));
@@ -166,7 +165,7 @@ fn where_the_changed_part_of_a_scene_is_known_that_part_is_drawn_again_and_the_r
         .expect("a sample")
     {}
     let old = viewport.picture().expect("a picture").read(&gpu).expect("pixels");
-    // The upper right quarter of what is seen.
+    // The upper right quarter of the view.
     let bounds = [Vec3::new(0.0, 0.0, -0.5), Vec3::splat(0.5)];
     let revision = SceneRevision {
         number: 1,
@@ -197,7 +196,7 @@ fn where_the_changed_part_of_a_scene_is_known_that_part_is_drawn_again_and_the_r
             .show(&gpu, &after.scene(), &revision, &still, SIZE, true)
             .expect("nothing")
     );
-    // A scene of which it is not known what has changed is drawn as a whole.
+    // A scene is drawn as a whole if it is not known what has changed in it.
     assert!(
         viewport
             .show(&gpu, &before.scene(), &numbered(2), &still, SIZE, true)

@@ -16,7 +16,7 @@ use walk::{FIRST, Step, Walk};
 const EDITS: usize = 10_000;
 const EVERY: usize = 1000;
 
-/// Memory that this program takes, MiB; none where the system does not say so in a file.
+/// Memory that this program takes, MiB; `None` where the system does not say so in a file.
 fn resident_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
@@ -56,7 +56,7 @@ fn main() {
             Step::Redo => window.redo(),
         }
         window.frame(Vec::new());
-        // As soon as a hand could do the next: some results come, others are overtaken.
+        // About as soon as a user could act again: some results arrive, others are replaced before.
         window.wait(Duration::from_millis(5));
     }
 }

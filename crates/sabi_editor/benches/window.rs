@@ -1,6 +1,6 @@
-//! `cargo bench --bench window`: what frames of the window take of the processor, how soon it shows something, and how soon it
-//! shows what a slider does. Medians and the worst of some frames; nothing here asserts. `-- slider`, `-- busy`, `-- orbit`,
-//! `-- painting`, `-- frames`, `-- clicks`, `-- start` and `-- settle` measure that alone.
+//! `cargo bench --bench window`: processor time of the frames of the window, time until it shows something, and time
+//! until it shows the effect of a slider. Medians and the worst of some frames; nothing here asserts. `-- slider`, `--
+//! busy`, `-- orbit`, `-- painting`, `-- frames`, `-- clicks`, `-- start` and `-- settle` measure that alone.
 
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]

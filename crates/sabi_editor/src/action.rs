@@ -34,7 +34,7 @@ pub(crate) enum Action {
     Do(Command),
     /// Edit the open document. A node that is added is shown.
     Edit(EditCommand),
-    /// Show a sentence for a while.
+    /// Show a short notice.
     Notice(String),
     /// Add a node in the middle of the canvas.
     AddInMiddle(NodeSource),
@@ -56,14 +56,14 @@ pub(crate) enum Action {
     Select(Vec<NodeId>),
     /// Go to the node or the port that an arrow key leads to.
     Arrow(ArrowKey),
-    /// Show a node's result in the 2D view, and on the model where that follows clicks: at an output, or at the one that was
-    /// chosen last.
+    /// Show a node's result in the 2D view, and on the model if the model follows clicks. Without a port, the output
+    /// that was chosen last is shown.
     Show { node: NodeId, port: Option<String> },
     /// Show one channel of a node's material on the model.
     ShowChannel { node: NodeId, mode: Mode },
     /// Keep a node's result in the 2D view, or release it.
     Pin { node: NodeId },
-    /// Change what the model and the 2D view show.
+    /// Change the results that the model and the 2D view show.
     Look(LookAction),
     /// Change a parameter of a node, and of the selected nodes of its kind.
     Knob { node: NodeId, event: KnobEvent },
@@ -75,11 +75,11 @@ pub(crate) enum Action {
     File(FileAction),
     /// Change the model that the graph is shown on.
     Model(ModelAction),
-    /// Trust in files outside of the graph's folder.
+    /// Perform an action about trust in files outside of the graph's folder.
     Trust(TrustAction),
     /// Open or use a file or a folder that was dropped on the window.
     Dropped(PathBuf),
-    /// Add a picture, or the texture sets that the pictures of a folder are.
+    /// Add a picture as a node, or the pictures of a folder as texture sets.
     ImportPictures(PathBuf),
     /// Show a texture set in the 2D view.
     ShowSet(SetKey),
@@ -123,7 +123,7 @@ pub(crate) enum ArrowKey {
     Down,
 }
 
-/// Change of which result is shown where.
+/// Change of the results that the model and the 2D view show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LookAction {
     /// Show the outputs on the model.
@@ -140,7 +140,7 @@ pub(crate) enum LookAction {
     UnpinFrom2d,
 }
 
-/// Graph that replaces the open graph once no changes are lost by that, or the closing of the window.
+/// Step that is taken once no unsaved changes can be lost: another graph is opened, or the window closes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Next {
     New,
@@ -149,7 +149,7 @@ pub(crate) enum Next {
     Example(usize),
     /// The recovered graph of this index.
     Recover(usize),
-    /// None: the window closes.
+    /// No graph: the window closes.
     Close,
 }
 
@@ -166,15 +166,15 @@ pub(crate) enum FileAction {
     SaveAs(PathBuf),
     /// Save to another file, and replace an existing one.
     Overwrite(PathBuf),
-    /// Save to the graph's file, after what another program has written there was copied beside it.
+    /// Copy the version that another program has written, then save to the graph's file.
     SaveBesideTheirs,
     /// Allow saving to the graph's file, although another window has it open.
     AllowSaving,
     /// Write the graph with all files that it uses into an archive.
     Pack(PathBuf),
-    /// Ask where a file is that the graph names by this path, where there is none.
+    /// Ask for the new place of a missing file, which the graph names by this path.
     AskForMissing(String),
-    /// Name a file in place of one that is missing, and those beside it in place of others.
+    /// Name a file in place of a missing one, and files beside it in place of other missing ones.
     Find { lost: String, file: PathBuf },
     /// Read the graph again from its file, which another program has changed.
     Reload,
@@ -195,11 +195,11 @@ pub(crate) enum FileAction {
 /// Trust that the user gives.
 #[derive(Clone, Debug)]
 pub(crate) enum TrustAction {
-    /// Graphs and models may open the files of a folder.
+    /// Let graphs and models open the files of a folder.
     Folder(PathBuf),
-    /// The node files of a folder are used.
+    /// Use the node files of a folder.
     Nodes(PathBuf),
-    /// The node files beside the open graph stay unused, without a question, until another graph is opened.
+    /// Leave the node files beside the open graph unused, and do not ask again until another graph is opened.
     LeaveNodes,
 }
 
@@ -212,7 +212,7 @@ pub(crate) enum ModelAction {
     Show(PathBuf),
     /// Read the shown model with other options.
     Read(ImportOptions),
-    /// Read the model no further: the one whose place it takes stays, or a built-in one is shown in place of the first.
+    /// Cancel the reading of the model. The previous model stays; if there is none, a built-in one is shown.
     CancelReading,
     /// Remove a model from the strip.
     Remove(PathBuf),
@@ -227,7 +227,7 @@ pub(crate) enum ModelAction {
 /// Action about exports.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ExportAction {
-    /// Export; with `force` to a folder whatever files are in it.
+    /// Export. With `force`, the folder may have other files in it.
     Start { force: bool },
     /// Cancel the running export.
     Cancel,
@@ -240,17 +240,17 @@ pub(crate) enum ExportAction {
 /// Action of the brush.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PaintAction {
-    /// Drags on the model paint on the selected paint node from now on, perhaps with another value of the brush.
+    /// Begin to paint on the selected paint node by drags on the model; with `value`, the brush gets that value.
     PaintSelected { value: Option<f32> },
-    /// The brush touches the model: a step begins.
+    /// Begin a stroke and an undo step: the brush touches the model.
     Begin,
-    /// The stroke so far.
+    /// Lay the stroke as it is drawn so far.
     Lay(PaintCommand),
     /// Change the list of strokes, and store it.
     Change(PaintCommand),
-    /// The brush is lifted: the stroke is stored.
+    /// End the stroke and store it: the brush is lifted.
     End,
-    /// The stroke is taken back.
+    /// Cancel the stroke.
     Cancel,
     /// Mark the stroke that was just laid, if it is a decal.
     MarkNew,
@@ -262,13 +262,13 @@ pub(crate) enum PaintAction {
     PasteStrokes(String),
     /// Use this brush from now on.
     Choose(Box<BrushChoices>),
-    /// Take the color of the brush from the next click on the model, or not any more.
+    /// Begin or end the choice of the brush's color by a click on the model.
     TakeColor,
     /// Ask for a picture as the tip of the brush.
     AskForPicture,
     /// Use a file as the tip of the brush.
     TakePicture(PathBuf),
-    /// Use the result of a node, on a square, as the tip of the brush.
+    /// Use the result of a node, evaluated on a square, as the tip of the brush.
     TakeNode(NodeRef),
     /// Use a text as the tip of the brush.
     TakeText(String),
@@ -276,7 +276,7 @@ pub(crate) enum PaintAction {
     ChooseFont(TextFont),
     /// Ask for a font file.
     AskForFont,
-    /// Hold the stencil so.
+    /// Use these settings of the stencil.
     ChooseStencil(Box<StencilChoices>),
     /// Ask for a picture for the stencil.
     AskForStencil,

@@ -23,7 +23,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn counted_steps_are_told_by_number_and_a_single_one_by_its_time() {
+    fn progress_is_the_number_of_steps_or_the_time_of_a_single_one() {
         let activity = |phase, done, of, seconds: u64| Activity {
             phase,
             done,

@@ -1,4 +1,4 @@
-//! The window: its owners, wired together in each frame.
+//! The window, which connects the owners of its state in each frame.
 
 mod documents;
 mod flows;
@@ -42,7 +42,8 @@ use opening::{LostWindow, Opened};
 use shell::Shell;
 use variant_pictures::AwaitedPicture;
 
-/// The window. Each owner has its own state; this type wires them in a frame, and performs actions (`app/perform.rs`).
+/// The window. Each field owns a part of its state; this type connects them in each frame, and performs actions
+/// (`app/perform.rs`).
 pub(crate) struct Editor {
     pub(crate) documents: Documents,
     pub(crate) evaluation: Evaluation,
@@ -66,7 +67,7 @@ pub(crate) struct Editor {
 }
 
 impl Editor {
-    /// A window on a device.
+    /// Creates a window on a device.
     pub(crate) fn new(
         initial: InitialState,
         context: &Context,
@@ -198,7 +199,7 @@ impl Editor {
         self.perform_all(actions, ui);
         self.remember_chosen();
         self.set_title();
-        // Before the device gets work that may hold up the window.
+        // Before the device gets work that may block the window.
         self.autosave(&context);
         self.request_results(&context);
         let kept = self.trials.advance(
@@ -340,7 +341,7 @@ impl eframe::App for Editor {
         self.pens.enter_frame(raw, context.zoom_factor());
     }
 
-    /// Called although the window is hidden.
+    /// Called even while the window is hidden.
     fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
         if self.is_leaving {
             return;
@@ -368,7 +369,7 @@ impl eframe::App for Editor {
         self.save_settings();
         if !self.is_leaving {
             self.end();
-            // An archive that is being written is canceled, and waited for: it takes its temporary file along.
+            // Cancels an archive that is being written, and waits until its temporary file is deleted.
             self.packing = Packing::default();
             (self.at_end)();
         }

@@ -1,4 +1,4 @@
-//! The bars around the panels: menus, models, the path into groups, and what is going on.
+//! The bars around the panels: menus, models, the path into groups, and the status.
 
 mod document;
 mod menus;
@@ -83,7 +83,7 @@ pub(crate) fn foreign_file(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action
     actions
 }
 
-/// Menu that stays open after a click in it, since several things are tried in a row.
+/// Menu that stays open after a click in it, since several of its entries are often chosen in a row.
 pub(crate) fn stay_open() -> MenuConfig {
     MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside)
 }

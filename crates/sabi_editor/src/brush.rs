@@ -37,7 +37,7 @@ pub(crate) use stencil::{PlacedStencil, ShownStencil};
 pub(crate) use subject::PaintSubject;
 use under::point_at;
 
-/// Change of the size of the brush by a drag over one point, and of its hardness.
+/// Factor of the size of the brush, and change of its hardness, for one point of a drag.
 const SIZE_OF_DRAG: f32 = 1.008;
 const HARDNESS_OF_DRAG: f32 = 0.004;
 
@@ -50,7 +50,7 @@ enum Held {
     Stencil(Box<HeldStencil>),
 }
 
-/// The stroke that is drawn in a view, or the decal that is moved.
+/// The brush in a view: draws strokes, and moves decals, knots, marked strokes and the stencil.
 #[derive(Default)]
 pub(crate) struct BrushTool {
     held: Option<Held>,
@@ -58,9 +58,9 @@ pub(crate) struct BrushTool {
     last: Option<(String, StrokePoint)>,
     /// Place that the next stroke copies from, with the name of its model.
     source: Option<(String, StrokePoint)>,
-    /// Force of the finger that touches the screen, or of a pen that is given as one; none for a mouse.
+    /// Force of a finger on the screen, or of a pen that is reported as a finger; `None` for a mouse.
     force: Option<f32>,
-    /// Pen at the last place of the pointer; none for a mouse.
+    /// Pen at the last place of the pointer; `None` for a mouse.
     pen: Option<PenState>,
     /// Place where a drag began that changes the size.
     resized_at: Option<Pos2>,
@@ -70,31 +70,32 @@ pub(crate) struct BrushTool {
     pressed: Option<(f64, Pos2)>,
 }
 
-/// A view that is painted in.
+/// View that the brush paints in.
 pub(crate) trait Canvas {
-    /// The place of a model under a place of the screen.
+    /// Surface point under a place of the screen.
     fn site(&self, model: &LiveModel, at: Pos2) -> Option<Site>;
 
-    /// The place of the screen that shows a place of the model; none if it is not seen.
+    /// Place on the screen of a surface point; `None` if the point is hidden.
     fn place(&self, model: &LiveModel, site: Site) -> Option<Pos2>;
 
-    /// Returns true if the view shows the straight way between two places that lie near each other: not over a seam of the texture.
+    /// Returns whether a straight line on the screen between two near places follows the surface: not over a seam of
+    /// the texture.
     fn joins(&self, _: &LiveModel, _: [Site; 2]) -> bool {
         true
     }
 
-    /// Eye that looks at the model; none in a view of its texture.
+    /// Eye that looks at the model; `None` in a view of its texture.
     fn eye(&self, model: &LiveModel) -> Option<Eye>;
 
-    /// Place of the view on the screen, over which a stencil is held; none for a view of the texture.
+    /// Rectangle of the view on the screen that a stencil is placed over; `None` for a view of the texture.
     fn stencil_view(&self) -> Option<Rect>;
 
-    /// Rows of the map from places of a model to places of a stencil ([`Stencil::picture_from_model`]); none in a view of its texture.
+    /// Rows of the map from places of a model to places of a stencil ([`Stencil::picture_from_model`]); `None` in a view of its texture.
     fn stencil_map(&self, model: &LiveModel, stencil: &ShownStencil) -> Option<[[f64; 4]; 3]>;
 }
 
 impl Held {
-    /// The paint node that is changed; none while the stencil is moved.
+    /// The paint node that is changed; `None` while the stencil is moved.
     fn node(&self) -> Option<&NodeId> {
         match self {
             Held::Stroke(stroke) => Some(&stroke.node),
@@ -112,7 +113,7 @@ impl BrushTool {
         on_model(&self.source, model)
     }
 
-    /// The brush in the size that it has under a place of the screen.
+    /// The brush with the size that it has under a place of the screen.
     pub(crate) fn brush_at(brush: &BrushChoices, model: &LiveModel, canvas: &impl Canvas, at: Pos2) -> BrushChoices {
         match point_at(model, canvas, at, 1.0, true) {
             Some(point) => decal::sized(brush, model, canvas, &point),
@@ -261,7 +262,8 @@ impl BrushTool {
         }
     }
 
-    /// Changes the size, and upward the hardness, by drags with Ctrl and the second button. Returns whether there is such a drag.
+    /// Changes the size by horizontal and the hardness by vertical drags with Ctrl and the second button. Returns
+    /// whether there is such a drag.
     fn resize(&mut self, ui: &Ui, response: &Response, brush: &BrushChoices, actions: &mut Vec<Action>) -> bool {
         let is_held = response.dragged_by(PointerButton::Secondary) && ui.input(|input| input.modifiers.command);
         let goes_on = self.resized_at.is_some() && ui.input(|input| input.pointer.secondary_down());
@@ -281,7 +283,7 @@ impl BrushTool {
         true
     }
 
-    /// The finger that touches the screen; a mouse presses with all its force.
+    /// State of a finger on the screen. A mouse has full pressure.
     fn touch(&self) -> PenState {
         PenState {
             pressure: self.force.unwrap_or(PenState::MOUSE.pressure),
@@ -289,7 +291,8 @@ impl BrushTool {
         }
     }
 
-    /// Places of the pointer since the last frame, from all its events, each with its pen. `given` are those of them that a pen gave.
+    /// Places of the pointer since the last frame, from all its events, each with its pen. `given` are the places that
+    /// a pen reported.
     fn places_since(&mut self, ui: &Ui, given: &[PenPlace]) -> Vec<(Pos2, PenState)> {
         let mut places = Vec::new();
         let mut given = given.iter().peekable();
@@ -313,7 +316,7 @@ impl BrushTool {
         places
     }
 
-    /// Follows the pointer.
+    /// Continues the drag at new places of the pointer.
     fn go_on(
         &mut self,
         ui: &Ui,
@@ -372,7 +375,7 @@ impl BrushTool {
     }
 }
 
-/// The place that is kept for a model, if it is one of this model.
+/// The stored place, if it is on this model.
 fn on_model(kept: &Option<(String, StrokePoint)>, model: &LiveModel) -> Option<StrokePoint> {
     let own = kept.as_ref().filter(|(name, _)| *name == model.linked.model.stem);
     own.map(|(_, point)| *point)
@@ -383,7 +386,7 @@ fn has_ctrl(modifiers: Modifiers) -> bool {
     modifiers.ctrl || modifiers.command
 }
 
-/// Ctrl has the brush take paint away, or lay it where it takes it away already.
+/// Action of the brush: with Ctrl it erases, or paints if it is an eraser.
 pub(crate) fn action_of(brush: &BrushChoices, modifiers: Modifiers) -> BrushAction {
     match brush.action {
         action if !has_ctrl(modifiers) => action,

@@ -18,7 +18,8 @@ const TITLE: &[u8] = b"sabi brush 1";
 const PICTURE: &[u8] = b"picture ";
 /// Largest file of a brush that is read.
 const LIMIT_BYTES: u64 = 300 << 20;
-/// Brushes that come with the program, as a list of names and brushes; what one does not say is as usual for its tip.
+/// Brushes that come with the program, as a list of names and brushes. Settings that a brush does not list are the
+/// defaults of its tip.
 const OWN: &str = include_str!("../../../assets/brushes.json");
 
 /// A brush that is kept.
@@ -26,15 +27,15 @@ const OWN: &str = include_str!("../../../assets/brushes.json");
 pub(crate) struct KeptBrush {
     pub(crate) name: String,
     pub(crate) brush: BrushChoices,
-    /// Its file; none for a brush that comes with the program.
+    /// File of the brush; `None` for a brush that comes with the program.
     pub(crate) file: Option<PathBuf>,
 }
 
 /// The brushes that are kept.
 pub(crate) struct BrushShelf {
-    /// Folder of the files; none on a system without a folder for settings.
+    /// Folder of the files; `None` on a system without a folder for settings.
     folder: Option<PathBuf>,
-    /// Those that come with the program, and after them the artist's own by name.
+    /// Brushes that come with the program, and after them the artist's own by name.
     pub(crate) brushes: Vec<KeptBrush>,
 }
 
@@ -42,7 +43,8 @@ pub(crate) struct BrushShelf {
 type ReadBrush = (BrushChoices, Option<(Vec<u8>, String)>);
 
 impl BrushShelf {
-    /// The brushes beside the settings. A file that is none is left out; it is told once it is opened by itself.
+    /// The brushes beside the settings. A file that is no brush is left out; its error is shown if the user opens the
+    /// file.
     pub(crate) fn open(settings: Option<&Path>) -> BrushShelf {
         let mut shelf = BrushShelf {
             folder: settings.map(|folder| folder.join("brushes")),
@@ -237,7 +239,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn brushes_that_come_with_the_program_are_whole_and_have_names_of_their_own() {
+    fn brushes_that_come_with_the_program_can_be_read_and_have_different_names() {
         let shelf = BrushShelf::open(None);
         assert!(shelf.brushes.len() >= 12, "{}", shelf.brushes.len());
         for kept in &shelf.brushes {
@@ -263,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn a_brush_takes_its_picture_along_to_another_machine() {
+    fn the_file_of_a_brush_brings_its_picture_to_another_document() {
         let [here, there] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
         let strokes = Strokes::default();
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/pictures/army-paint.png");
@@ -284,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_no_brush_is_told_by_its_name() {
+    fn the_error_about_a_file_that_is_no_brush_names_the_file() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("odd.sabibrush");
         for bytes in [

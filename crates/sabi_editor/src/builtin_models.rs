@@ -16,20 +16,20 @@ macro_rules! models {
     };
 }
 
-/// Models of the examples, the one that new graphs are shown on first.
+/// Models of the examples. New graphs are shown on the first one.
 pub(crate) const MODELS: [(&str, &[u8]); 11] = models![
     "bench.glb" "barrel.glb" "chain.glb" "chair.glb" "column.glb" "crate.glb" "cube.glb" "figure.glb" "sphere.glb" "table.glb"
     "wall.glb"
 ];
 
-/// File of a built-in model by its name in graphs, whether it was written or not; none if there is no such model.
+/// File of a built-in model by its name in graphs, whether it was written or not; `None` if there is no such model.
 pub(crate) fn builtin_file(folder: &Path, name: &str) -> Option<PathBuf> {
     let mut models = MODELS.iter().map(|(file, _)| *file);
     let file = models.find(|file| Path::new(file).file_stem().is_some_and(|stem| stem == name))?;
     Some(folder.join(MESHES).join(file))
 }
 
-/// Name in graphs of a built-in model; none for other files, and for one that was changed since it was written.
+/// Name in graphs of a built-in model; `None` for other files, and for one that was changed since it was written.
 pub(crate) fn builtin_name(folder: &Path, file: &Path) -> Option<String> {
     let is_same = |own: &PathBuf| canonical_if_present(own) == canonical_if_present(file);
     let (own, bytes) = MODELS
@@ -54,7 +54,7 @@ pub(crate) fn model_of(session: &Session, examples: Option<&Path>) -> Option<Res
     let graph = session.graph();
     Some(match graph.trusted.check(&graph.base(), &named) {
         Err(Unread::Refused(refusal)) => Err(refusal),
-        // Everything else is told when it is read.
+        // Other errors are reported when the file is read.
         _ => Ok(graph.base().resolve(&named)),
     })
 }

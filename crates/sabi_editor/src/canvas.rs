@@ -1,6 +1,6 @@
-//! The canvas: it draws a copy of the shown graph and answers with actions. Its state is that of the view: camera, current
-//! drag, open menus and keyboard focus. This module alone names the canvas crate, of which it takes the graph types and the
-//! node widget; zoom, wires, selection and menus are its own.
+//! The canvas: it draws a copy of the shown graph and answers with actions. Its state is that of the view: camera,
+//! current drag, open menus and keyboard focus. Only this module names the canvas crate, and it uses only the graph
+//! types and the node widget of that crate; zoom, wires, selection and menus are its own.
 
 mod add_menu;
 mod body;
@@ -98,7 +98,7 @@ struct CanvasContext<'a> {
     pub(crate) pinned: Option<&'a NodeId>,
     /// True if the mini map is shown.
     pub(crate) has_map: bool,
-    /// Sentences about what can be done in a graph that nothing was done in yet.
+    /// Hint for a graph in which nothing was done yet.
     pub(crate) hint: Option<[String; 2]>,
 }
 
@@ -228,12 +228,12 @@ impl Canvas {
         self.edge_scroll.scroll(&mut self.camera, ui, at);
     }
 
-    /// Node at a place of the screen on whose material a node that is dropped there lies as a layer.
+    /// Node at a place of the screen on whose material a node dropped there is added as a layer.
     pub(crate) fn node_for_dropped(&self, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<NodeId> {
         dragged_node::node_at(self, document, interface, at)
     }
 
-    /// Place for a node that is dropped at a place of the screen, and the input whose wire it is inserted into; none
+    /// Place for a node that is dropped at a place of the screen, and the input whose wire it is inserted into; `None`
     /// outside of the canvas.
     pub(crate) fn place_for_dropped(
         &self,
@@ -245,7 +245,8 @@ impl Canvas {
         Some((self.camera.place_at(at)?, wire.map(|wire| wire.to)))
     }
 
-    /// Opens the menu of nodes, to add one, which the output `selected` can be connected to, or to replace the node `instead`.
+    /// Opens the menu of nodes, to add one that the output `selected` can be connected to, or to replace the node
+    /// `instead`.
     fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>, selected: Option<OutputRef>) {
         let purpose = Purpose {
             place: self.camera.place_for_new(ui),

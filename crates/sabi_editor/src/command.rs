@@ -51,7 +51,7 @@ pub(crate) enum Command {
     Favorite(Favorite),
 }
 
-/// Command about the graph's file and what is written from it.
+/// Command about the graph's file and the files that are written from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FileCommand {
     /// Starts an empty graph.
@@ -64,7 +64,7 @@ pub(crate) enum FileCommand {
     SaveAs,
     /// Asks for a picture, or a folder of pictures, to add.
     ImportPictures,
-    /// Writes the textures as the export panel says.
+    /// Exports the textures with the choices of the export panel.
     Export,
     /// Asks for an archive to write the graph to, with all files that it uses.
     Pack,
@@ -108,7 +108,7 @@ pub(crate) enum GraphCommand {
     SwapInputs,
     /// Mutes or unmutes the selected nodes.
     Mute,
-    /// Has the selected nodes show their titles alone, or everything again.
+    /// Collapses the selected nodes to their titles, or shows everything again.
     Collapse,
     /// Hides the unused ports of the selected nodes, or shows them again.
     HidePorts,
@@ -132,7 +132,7 @@ pub(crate) enum GraphCommand {
     Ungroup,
     /// Shows the graph of the selected group instance.
     Enter,
-    /// Cancels what is being dragged, or else leaves the group.
+    /// Cancels the current drag, or else leaves the group.
     Leave,
 }
 
@@ -186,7 +186,7 @@ pub(crate) enum CanvasCommand {
     Wire,
 }
 
-/// Command about which result is shown where.
+/// Command about the results that views show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum LookCommand {
     /// Shows the selected node in the 2D view and on the model.
@@ -239,7 +239,7 @@ pub(crate) enum BrushCommand {
     Larger,
     /// Makes the brush smaller.
     Smaller,
-    /// Has the brush take paint away, or lay it again.
+    /// Switches the brush between erasing and painting.
     Erase,
 }
 
@@ -298,7 +298,7 @@ impl Command {
         self.scope() == Scope::Window && !is_history
     }
 
-    /// Returns whether the command can open a text field, which gets what is typed next.
+    /// Returns whether the command can open a text field, which gets the text that is typed next.
     pub(crate) fn may_open_text_field(self) -> bool {
         matches!(
             self,

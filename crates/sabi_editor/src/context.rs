@@ -52,7 +52,7 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) pictures: &'a SavedPictures,
     /// Brushes that are kept.
     pub(crate) brushes: &'a BrushShelf,
-    /// Pictures of what could be chosen, on the open model.
+    /// Pictures of variants and effects that can be chosen, on the open model.
     pub(crate) trials: &'a Trials,
     /// Nodes and groups that can be added.
     pub(crate) candidates: &'a [Candidate],
@@ -61,7 +61,7 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) theme: &'a Arc<Theme>,
     pub(crate) keys: &'a KeyMap,
-    /// Device that the window is drawn with; none if it is only laid out.
+    /// Device that the window is drawn with; `None` if it is only laid out.
     pub(crate) render: Option<&'a RenderState>,
     /// Times of the last frames, without the drawing by the device.
     pub(crate) frame_times: &'a VecDeque<Duration>,
@@ -92,7 +92,7 @@ impl ViewContext<'_> {
         Lengths::on(self.evaluation.model.received.as_deref())
     }
 
-    /// Sentence with nodes named as the window names them.
+    /// Sentence in which nodes have their titles in place of their ids.
     pub(crate) fn said(&self, sentence: &str) -> String {
         node_paths::with_titles(self.document, sentence)
     }

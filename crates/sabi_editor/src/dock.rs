@@ -113,7 +113,7 @@ impl Workspace {
         (Workspace::Look, "Look"),
     ];
 
-    /// Sentence about what it shows.
+    /// Sentence about its panels.
     pub(crate) fn about(self) -> &'static str {
         match self {
             Workspace::Material => "A large model beside the graph",
@@ -190,7 +190,7 @@ impl Workspace {
     }
 }
 
-/// Only the model and the exposed parameters, for people who never open the graph.
+/// Layout with only the model and the exposed parameters, for people who never open the graph.
 fn use_layout() -> Layout {
     let mut tiles = Tiles::default();
     let model = tiles.insert_pane(Panel::Viewport);
@@ -205,7 +205,7 @@ fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> T
     let mut linear = Linear::new(dir, parts.iter().map(|(tile, _)| *tile).collect());
     let count = parts.len() as f32;
     for (tile, share) in parts {
-        // Shares are counted against 1 for each part.
+        // A share of 1 is an equal part of the width or height.
         linear.shares.set_share(*tile, share * count);
     }
     tiles.insert_new(egui_tiles::Tile::Container(Container::Linear(linear)))
@@ -299,7 +299,7 @@ impl Dock {
         }
     }
 
-    /// Draws the panels: `contents` draws what is in one.
+    /// Draws the panels: `contents` draws the contents of one.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
@@ -332,7 +332,8 @@ impl Dock {
     }
 }
 
-/// Id of what has the keyboard focus after a panel was chosen by a key: Tab leads from there to its first widget.
+/// Id of the anchor that has the keyboard focus after a panel was chosen by a key. Tab leads from it to the panel's
+/// first widget.
 pub(crate) fn anchor_id(panel: Panel) -> Id {
     Id::new(("keys are for", panel))
 }
@@ -464,7 +465,7 @@ mod tests {
     }
 
     #[test]
-    fn every_workspace_has_every_panel_once_and_a_layout_without_one_is_not_taken() {
+    fn every_workspace_has_every_panel_once_and_an_incomplete_layout_is_replaced() {
         let mut all = Panel::ALL.to_vec();
         all.sort();
         for (workspace, title) in Workspace::ALL {
@@ -476,7 +477,7 @@ mod tests {
     }
 
     #[test]
-    fn a_layout_is_kept_as_text() {
+    fn a_layout_is_unchanged_after_it_was_saved_as_text() {
         let layout = Workspace::Material.layout();
         let text = serde_json::to_string(&layout).expect("text");
         let read: Layout = serde_json::from_str(&text).expect("a layout");

@@ -34,11 +34,11 @@ const FULL: [u32; 2] = [512, 1024];
 /// Most texels of full pictures of the model, and of one beside it, which is shown in a part of the view.
 const MOST: u32 = 4096;
 const MOST_BESIDE: u32 = 512;
-/// Rank of the evaluation of models beside the model.
+/// Rank of the evaluation of models beside the main one.
 const RANK_BESIDE: u8 = 1;
-/// Rank of pictures of what is tried.
+/// Rank of the evaluation of trials: pictures of variants and effects that can be chosen.
 const RANK_TRIALS: u8 = 2;
-/// Longest submission of an evaluation that the window does not wait for: a frame may have to wait for it.
+/// Longest submission of an evaluation in the background, since a frame may have to wait for it.
 const SHORT_SUBMISSION: Duration = Duration::from_millis(8);
 
 /// Results of the graph that the window shows.
@@ -76,7 +76,7 @@ pub(crate) struct Evaluation {
     pub(crate) faults: NodeFaults,
     /// Images and group files that the graph names.
     pub(crate) files: Arc<BTreeSet<PathBuf>>,
-    /// Refusals of those that it may not open.
+    /// Refusals of files that the graph names and may not open.
     pub(crate) refused: Vec<Refusal>,
     /// Error of the last evaluation.
     pub(crate) failure: Option<EngineError>,
@@ -126,7 +126,8 @@ impl Evaluation {
         Evaluation::start(self.gpu.clone(), model, import, options, MOST_BESIDE, context)
     }
 
-    /// Starts an evaluator of what is tried, which draws thumbnails of a side in pixels while all others have nothing to do.
+    /// Starts an evaluator of trials, which draws thumbnails of `thumbnail_px` pixels along a side while all others are
+    /// idle.
     pub(crate) fn start_trials(&self, thumbnail_px: u32, context: &Context) -> Live {
         let options = LiveOptions {
             cache_dir: self.cache_dir.clone(),
@@ -193,7 +194,7 @@ impl Evaluation {
         self.live.is_busy()
     }
 
-    /// Lets evaluations that nobody waits for rest for a while, since the window needs the device.
+    /// Pauses the evaluations in the background for a time, since the window needs the device.
     pub(crate) fn hold_others(&self, for_time: Duration) {
         self.precedence.hold(for_time);
     }
@@ -203,12 +204,13 @@ impl Evaluation {
         self.model.received.as_ref().is_some_and(|model| model.view.has_shade())
     }
 
-    /// Returns whether that shade is about to be found.
+    /// Returns whether that shade is still to be computed.
     pub(crate) fn awaits_shade(&self) -> bool {
         self.finds_shade() && !self.has_shade() && (self.live.is_busy() || self.live.is_finding_shade())
     }
 
-    /// Returns whether models are drawn with shade: finding it takes seconds, which a folder of kept results saves from then on.
+    /// Returns whether models are drawn with shade. Computing it takes seconds, so that it is only done where a cache
+    /// folder keeps it.
     fn finds_shade(&self) -> bool {
         self.cache_dir.is_some()
     }

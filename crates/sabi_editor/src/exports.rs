@@ -18,7 +18,7 @@ use crate::settings::export::{ExportChoices, ExportPlace};
 use crate::task::Failed;
 use running::{Bake, Running};
 
-/// Folder of the graph's own values, where every variant is exported.
+/// Name of the folder for the graph's own values, where every variant is exported.
 const BASE: &str = "base";
 
 /// Exports of the window: the running one, those that wait for it, and the result of the last one.
@@ -63,7 +63,7 @@ pub(crate) struct ExportSource<'a> {
 }
 
 impl Exports {
-    /// Turns to the target of another graph.
+    /// Switches to the export target of another graph.
     pub(crate) fn turn_to(&mut self, place: ExportPlace) {
         self.place = place;
         self.asks_force = false;
@@ -81,7 +81,7 @@ impl Exports {
             (Some(Ok(before)), Ok(report)) => Ok(before.and(&running.folder, report)),
             (_, Ok(report)) => Ok(Written::new(running.folder.clone(), report)),
             (_, Err(error)) => {
-                // Later ones may be of a newer save.
+                // Later exports may be of a newer save.
                 while self.queued.front().is_some_and(|bake| bake.continues) {
                     self.queued.pop_front();
                 }
@@ -102,10 +102,10 @@ impl Exports {
         }
     }
 
-    /// Starts an export. With `force` it writes to a folder whatever files are in it.
+    /// Starts an export. With `force`, it writes to the folder even if that has files that do not belong to the graph.
     ///
     /// # Errors
-    /// A sentence, where it cannot start.
+    /// It cannot start; the error is a sentence.
     pub(crate) fn start(&mut self, context: &Context, source: ExportSource<'_>, force: bool) -> Result<(), String> {
         if self.running.is_some() {
             return Err("An export is being made already.".to_owned());
@@ -116,10 +116,10 @@ impl Exports {
         Ok(())
     }
 
-    /// Exports again where that is wanted at every save.
+    /// Exports again, if the user wants that at every save.
     ///
     /// # Errors
-    /// A sentence, where it cannot start.
+    /// It cannot start; the error is a sentence.
     pub(crate) fn after_save(&mut self, context: &Context, source: ExportSource<'_>) -> Result<(), String> {
         if !self.place.again {
             return Ok(());
@@ -147,13 +147,13 @@ impl Exports {
         Ok(())
     }
 
-    /// Folder for the textures; none where it is not named, or is relative to the file of a graph that has none.
+    /// Folder for the textures; `None` where it is not named, or is relative to the file of a graph that has none.
     fn folder(&self, document: &OpenDocument) -> Option<PathBuf> {
         folder_of(&self.place.folder, document.session.file())
     }
 
-    /// Exports of the graph as it is now: of what is shown, or of the base and every variant. `force` tells for a folder
-    /// whether it is written to whatever files are in it.
+    /// Exports of the graph as it is now: of the shown values, or of the base and every variant. `force` tells whether
+    /// a folder is written to even if it has files that do not belong to the graph.
     fn bakes(&mut self, source: ExportSource<'_>, force: impl Fn(&PathBuf) -> bool) -> Result<Vec<Bake>, String> {
         let Some(folder) = self.folder(source.document) else {
             let is_empty = self.place.folder.trim().is_empty();
@@ -167,7 +167,8 @@ impl Exports {
             let mut targets = vec![(folder.join(BASE), Overrides::default())];
             for variant in variants.keys() {
                 let mut target = folder.join(folder_name(variant));
-                // Names that differ in signs only would lead to one folder, and on many systems those that differ in case.
+                // Names of variants that differ only in special characters give the same folder, and on many systems
+                // also names that differ only in case.
                 let lower = |path: &Path| path.to_string_lossy().to_lowercase();
                 while targets.iter().any(|(known, _)| lower(known) == lower(&target)) {
                     target.as_mut_os_string().push("_");
@@ -319,7 +320,7 @@ impl ExportSource<'_> {
     }
 }
 
-/// Folder that was typed. A relative one is beside the graph's file, and none while the graph has no file.
+/// Folder that was typed. A relative one is beside the graph's file, and `None` while the graph has no file.
 fn folder_of(text: &str, graph: Option<&Path>) -> Option<PathBuf> {
     let typed = PathBuf::from(text.trim());
     if typed.as_os_str().is_empty() {
@@ -336,7 +337,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folders_are_beside_the_graph_and_never_where_the_program_was_started() {
+    fn relative_folders_are_beside_the_graph_and_never_in_the_working_directory() {
         let graph = Path::new("project").join("worn.sabi");
         let whole = std::env::temp_dir();
         let told = whole.display().to_string();

@@ -1,5 +1,5 @@
-//! Questions about files, the start page and the list of keys. Every path can be typed in the window; the system's dialog is
-//! the convenience.
+//! Questions about files, the start page and the list of keys. Every path can be typed in the window; the system's
+//! dialog is an alternative.
 
 pub(crate) mod examples;
 mod folder_list;
@@ -99,7 +99,7 @@ impl Questions {
         self.ask_for_name(document.session.file());
     }
 
-    /// Asks for a model file, beside the one that is shown.
+    /// Asks for a model file, in the folder of the one that is shown.
     pub(crate) fn ask_for_model(&mut self, shown: &Path) {
         self.ask_path(PathFor::Model, of_the_artist(shown), String::new());
     }
@@ -124,7 +124,7 @@ impl Questions {
         self.ask_path(PathFor::Archive, document.session.file(), free_name(document, "zip"));
     }
 
-    /// Asks where a file is that the graph names by a path that leads to none.
+    /// Asks for the new place of a missing file that the graph names.
     pub(crate) fn ask_for_missing(&mut self, document: &OpenDocument, lost: String) {
         let name = missing_files::name_of(&lost).to_owned();
         self.ask_path(PathFor::Missing(lost), document.session.file(), name);
@@ -149,7 +149,7 @@ impl Questions {
     fn ask_path(&mut self, what: PathFor, beside: Option<&Path>, name: String) {
         self.dialog = None;
         let folder = beside.and_then(|file| canonical_if_present(file).parent().map(Path::to_owned));
-        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default(); // Then whole paths are typed.
+        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default(); // Without one, whole paths are typed.
         self.open = Some(Question::Path(PathQuestion::new(what, folder, name)));
     }
 
@@ -270,7 +270,7 @@ impl Questions {
         match buttons_question(ui, "open question", 460.0, title, &text, &buttons) {
             Answer::Button(1) => self.ask_for_name(Some(&file)),
             Answer::Button(2) => return Some(Action::File(FileAction::AllowSaving)),
-            // As it is until something else is chosen.
+            // Saving stays refused until the user allows it.
             Answer::Button(_) | Answer::Closed => self.after_save = None,
             Answer::None => self.open = Some(Question::OpenElsewhere { file }),
         }
@@ -315,7 +315,7 @@ impl Questions {
     }
 }
 
-/// Fate of a file that would be replaced.
+/// Text that says what happens to a file that would be replaced.
 fn replacement_text(file: &Path, reason: ReplaceReason, backups: usize) -> String {
     let (shown, name) = (file.display(), file_name(file));
     match (reason, backups) {
@@ -376,7 +376,7 @@ fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, butt
     }
 }
 
-/// Name beside the graph with an ending, which no file has.
+/// Name with an ending that no file beside the graph has.
 fn free_name(document: &OpenDocument, ending: &str) -> String {
     let file = document.session.file();
     let stem = file

@@ -39,24 +39,24 @@ const BINS: usize = 128;
 pub(crate) struct FlatView {
     /// Middle of the texture relative to the middle of the panel, points.
     pan: Vec2,
-    /// Points in one texel; none to fit the texture to the panel.
+    /// Points in one texel; `None` to fit the texture to the panel.
     pub(crate) zoom: Option<f32>,
     /// Texture set of the model that is shown; the first where the model does not have this one.
     pub(crate) set: Option<SetKey>,
     /// Index of the plane that is shown.
     plane: usize,
-    /// Component of the plane that is shown alone; none for all as a color.
+    /// Component of the plane that is shown alone; `None` for all as a color.
     component: Option<usize>,
     is_tiled: bool,
     has_wires: bool,
     /// Picture that is shown until another one is made.
     shown: Option<ShownPicture>,
-    /// Source of which no picture could be made.
+    /// Source for which making a picture has failed.
     failed: Option<PictureSource>,
     /// Picture that is being made.
     loading: Option<(PictureSource, Task<(ColorImage, Histogram)>)>,
     wires: Wires,
-    /// Triangles that the brush looks for.
+    /// Triangles by their places in the texture, among which the brush finds the one under the pointer.
     triangles: Triangles,
     brush: BrushTool,
 }
@@ -72,7 +72,7 @@ struct ShownPicture {
 
 /// Result that the view shows, and its state.
 struct Subject<'a> {
-    /// Result to show; none before a node is clicked.
+    /// Result to show; `None` before a node is clicked.
     wanted: Option<&'a NodeRef>,
     /// Title of the result.
     title: &'a str,
@@ -220,14 +220,15 @@ impl FlatView {
     fn canvas(&mut self, evaluation: &Evaluation, square: Rect, set: SetKey) -> SeenTexture {
         let model = evaluation.model.received.as_ref();
         SeenTexture {
-            // Without a model, no place is asked for.
+            // Without a model, no place is looked up.
             triangles: model.map_or_else(Default::default, |model| self.triangles.of(model, set)),
             square,
             set,
         }
     }
 
-    /// Has the brush paint on the texture, and draws the marked path over it. Returns whether the drag is the brush's.
+    /// Lets the brush paint on the texture, and draws the marked path over it. Returns whether the drag belongs to the
+    /// brush.
     fn paint_on(
         &mut self,
         ui: &Ui,
@@ -390,7 +391,7 @@ impl FlatView {
         probe.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &text));
     }
 
-    /// Texel under a place, by column and row and by its index; none beside the picture.
+    /// Texel under a place, by column and row and by its index; `None` beside the picture.
     fn texel_at(&self, at: Pos2, square: Rect, size: u32) -> Option<([usize; 2], usize)> {
         let share = (at - square.min) / square.size();
         let inside = |share: f32| if self.is_tiled { share.rem_euclid(1.0) } else { share };

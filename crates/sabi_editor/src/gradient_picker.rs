@@ -43,7 +43,7 @@ struct Picking {
 /// Picture that is picked from.
 enum State {
     Loading(Task<Result<PickedPicture, String>>),
-    /// Why there is no picture.
+    /// Reason why there is no picture.
     Failed(String),
     Shown(Box<Shown>),
 }

@@ -1,5 +1,5 @@
-//! Options for reading a model's file, where the file leaves something open or is wrong. They belong to the model and not to
-//! the graph, which is tried on many models; the graph keeps those alone that say what of its own model counts.
+//! Options for reading a model's file, where the file leaves a choice or is wrong. They belong to the model and not to
+//! the graph, which is tried on many models. A graph keeps only some of them, for its own model.
 
 use std::ops::{Not, RangeInclusive};
 use std::path::{Path, PathBuf};
@@ -29,10 +29,10 @@ pub(crate) struct ImportOptions {
     pub(crate) uv: u32,
     /// Factor of all lengths.
     pub(crate) scale: f32,
-    /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
+    /// Angle between faces up to which their shading is smooth, degrees; `None` for the normals of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) smooth: Option<f32>,
-    /// Scene of a glTF file; none for the one that the file names.
+    /// Scene of a glTF file; `None` for the one that the file names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scene: Option<u32>,
     /// Treatment of UVs in several tiles.
@@ -41,13 +41,13 @@ pub(crate) struct ImportOptions {
     /// Treatment of charts that overlap in the UV set.
     #[serde(with = "Sharing")]
     pub(crate) overlap: Overlap,
-    /// Parts that count.
+    /// Parts of the file that are used.
     #[serde(skip_serializing_if = "PartChoice::is_default")]
     pub(crate) parts: PartChoice,
     /// True to turn faces that are inside out.
     #[serde(skip_serializing_if = "Not::not")]
     pub(crate) turn_faces: bool,
-    /// Folder in which, and below which, files are looked for that the model names and that are not there.
+    /// Folder that is searched, with the folders below it, for missing files that the model names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) textures: Option<PathBuf>,
 }
@@ -70,7 +70,7 @@ impl Default for ImportOptions {
 }
 
 impl ImportOptions {
-    /// Options with what is out of range brought into it, since settings may have been edited by hand.
+    /// Options with all values within their limits, since settings may have been edited by hand.
     pub(crate) fn sanitized(self) -> ImportOptions {
         let [least, most] = SCALES;
         ImportOptions {
@@ -95,7 +95,7 @@ impl ImportOptions {
         }
     }
 
-    /// The options with those that the graph keeps replaced.
+    /// These options, with those that the graph keeps replaced by `saved`.
     pub(crate) fn with_saved(self, saved: SavedReading) -> ImportOptions {
         let SavedReading {
             parts,
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_settings_say_is_read_and_mended() {
+    fn options_of_settings_are_read_and_brought_within_their_limits() {
         let read = |text: &str| {
             serde_json::from_str::<ImportOptions>(text)
                 .map(ImportOptions::sanitized)

@@ -56,8 +56,8 @@ impl Chord {
     }
 }
 
-/// A key as it is printed on keyboards, where that is one sign; [`Key::from_name`] reads it as well. A plus stays a word, since
-/// it stands between keys.
+/// Name of a key: the sign that is printed on keyboards, if it is a single one, which [`Key::from_name`] reads as well.
+/// The plus keeps its name, since its sign separates keys.
 fn sign_of(key: Key) -> &'static str {
     if key == Key::Minus {
         // Its symbol is the minus of formulas, which no keyboard has.
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn commands_have_names_of_their_own() {
+    fn all_commands_have_different_names() {
         let names: BTreeSet<&str> = Command::ALL.iter().map(|command| command.name()).collect();
         assert_eq!(names.len(), Command::ALL.len());
     }
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_can_be_bound_anew() {
+    fn settings_bind_a_command_to_another_key() {
         let own = BTreeMap::from([("mute".to_owned(), vec!["I".to_owned()])]);
         let (keys, _) = KeyMap::new(InputPreset::Default, &own);
         assert_eq!(

@@ -1,4 +1,4 @@
-//! Node files read on a thread of their own: files from elsewhere may take long, and the window goes on meanwhile.
+//! Reading of node files on a thread of its own, since it may take long and must not block the window.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -16,18 +16,18 @@ const PROMPT: Duration = Duration::from_millis(100);
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Wanted {
     folders: Vec<PathBuf>,
-    /// True if nothing of what was read before is kept, as for another graph.
+    /// True if all kinds that were read before are discarded, as for another graph.
     is_first: bool,
 }
 
 struct Running {
     task: Task<Kinds>,
     wanted: Wanted,
-    /// Number of the kinds that were there before.
+    /// Revision of the document's kinds when the reading began.
     revision: u64,
 }
 
-/// The reading of node files that is under way, and what is read after it.
+/// The reading of node files that is under way, and the folders that are read after it.
 #[derive(Default)]
 pub(crate) struct KindsReading {
     running: Option<Running>,
@@ -64,7 +64,7 @@ impl KindsReading {
         self.follow(context, document, PROMPT);
     }
 
-    /// Hands the document what was read, and begins what is still to be read.
+    /// Gives the document the kinds that were read, and begins the next reading.
     pub(crate) fn take(&mut self, context: &Context, document: &mut OpenDocument) {
         self.follow(context, document, Duration::ZERO);
     }
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_for_a_graph_is_not_given_to_the_next_one() {
+    fn kinds_that_are_read_for_a_graph_are_not_given_to_the_next_one() {
         let folder = tempfile::tempdir().expect("a folder");
         fs::create_dir_all(folder.path().join("own")).expect("a folder");
         fs::write(folder.path().join("own/half.wgsl"), OWN).expect("a file");

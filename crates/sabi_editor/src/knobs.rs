@@ -48,7 +48,7 @@ const BETWEEN: f32 = 3.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct KnobRow<'a> {
     pub(crate) knob: &'a Knob,
-    /// Value as a file has it; none where the default holds.
+    /// Value as a file has it; `None` where the default holds.
     pub(crate) value: Option<&'a Value>,
     /// Title of the node that is connected, for parameters of inputs.
     pub(crate) wired: Option<&'a str>,

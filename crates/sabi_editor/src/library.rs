@@ -52,7 +52,7 @@ impl Library {
         self.is_stale || self.folders.as_deref() != Some(folders)
     }
 
-    /// Digest of the file that a link of a document leads to; none if it is in none of the folders.
+    /// Digest of the file that a link of a document leads to; `None` if it is in none of the folders.
     pub(crate) fn digest(&self, document: &OpenDocument, source: &LibrarySource) -> Option<&str> {
         self.group(&file_of(document, source)?)?.digest.as_deref()
     }

@@ -25,7 +25,7 @@ pub(crate) enum ColorTarget {
 pub(crate) struct Looks {
     /// Result of the node that was clicked last.
     pub(crate) shown: Option<NodeRef>,
-    /// Result that the model shows while it follows clicks; none after a click beside all nodes.
+    /// Result that the model shows while it follows clicks; `None` after a click beside all nodes.
     pub(crate) followed: Option<NodeRef>,
     /// Result that the 2D view keeps when another node is clicked.
     pub(crate) pinned_2d: Option<NodeRef>,
@@ -41,7 +41,7 @@ pub(crate) struct Looks {
     pub(crate) length: Option<f64>,
     /// True if drags on the model paint on the selected paint node.
     pub(crate) is_painting: bool,
-    /// Strokes of it that are marked in their list.
+    /// Strokes of the painted node that are marked in their list.
     pub(crate) marked_strokes: BTreeSet<Version>,
 }
 
@@ -66,8 +66,9 @@ impl Looks {
             .map_or(ViewSubject::Outputs, |result| ViewSubject::Node(result.clone()))
     }
 
-    /// Returns whether the model better shows its material than this result of a paint node: while one paints what a material
-    /// reads, the material shows what the strokes do to it, and a node without strokes over nothing is black.
+    /// Returns whether the model shows its material instead of this result of a paint node. While the user paints on a
+    /// node that a material reads, the material shows the effect of the strokes; and a node without strokes and without
+    /// a base is only black.
     fn hides_material(&self, document: &OpenDocument, result: &NodeRef) -> bool {
         let Some(id) = node_paths::in_shown_graph(document, &result.node) else {
             return false;
@@ -195,7 +196,7 @@ impl Looks {
     }
 }
 
-/// Output at which a group is looked at until another one is chosen: an effect is judged by its material more than by the
+/// Output of a group that is shown until another one is chosen: its material, which tells more about an effect than the
 /// mask of where it is.
 fn material_of_group(document: &OpenDocument, id: &NodeId) -> Option<String> {
     document.node(id).filter(|node| node.kind == GROUP_KIND)?;

@@ -1,4 +1,4 @@
-//! Models beside the main one, each with the same graph: one sees at once what a change does on all of them.
+//! Models beside the main one, each with the same graph, so that the effect of a change is seen on all of them.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -82,7 +82,7 @@ impl ModelRow {
         self.beside.iter().position(|known| known.model.file() == model)
     }
 
-    /// Takes over the results that arrived. Returns what became of models that were requested, by their files.
+    /// Takes the results that arrived. Returns the outcomes of models that were requested, by their files.
     pub(crate) fn take_events(&mut self, context: &Context) -> Vec<(PathBuf, ModelOutcome)> {
         self.ending.retain(|task| !task.is_over());
         let mut outcomes = Vec::new();
@@ -94,7 +94,7 @@ impl ModelRow {
         outcomes
     }
 
-    /// Requests what the main model shows on all of them.
+    /// Requests the result that the main model shows on all of them.
     pub(crate) fn request(&mut self, document: &OpenDocument, subject: &ViewSubject) {
         for evaluation in &mut self.beside {
             let wanted = Wanted {

@@ -143,7 +143,7 @@ impl ModelView {
         }
         self.captions.begin_frame();
         let response = ui.allocate_rect(area, Sense::click_and_drag());
-        // The menus are those of all cells, and lie above them.
+        // The menus belong to all cells, and lie above them.
         let has_row = !subject.beside.is_empty();
         let menus = if has_row { self.menus_height } else { 0.0 };
         let below = area.with_min_y((area.top() + menus).min(area.bottom()));
@@ -208,7 +208,7 @@ impl ModelView {
         Some(set.key)
     }
 
-    /// Moves the camera by drags; in every cell the pointer moves what is under it.
+    /// Moves the camera by drags, relative to the cell that the pointer is over.
     fn move_camera(&mut self, ui: &Ui, response: &egui::Response, cells: &[Rect], subject: &Subject<'_>) {
         let action = mouse::dragged(subject.preset, Scope::Viewport, response);
         // A drag of the line between two pictures does not move the camera.
@@ -220,7 +220,7 @@ impl ModelView {
             .drag(ui, response, under, action.filter(|_| !is_on_line), light_turn);
     }
 
-    /// Paints the model, or why there is none. Returns whether the model covers the background.
+    /// Paints the model, or a sentence about why there is none. Returns whether the model covers the background.
     fn paint_picture(
         &mut self,
         ui: &mut Ui,
@@ -256,7 +256,7 @@ impl ModelView {
         let Some(model) = picture.map(|picture| picture.model.clone()) else {
             return;
         };
-        // Beside the main model there are others, which are not picked.
+        // Only the main model is picked, and none of those beside it.
         let rect = self.main_cell.filter(|_| !self.row.is_empty()).unwrap_or(rect);
         let pointer = pointer.filter(|at| rect.contains(*at));
         let points = model.placement.points_in_view(&model.linked.model.mesh);

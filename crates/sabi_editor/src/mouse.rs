@@ -158,7 +158,7 @@ pub(crate) fn action_of(
     matching.next().map(|binding| binding.action)
 }
 
-/// Effect of the current drag of a widget in a scope; none where it is not dragged.
+/// Effect of the current drag of a widget in a scope; `None` where it is not dragged.
 pub(crate) fn dragged(preset: InputPreset, scope: Scope, response: &egui::Response) -> Option<DragAction> {
     let buttons = [PointerButton::Primary, PointerButton::Middle, PointerButton::Secondary];
     let held = buttons.into_iter().find(|button| response.dragged_by(*button))?;

@@ -1,4 +1,4 @@
-//! Results of nodes as tips of the brush, evaluated while the window goes on.
+//! Results of nodes as tips of the brush, evaluated in the background.
 
 use std::sync::Arc;
 
@@ -17,12 +17,12 @@ type Making = Task<Result<StampSquare, String>>;
 #[derive(Default)]
 pub(crate) struct NodeTips {
     coming: Option<Making>,
-    /// Those that are not wanted any more, until they end: dropping one waits for it.
+    /// Discarded tips that are still being made: dropping one would wait for it.
     obsolete: Vec<Making>,
 }
 
 impl NodeTips {
-    /// Starts to make a tip of a result; one that is still coming is not wanted any more.
+    /// Starts to make a tip of a result, in place of one that is still being made.
     pub(crate) fn start(&mut self, context: &Context, gpu: &Arc<Gpu>, document: &OpenDocument, result: &NodeRef) {
         let graph = document.session.graph().clone();
         let kinds = Kinds::clone(document.kinds().0);
@@ -38,13 +38,13 @@ impl NodeTips {
         }));
     }
 
-    /// Has no use any more for a tip that is coming, as when another graph is opened.
+    /// Discards a tip that is being made, as when another graph is opened.
     pub(crate) fn forget(&mut self) {
         self.obsolete.extend(self.coming.take());
         self.obsolete.retain(|task| !task.is_over());
     }
 
-    /// The picture of the tip once it is there, or why there is none.
+    /// Returns the picture of the tip, or the reason that there is none, once it is made.
     pub(crate) fn take(&mut self) -> Option<Result<StampSquare, String>> {
         let made = self.coming.as_ref()?.poll()?;
         self.coming = None;

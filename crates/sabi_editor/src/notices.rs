@@ -1,4 +1,4 @@
-//! Sentences that are shown over the window: for a few seconds, or until they are read where something has failed.
+//! Sentences that are shown over the window: notices for a few seconds, and failures until the user closes them.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -10,13 +10,14 @@ use crate::theme::Theme;
 
 /// Time that a sentence is shown.
 const SHOWN_FOR: Duration = Duration::from_secs(6);
-/// Sentences that are shown at once, of those that go by themselves and of failures.
+/// Most notices, and most failures, that are shown at once.
 const MOST: usize = 4;
 /// Width of the sentences, points.
 const WIDTH: f32 = 560.0;
 /// Room behind a sentence for the button that closes it, points.
 const CLOSE_WIDTH: f32 = 28.0;
-/// Way from the lower edge of the window to the sentences, points: above the status bar and the captions of the views.
+/// Distance from the lower edge of the window to the sentences, in points: above the status bar and the captions of the
+/// views.
 const ABOVE_EDGE: f32 = 58.0;
 
 /// Work that can fail. Its next success removes the sentence about the failure.
@@ -28,7 +29,7 @@ pub(crate) enum Work {
     Other,
 }
 
-/// Failure that nobody has closed yet.
+/// Failure that the user has not closed yet.
 struct Failure {
     work: Work,
     sentence: String,
@@ -52,7 +53,7 @@ impl Notices {
         }
     }
 
-    /// Shows why some work has failed, until that is closed or the work succeeds.
+    /// Shows why some work has failed, until the user closes the message or the work succeeds.
     pub(crate) fn fail(&mut self, work: Work, sentence: impl Into<String>) {
         let sentence = sentence.into();
         let is_known = |failure: &Failure| {
@@ -63,13 +64,13 @@ impl Notices {
         self.failures.push(Failure { work, sentence });
     }
 
-    /// Removes what was said about a failure of some work, since it has succeeded.
+    /// Removes the message about a failure of some work, since it has succeeded.
     pub(crate) fn succeed(&mut self, work: Work) {
         self.failures.retain(|failure| failure.work != work);
     }
 
-    /// Draws the sentences over everything else, as `said` writes them, and removes those whose time is over or that were closed.
-    /// Returns whether the button was pressed that saves elsewhere what could not be saved.
+    /// Draws the sentences over everything else, as `said` writes them, and removes those whose time is over or that
+    /// were closed. Returns whether the button was pressed that saves the graph to another file.
     pub(crate) fn show(&mut self, ui: &Ui, theme: &Theme, said: &dyn Fn(&str) -> String) -> bool {
         let context = ui.ctx();
         let (top, saves) = self.show_failures(context, theme, said);
@@ -91,8 +92,8 @@ impl Notices {
         saves
     }
 
-    /// Draws the failures. Returns the way from the lower edge of the window to what is above them, points, and whether the graph
-    /// is to be saved elsewhere.
+    /// Draws the failures. Returns the distance in points from the lower edge of the window to the space above them,
+    /// and whether the graph is to be saved to another file.
     fn show_failures(&mut self, context: &Context, theme: &Theme, said: &dyn Fn(&str) -> String) -> (f32, bool) {
         if self.failures.is_empty() {
             return (ABOVE_EDGE, false);
@@ -106,14 +107,14 @@ impl Notices {
             if hidden > 0 {
                 ui.colored_label(theme.quiet, format!("and {hidden} more"));
             }
-            // The newest, of which more than one is rare.
+            // The newest ones; more than one is rare.
             for (at, failure) in self.failures.iter().enumerate().skip(hidden) {
                 let frame = Frame::popup(ui.style()).stroke(Stroke::new(1.0, theme.fault));
                 frame.show(ui, |ui| {
                     if failure_row(ui, theme, &with_capital(&said(&failure.sentence))) {
                         closed = Some(at);
                     }
-                    // The question that it opens would lie below the message.
+                    // The button closes the message, which would cover the question that it opens.
                     if failure.work == Work::Save && ui.button("Save as…").clicked() {
                         (closed, saves) = (Some(at), true);
                     }
@@ -127,7 +128,7 @@ impl Notices {
         (ABOVE_EDGE + shown.response.rect.height() + 4.0, saves)
     }
 
-    /// Lets the sentences grow older.
+    /// Makes the shown sentences older.
     #[cfg(test)]
     pub(crate) fn age(&mut self, by: Duration) {
         for (since, _) in &mut self.shown {

@@ -57,7 +57,7 @@ impl FrameTime {
 }
 
 impl Offscreen {
-    /// Setup of a device for it.
+    /// Setup of a device that the window can be opened on.
     pub fn setup(adapter: &AdapterChoice) -> WgpuSetup {
         configuration(adapter).wgpu_setup
     }

@@ -1,4 +1,4 @@
-//! Cover over results that are still of the model before, and the buttons that cancel the reading of a model.
+//! Cover over results that still are of the previous model, and the buttons that cancel the reading of a model.
 
 use egui::{Align2, Button, FontId, Painter, Rect, Ui, Vec2, WidgetInfo, WidgetType, vec2};
 
@@ -12,12 +12,12 @@ use crate::theme::{Theme, type_size};
 /// Opacity of the cover.
 const COVER: f32 = 0.7;
 
-/// Way from the middle of a result to the button that cancels, points.
+/// Distance from the middle of a result to the button that cancels, in points.
 const BUTTON_BELOW: f32 = 36.0;
 /// Size of that button, points.
 const BUTTON: Vec2 = vec2(90.0, 24.0);
 
-/// Covers a result while the model that it is of is replaced, with a button that keeps the one before.
+/// Covers a result while its model is being replaced, with a button that keeps the previous model.
 pub(crate) fn cover_with_cancel(ui: &mut Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) -> Option<Action> {
     cover(&ui.painter_at(rect), rect, evaluation, theme);
     let button = || cancel(ui, rect, "Keep the model that was there before");

@@ -1,4 +1,4 @@
-//! Packing of the graph for another machine, while the window goes on.
+//! Packing of the graph for another machine, in the background.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,14 +9,14 @@ use sabi_engine::{PackReport, PackRequest, Phase, Progress, pack_graph};
 
 use crate::task::Task;
 
-/// The archive that is being written, if any. Dropping it cancels that.
+/// The archive that is being written, if any. Dropping it cancels the writing.
 #[derive(Default)]
 pub(crate) struct Packing {
     task: Option<Task<Result<PackReport, String>>>,
     cancel: Arc<Cancel>,
 }
 
-/// Word to a packing to break off.
+/// Request to cancel the packing.
 #[derive(Default)]
 struct Cancel(AtomicBool);
 
@@ -47,7 +47,7 @@ impl Packing {
         }));
     }
 
-    /// Sentence for the artist once the archive is written, or why it is not.
+    /// Sentence about the archive, or the reason that it is not written, once the work has ended.
     pub(crate) fn take(&mut self) -> Option<Result<String, String>> {
         let packed = self.task.as_ref()?.poll()?;
         self.task = None;

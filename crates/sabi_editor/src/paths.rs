@@ -1,4 +1,4 @@
-//! File paths as the window compares and shows them, and the endings that tell what a file is.
+//! File paths as the window compares and shows them, and the endings that tell the type of a file.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -41,8 +41,8 @@ pub(crate) fn lowercase_ending(file: &Path) -> Option<String> {
     file.extension().map(|ending| ending.to_string_lossy().to_lowercase())
 }
 
-/// A graph file's path, with the ending of graph files once, whatever was typed: a name with its ending may have been typed
-/// over one whose ending stayed.
+/// Path of a graph file, with its ending exactly once: a whole file name may have been typed before an ending that
+/// stayed in the field.
 pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
     let is_graph_file = |path: &Path| {
         let ending = path.extension();

@@ -1,8 +1,8 @@
-//! Pens of graphics tablets: what they do becomes events of the pointer, and beside each place of the pointer stays how the pen was held
-//! there.
+//! Pens of graphics tablets: their events become events of the pointer, and the state of the pen is kept for each place
+//! of the pointer.
 //!
-//! A system sends the events of a pen to a window that asks for them instead of moving the pointer, or beside that. [`tablet`] reads
-//! them, [`pointer`] turns them into events, and the brush reads the places.
+//! A system sends the events of a pen to a window that asks for them, instead of moving the pointer or in addition.
+//! [`tablet`] reads them, [`pointer`] turns them into events, and the brush reads the places.
 
 mod pointer;
 #[cfg(all(unix, not(target_os = "macos")))]
@@ -23,8 +23,8 @@ use tablet::Tablet;
 /// Sentence for systems whose tablets cannot be asked.
 const UNSUPPORTED: &str = "This system gives pens as a mouse or as fingers, with pressure where it knows that, and without tilt. \
                            Wayland and Windows give all of it.";
-/// Time between two looks for a pen while none is near: shorter than a hand needs from the air above a tablet to its surface, and far
-/// longer than a frame. A system does not wake the window for a pen, and what the pen has done in between is not lost.
+/// Time between two checks for a pen while none is near: shorter than a hand needs to lower a pen onto a tablet, and
+/// far longer than a frame. A system does not wake the window for a pen, but events in between are not lost.
 const LOOK: Duration = Duration::from_millis(50);
 /// Time within which a system names its tablets.
 const NAMING: Duration = Duration::from_secs(2);
@@ -36,21 +36,21 @@ const MARK: f32 = 3.0;
 pub(crate) struct PenState {
     /// Pressure, 0 to 1.
     pub(crate) pressure: f32,
-    /// Lean from upright to the right and toward the hand, degrees; none where it is not known.
+    /// Tilt from upright to the right and toward the hand, degrees; `None` where it is not known.
     pub(crate) tilt_degrees: Option<[f32; 2]>,
-    /// True for the end of the pen that erases.
+    /// True for the eraser end of the pen.
     pub(crate) is_eraser: bool,
 }
 
 impl PenState {
-    /// A mouse presses with all its force.
+    /// State of a mouse: full pressure, without tilt.
     pub(crate) const MOUSE: PenState = PenState {
         pressure: 1.0,
         tilt_degrees: None,
         is_eraser: false,
     };
 
-    /// The state at a share of the way from one to another.
+    /// State between two others, `share` of the way from the first to the second.
     pub(crate) fn between([from, to]: [PenState; 2], share: f32) -> PenState {
         let between = |from: f32, to: f32| from + share * (to - from);
         let tilt_degrees = match (from.tilt_degrees, to.tilt_degrees) {
@@ -65,7 +65,7 @@ impl PenState {
     }
 }
 
-/// A place of the pointer that a pen gave.
+/// Place of the pointer that a pen reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PenPlace {
     pub(crate) at: Pos2,
@@ -75,10 +75,10 @@ pub(crate) struct PenPlace {
 /// Event of a pen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PenEvent {
-    /// A pen is near, with the end that erases or with its tip.
+    /// A pen is near, with its eraser or its tip.
     Near { is_eraser: bool },
-    /// It was at a place, logical pixels of the window, with a pressure from 0 to 1 and a lean to the right and toward the hand,
-    /// degrees, as far as its driver says that.
+    /// The pen was at a place, logical pixels of the window, with a pressure from 0 to 1 and a tilt to the right and
+    /// toward the hand, degrees, as far as its driver reports them.
     Moved {
         at: [f32; 2],
         pressure: Option<f32>,
@@ -90,7 +90,7 @@ pub(crate) enum PenEvent {
     Up,
     /// A button of the shaft, the first or another one.
     Button { is_first: bool, is_pressed: bool },
-    /// End of events that happened at once, since the last one of these.
+    /// End of events that happened at the same time, since the last event of this kind.
     Frame,
     /// The pen is gone.
     Left,
@@ -101,21 +101,21 @@ pub(crate) enum PenEvent {
 pub(crate) struct Pens {
     pointer: PenPointer,
     link: Link,
-    /// Places of the pointer in this frame that a pen gave, in order.
+    /// Places of the pointer in this frame that a pen reported, in order.
     pub(crate) places: Vec<PenPlace>,
 }
 
 /// Connection to the tablets of the system.
 #[derive(Default)]
 enum Link {
-    /// Nothing was painted yet, for which no tablet is needed.
+    /// Not connected yet: tablets are only needed for painting.
     #[default]
     Unasked,
     Connected {
         tablet: Box<Tablet>,
         since: Instant,
     },
-    /// The reason that there is none.
+    /// Reason that there is no connection.
     Missing(String),
 }
 
@@ -143,13 +143,14 @@ impl Pens {
         self.link = Link::Unasked;
     }
 
-    /// Adds what pens have done since the last frame to the events of a frame. `zoom` is the size of a point, logical pixels.
+    /// Adds the events of pens since the last frame to the events of a frame. `zoom` is the size of a point, logical
+    /// pixels.
     pub(crate) fn enter_frame(&mut self, raw: &mut RawInput, zoom: f32) {
         if let Link::Connected { tablet, .. } = &mut self.link {
             match tablet.pump() {
                 Ok(events) => self.pointer.receive(events),
                 Err(why) => {
-                    // A pen that is down would stay so.
+                    // Otherwise a pen that is down would stay down.
                     self.pointer.receive([PenEvent::Left]);
                     self.link = missing(why);
                 }
@@ -158,7 +159,7 @@ impl Pens {
         self.places = self.pointer.enter_frame(raw, zoom);
     }
 
-    /// Has the next frame come in time, and marks the place of a pen, for which not every system shows an arrow.
+    /// Requests the next frame in time, and marks the place of a pen, since not every system shows a cursor there.
     pub(crate) fn end_frame(&self, context: &Context) {
         if let Some(at) = self.pointer.place() {
             let layer = LayerId::new(Order::Debug, Id::new("pen"));
@@ -202,7 +203,7 @@ impl Pens {
     }
 }
 
-/// The end of a connection, which is told once.
+/// Logs the reason that there is no connection, and returns the link.
 fn missing(why: String) -> Link {
     tracing::info!("{why}");
     Link::Missing(why)

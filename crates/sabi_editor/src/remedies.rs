@@ -49,7 +49,7 @@ pub(crate) fn show(
     chosen
 }
 
-/// Label and action of the button that applies a remedy to a request; none where the window has no such action.
+/// Label and action of the button that applies a remedy to a request; `None` where the window has no such action.
 fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Option<(String, Action)> {
     let reread = |options: ImportOptions| Action::Model(ModelAction::Read(options));
     let read = |overlap: Overlap| {
@@ -129,7 +129,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: &ImportOptions) -> Optio
             | Remedy::RaiseMemory
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
-            // Problems asks for each picture that is missing.
+            // The panel Problems has a button for each missing picture.
             | Remedy::TextureFolder
             | Remedy::NameModel,
             _,
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_window_cannot_do_has_no_button() {
+    fn a_remedy_that_the_window_cannot_apply_has_no_button() {
         let request = Request::Evaluation { size: 512 };
         for remedy in [Remedy::SoftwareAdapter, Remedy::TryAgain, Remedy::RaiseBudget] {
             assert!(

@@ -1,5 +1,5 @@
-//! Small pictures of saved graphs, variants and library groups. They lie in the cache folder, so that graph files stay text and
-//! nothing but the picture is lost with one.
+//! Small pictures of saved graphs, variants and library groups. They are in the cache folder, so that graph files stay
+//! text; if one is deleted, only the picture is lost.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -36,10 +36,10 @@ impl SavedPictures {
         }
     }
 
-    /// Stores a picture.
+    /// Stores a picture, and shows it even if it cannot be written.
     ///
     /// # Errors
-    /// A sentence, where it cannot be written to the cache; it is shown all the same.
+    /// It cannot be written to the cache; the error is a sentence.
     pub(crate) fn store(&mut self, context: &Context, file: &Path, what: &str, picture: &Pixels) -> Result<(), String> {
         let small = thumbnail_of(picture);
         let texture = loaded(context, what, &small);

@@ -62,7 +62,7 @@ pub(crate) struct LibraryGroup {
     pub(crate) library: LibraryKind,
     /// Folder inside the library that it lies in.
     pub(crate) category: Option<String>,
-    /// Digest of the file and of those that it uses; none where one of them cannot be read.
+    /// Digest of the file and of those that it uses; `None` where one of them cannot be read.
     pub(crate) digest: Option<String>,
     pub(crate) file: PathBuf,
     pub(crate) graph: Arc<OpenGraph>,
@@ -76,8 +76,8 @@ impl LibraryGroup {
         graph.variants().keys().map(|name| label_of(name)).collect()
     }
 
-    /// Key of the favorite: by the name of the library, as links have it, since its folder may move. Those of a project go by
-    /// their paths.
+    /// Key of the favorite: it begins with the name of the library, as links do, since the folder may move. Groups of a
+    /// project have their paths as keys.
     fn favorite(&self) -> String {
         let prefix = match self.library {
             LibraryKind::Sabi => SABI_PREFIX,
@@ -296,7 +296,7 @@ mod tests {
             ("smart material", "effect/layer"),
             ("dirt", "relief/fill"),
             ("rust", "effect/layer"),
-            // As other programs call it.
+            // Names in other programs.
             ("flood fill", "surface/id"),
             ("anchor", "graph/reroute"),
             ("transform", "source/image"),
@@ -328,12 +328,12 @@ mod tests {
     }
 
     #[test]
-    fn nothing_typed_shows_everything() {
+    fn an_empty_query_shows_everything() {
         assert!(found("").len() > 40);
     }
 
     #[test]
-    fn effects_are_found_by_what_one_sees() {
+    fn effects_are_found_by_words_for_their_look() {
         let all = with_effects();
         let wanted: [(&str, &[&str]); 8] = [
             ("bronze", &["Bare metal"]),
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn a_favorite_of_the_effect_library_stays_one_when_the_next_release_has_another_folder() {
+    fn a_favorite_effect_stays_one_when_the_next_release_has_another_folder() {
         let group = |folder: &str, library| LibraryGroup {
             library,
             category: Some("weathering".to_owned()),
@@ -385,7 +385,7 @@ mod tests {
         let next = of("/data/effects/fedcba9876543210", LibraryKind::Sabi);
         let known = [
             "sabi:weathering/rust.sabi",
-            // As earlier versions kept it, which is of another folder now.
+            // Keys of earlier versions are paths, even of the folder that the library was in before.
             "/data/effects/0123456789abcdef/weathering/rust.sabi",
             "/data/effects/fedcba9876543210/weathering/rust.sabi",
         ];

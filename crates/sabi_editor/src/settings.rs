@@ -29,15 +29,15 @@ use viewport::ViewChoices;
 
 const FILE: &str = "settings.json";
 const ASIDE: &str = "settings.json.bak";
-/// Files that are remembered.
+/// Most graph files that are remembered.
 const MOST_RECENT: usize = 12;
-/// Colors of the brush that are remembered.
+/// Most colors of the brush that are remembered.
 const MOST_COLORS: usize = 8;
-/// Backups of a graph file.
+/// Most backups of a graph file.
 const MOST_BACKUPS: usize = 9;
-/// Files and folders that are trusted.
+/// Most files and folders that are trusted.
 const MOST_TRUSTED: usize = 256;
-/// Models on a strip, and among those that are remembered.
+/// Most models on a strip, and among those that are remembered.
 pub(crate) const MOST_MODELS: usize = 24;
 
 /// Settings that are kept between runs.
@@ -93,7 +93,7 @@ pub(crate) struct Settings {
     pub(crate) layout: Option<Layout>,
     /// Keys of node kinds, groups and library files that are shown first.
     pub(crate) favorites: Vec<String>,
-    /// True if the library shows effects on the open model, as it does until that is chosen.
+    /// True if the library shows effects on the open model. `None` until the user chooses, which counts as true.
     pub(crate) tries_effects: Option<bool>,
 }
 
@@ -150,7 +150,8 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Settings in a folder; those of a new installation with a sentence where they cannot be read.
+    /// Reads the settings in a folder. Where they cannot be read, returns those of a new installation, with a sentence
+    /// about why.
     pub(crate) fn load(folder: Option<&Path>) -> (Settings, Option<String>) {
         let read = match folder.map(|folder| fs::read_to_string(folder.join(FILE))) {
             None => return (Settings::default(), None),
@@ -183,11 +184,11 @@ impl Settings {
         self.brush_colors.truncate(MOST_COLORS);
     }
 
-    /// Saves the settings that differ from `before`. What another window has saved since stays, as far as this one has not
-    /// changed the same. A file that is none of settings any more is put aside; a sentence says so.
+    /// Saves the settings that differ from `before`. Settings that another window has saved since are kept, unless this
+    /// one has changed the same. A file that cannot be read as settings is put aside; a sentence says so.
     ///
     /// # Errors
-    /// A sentence, where the file cannot be written; it is as it was then.
+    /// The file cannot be written; the error is a sentence, and the file is unchanged.
     pub(crate) fn save(&self, folder: &Path, before: &Json) -> Result<Option<String>, String> {
         let file = folder.join(FILE);
         let refused = |why: String| format!("the settings cannot be kept in {}: {why}", folder.display());
@@ -247,10 +248,10 @@ impl Settings {
             .retain(|graph, _| *graph == file || recent.contains(graph));
     }
 
-    /// Models that are shown with a graph; none where it was never open here.
+    /// Models that are shown with a graph; empty if it was never open here.
     pub(crate) fn model_strip(&self, graph: &Path) -> ModelStrip {
         let strip = self.model_strips.get(&canonical_if_present(graph));
-        strip.cloned().unwrap_or_default() // Then it begins with the model that the graph names.
+        strip.cloned().unwrap_or_default() // A new strip begins with the model of the graph.
     }
 
     /// Remembers the models that are shown with a graph, and forgets those of graphs that are no longer recent.
@@ -271,7 +272,7 @@ impl Settings {
         }
     }
 
-    /// Trusts a file or folder from now on; of very many, those that were trusted long ago are forgotten.
+    /// Trusts a file or folder from now on. Beyond [`MOST_TRUSTED`], those that were trusted first are forgotten.
     pub(crate) fn trust(&mut self, path: &Path) {
         remember_path(&mut self.trusted, path);
     }

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use egui::Context;
 
-/// Work on a thread of its own. Dropping it waits for its end, since a graphics driver that is still at work in an orderly end of the
-/// program crashes it; where that takes too long, the program ends without one.
+/// Work on a thread of its own. Dropping it waits for its end: a graphics driver that is still working while the
+/// program exits in an orderly way would crash it. If that takes too long, the program ends without an orderly exit.
 pub(crate) struct Task<T> {
     result: Receiver<T>,
     thread: Option<JoinHandle<()>>,
@@ -33,7 +33,7 @@ impl<T: Send + 'static> Task<T> {
         }
     }
 
-    /// Result of the work, once.
+    /// Returns the result of the work once, after it is done.
     pub(crate) fn poll(&self) -> Option<Result<T, Failed>> {
         match self.result.try_recv() {
             Ok(result) => Some(Ok(result)),
@@ -42,7 +42,7 @@ impl<T: Send + 'static> Task<T> {
         }
     }
 
-    /// Result of the work, once, if it comes within this time.
+    /// Returns the result of the work once, if it is done within this time.
     pub(crate) fn wait(&self, patience: Duration) -> Option<Result<T, Failed>> {
         match self.result.recv_timeout(patience) {
             Ok(result) => Some(Ok(result)),

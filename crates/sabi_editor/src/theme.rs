@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn text_can_be_read_on_all_it_stands_on() {
+    fn text_can_be_read_on_every_background_that_it_has() {
         for theme in [Shade::Dark, Shade::Light].map(Theme::of) {
             for behind in [theme.panel, theme.raised, theme.canvas] {
                 assert!(contrast(theme.text, behind) > 7.0, "{theme:?}");
@@ -266,7 +266,7 @@ mod tests {
         }
     }
 
-    /// As a deuteranope sees a color, after Viénot, Brettel and Mollon 1999, linear.
+    /// Color as a deuteranope sees it, after Viénot, Brettel and Mollon 1999, linear.
     fn without_green([r, g, b]: [f32; 3]) -> [f32; 3] {
         [
             0.29275 * r + 0.70725 * g,

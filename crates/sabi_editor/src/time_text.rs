@@ -17,7 +17,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_time_is_told_in_as_few_signs_as_tell_it() {
+    fn a_time_has_only_the_digits_that_are_needed_to_compare_it() {
         let told = |seconds: f64| time_text(Duration::from_secs_f64(seconds));
         let expected = [
             (0.0004, "0.4 ms"),

@@ -1,4 +1,5 @@
-//! Pictures of what could be chosen, tried on the open model while nothing else is to do: variants, and effects of the library.
+//! Trials: pictures of variants, and of effects of the library, that can be chosen, on the open model. They are made
+//! while nothing else is to be evaluated.
 
 mod tried_graph;
 
@@ -22,7 +23,7 @@ use tried_graph::tried_graph;
 
 /// Pixels along a side of a picture.
 const SIDE: u32 = 192;
-/// Texels of the model for them, and for those of effects on software drivers.
+/// Texels of the model for these pictures, and for those of effects on software drivers.
 const TEXELS: u32 = 256;
 const FEW_TEXELS: u32 = 128;
 /// Time without input after which a software driver draws pictures of effects: it takes the cores that the window needs.
@@ -30,7 +31,7 @@ const PAUSE: Duration = Duration::from_millis(1500);
 /// Most pictures that are kept.
 const MOST_PICTURES: usize = 256;
 
-/// What is tried.
+/// Choice that a picture shows.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Trial {
     /// A variant of the shown graph, or of an instance in it; without a name its own values.
@@ -46,7 +47,7 @@ pub(crate) enum Trial {
     Effect(PathBuf),
 }
 
-/// State of what a picture depends on.
+/// State of everything that a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct Version {
     /// First revision of the model's file and how it is read.
@@ -58,7 +59,7 @@ struct Version {
 /// Picture of a trial.
 struct Known {
     version: Version,
-    /// None where it could not be made.
+    /// `None` if it could not be made.
     picture: Option<Picture>,
     /// Frame in which it was asked for last.
     asked: u64,
@@ -88,20 +89,20 @@ impl Picture {
 #[derive(Default)]
 pub(crate) struct Trials {
     live: Option<Live>,
-    /// Number of the last request, and what it is for until it is answered.
+    /// Number of the last request, and its trial until it is answered.
     requests: u64,
     running: Option<(Trial, Version)>,
     known: BTreeMap<Trial, Known>,
-    /// What was asked for in this frame. Filled while views read, hence the cell.
+    /// Trials that were asked for in this frame. Filled while views read, hence the cell.
     asked: RefCell<Vec<Trial>>,
     frame: u64,
     /// Time of the last input.
     last_input: Option<Instant>,
-    /// Revisions that pictures are compared with in this frame.
+    /// Revision of the model that pictures are compared with in this frame.
     model: u64,
 }
 
-/// What the pictures are made of.
+/// Inputs of the pictures.
 pub(crate) struct TrialSource<'a> {
     pub(crate) document: &'a OpenDocument,
     pub(crate) evaluation: &'a Evaluation,
@@ -166,11 +167,11 @@ impl Trials {
         }
         self.forget_oldest();
         let is_model_loaded = source.evaluation.model.received.is_some() && source.evaluation.model.failure.is_none();
-        // The evaluation of the model finds its shade, and keeps it on disk for the pictures here.
+        // The evaluation of the model computes its shade, and keeps it on disk for the pictures here.
         if !is_model_loaded || source.evaluation.awaits_shade() {
             return;
         }
-        // One of another model, or of a graph that was edited since, makes way.
+        // A running picture of another model, or of a graph that was edited since, is dropped.
         let running = self.running.take();
         self.running = running.filter(|(trial, version)| self.version(trial, source).as_ref() == Some(version));
         if self.running.is_some() {
@@ -195,7 +196,7 @@ impl Trials {
         }
     }
 
-    /// Version of a trial as it would be made now; none where it is gone.
+    /// Current version of a trial; `None` if its subject does not exist any more.
     fn version(&self, trial: &Trial, source: &TrialSource<'_>) -> Option<Version> {
         let content = match trial {
             Trial::Variant { .. } => source.evaluation.graph_number().to_string(),
@@ -234,7 +235,7 @@ impl Trials {
         let texels = texels_of(&trial, evaluation);
         let (kinds, kinds_revision) = source.document.kinds();
         self.requests += 1;
-        // Pictures that were sent are sent again: two trials may look the same.
+        // The engine sends a picture only once, but two trials may have the same one.
         live.mark_dropped(Vec::new(), node.iter().cloned().collect());
         live.submit(LiveRequest {
             revision: self.requests,
@@ -284,7 +285,7 @@ impl Trials {
         kept
     }
 
-    /// Keeps a picture; where none could be made, the one before it stays.
+    /// Keeps a picture; if none could be made, the previous one stays.
     fn finish(&mut self, trial: Trial, version: Version, drawn: Option<(TextureHandle, Pixels)>) {
         let picture = drawn.map(|(texture, pixels)| Picture::new(texture, &pixels, &version));
         let asked = self.frame;
@@ -327,8 +328,9 @@ fn texture_of(picture: &Pixels, context: &Context) -> TextureHandle {
     context.load_texture("what is tried", image, TextureOptions::LINEAR)
 }
 
-/// Folder and key under which the picture of an effect is kept on disk: its content, the model as it is and as it is read, the
-/// size, and the version of the renderer. Pictures of variants change with every edit, and are not kept.
+/// Folder and key under which the picture of an effect is kept on disk: its content, the state of the model's file, the
+/// import options, the size, and the version of the renderer. Pictures of variants change with every edit, and are not
+/// kept.
 fn kept_under<'e>(trial: &Trial, version: &Version, evaluation: &'e Evaluation) -> Option<(&'e Path, [String; 4])> {
     let Trial::Effect(_) = trial else { return None };
     let file = evaluation.model.file();

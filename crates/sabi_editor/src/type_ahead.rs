@@ -1,5 +1,5 @@
-//! Keys that are pressed in the same frame as one that opens or closes a text field. They are meant for what has the keyboard
-//! focus afterwards, which egui knows only in a later frame.
+//! Keys that are pressed in the same frame as one that opens or closes a text field. They are meant for the widget that
+//! has the keyboard focus afterwards, which egui knows only in a later frame.
 
 use egui::{Context, Event, Id, Key, Modifiers, Response};
 

@@ -16,7 +16,7 @@ pub(crate) struct WatchedFiles {
     pub(crate) model: PathBuf,
     /// Revision of the received model, and whether it is the requested one.
     pub(crate) loaded: (Option<u64>, bool),
-    /// Models beside it.
+    /// Models beside the main one.
     pub(crate) beside: Vec<PathBuf>,
     /// Images and group files that the graph names.
     pub(crate) named: Arc<BTreeSet<PathBuf>>,
@@ -27,7 +27,7 @@ pub(crate) struct WatchedFiles {
 
 /// Watcher of the files that the window depends on.
 pub(crate) struct Watching {
-    /// None where the system has no thread for it, which was reported.
+    /// `None` where the system has no thread for it, which was reported.
     watcher: Option<Watcher>,
     watched: Option<WatchedFiles>,
     /// True if the library has to be read again once its files are watched, since they may have changed before.
@@ -97,7 +97,7 @@ impl Watching {
         }
     }
 
-    /// Changes since the last call; none where the system has no watcher.
+    /// Changes since the last call; `None` where the system has no watcher.
     pub(crate) fn changes(&self) -> Option<Changes> {
         self.watcher.as_ref().map(Watcher::changes)
     }

@@ -16,7 +16,7 @@ use crate::files::{examples, new_graph};
 use crate::paths::in_canonical_folder;
 use crate::settings::default_folder;
 
-/// Devices that may be lost soon after another before the window is given up.
+/// Devices that may be lost in quick succession before the window is given up.
 const MOST_DEVICES: usize = 3;
 /// Time after which the loss of a device counts as the first one again.
 const SOON: Duration = Duration::from_secs(60);
@@ -33,12 +33,13 @@ pub struct EditRequest {
     pub mesh: Option<PathBuf>,
     /// Adapter to run on.
     pub adapter: AdapterChoice,
-    /// Paths from which graphs and models may open what they name.
+    /// Paths from which graphs and models may open the files that they name.
     pub trusted: TrustedPaths,
-    /// Called where the window does not end after its device was lost; the last copy of unsaved work is offered at the next start.
+    /// Called if the window does not end after its device was lost; the last copy of unsaved work is offered at the
+    /// next start.
     pub at_hang: fn(),
-    /// Called once the window is closed for good and all work is kept. What follows waits for the device, which may compile or
-    /// compute for long.
+    /// Called once the window is closed for good and all work is kept. After it, the program waits for the device,
+    /// which may compile or compute for long.
     pub at_end: fn(),
 }
 
@@ -82,7 +83,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
     })
 }
 
-/// Opens windows until one is closed; `open` gives the time until its window lost the device.
+/// Opens windows until one is closed; `open` returns the time until its window lost the device.
 fn until_closed(mut open: impl FnMut() -> Result<Option<Duration>, EngineError>) -> Result<(), EngineError> {
     let mut lost_soon = 0;
     while lost_soon < MOST_DEVICES {
@@ -141,9 +142,8 @@ fn run(request: &EditRequest, initial: InitialState, handover: &Handover) -> Res
     })
 }
 
-/// Calls `at_hang` where a window is still open some time after its device was lost. wgpu 29 frees the resources of a lost device
-/// under locks that an upload takes in the opposite order: in the very moment of an upload, two threads may wait for each other for
-/// ever.
+/// Calls `at_hang` if a window is still open some time after its device was lost. wgpu 29 frees the resources of a lost
+/// device under locks that an upload takes in the opposite order, so that two threads may wait for each other forever.
 fn watch_loss(gpu: &Gpu, window: Weak<()>, patience: Duration, at_hang: fn()) {
     gpu.when_lost(move || {
         std::thread::spawn(move || {
@@ -155,7 +155,7 @@ fn watch_loss(gpu: &Gpu, window: Weak<()>, patience: Duration, at_hang: fn()) {
     });
 }
 
-/// Configuration of a device with what Sabi needs, on an adapter.
+/// Configuration of a device that Sabi can run on, for an adapter.
 pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
     let choice = choice.clone();
     let mut setup = WgpuSetupCreateNew::without_display_handle();
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_window_comes_back_for_every_device_that_lasted_and_is_given_up_where_each_is_lost_soon() {
+    fn a_window_opens_again_unless_devices_are_lost_in_quick_succession() {
         let (soon, late) = (Some(Duration::from_secs(1)), Some(SOON));
         assert_eq!(opened(&[None, soon]), (1, Ok(())), "one that is closed stays closed");
         assert_eq!(opened(&[soon, soon, None]), (3, Ok(())));
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_window_that_stays_open_on_a_lost_device_is_told_and_one_that_closes_is_not() {
+    fn a_window_that_stays_open_on_a_lost_device_is_reported_as_hanging() {
         static TOLD: AtomicUsize = AtomicUsize::new(0);
         let patience = Duration::from_millis(20);
         for (keeps, told) in [(false, 0), (true, 1)] {

@@ -1,5 +1,5 @@
-//! `cargo xtask test`: everything that must hold before a change is shared, cheapest first. `cargo xtask nightly`: what changes seldom
-//! break, or what takes too long to wait for.
+//! `cargo xtask test`: everything that must hold before a change is shared, cheapest first. `cargo xtask nightly`:
+//! checks that changes seldom break, or that take too long to wait for.
 
 use std::process::Stdio;
 
@@ -24,8 +24,8 @@ const CLIPPY: Check = (
         "warnings",
     ],
 );
-// `cargo xtask demo` builds this, and none of the other checks does: release builds include what debug builds read as they run.
-// Only assertions tell them apart, so the dependencies are those of the other checks.
+// `cargo xtask demo` builds this, and no other check does: release builds include the files that debug builds read as
+// they run. Only assertions of this package differ, so that the dependencies are those of the other checks.
 const WITHOUT_EDITOR: Check = (
     "As in a release, without the editor",
     &[
@@ -40,8 +40,8 @@ const WITHOUT_EDITOR: Check = (
         "profile.dev.package.\"*\".debug-assertions=true",
     ],
 );
-// One run shows everything that there is to mend. Tests of a crate run in one process, where they share the device, the node
-// library and the fonts: a process for each test takes half as long again.
+// One run shows all failures. Tests of a crate run in one process, where they share the device, the node library and
+// the fonts: a process for each test takes half as long again.
 const TESTS: Check = (
     "Tests",
     &[
@@ -57,9 +57,9 @@ const TESTS: Check = (
 const DOC_TESTS: Check = ("Doc tests", &["test", "--doc", "--workspace", "--locked"]);
 const DOCUMENTATION: Check = ("Documentation", &["doc", "--workspace", "--no-deps", "--locked"]);
 
-/// What a change has to pass.
+/// Checks that a change has to pass.
 const CHECKS: [Check; 4] = [FORMAT, CLIPPY, TESTS, DOC_TESTS];
-/// What is checked once a night.
+/// Checks that run once a night.
 const NIGHTLY_CHECKS: [Check; 2] = [WITHOUT_EDITOR, DOCUMENTATION];
 
 /// Sets up and runs every check of a change; the first that fails ends it, with its own exit code.

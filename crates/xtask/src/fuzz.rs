@@ -73,9 +73,9 @@ fn refused() -> TaskError {
 /// Result of a target.
 struct Ran {
     target: String,
-    /// Inputs that were tried; none where the target ended before it counted them.
+    /// Inputs that were tried; `None` where the target ended before it counted them.
     inputs: Option<u64>,
-    /// Files with inputs that it does not survive.
+    /// Files with inputs that make it fail.
     found: Vec<PathBuf>,
 }
 
@@ -229,7 +229,7 @@ fn inputs_in(log: &str) -> Option<u64> {
     line.trim().parse().ok()
 }
 
-/// Inputs that libFuzzer has written since a time. Those that were only slow are none of them.
+/// Inputs that libFuzzer has written since a time, without those that were only slow.
 fn written_since(folder: &Path, before: SystemTime) -> Vec<PathBuf> {
     // A target that has found nothing has no folder.
     let entries = fs::read_dir(folder).into_iter().flatten();
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_target_did_is_said_in_one_line() {
+    fn the_result_of_a_target_is_one_line() {
         let log = "#12 DONE\nstat::number_of_executed_units: 4500\nstat::average_exec_per_sec:     75\n";
         let mut ran = Ran {
             target: "node".to_owned(),

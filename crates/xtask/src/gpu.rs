@@ -25,7 +25,7 @@ enum GpuTask {
     Everything,
     /// Build into a folder.
     Pack(PathBuf),
-    /// Run what such a folder holds.
+    /// Run the programs of such a folder.
     Packed(PathBuf),
 }
 
@@ -44,7 +44,7 @@ impl GpuTask {
     }
 }
 
-/// Builds, runs or both.
+/// Performs the action that the arguments request.
 pub(crate) fn run(arguments: &[String]) -> Result<(), TaskError> {
     match GpuTask::read(arguments)? {
         GpuTask::Everything => {

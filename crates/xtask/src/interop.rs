@@ -1,6 +1,7 @@
-//! `cargo xtask interop`: what Sabi writes, held against the libraries and programs of others.
+//! `cargo xtask interop`: checks of the files that Sabi writes, by libraries and programs of others.
 //!
-//! The tools come from the ordinary registries of Python and Node.js, into a folder of their own below the target folder.
+//! The tools come from the ordinary registries of Python and Node.js, into a folder of their own below the target
+//! folder.
 
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -75,7 +76,7 @@ type Check = fn(&Project, &Tools) -> Result<(), TaskError>;
 struct Tools {
     /// Interpreter with the Python packages.
     python: PathBuf,
-    /// Interpreter with the renderers; none where these cannot be installed.
+    /// Interpreter with the renderers; `None` where these cannot be installed.
     renderers: Option<PathBuf>,
     node: PathBuf,
     /// Folder of the Node.js packages.
@@ -136,7 +137,7 @@ impl Tools {
         finish(command, script)
     }
 
-    /// Bakes into a folder of the work.
+    /// Bakes into a folder inside of the working folder.
     fn bake(&self, project: &Project, graph: &str, model: &str, options: &[&str]) -> Result<PathBuf, TaskError> {
         let output = self.work.join(format!("{graph}-{model}-{}", options.join("")));
         let mut command = project.command(&project.sabi("release"))?;
@@ -146,7 +147,7 @@ impl Tools {
             .arg(graph)
             .arg("--mesh")
             .arg(model_path(project, model));
-        // The list of its files is never read.
+        // Nothing reads the list of files that `sabi bake` prints.
         command.stdout(Stdio::null());
         command
             .args(["--size", "256", "--force", "--again", "--quiet", "-o"])

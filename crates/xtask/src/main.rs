@@ -46,7 +46,7 @@ fn main() -> ExitCode {
         Some("test") => Project::find().and_then(|project| checks::run(&project)),
         Some("nightly") => Project::find().and_then(|project| checks::run_nightly(&project, &rest)),
         Some("bless") => Project::find().and_then(|project| bless::run(&project, rest.first().map(String::as_str))),
-        // A tool of its own, so that the others start without its build.
+        // A program of its own, so that the other tasks start without building it.
         Some(made @ ("assets" | "reference" | "pictures" | "library")) => {
             Project::find().and_then(|project| make_assets(&project, made, &rest))
         }
@@ -72,7 +72,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Has `sabi_assets` write files of the repository.
+/// Runs `sabi_assets`, which writes files of the repository.
 fn make_assets(project: &Project, task: &str, arguments: &[String]) -> Result<(), TaskError> {
     let mut command = project.cargo(&["run", "--quiet", "--package", "sabi_assets", "--", task])?;
     command.args(arguments);

@@ -47,7 +47,7 @@ fn library_in_listing(listing: &str, name: &str) -> Option<PathBuf> {
 
 /// Programs or libraries that a task needs, and packages that have them.
 pub struct Requirement {
-    /// Noun for the whole in sentences.
+    /// Name for all of them in sentences.
     pub what: &'static str,
     /// Packages, by the names that Debian gives them.
     pub packages: &'static [&'static str],
@@ -92,8 +92,8 @@ impl Requirement {
     }
 }
 
-/// Returns the commands that install packages. Where they cannot be run, an error has the command for the user, or none
-/// where there is no apt.
+/// Returns the commands that install packages. If they cannot be run, the error is advice for the user, or `None` where
+/// there is no apt.
 fn install_commands(
     packages: &[&str],
     is_root: bool,
@@ -107,7 +107,7 @@ fn install_commands(
         let install = format!("apt-get update && apt-get install -y {}", packages.join(" "));
         return Err(Some(format!("Run `{install}` as root, then this again.")));
     }
-    // sudo drops the environment, so the variable is set on its far side.
+    // sudo drops the environment, so `env` sets the variable again for apt-get.
     let front: &[&str] = if is_root {
         &[]
     } else {
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn without_root_or_apt_the_exact_command_is_said() {
+    fn without_root_or_apt_the_exact_command_is_named() {
         let told = "Run `apt-get update && apt-get install -y one two` as root, then this again.";
         assert_eq!(
             install_commands(&PACKAGES, false, false, true).unwrap_err().as_deref(),

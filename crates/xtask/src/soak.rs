@@ -17,7 +17,8 @@ use xtask::vulkan::{self, Driver};
 const GRAPH: &str = "graphs/examples/army-paint.sabi";
 const MODEL: &str = "assets/meshes/crate.glb";
 const MINUTES: u64 = 120;
-/// Memory that counts as a leak, MiB: the window keeps results of up to 4 GiB, and models, pictures and the program are beside them.
+/// Memory that counts as a leak, MiB: the window keeps results of up to 4 GiB; models, pictures and the program come on
+/// top.
 const MOST_MIB: f64 = 6144.0;
 /// Time that a window may take to open, and an action to have an effect.
 const OPENING: Duration = Duration::from_secs(120);
@@ -97,7 +98,7 @@ fn server() -> Result<(Running, String), TaskError> {
     Ok((Running(server), format!(":{}", number.trim())))
 }
 
-/// A soak and where it runs.
+/// A soak: its program, its folder, its graph and its display.
 struct Soak<'a> {
     project: &'a Project,
     program: PathBuf,
@@ -108,7 +109,7 @@ struct Soak<'a> {
 }
 
 impl Soak<'_> {
-    /// Acts until the time is over, and prints a row a minute.
+    /// Performs actions until the time is over, and prints a row each minute.
     fn run(&self, length: Duration) -> Result<(), TaskError> {
         let began = Instant::now();
         let mut hands = Hands::new(self.screen.clone(), 1);
@@ -131,7 +132,7 @@ impl Soak<'_> {
                 eprintln!("| {minutes:.0} | {actions} | {opened} | {mib:.0} MiB |");
                 samples.push(mib);
                 next_row += Duration::from_secs(60);
-                // A dialog that has taken the focus gives it back.
+                // A dialog may have taken the focus.
                 hands.take_window();
             }
             hands.act()?;
@@ -180,7 +181,7 @@ impl Soak<'_> {
         TaskError::failed(format!("{what} Its last lines:\n{last}"))
     }
 
-    /// Tells the memory of the first quarter of the time and of the rest, and holds both against the bound.
+    /// Prints the most memory in the first quarter of the time and in the rest, and compares both with the bound.
     fn judge(&self, samples: &[f64]) -> Result<(), TaskError> {
         let highest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
         let quarter = samples.len().div_ceil(4); // At least one.
@@ -193,7 +194,7 @@ impl Soak<'_> {
     }
 }
 
-/// Memory that a process takes, MiB; none where the system does not say.
+/// Memory that a process takes, MiB; `None` where the system does not say.
 fn resident_mib(process: &Child) -> Option<f64> {
     let path = Path::new("/proc").join(process.id().to_string()).join("status");
     let status = fs::read_to_string(path).ok()?;

@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_a_manifest_with_a_library_counts() {
+    fn the_library_is_read_from_a_manifest_if_it_names_one() {
         let text = r#"{ "ICD": { "api_version": "1.4.0", "library_path": "libvulkan_lvp.so" }, "file_format_version": "1.0.0" }"#;
         assert_eq!(library_named_by(text), Some("libvulkan_lvp.so".into()));
         assert_eq!(library_named_by("{}"), None);

@@ -1,5 +1,5 @@
-//! Edits at random, the same ones for the same seed: knobs are turned, nodes come and go, wires are tied and cut, and now and
-//! then steps are taken back.
+//! Edits at random, the same ones for the same seed: knobs are changed, nodes added and removed, wires connected and
+//! cut, and now and then steps are undone.
 
 use sabi_graph::{Body, Document, Edit, Node, NodeId, OutputRef, Value};
 
@@ -33,15 +33,15 @@ pub(crate) const FIRST: &str = r##"{ "format": "sabi", "version": 1, "preview": 
 
 /// Step of a walk.
 pub(crate) enum Step {
-    /// This, which may be refused.
+    /// An edit, which may be refused.
     Edit(Box<Edit>),
-    /// The last step is taken back.
+    /// Undo of the last step.
     Undo,
-    /// The last step that was taken back is done again.
+    /// Redo of the last step that was undone.
     Redo,
 }
 
-/// A walk through graphs.
+/// A random walk through the edits of a graph.
 pub(crate) struct Walk {
     state: u64,
     count: usize,

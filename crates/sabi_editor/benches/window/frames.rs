@@ -1,4 +1,4 @@
-//! Times of frames on the processor, while nothing or something happens.
+//! Times of frames on the processor, with and without input.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -13,7 +13,7 @@ use crate::{asset, opened};
 
 const FRAMES: usize = 60;
 
-/// So many nodes, in rows of clouds, filters of points and layers, as artists stack them.
+/// Graph of `count` nodes, in rows of clouds, filters of points and layers, as artists stack them.
 pub(crate) fn graph(folder: &Path, count: usize, size: u32) -> String {
     let mut nodes = String::new();
     let rows = count / 10;
@@ -55,7 +55,7 @@ pub(crate) fn graph(folder: &Path, count: usize, size: u32) -> String {
     path.display().to_string()
 }
 
-/// Frames in each of which something happens.
+/// Times of frames, each with the events that `happens` gives.
 fn frames(window: &mut Offscreen, happens: impl Fn(usize, &mut Offscreen) -> Vec<Event>) -> Vec<FrameTime> {
     let frame = |at| {
         let events = happens(at, window);
@@ -114,7 +114,8 @@ fn frames_of(window: &mut Offscreen, what: &str, aim: &str) {
     );
 }
 
-/// Frames of the second in which a node of each type is shown for the first time: pictures of each are drawn by pipelines of their own.
+/// Times of the frames in the second in which a node of each type is shown for the first time: pictures of each type
+/// are drawn by pipelines of their own.
 pub(crate) fn clicks(adapter: &AdapterChoice, folder: &Path) {
     let graph = folder.join("types.sabi");
     std::fs::write(&graph, TYPES).unwrap();

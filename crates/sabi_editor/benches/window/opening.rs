@@ -8,7 +8,7 @@ use sabi_engine::AdapterChoice;
 use crate::table::{ms, row};
 use crate::{asset, opened};
 
-/// From nothing to a first picture of the graph that the program comes with.
+/// Measures the time until the first picture of the graph that the program comes with.
 pub(crate) fn start(adapter: &AdapterChoice) {
     let [graph, model] = ["tests/graphs/weathered-bench.sabi", "assets/meshes/bench.glb"].map(asset);
     let began = Instant::now();

@@ -6,7 +6,7 @@ pub(crate) fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1000.0
 }
 
-/// The middle one and the last of some times, milliseconds.
+/// Median and maximum of some times, milliseconds.
 pub(crate) fn spread(mut times: Vec<f64>) -> [f64; 2] {
     times.sort_by(f64::total_cmp);
     [times.len() / 2, times.len() - 1].map(|at| times.get(at).copied().unwrap_or(f64::NAN))

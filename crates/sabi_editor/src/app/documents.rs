@@ -1,4 +1,5 @@
-//! The open graph with everything that belongs to it: what can be added, saved pictures, autosave and watched files.
+//! The open graph with everything that belongs to it: nodes and groups that can be added, saved pictures, autosave and
+//! watched files.
 
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -33,7 +34,7 @@ use crate::watching::{WatchedFiles, Watching};
 /// Time between two autosaves.
 const AUTOSAVE_EVERY: Duration = Duration::from_secs(3);
 
-/// Folders of the program on this machine; none where there is no such place.
+/// Folders of the program on this machine; `None` where the system has no such folder.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Folders {
     pub(crate) settings: Option<PathBuf>,
@@ -86,7 +87,7 @@ pub(crate) struct Documents {
     pub(crate) kinds_reading: KindsReading,
     /// True once the user has chosen a model for the open graph, which it names from then on.
     pub(crate) is_model_chosen: bool,
-    /// Reading of the model that the graph named when it was last looked at.
+    /// Options for reading the model that the graph had when they were last checked.
     pub(super) seen_reading: SavedReading,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
@@ -102,18 +103,19 @@ pub(crate) struct Documents {
     candidates: Candidates,
 }
 
-/// Nodes and groups that can be added, with what they were listed for.
+/// Nodes and groups that can be added, with the state that they were listed for.
 #[derive(Default)]
 struct Candidates {
     all: Vec<Candidate>,
-    /// Numbers of the ports and of the node kinds, and the groups of the graph that are listed as its own.
+    /// State that `all` was listed for: the numbers of the interfaces and of the node kinds, and the graph's own
+    /// groups.
     of: Option<(u64, u64, Vec<String>)>,
     /// Revision of the graph that `own` was made for.
     revision: Option<u64>,
     own: Vec<String>,
 }
 
-/// Copies of what is not saved yet, in case the program ends.
+/// Copies of unsaved work, in case the program ends.
 pub(crate) struct Autosave {
     at: Instant,
     /// Revisions of the graph and of node files that were saved last.
@@ -135,14 +137,14 @@ impl Default for Autosave {
 }
 
 impl Autosave {
-    /// Saves again at the next opportunity, although nothing was edited.
+    /// Makes the next autosave write copies even if nothing was edited.
     pub(crate) fn invalidate(&mut self) {
         self.saved = None;
     }
 }
 
 impl Documents {
-    /// An open graph, with what can be recovered where that is to be offered.
+    /// Creates the state of an open graph. With `has_recoveries`, unsaved work that can be recovered is looked up.
     pub(crate) fn new(document: OpenDocument, folders: Folders, watching: Watching, has_recoveries: bool) -> Documents {
         let recovery = folders.recovery.as_deref().filter(|_| has_recoveries);
         Documents {
@@ -177,7 +179,7 @@ impl Documents {
         self.folders.recovery.as_deref()
     }
 
-    /// Trusts what the command line and the settings name, and the folders of the program.
+    /// Trusts the paths that the command line and the settings name, and the folders of the program.
     pub(crate) fn trust_at_start(&mut self, named: &TrustedPaths, settings: &Settings) {
         let all = self.folders.trusted().chain(&settings.trusted);
         let trusted = all.fold(named.clone(), |trusted, path| trusted.with_path(path));
@@ -187,13 +189,13 @@ impl Documents {
         self.trust(&trusted);
     }
 
-    /// Lets this graph and all later ones open what they name below these paths.
+    /// Lets this graph and all later ones open the files that they name below these paths.
     pub(crate) fn trust(&mut self, trusted: &TrustedPaths) {
         self.trusted = std::mem::take(&mut self.trusted).with(trusted);
         self.document.trust(&self.trusted);
     }
 
-    /// Lets graphs use the node files of a folder beside them, once they are read.
+    /// Trusts the node files of a folder: graphs beside it use them when node files are read next.
     pub(crate) fn trust_nodes(&mut self, folder: &Path) {
         self.trusted_nodes = std::mem::take(&mut self.trusted_nodes).with_path(folder);
         self.document.trust_nodes(self.trusted_nodes.clone());
@@ -224,7 +226,7 @@ impl Documents {
         model_of(&self.document.session, self.folders.examples.as_deref())
     }
 
-    /// Takes the open graph, with an empty one in its place, since the window ends.
+    /// Returns the open graph and leaves an empty one in its place. Called when the window ends.
     pub(crate) fn take(&mut self) -> OpenDocument {
         std::mem::replace(&mut self.document, OpenDocument::before_kinds(Session::new(None)))
     }
@@ -234,14 +236,15 @@ impl Documents {
         &self.candidates.all
     }
 
-    /// Lists again what can be added, where the graph, the node kinds or the library have changed.
+    /// Updates the list of nodes and groups that can be added, if the graph, the node kinds or the library have
+    /// changed.
     pub(crate) fn refresh_candidates(&mut self) {
         let folders = self.library_folders();
         let has_changed = self.library.has_changed(&folders);
         self.document.library_folders = named_folders(&folders);
         let library_groups = self.library.groups(folders, self.document.catalog());
         let revision = self.document.session.revision();
-        // Not while a parameter is dragged, when each frame has a revision of its own.
+        // The candidates wait for the end of the drag of a parameter, since each of its frames has a new revision.
         if has_changed || (self.candidates.revision != Some(revision) && !self.is_dragging) {
             self.candidates.revision = Some(revision);
             self.candidates.own = own_groups(&self.document, library_groups);
@@ -259,7 +262,7 @@ impl Documents {
         self.candidates.of = Some(now);
     }
 
-    /// Folder of a library. That of the project is only there once the graph has a file.
+    /// Folder of a library. The project has one only once the graph has a file.
     pub(crate) fn library_folder(&self, library: LibraryKind) -> Option<PathBuf> {
         match library {
             LibraryKind::Project => Some(self.document.session.file()?.with_file_name("library")),
@@ -282,10 +285,10 @@ impl Documents {
         self.kinds_reading.read_again(context, &mut self.document, folders);
     }
 
-    /// Saves copies of the graph and of node files, if they have changed, while the window goes on.
+    /// Saves copies of the graph and of node files in the background, if they have changed.
     ///
     /// # Errors
-    /// A sentence, where they cannot be written.
+    /// They cannot be written; the error is a sentence.
     pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
         self.autosave.at = Instant::now();
         self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
@@ -293,7 +296,7 @@ impl Documents {
         match self.document.session.keep_meanwhile(drafts) {
             Ok(Keeping::Done) => Ok(()),
             Ok(keeping) => {
-                // The next look finds whether it was written.
+                // The next autosave checks whether the copies were written.
                 self.autosave.saved = None;
                 if keeping == Keeping::Postponed {
                     self.autosave.kinds = None;
@@ -336,19 +339,19 @@ impl Documents {
         }
     }
 
-    /// Names the shown model in the graph before it is saved, so that the graph opens on that model again. That is no step to undo, as
-    /// the choice of a model is none.
+    /// Names the shown model in the graph before it is saved, so that the graph opens on that model again. This is no
+    /// undo step, since the choice of a model is none either.
     pub(crate) fn name_model(&mut self, evaluation: &Evaluation) {
         let model = evaluation.model.file();
         let named = match self.written_model() {
-            // Another one stands in for one that may not be opened.
+            // The shown model is a substitute for one that the graph may not open.
             Some(Err(_)) if !self.is_model_chosen => return,
             named => named.and_then(Result::ok),
         };
         let is_named = named
             .as_ref()
             .is_some_and(|named| canonical_if_present(named) == canonical_if_present(model));
-        // The graph's own model may only be missing for now, and another one stands in for it.
+        // The graph's own model may be missing only for now, and the shown one be its substitute.
         let refused = evaluation.model.refused().map(canonical_if_present);
         let is_substitute = refused.is_some() && refused == named.as_deref().map(canonical_if_present);
         if is_substitute || is_named || evaluation.model.failure.is_some() {
@@ -429,15 +432,15 @@ fn model_files(evaluation: &Evaluation) -> Vec<PathBuf> {
 
 /// Saves recovery copies when no window is left to report an error.
 pub(crate) fn autosave_at_end(document: &mut OpenDocument, drafts: &[NodeDraft]) {
-    // A drag may still be open.
+    // A drag may have left an undo step open.
     document.session.end();
     if let Err(error) = document.session.keep(drafts) {
         tracing::error!("what is not saved cannot be kept: {error}");
     }
 }
 
-/// Groups of a graph that are not in a library with the same content: a saved group is listed once, and so is one that is
-/// linked to a library.
+/// Names of the graph's groups that are neither linked to a library nor saved in one with the same content: those are
+/// listed with the library, and would be listed twice.
 fn own_groups(document: &OpenDocument, library_groups: &[LibraryGroup]) -> Vec<String> {
     let saved = library_groups.iter().filter(|group| group.library != LibraryKind::Sabi);
     let in_library = saved.filter_map(|group| library::group_in(document, &group.graph, &group.file));

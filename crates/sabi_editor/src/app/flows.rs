@@ -122,7 +122,7 @@ impl Editor {
         }
     }
 
-    /// Starts an export as the panel says.
+    /// Starts an export with the choices of its panel.
     pub(crate) fn export(&mut self, force: bool) {
         let source = ExportSource {
             document: &self.documents.document,
@@ -133,7 +133,7 @@ impl Editor {
         self.shell.report_on(Work::Export, started);
     }
 
-    /// Takes over what became of exports, and says why one has failed, whichever panel is in front.
+    /// Takes the results of exports, and reports a failure even if the export panel is hidden.
     pub(super) fn follow_exports(&mut self, context: &Context) {
         let Some(folder) = self.exports.poll(context) else {
             return;
@@ -240,7 +240,7 @@ impl Editor {
         is_exporting
     }
 
-    /// Mutes nodes that keep the device busy for too long; of those in a group, the group.
+    /// Mutes nodes that keep the device busy for too long. For a node in a group, the group is muted.
     pub(super) fn mute_what_takes_too_long(&mut self) {
         let document = &mut self.documents.document;
         for full_id in &self.evaluation.faults.all.too_long {

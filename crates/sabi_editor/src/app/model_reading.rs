@@ -12,7 +12,7 @@ use crate::paths::canonical_if_present;
 use crate::settings::Settings;
 
 impl Documents {
-    /// Options for reading a model: of the settings, and of the open graph if it is the graph's model.
+    /// Options for reading a model: those of the settings, with those of the open graph if it is the graph's model.
     pub(super) fn reading(&self, settings: &Settings, model: &Path) -> ImportOptions {
         let reading = settings.reading(model);
         match self.is_own_model(model) {
@@ -21,7 +21,7 @@ impl Documents {
         }
     }
 
-    /// Keeps what the open graph keeps of the options for its own model; returns whether a model is that.
+    /// Stores options in the open graph if the model is the graph's own; returns whether it is.
     pub(super) fn keep_reading(&mut self, model: &Path, reading: &ImportOptions) -> bool {
         if !self.is_own_model(model) {
             return false;
@@ -39,7 +39,7 @@ impl Documents {
         true
     }
 
-    /// Returns whether the open graph says something else about its model than when this was last asked.
+    /// Returns whether the options in the open graph have changed since the last call.
     pub(super) fn takes_new_reading(&mut self) -> bool {
         let now = self.saved_reading();
         let is_new = now != self.seen_reading;

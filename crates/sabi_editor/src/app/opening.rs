@@ -51,7 +51,7 @@ pub(crate) struct LostWindow {
     pub(crate) document: OpenDocument,
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
-    /// Models beside it.
+    /// Models beside the main one.
     pub(crate) beside: Vec<PathBuf>,
     /// Node files that were being written.
     pub(crate) drafts: Vec<DraftEditor>,
@@ -59,7 +59,7 @@ pub(crate) struct LostWindow {
     pub(crate) was_exporting: bool,
 }
 
-/// Slot in which a window leaves what outlives it.
+/// Slot in which a window leaves the state that outlives it.
 pub(crate) type Handover = Arc<Mutex<Option<LostWindow>>>;
 
 /// Parts of a window that depend on how it was opened.
@@ -67,15 +67,15 @@ pub(super) struct Opened {
     pub(super) documents: Documents,
     pub(super) views: Views,
     pub(super) model: PathBuf,
-    /// Models beside it.
+    /// Models beside the main one.
     pub(super) beside: Vec<PathBuf>,
-    /// Sentences about what could not be opened or taken over.
+    /// Sentences about files that could not be opened, and state that could not be taken over.
     pub(super) fault: Vec<String>,
 }
 
 impl Opened {
-    /// Takes over what a window on a lost device left, or else opens the initial state with a start page where there is
-    /// something to recover.
+    /// Takes over the state that a window on a lost device left. If there is none, opens the initial state, with the
+    /// start page where there is something to recover.
     pub(super) fn new(initial: InitialState, settings: &Settings, context: &Context, handover: &Handover) -> Opened {
         let (watching, fault) = Watching::new(context);
         let mut fault: Vec<String> = fault.map(|error| error.to_string()).into_iter().collect();

@@ -33,7 +33,7 @@ impl Editor {
         for action in actions {
             self.perform(action, ui);
         }
-        // The viewport has been drawn without it.
+        // The viewport was drawn before the length changed.
         if self.looks.length != length {
             ui.ctx().request_repaint();
         }
@@ -315,7 +315,7 @@ impl Editor {
         self.documents.is_dragging = true;
     }
 
-    /// Ends the drag of a parameter. It has ended already where its row has disappeared.
+    /// Ends the drag of a parameter, unless it has ended already because its row disappeared.
     fn end_drag(&mut self) {
         if self.documents.is_dragging {
             self.documents.document.session.end();
@@ -336,7 +336,8 @@ impl Editor {
         }
     }
 
-    /// Sets what waits for a color. Without a color, it waits for another click.
+    /// Gives a clicked color to the parameter or the brush that waits for one. After a click without a color, it still
+    /// waits.
     fn take_color(&mut self, color: ClickedColor) {
         let Some([red, green, blue]) = self.shell.allow(color) else {
             return;
@@ -387,7 +388,7 @@ impl Editor {
     }
 }
 
-/// Returns whether a command puts new nodes where there is room for them, and not at a place of the canvas that the artist chose.
+/// Returns whether a command looks for free places for its new nodes, rather than adding them where the artist chose.
 fn finds_places(command: &EditCommand) -> bool {
     matches!(
         command,

@@ -8,27 +8,27 @@ use sabi_engine::{Recovery, recoveries, recoveries_in_use};
 
 use crate::paths::canonical_if_present;
 
-/// Time for which recovery files in use are looked at again: a program that was killed holds them until the system has ended it, which
-/// takes a loaded machine many seconds.
+/// Time for which recovery files in use are looked at again: a program that was killed holds them until the system has ended it. On
+/// a loaded machine, that takes many seconds.
 const AWAITED_FOR: Duration = Duration::from_secs(60);
-/// Time between two looks.
+/// Time between two checks.
 const LOOK_AGAIN: Duration = Duration::from_millis(200);
 
 /// Graphs and node files that were not saved when a program ended.
 pub(crate) struct Recoveries {
     folder: Option<PathBuf>,
     pub(crate) found: Vec<Recovery>,
-    /// Recovery files that a program uses which may be about to end.
+    /// Recovery files that are in use by a program that may be about to end.
     awaited: Vec<PathBuf>,
-    /// Time until which they are looked at, and that of the next look.
+    /// Time until which `awaited` is checked, and that of the next check.
     awaited_until: Instant,
     next_look: Instant,
-    /// True until what belongs to the open graph's file was offered.
+    /// True until unsaved work on the open graph's file was offered.
     pub(super) is_offer_due: bool,
 }
 
 impl Recoveries {
-    /// Finds what can be recovered in a folder.
+    /// Finds the unsaved work in a folder.
     pub(super) fn in_folder(folder: Option<&Path>) -> Recoveries {
         let now = Instant::now();
         let mut new = Recoveries {
@@ -43,10 +43,10 @@ impl Recoveries {
         new
     }
 
-    /// Looks into the folder, since a graph is opened.
+    /// Searches the folder for unsaved work. Called when a graph is opened.
     pub(super) fn look(&mut self) {
         let Some(folder) = &self.folder else { return };
-        // First, so that none is missed which is released in between.
+        // First, so that a file that is released in between is not missed.
         self.awaited = recoveries_in_use(folder);
         for recovery in recoveries(folder) {
             if self.found.iter().all(|known| known.path() != recovery.path()) {
@@ -58,14 +58,14 @@ impl Recoveries {
         self.is_offer_due = true;
     }
 
-    /// Takes up what programs have left that were still ending. Returns whether there is something new.
+    /// Adds the files that ending programs have released meanwhile. Returns whether there are any.
     pub(super) fn take_freed(&mut self, context: &Context) -> bool {
         let now = Instant::now();
         if self.awaited.is_empty() || now < self.next_look {
             return false;
         }
         if now > self.awaited_until {
-            // Other windows, which go on working.
+            // These files belong to windows that are still in use.
             self.awaited.clear();
             return false;
         }

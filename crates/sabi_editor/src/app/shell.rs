@@ -28,14 +28,14 @@ pub(crate) struct Shell {
     folder: Option<PathBuf>,
     /// Settings as they were saved last.
     saved_settings: serde_json::Value,
-    /// Settings that could not be saved, which was reported: only others are tried.
+    /// Settings whose save failed, which was reported. They are not saved again until they change.
     unsaved_settings: Option<serde_json::Value>,
     pub(crate) theme: Arc<Theme>,
     pub(crate) keys: KeyMap,
     pub(crate) keyboard: Keyboard,
     pub(crate) dock: Dock,
     pub(crate) notices: Notices,
-    /// Device that the window is drawn with; none where it is only laid out.
+    /// Device that the window is drawn with; `None` where the window is only laid out.
     pub(crate) render: Option<RenderState>,
     /// Title that the system shows for the window.
     pub(super) title: String,
@@ -45,7 +45,7 @@ pub(crate) struct Shell {
 }
 
 impl Shell {
-    /// A window with the settings in a folder.
+    /// Creates a window with the settings of a folder.
     pub(crate) fn new(folder: Option<PathBuf>, context: &Context, render: Option<RenderState>) -> Shell {
         let (settings, fault) = Settings::load(folder.as_deref());
         let (keys, faults) = KeyMap::new(settings.input_preset, &settings.keys);
@@ -72,27 +72,28 @@ impl Shell {
         }
     }
 
-    /// Shows a sentence for a while.
+    /// Shows a notice that disappears after a while.
     pub(crate) fn notify(&mut self, sentence: impl Into<String>) {
         self.notices.notify(sentence);
     }
 
-    /// Shows why something has failed, until that is read.
+    /// Shows an error until the user closes it.
     pub(crate) fn fail(&mut self, sentence: impl Into<String>) {
         self.notices.fail(Work::Other, sentence);
     }
 
-    /// Shows why something cannot be done for a while. Returns the value if it can.
+    /// Shows a refusal as a notice that disappears after a while. Returns the value if there is one.
     pub(crate) fn allow<T>(&mut self, result: Result<T, impl ToString>) -> Option<T> {
         result.map_err(|refused| self.notices.notify(refused.to_string())).ok()
     }
 
-    /// Shows the sentence of an error until it is read. Returns the value if there is none.
+    /// Shows an error until the user closes it. Returns the value if there is no error.
     pub(crate) fn report<T>(&mut self, result: Result<T, impl ToString>) -> Option<T> {
         self.report_on(Work::Other, result)
     }
 
-    /// Shows the sentence of an error of some work until it is read or the work succeeds. Returns the value if there is none.
+    /// Shows an error of some work until the user closes it or the work succeeds. Returns the value if there is no
+    /// error.
     pub(crate) fn report_on<T>(&mut self, work: Work, result: Result<T, impl ToString>) -> Option<T> {
         match result {
             Ok(value) => {
@@ -200,7 +201,7 @@ fn apply_looks(context: &Context, theme: &Theme, scale: f32) {
     egui_phosphor::add_to_fonts(&mut fonts, egui_phosphor::Variant::Regular);
     context.set_fonts(fonts);
     theme.apply(context);
-    // Sabi has commands for this, whose keys can be changed and whose effect is saved.
+    // Sabi has its own commands for zooming, whose keys can be changed and whose effect is saved.
     context.options_mut(|options| options.zoom_with_keyboard = false);
     context.set_zoom_factor(scale);
 }

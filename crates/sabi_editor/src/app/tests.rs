@@ -190,7 +190,7 @@ impl Window {
         self.harness.query_all_by_label_contains(part).next().is_some()
     }
 
-    /// Sentence about the fault of a node, by its id in the evaluation, as the window says it.
+    /// Sentence about the fault of a node, by its id in the evaluation, as the window shows it.
     fn fault_of(&self, node: &str) -> String {
         let fault = self.editor().evaluation.faults.of(node).expect("a sentence");
         node_paths::with_titles(self.document(), fault)
@@ -231,7 +231,7 @@ fn folders_in(folder: &Path) -> Folders {
     }
 }
 
-/// The folder that holds those of a window.
+/// Parent folder of the folders of a window.
 fn beside(folders: &Folders) -> &Path {
     let settings = folders.settings.as_deref().and_then(Path::parent);
     settings.expect("a folder for settings")
@@ -260,7 +260,7 @@ fn open(session: Session, folders: Folders, model: PathBuf, handover: Handover) 
         // One sample, so that pictures are quick.
         editor.views.model.shot.samples = 1;
         if editor.shell.settings.layout.is_none() {
-            // Most tests look at the texture as well. Before the first frame, so that places on the screen hold from then on.
+            // Most tests need the 2D view as well. Set before the first frame, because it changes places on the screen.
             editor.shell.dock.arrange(Workspace::Texture);
         }
         editor

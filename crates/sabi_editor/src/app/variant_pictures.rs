@@ -13,7 +13,7 @@ use crate::dock::Panel;
 /// Time without a new picture after which the model is at rest.
 const REST: Duration = Duration::from_millis(400);
 
-/// Variant that is shown, and the picture of the model that is waited for.
+/// Shown variant whose picture is awaited.
 #[derive(Default)]
 pub(super) struct AwaitedPicture {
     /// Text that identifies the variant.
@@ -25,7 +25,7 @@ pub(super) struct AwaitedPicture {
 }
 
 impl Editor {
-    /// Returns whether the picture of the model is that of the graph's outputs, as far as nothing is being evaluated or drawn.
+    /// Returns whether the model shows the graph's outputs while nothing is being evaluated or drawn.
     pub(super) fn shows_outputs_at_rest(&self) -> bool {
         let document = &self.documents.document;
         let is_at_work = self.evaluation.is_busy() || self.documents.is_dragging;

@@ -1,4 +1,4 @@
-//! The menus of what holds for the whole document: size, lengths and seed.
+//! The menus of the settings of the whole document: size, lengths and seed.
 
 use egui::containers::menu::MenuButton;
 use egui::{Button, DragValue, Id, RichText, Ui, UiBuilder};
@@ -10,7 +10,7 @@ use crate::action::Action;
 use crate::context::ViewContext;
 use crate::theme::type_size;
 
-/// Sizes that are offered to work at.
+/// Texture sizes that are offered for editing.
 pub(crate) const SIZES: [u32; 5] = [256, 512, 1024, 2048, 4096];
 
 /// Largest of them.

@@ -153,7 +153,7 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     });
 }
 
-/// Name of the graph's file, with a mark where the file does not hold the graph as it is.
+/// Name of the graph's file, with a mark if there are unsaved changes.
 pub(crate) fn marked_name(document: &OpenDocument, is_dirty: bool) -> String {
     let mark = if is_dirty { " •" } else { "" };
     let name = document.session.file().map_or("untitled".into(), file_name);

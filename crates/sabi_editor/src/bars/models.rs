@@ -55,7 +55,7 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
 fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let requested = context.evaluation.model.file();
     let known = context.models.iter().map(PathBuf::as_path);
-    // A model joins the list once it could be read, and has its place there from the beginning.
+    // A model joins the list once it was read, but is shown at its place there from the beginning.
     let new = (!known.clone().any(|model| model == requested)).then_some(requested);
     let mut models: Vec<&Path> = known.chain(new).collect();
     let room = ui.available_width() - OTHER_BUTTONS;
@@ -175,7 +175,7 @@ fn beside_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
     }
 }
 
-/// Interface of a model that can be shown beside the main one.
+/// Check box of a model that can be shown beside the main one.
 fn beside_entry(ui: &mut Ui, context: &ViewContext<'_>, model: &Path, actions: &mut Vec<Action>) {
     let is_beside = context.row.contains(model);
     let mut wanted = is_beside;
@@ -203,7 +203,7 @@ fn options(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     button.on_hover_text("Import settings: up axis, UVs, scale, parts");
 }
 
-/// Menu of what the file of a model leaves open.
+/// Menu of the import options of a model.
 fn import_menu(ui: &mut Ui, now: &ImportOptions, parts: &[FilePart], actions: &mut Vec<Action>) {
     let mut wanted = now.clone();
     ui.label("Up axis");
@@ -290,7 +290,7 @@ fn part_list(ui: &mut Ui, parts: &[FilePart]) -> Option<PartChoice> {
         .show_rows(ui, height, names.len(), |ui, rows| {
             for name in &names[rows] {
                 let mut is_taken = taken.contains(name);
-                // The last one stays: a model has a part.
+                // At least one part stays: a model without parts cannot be shown.
                 let is_last = is_taken && taken.len() == 1;
                 let entry = ui.add_enabled(!is_last, Checkbox::new(&mut is_taken, *name));
                 if entry.changed() {
@@ -307,7 +307,7 @@ fn part_list(ui: &mut Ui, parts: &[FilePart]) -> Option<PartChoice> {
     Some(choice_of(&names, &taken, &usual))
 }
 
-/// The shortest choice that takes some of the parts, of which the usual ones are taken without any.
+/// Shortest choice that gives the `taken` parts, where an empty choice gives the `usual` ones.
 fn choice_of(names: &[&str], taken: &BTreeSet<&str>, usual: &BTreeSet<&str>) -> PartChoice {
     let listed = |is_listed: &dyn Fn(&str) -> bool| -> Vec<String> {
         let names = names.iter().filter(|name| is_listed(name));

@@ -35,7 +35,8 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let summary = context.evaluation.gpu().summary();
     ui.label(quiet(format!("{} ({})", summary.name, summary.kind)));
     if context.evaluation.is_busy() {
-        // Drawn anew twice a second: an animation would draw the whole window in every frame, at the cost of the evaluation.
+        // Drawn again twice a second: an animation would draw the whole window in every frame, at the cost of the
+        // evaluation.
         ui.ctx().request_repaint_after(REDRAWN_AFTER);
         let activity = context.evaluation.activity();
         let text = activity.map_or_else(|| "Evaluating".to_owned(), |activity| activity_text(&activity));

@@ -1,4 +1,5 @@
-//! A decal that is dragged out: set down where the drag begins, upright on the screen, and turned and sized by its way.
+//! A decal that is laid by a drag, which begins at its middle, and turns and sizes it. A click lays it upright on the
+//! screen.
 
 use egui::{Pos2, Vec2};
 use glam::DVec3;
@@ -8,20 +9,21 @@ use sabi_engine::paint::{Brush, Site, StrokePoint, rightward};
 use super::Canvas;
 use crate::settings::brush::BrushChoices;
 
-/// Way of a drag below which it is a click, points.
+/// Length of a drag below which it is a click, in points.
 const CLICK: f32 = 6.0;
 /// Least half of the longer side of a decal that a click sets down, points on the screen.
 const LEAST: f32 = 60.0;
-/// Way on the surface by which the scale of the screen is found, as a share of the model's largest side.
+/// Distance on the surface that is measured on the screen to find its scale, as a share of the model's largest side.
 const PROBE: f64 = 1e-3;
 
 /// A decal under the pointer.
 pub(super) struct Decal {
     /// Place of its middle on the screen.
     middle: Pos2,
-    /// Ways on the screen for one model unit to its right and upward; none where the view does not show them.
+    /// Vectors on the screen of one model unit to the right and upward, in points; `None` where the view does not show
+    /// them.
     axes: Option<[Vec2; 2]>,
-    /// Way of the drag.
+    /// Vector of the drag, in points.
     way: Vec2,
 }
 
@@ -90,7 +92,7 @@ pub(super) fn sized(
     }
 }
 
-/// Ways on the screen for one model unit to the right and upward of a decal.
+/// Vectors on the screen of one model unit to the right and upward of a decal, in points.
 pub(super) fn axes_on_screen(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint) -> Option<[Vec2; 2]> {
     let normal = DVec3::from(placed.normal.map(f64::from));
     let right = rightward(normal);
@@ -109,8 +111,8 @@ pub(super) fn axes_on_screen(model: &LiveModel, canvas: &impl Canvas, placed: &S
     Some([axis(right)?, axis(normal.cross(right))?])
 }
 
-/// Length of a way on the screen in model units, and its turn from the right, degrees counter-clockwise; none where the surface is
-/// seen from its edge.
+/// Length of a vector on the screen in model units, and its angle from the right in degrees, counterclockwise; `None`
+/// where the surface is seen from its edge.
 pub(super) fn turn_of([right, up]: [Vec2; 2], way: Vec2) -> Option<[f32; 2]> {
     let cross = |a: Vec2, b: Vec2| a.x * b.y - a.y * b.x;
     let area = cross(right, up);

@@ -15,18 +15,19 @@ use crate::action::{Action, PaintAction};
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 10.0;
-/// Distance of what is seen at the middle of a decal from it, from which on it is hidden, as a share of the model's largest side.
+/// Distance between the middle of a decal and the visible surface there from which on the decal is hidden, as a share
+/// of the model's largest side.
 const HIDDEN: f64 = 0.01;
 /// Least size of a decal, as a share of the model's largest side.
 const LEAST: f64 = 0.002;
 
 /// Handles of a decal on the screen.
 pub(crate) struct Handles {
-    /// Its middle, which moves it.
+    /// Middle of the decal, which moves it.
     pub(crate) middle: Pos2,
-    /// The middle of its right side, which turns and sizes it.
+    /// The middle of the decal's right side, which turns and sizes it.
     pub(crate) side: Pos2,
-    /// Its corners.
+    /// Corners of the decal.
     pub(crate) corners: [Pos2; 4],
 }
 
@@ -40,19 +41,19 @@ enum Part {
 /// A decal that is moved, or turned and sized.
 pub(super) struct HeldDecal {
     pub(super) node: NodeId,
-    /// Versions of the node's strokes before it.
+    /// Versions of the node's strokes before the drag.
     before: String,
     model: Arc<LiveModel>,
     stroke: Arc<Stroke>,
     part: Part,
     /// Half of its width, in radii.
     half_width: f32,
-    /// Way from the pointer to the handle, so that it does not jump.
+    /// Vector from the pointer to the handle, so that the handle does not jump.
     grip: Vec2,
 }
 
 impl Handles {
-    /// The handles of a decal; none where the view does not show it. `half_sides` are those of its picture, in radii.
+    /// The handles of a decal; `None` where the view does not show it. `half_sides` are those of its picture, in radii.
     pub(crate) fn of(
         model: &LiveModel,
         canvas: &impl Canvas,
@@ -61,7 +62,7 @@ impl Handles {
     ) -> Option<Handles> {
         let placed = stroke.points.first()?;
         let middle = canvas.place(model, placed.site)?;
-        // Only in a view that draws them, and not through what lies before the decal.
+        // Only a view with an eye draws handles, and not through a surface in front of the decal.
         canvas.eye(model)?;
         let seen = canvas.site(model, middle)?;
         let distance = seen.position.distance(placed.site.position);

@@ -16,17 +16,19 @@ use crate::action::{Action, PaintAction};
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 10.0;
-/// Way from the place by which strokes are held to the handle that moves them, and to the one that turns them, points.
+/// Vectors from the place by which the strokes are held to the handle that moves them and to the one that turns them,
+/// in points.
 const MOVE: Vec2 = vec2(0.0, -34.0);
 const TURN: Vec2 = vec2(40.0, -34.0);
-/// Distance of what is seen at that place from it, from which on it is hidden, as a share of the model's largest side.
+/// Distance between that place and the visible surface there from which on the place is hidden, as a share of the
+/// model's largest side.
 const HIDDEN: f64 = 0.01;
 
 /// Handles of the marked strokes on the screen.
 pub(crate) struct Mover {
-    /// Place by which the strokes are held: the one of theirs that is nearest to their middle.
+    /// Place by which the strokes are held: the point of them that is nearest to their middle.
     held: StrokePoint,
-    /// That place on the screen.
+    /// Place of `held` on the screen.
     middle: Pos2,
 }
 
@@ -40,7 +42,7 @@ enum Handle {
 /// Strokes that are moved or turned.
 pub(super) struct HeldStrokes {
     pub(super) node: NodeId,
-    /// Versions of the node's strokes before it.
+    /// Versions of the node's strokes before the drag.
     before: String,
     model: Arc<LiveModel>,
     strokes: Vec<Arc<Stroke>>,
@@ -50,7 +52,7 @@ pub(super) struct HeldStrokes {
 }
 
 impl Mover {
-    /// The handles of some strokes; none where the view does not show them. A single decal has its own.
+    /// The handles of some strokes; `None` where the view does not show them. A single decal has its own.
     pub(crate) fn of(model: &LiveModel, canvas: &impl Canvas, strokes: &[Arc<Stroke>]) -> Option<Mover> {
         if let [only] = strokes
             && only.area.is_single()
@@ -162,7 +164,7 @@ impl HeldStrokes {
         })))
     }
 
-    /// Steps that carry a stroke along; none for one that would find no place.
+    /// Steps that move a stroke; none if the stroke would leave the surface.
     fn laid(&self, stroke: &Stroke, to: &StrokePoint, turn_degrees: f32) -> Vec<Step> {
         let turn = f64::from(turn_degrees);
         let (laid, _) = on_surface(&self.model, |surface| {

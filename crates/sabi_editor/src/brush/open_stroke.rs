@@ -15,13 +15,13 @@ use crate::action::{Action, PaintAction};
 use crate::pen::PenState;
 use crate::settings::brush::BrushChoices;
 
-/// Distance between two places of a stroke on the screen, points: the model is looked at so often, whatever the mouse reports.
+/// Distance on the screen between two points of a stroke, in points. It does not depend on how often the mouse reports.
 const STEP: f32 = 3.0;
 
 /// A stroke from its first touch on.
 pub(super) struct OpenStroke {
     pub(super) node: NodeId,
-    /// Versions of the node's strokes before it.
+    /// Versions of the node's strokes before this one.
     before: String,
     model: Arc<LiveModel>,
     brush: BrushChoices,
@@ -30,23 +30,23 @@ pub(super) struct OpenStroke {
     pub(super) source: Option<StrokePoint>,
     /// Eye that looks at the model.
     pub(super) eye: Option<Eye>,
-    /// Picture before the view that it is painted through.
+    /// Stencil that it is painted through.
     pub(super) stencil: Option<Arc<Stencil>>,
     points: Vec<StrokePoint>,
-    /// The decal that is dragged out, instead of a way.
+    /// Decal, if the brush lays one instead of a line.
     decal: Option<Decal>,
-    /// Place of the brush on the screen that was looked at last.
+    /// Last place of the brush on the screen at which a surface point was looked up.
     last: Pos2,
-    /// Place of the brush on the screen: where the pointer pulls it to.
+    /// Place of the brush on the screen, to which the pointer has pulled it.
     hand: Pos2,
-    /// Pen there.
+    /// Pen at that place.
     pen: PenState,
-    /// True if the next place begins anew, since the pointer was beside the model.
+    /// True if the next point starts a new run, since the pointer was outside of the model.
     starts: bool,
 }
 
 impl OpenStroke {
-    /// A stroke that begins at a place of the screen with a pen.
+    /// Creates a stroke that begins at a place of the screen with a pen.
     pub(super) fn new(
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
@@ -77,13 +77,14 @@ impl OpenStroke {
         self.hand
     }
 
-    /// The place that it passed last, with the name of its model.
+    /// Last point of the stroke, with the name of its model.
     pub(super) fn last_point(&self) -> Option<(String, StrokePoint)> {
         let last = self.points.last()?;
         Some((self.model.linked.model.stem.clone(), *last))
     }
 
-    /// Has the stroke begin at a place of the model, if that is seen: it goes straight on the screen from there.
+    /// Starts the stroke at a point of the model, if the view shows it. The stroke then runs straight on the screen
+    /// from there.
     pub(super) fn begin_at(&mut self, from: Option<StrokePoint>, canvas: &impl Canvas) {
         let Some((from, place)) = from.and_then(|from| Some((from, canvas.place(&self.model, from.site)?))) else {
             return;
@@ -94,7 +95,7 @@ impl OpenStroke {
         self.starts = false;
     }
 
-    /// Adds places of the pointer; returns the action that lays the stroke if it has changed.
+    /// Adds places of the pointer. Returns the action that lays the stroke, if it has changed.
     pub(super) fn add(&mut self, places: &[(Pos2, PenState)], canvas: &impl Canvas) -> Option<Action> {
         if self.area().is_single() {
             return self.drag_decal(places, canvas);
@@ -118,7 +119,7 @@ impl OpenStroke {
         (self.points.len() > known).then(|| self.lay())
     }
 
-    /// Area that it acts on: strokes that change paint act along their way alone.
+    /// Area that it acts on: strokes that change paint act along their line only.
     pub(super) fn area(&self) -> Area {
         if self.action.adjusts() {
             Area::Way
@@ -127,7 +128,7 @@ impl OpenStroke {
         }
     }
 
-    /// Sets a decal down at the first place, and turns and sizes it by the way of the pointer from there.
+    /// Lays a decal at the first place, and turns and sizes it by the drag from there.
     fn drag_decal(&mut self, places: &[(Pos2, PenState)], canvas: &impl Canvas) -> Option<Action> {
         let (at, _) = places.last()?;
         if self.points.is_empty() {
@@ -141,7 +142,7 @@ impl OpenStroke {
         Some(self.lay())
     }
 
-    /// Looks at the model under a place of the screen.
+    /// Adds the surface point under a place of the screen to the stroke.
     fn look(&mut self, at: Pos2, canvas: &impl Canvas) {
         let point = touched_at(&self.model, canvas, at, self.pen, self.starts);
         if let Some(first) = point.as_ref().filter(|_| self.points.is_empty()) {
@@ -176,7 +177,7 @@ impl OpenStroke {
     }
 }
 
-/// Place of a brush that hangs on a string of this length, once the pointer is at another place.
+/// Place of a brush that the pointer pulls by a string of this length, once the pointer has moved.
 fn pulled(brush: Pos2, pointer: Pos2, length: f32) -> Pos2 {
     let way = pointer - brush;
     let distance = way.length();

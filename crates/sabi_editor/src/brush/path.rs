@@ -15,14 +15,14 @@ use super::{Canvas, PaintSubject};
 use crate::action::{Action, PaintAction};
 use crate::pen::PenState;
 
-/// Way of a drag from which on it pulls handles out of a knot, points.
+/// Length of a drag from which on it pulls handles out of a knot, in points.
 const PULL: f32 = 6.0;
-/// Way of the pointer from which on a press is a drag, points.
+/// Distance of the pointer from its press from which on it is a drag, in points.
 const MOVED: f32 = 2.0;
 /// A knot or handle that is moved.
 pub(super) struct HeldKnot {
     pub(super) node: NodeId,
-    /// Versions of the node's strokes before it.
+    /// Versions of the node's strokes before the press.
     before: String,
     model: Arc<LiveModel>,
     stroke: Arc<Stroke>,
@@ -31,15 +31,15 @@ pub(super) struct HeldKnot {
     path: Path,
     part: Part,
     pressed: Pos2,
-    /// Way from the pointer to the handle, so that it does not jump.
+    /// Vector from the pointer to the handle, so that the handle does not jump.
     grip: Vec2,
-    /// True if it changes the path before the pointer moves.
+    /// True if the press itself changes the path, before the pointer moves.
     lays_at_once: bool,
 }
 
 /// Meaning of a press on a path.
 pub(super) enum Press {
-    /// A knot or handle is moved, or a new knot is there.
+    /// A knot or a handle is held, which may be a new one.
     Hold(HeldKnot),
     /// The path was changed at once.
     Changed(Action),
@@ -55,7 +55,7 @@ pub(super) struct PressKind {
     pub(super) is_second: bool,
     /// True while clicks add knots to the path.
     pub(super) extends: bool,
-    /// True if presses on the way of the path put a knot into it.
+    /// True if a press on the path between two knots inserts a knot.
     pub(super) splits: bool,
 }
 
@@ -215,9 +215,9 @@ impl HeldKnot {
     }
 }
 
-/// Effect of a press on the marked path: on a knot or a handle, or on its way, where a new knot is put into it if `splits`. With Ctrl a knot is
-/// removed, a second click turns it into a corner or back, with Shift handles are pulled out of it. `extends` is true while clicks
-/// add knots to the path: one on the first knot then closes it.
+/// Effect of a press on the marked path: on a knot, on a handle, or between two knots, where a new knot is inserted if
+/// `splits`. With Ctrl a knot is removed, a second click turns it into a corner or back, and with Shift handles are
+/// pulled out of it. While `extends`, clicks add knots to the path, and a click on the first knot closes it.
 pub(super) fn press(
     painted: &PaintSubject,
     model: &Arc<LiveModel>,
@@ -281,7 +281,7 @@ fn mirrored(model: &LiveModel, knot: &Knot, handle: &StrokePoint) -> Option<Stro
     led(model, &knot.place, 2.0 * own - handle.site.position)
 }
 
-/// The point of the surface that a walk from another point to a place in space ends at.
+/// Surface point at which a walk from another one toward a place in space ends.
 fn led(model: &LiveModel, from: &StrokePoint, to: DVec3) -> Option<StrokePoint> {
     on_surface(model, |surface: &PaintSurface<'_>| surface.led(from, to))
 }

@@ -24,7 +24,7 @@ const EDGE_REACH: f64 = 0.04;
 /// Path that clicks add knots to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Extended {
-    /// None: a click begins a new one.
+    /// No path: a click begins a new one.
     #[default]
     None,
     /// The one that was just begun and is marked in the next frame.
@@ -33,7 +33,7 @@ pub(super) enum Extended {
 }
 
 impl BrushTool {
-    /// Keeps adding knots to the marked path until it is another one, or until Enter or Escape ends it.
+    /// Keeps adding knots to the marked path until another one is marked, or until Enter or Escape ends it.
     pub(super) fn follow_marked(&mut self, ui: &Ui, painted: &PaintSubject) {
         let marked = painted.path.as_ref().map(|path| path.id);
         let is_ended = ui.input(|input| input.key_pressed(Key::Enter) || input.key_pressed(Key::Escape));
@@ -51,7 +51,7 @@ impl BrushTool {
         before.is_some_and(|(time, place)| now - time < DOUBLE_CLICK && place.distance(at) < DOUBLE_CLICK_REACH)
     }
 
-    /// Begins what a press does to the marked path, or to a new one. Returns whether it does anything.
+    /// Performs a press on the marked path, or begins a new path. Returns whether the press has an effect.
     pub(super) fn press_path(
         &mut self,
         ui: &Ui,

@@ -1,4 +1,4 @@
-//! A path on the screen: its way, its knots and their handles.
+//! A path on the screen: its line, its knots and their handles.
 
 use egui::{Color32, Painter, Pos2, Rect, StrokeKind, Vec2};
 use glam::DVec3;
@@ -10,31 +10,32 @@ use super::under::on_surface;
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 9.0;
-/// Distance from the way of a path within which a new knot is put into it, points.
+/// Distance from the line of a path within which a press inserts a knot, in points.
 const NEAR_WAY: f32 = 6.0;
-/// Distance of what is seen at a knot from it, from which on it is hidden, as a share of the model's largest side.
+/// Distance between a knot and the visible surface there from which on the knot is hidden, as a share of the model's
+/// largest side.
 const HIDDEN: f64 = 0.01;
-/// Way between two shown places of a path, as a share of the model's largest side.
+/// Distance between two drawn points of a path, as a share of the model's largest side.
 const STEP: f64 = 0.01;
-/// Most places of a path that are shown.
+/// Most points of a path that are drawn.
 const SHOWN_LIMIT: f64 = 2000.0;
 
 /// A path of a stroke on the screen.
 pub(crate) struct ShownPath {
     pub(super) path: Path,
-    /// Its knots with their handles; none for those that are not seen.
+    /// Knots of the path with their handles; `None` for knots that are not seen.
     knots: Vec<Option<ShownKnot>>,
-    /// Ways between its knots.
+    /// Drawn points of the line between two knots, for each such pair.
     spans: Vec<Vec<ShownPlace>>,
 }
 
-/// A place of a way on the screen.
+/// Point of the line on the screen.
 #[derive(Clone, Copy)]
 struct ShownPlace {
     at: Pos2,
     /// True if the surface there faces the eye.
     is_front: bool,
-    /// True if the view shows the way to it from the place before.
+    /// True if the view shows the line from the point before to this one.
     is_joined: bool,
 }
 
@@ -58,7 +59,7 @@ pub(super) enum Part {
 }
 
 impl ShownPath {
-    /// A path as a view shows it; none for other strokes.
+    /// A path as a view shows it; `None` for other strokes.
     pub(crate) fn of(model: &LiveModel, canvas: &impl Canvas, stroke: &Stroke) -> Option<ShownPath> {
         on_surface(model, |surface| {
             let path = relocate(surface, stroke).0.as_path()?;
@@ -103,7 +104,7 @@ impl ShownPath {
         Some((near.0, near.1 - at))
     }
 
-    /// Way between two knots under a place of the screen.
+    /// Index of the pair of knots between which the line is under a place of the screen.
     pub(super) fn span_at(&self, at: Pos2) -> Option<usize> {
         self.spans.iter().position(|span| {
             span.windows(2).any(|pair| {
@@ -160,7 +161,7 @@ fn shown_knot(model: &LiveModel, canvas: &impl Canvas, path: &Path, index: usize
     })
 }
 
-/// Way between two shown places of a path, model units.
+/// Distance between two drawn points of a path, in model units.
 fn step_of(model: &LiveModel, path: &Path) -> f64 {
     let knots = path.knots.windows(2);
     let length: f64 = knots

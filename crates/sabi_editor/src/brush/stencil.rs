@@ -24,9 +24,9 @@ pub(crate) struct ShownStencil {
 
 /// A stencil on the screen.
 pub(crate) struct PlacedStencil {
-    /// Its middle, which moves it.
+    /// Middle of the stencil, which moves it.
     middle: Pos2,
-    /// Ways from the middle to its right side and to its upper one.
+    /// Vectors from the middle to its right side and to its upper side, in points.
     axes: [Vec2; 2],
 }
 
@@ -44,7 +44,7 @@ pub(super) struct HeldStencil {
     part: Part,
     /// Half of the picture's width, as a share of half its longer side.
     half_width: f32,
-    /// Way from the pointer to the handle, so that it does not jump.
+    /// Vector from the pointer to the handle, so that the handle does not jump.
     grip: Vec2,
 }
 

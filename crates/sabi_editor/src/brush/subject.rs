@@ -29,7 +29,7 @@ pub(crate) struct PaintSubject {
     pub(crate) decal: Option<MarkedDecal>,
     /// The stroke that is marked in the list, if it is a single one and has a path.
     pub(crate) path: Option<Arc<Stroke>>,
-    /// Places of the pointer in this frame that a pen gave, in order.
+    /// Places of the pointer in this frame that a pen reported, in order.
     pub(super) pen: Vec<PenPlace>,
     /// All strokes that are marked in the list, the lowest first.
     pub(crate) marked: Vec<Arc<Stroke>>,
@@ -64,7 +64,7 @@ impl PaintSubject {
         })
     }
 
-    /// The stencil before a model, as a stroke keeps it; none in a view of its texture.
+    /// The stencil as a stroke keeps it, projected onto a model; `None` in a view of its texture.
     pub(super) fn stencil_before(&self, model: &LiveModel, canvas: &impl Canvas) -> Option<Arc<Stencil>> {
         let shown = self.stencil.as_ref()?;
         let stencil = Stencil {
@@ -99,7 +99,7 @@ fn marked_strokes(context: &ViewContext<'_>, node: &NodeId) -> Vec<Arc<Stroke>> 
     shown.cloned().collect()
 }
 
-/// The stroke that is marked alone.
+/// The marked stroke, if it is a single one.
 fn only(marked: &[Arc<Stroke>]) -> Option<Arc<Stroke>> {
     match marked {
         [only] => Some(only.clone()),

@@ -50,7 +50,7 @@ pub(crate) fn font_bytes(file: &Path) -> Result<Vec<u8>, String> {
         return Err(format!("{name} is no font file; choose a .ttf, .otf or .ttc file"));
     }
     let bytes = fs::read(file).map_err(|error| format!("{} cannot be read: {error}", file.display()))?;
-    // The layout ends the program where a font cannot be read.
+    // The layout would panic at a font that cannot be read.
     match skrifa::FontRef::from_index(&bytes, 0) {
         Ok(_) => Ok(bytes),
         Err(error) => Err(format!(
@@ -59,7 +59,7 @@ pub(crate) fn font_bytes(file: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Cover of each pixel by a text.
+/// Coverage of each pixel by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextPicture {
     /// Pixels across and down.
@@ -68,7 +68,7 @@ pub(crate) struct TextPicture {
     pub(crate) alpha: Vec<u8>,
 }
 
-/// The picture of a text in a font, cut to its letters; none for a text without any.
+/// The picture of a text in a font, cut to its letters; `None` for a text without any.
 ///
 /// # Errors
 /// A sentence, where the file of the font cannot be read.
@@ -110,7 +110,7 @@ fn drawn(galley: &Arc<Galley>, letters: &ColorImage) -> TextPicture {
     picture
 }
 
-/// The part of a picture that is not empty, with a margin; none where it is all empty.
+/// The part of a picture that is not empty, with a margin; `None` where it is all empty.
 fn cut(picture: &TextPicture) -> Option<TextPicture> {
     let [width, height] = picture.size;
     let is_used = |x: usize, y: usize| picture.alpha[y * width + x] > 0;
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_text_stays_within_the_largest_picture_and_none_is_none() {
+    fn a_long_text_stays_within_the_largest_picture_and_an_empty_one_has_none() {
         let long = plain(&"WARNING ".repeat(40)).expect("letters");
         assert!(long.size[0] < 8192, "{:?}", long.size);
         assert_eq!(plain("   "), None);
@@ -166,7 +166,7 @@ mod tests {
         fs::write(&file, hack).expect("a writable folder");
         let width = |text: &str, font: &TextFont| picture_of(text, font).expect("a font").expect("letters").size[0];
         for font in [TextFont::monospace(), TextFont::of_file(file.clone())] {
-            // All letters of one width, unlike those of the window.
+            // In this font all letters have one width, unlike in that of the window.
             let [narrow, wide] = ["iMMi", "MiiM"].map(|text| width(text, &font));
             assert!(narrow.abs_diff(wide) < 120, "{font:?}: {narrow} {wide}");
             assert!(
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_font_is_refused_with_a_sentence() {
+    fn a_file_that_is_no_font_is_refused_with_a_sentence() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("noise.ttf");
         fs::write(&file, [7; 500]).expect("a writable folder");

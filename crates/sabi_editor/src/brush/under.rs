@@ -9,7 +9,7 @@ use super::Canvas;
 use super::decal::{axes_on_screen, turn_of};
 use crate::pen::PenState;
 
-/// The point of a stroke under a pen at a place of the screen, and whether a run starts there.
+/// Point of a stroke under a pen at a place of the screen. With `starts`, a new run starts there.
 pub(super) fn touched_at(
     model: &LiveModel,
     canvas: &impl Canvas,
@@ -24,7 +24,7 @@ pub(super) fn touched_at(
     Some(StrokePoint { shaft, ..point })
 }
 
-/// The point of a stroke under a place of the screen, with its touch and whether a run starts there.
+/// Point of a stroke under a place of the screen, with its touch. With `starts`, a new run starts there.
 pub(super) fn point_at(
     model: &LiveModel,
     canvas: &impl Canvas,
@@ -43,8 +43,9 @@ pub(super) fn on_surface<T>(model: &LiveModel, call: impl FnOnce(&PaintSurface<'
     call(&PaintSurface::new(mesh, index))
 }
 
-/// Shaft of a pen over a place of the model that leans on the screen by angles to the right and downward, degrees. It stands on the
-/// surface as it stands on the screen: upright there is upright here, and it leans along the surface in the direction that is seen.
+/// Shaft of a pen over a place of the model, from its tilt on the screen to the right and downward, in degrees. The
+/// tilt is transferred to the surface: a pen that is upright on the screen is along the normal, and a tilted one leans
+/// along the surface in the direction that is seen.
 fn shaft_over(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint, tilt_degrees: [f32; 2]) -> Option<Shaft> {
     let (way, angle_degrees) = lean(tilt_degrees)?;
     let turn = axes_on_screen(model, canvas, placed).and_then(|axes| turn_of(axes, way));
@@ -57,8 +58,8 @@ fn shaft_over(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint, til
     on_surface(model, |surface| surface.shaft(placed.site, toward, angle_degrees))
 }
 
-/// Direction on the screen in which a pen leans, and its angle from upright, degrees: the two angles are those of its shadows in the
-/// planes across.
+/// Direction on the screen in which a pen leans, and its angle from upright in degrees. The two angles of a tilt are
+/// those of the pen's projections onto the two upright planes.
 fn lean(tilt_degrees: [f32; 2]) -> Option<(Vec2, f32)> {
     let [x, y] = tilt_degrees.map(|angle| angle.to_radians().tan());
     let way = vec2(x, y);

@@ -162,8 +162,8 @@ impl AddMenu {
         self.purpose.pending = is_connected.then_some(PendingWire::From(selected));
     }
 
-    /// Shows the list of nodes, by section while nothing is searched, from its top where it `is_other` than before. Returns the
-    /// index of the clicked node.
+    /// Shows the list of nodes, in sections while nothing is searched, and scrolled to its top if the list `is_other`
+    /// than before. Returns the index of the clicked node.
     fn list(&mut self, ui: &mut Ui, theme: &Theme, found: &[&Candidate], is_other: bool) -> Option<usize> {
         let is_sectioned = self.query.trim().is_empty();
         let mut area = egui::ScrollArea::vertical()
@@ -276,7 +276,8 @@ impl AddMenu {
     fn action(&self, document: &OpenDocument, chosen: &Candidate) -> Action {
         let purpose = self.purpose.clone();
         let new = chosen.new.clone();
-        // The end of a wire is where it was dropped; what is inserted into one gets room there.
+        // A node at the end of a wire stays where the wire was dropped, and one that is inserted into a wire is given
+        // room there.
         let is_dropped = purpose.into.is_some() || purpose.pending.is_some() && purpose.selected.is_none();
         match purpose.instead {
             Some(node) => Action::Replace { node, by: new },

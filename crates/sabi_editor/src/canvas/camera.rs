@@ -34,9 +34,9 @@ pub(crate) struct Camera {
 
 /// Nodes of the shown graph before an edit.
 pub(crate) struct NodesBefore {
-    /// Those that are wholly in view.
+    /// Nodes that are wholly in view.
     seen: BTreeSet<NodeId>,
-    /// All others.
+    /// All other nodes.
     others: BTreeSet<NodeId>,
 }
 
@@ -72,7 +72,7 @@ impl Camera {
                 None => self.is_fitted = false,
             }
         }
-        // A view that nobody has moved since then goes along with the shape of the panel.
+        // A fitted view that was not moved since is fitted again when the panel has another size.
         let is_reshaped = |(view, size): (View, Vec2)| view == self.view && size != panel.size();
         if !self.is_fitted || !is_other && self.fitted.is_some_and(is_reshaped) {
             self.frame_all(document);
@@ -95,7 +95,7 @@ impl Camera {
         self.frame_rects(ids.filter_map(|id| node_rect(document, id)));
     }
 
-    /// Moves the view to a node that was added outside of it; to all nodes where these are the first ones.
+    /// Moves the view to a node that was added outside of it, or to all nodes if these are the first ones.
     pub(crate) fn reveal(&mut self, document: &OpenDocument, id: &NodeId, are_first: bool) {
         let (Some(panel), Some(rect)) = (self.panel, node_rect(document, id)) else {
             return;
@@ -109,7 +109,7 @@ impl Camera {
         }
     }
 
-    /// Nodes before an edit that adds some wherever there is room for them, and moves others out of their way.
+    /// Nodes before an edit that places new ones where there is room, and moves others out of their way.
     pub(crate) fn before_addition(&self, document: &OpenDocument) -> NodesBefore {
         let seen = self.panel.map(|panel| self.view.visible_rect(panel));
         let ids = document.graph().ids().cloned();
@@ -120,7 +120,7 @@ impl Camera {
         NodesBefore { seen, others }
     }
 
-    /// Zooms to the nodes that were added since, and those that were seen before, where one of them is not in view.
+    /// If a node that was added since, or one that was in view before, is out of view, zooms to all of these.
     pub(crate) fn keep_in_view(&mut self, document: &OpenDocument, before: &NodesBefore) {
         let Some(panel) = self.panel else { return };
         let ids = || document.graph().ids();
@@ -168,7 +168,7 @@ impl Camera {
             .map_or([0.0; 2], |panel| self.view.place(panel, panel.center()))
     }
 
-    /// Place on the canvas at a place of the screen; none outside of the panel.
+    /// Place on the canvas at a place of the screen; `None` outside of the panel.
     pub(crate) fn place_at(&self, at: Pos2) -> Option<[f32; 2]> {
         let panel = self.panel.filter(|panel| panel.contains(at))?;
         Some(self.view.place(panel, at))

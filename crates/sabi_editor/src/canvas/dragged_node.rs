@@ -20,7 +20,7 @@ const CATCH: f32 = 40.0;
 /// Scrolling at the edges of the canvas during a drag from another panel.
 #[derive(Default)]
 pub(super) struct EdgeScroll {
-    /// True if the drag has been away from the edges, which it crosses on its way in.
+    /// True once the drag has been away from the edges, which it crosses when it enters.
     was_inside: bool,
 }
 
@@ -59,7 +59,7 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, theme: &Theme, document: &OpenDocum
         let painter = painter.with_clip_rect(panel);
         wires::draw(&painter, theme, &wire, zoom, wires::WireLook::Highlighted);
     }
-    // Beside the canvas it is a title alone, which leaves what it is dropped on in sight.
+    // Outside of the canvas only the title is drawn, so that the target of the drop stays visible.
     let picture = if camera.place_at(at).is_some() {
         PICTURE_SIDE
     } else {
@@ -79,7 +79,8 @@ pub(super) fn draw(canvas: &Canvas, ui: &Ui, theme: &Theme, document: &OpenDocum
     ui.set_cursor_icon(egui::CursorIcon::Grabbing);
 }
 
-/// Node at a place of the screen on whose material a new node lies as a layer; of several the one that is drawn above the others.
+/// Node at a place of the screen on whose material a new node is added as a layer; of several, the one that is drawn on
+/// top.
 pub(super) fn node_at(canvas: &Canvas, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<NodeId> {
     let panel = canvas.camera.panel.filter(|panel| panel.contains(at))?;
     let is_at = |id: &NodeId| {

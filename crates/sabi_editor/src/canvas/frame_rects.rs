@@ -7,7 +7,7 @@ use sabi_editing::frames::{FRAME_AROUND, FRAME_STRIP};
 use super::camera::Camera;
 use super::node_rect;
 
-/// Rectangle of a frame on the canvas; none where none of its nodes exists.
+/// Rectangle of a frame on the canvas; `None` where none of its nodes exists.
 pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
     let frame = document.graph().frames().get(id)?;
     let rects = frame.nodes.iter().filter_map(|id| node_rect(document, id));

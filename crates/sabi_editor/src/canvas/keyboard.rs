@@ -92,8 +92,8 @@ fn neighbor(document: &OpenDocument, key: ArrowKey) -> Option<NodeId> {
         .map(|(_, id)| id.clone())
 }
 
-/// Port to the left or right of another one: the other end of its wire, or the first port on the other side of its node.
-/// None if it has no wire on that side.
+/// Port to the left or right of another one: the other end of its wire, or the first port on the other side of its
+/// node. `None` if it has no wire on that side.
 fn port_beside(document: &OpenDocument, port: &PortRef, key: ArrowKey) -> Option<PortRef> {
     let first = |is_input: bool| {
         let ports = port_refs::ports_of(document, port.node()).into_iter();

@@ -354,7 +354,7 @@ mod tests {
         found.replace((Vec::new(), Rect::NOTHING))
     }
 
-    /// Checks that ports and size are where they are said to be.
+    /// Checks that ports and size are where `node_size` says.
     fn check(document: &OpenDocument, id: &NodeId, zoom: f32, how: NodeRows) {
         let interface = document.interface(id).expect("a node");
         let rows = rows_of(document, id).expect("a node");

@@ -27,7 +27,7 @@ pub(super) struct DraggedNote {
 
 /// Text of a note while it is typed.
 pub(super) struct NoteText {
-    /// The note; none for one that is yet to be added.
+    /// The note; `None` for one that is yet to be added.
     id: Option<String>,
     /// Its upper left corner, canvas points.
     place: [f32; 2],
@@ -149,8 +149,8 @@ fn paint(ui: &Ui, theme: &Theme, note: &Note, corner: Pos2, width: f32, zoom: f3
     rect
 }
 
-/// Shows the field in which a note is written. It ends by a click beside it, Ctrl+Enter or Escape, and what
-/// was written stays: undo takes it back.
+/// Shows the field in which a note is written. A click beside it, Ctrl+Enter and Escape close it and keep the text,
+/// which can be undone.
 pub(super) fn write(open: &mut Option<NoteText>, ui: &Ui, camera: &Camera, actions: &mut Vec<Action>) {
     let (Some(writing), Some(panel)) = (open.as_mut(), camera.panel) else {
         return;

@@ -105,7 +105,7 @@ fn unexpose(place: &PortRef, name: &str) -> PortCommand {
     }
 }
 
-/// Inputs whose wires end or begin at a port.
+/// Inputs of the wires that end or begin at a port.
 fn wires_at(document: &OpenDocument, place: &PortRef) -> Vec<SlotRef> {
     match place {
         PortRef::Input(slot) => connections::wire_into(document, slot)

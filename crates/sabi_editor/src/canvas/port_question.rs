@@ -1,4 +1,4 @@
-//! The question which input of a node a wire that was dropped on it leads to: its inputs, and the parameters that a mask multiplies.
+//! The question to which input of a node a dropped wire leads: plain inputs, and parameters that a mask multiplies.
 
 use egui::{Area, Frame, Id, Key, Order, Pos2, Rect, ScrollArea, Ui, WidgetInfo, WidgetType, pos2};
 use sabi_editing::node_size::{own_knobs, rows_of};

@@ -22,7 +22,7 @@ pub(super) type Graph = egui_node_graph::Graph<NodeSummary, CarriedType, Row>;
 /// Id of a node in the canvas crate.
 pub(super) type Key = egui_node_graph::NodeId;
 
-/// Type that a port carries; none for any.
+/// Type that a port carries; `None` for any type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CarriedType(pub(super) Option<PortType>);
 
@@ -44,7 +44,7 @@ impl UserResponseTrait for NoResponse {}
 
 impl DataTypeTrait<RowContext> for CarriedType {
     fn data_type_color(&self, _: &mut RowContext) -> Color32 {
-        // This crate draws the dots.
+        // The canvas draws the dots itself.
         Color32::TRANSPARENT
     }
 
@@ -146,7 +146,8 @@ pub(super) struct Snapshot {
     of: Option<(Body, u64, u64)>,
 }
 
-/// Adds the nodes of the shown graph whose values edits set. Returns whether they change nothing else that the copy has.
+/// Adds the nodes of the shown graph whose values are set by edits to `nodes`. Returns whether the edits change nothing
+/// else in the copy.
 fn set_only_values<'a>(edits: &'a [Edit], shown: &Body, nodes: &mut BTreeSet<&'a NodeId>) -> bool {
     edits.iter().all(|edit| match edit {
         Edit::Batch(edits) => set_only_values(edits, shown, nodes),
@@ -213,7 +214,7 @@ impl Snapshot {
         self.copy_wires(document);
     }
 
-    /// Takes over values if nothing else has changed, as while a slider moves; returns whether that was so.
+    /// Updates only values, if nothing else has changed, as while a slider moves. Returns whether that was enough.
     fn follow_values(&mut self, document: &OpenDocument) -> bool {
         let known = self
             .of

@@ -8,7 +8,8 @@ use super::node_summary::NodeSummary;
 /// Width of a tooltip, points.
 const WIDEST: f32 = 280.0;
 
-/// Shows the tooltip of a node beside it while the pointer rests over a part of it. Below it would cover the node.
+/// Shows the tooltip of a node beside it while the pointer rests over a part of it. A tooltip below the pointer would
+/// cover the node.
 pub(super) fn show(ui: &Ui, context: &CanvasContext<'_>, shown: &NodeSummary, node: &Response, part: Rect) {
     let part = ui.interact(part, node.id.with("tip"), Sense::hover());
     let mut tip = Tooltip::for_enabled(&part);

@@ -64,7 +64,8 @@ impl View {
         self.pan += pointer - moved;
     }
 
-    /// Pans by as little as shows a rectangle of the canvas; of one that is larger than the panel, its upper left corner.
+    /// Pans by the least distance that shows a rectangle of the canvas, or its upper left corner if it is larger than
+    /// the panel.
     pub(crate) fn pan_to(&mut self, panel: Rect, rect: Rect) {
         let (shown, room) = (
             self.screen_rect(panel, rect),
@@ -72,7 +73,7 @@ impl View {
         );
         let low = (room.min - shown.min).max(Vec2::ZERO);
         let high = (room.max - shown.max).min(Vec2::ZERO);
-        // At most one of them is there on each axis, unless the rectangle is larger.
+        // On each axis at most one of both is not zero, unless the rectangle is larger than the panel.
         self.pan += vec2(
             if low.x > 0.0 {
                 low.x
@@ -124,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_under_the_pointer_stays_there_while_zooming() {
+    fn zooming_keeps_the_place_under_the_pointer() {
         let mut view = View::default();
         let pointer = pos2(333.0, 222.0);
         let held = view.place(PANEL, pointer);
@@ -136,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pan_shows_what_was_outside_and_keeps_the_zoom() {
+    fn a_pan_shows_a_rectangle_that_was_outside_and_keeps_the_zoom() {
         for corner in [[-900.0, 20.0], [2000.0, -700.0], [100.0, 3000.0], [10.0, 10.0]] {
             let rect = Rect::from_min_size(pos2(corner[0], corner[1]), vec2(200.0, 150.0));
             let mut view = View::default();
@@ -154,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_framed_is_seen_whole_and_in_the_middle() {
+    fn a_framed_rectangle_is_fully_in_view_and_centered() {
         for size in [[10.0, 10.0], [4000.0, 200.0], [100.0, 4000.0]] {
             let rect = Rect::from_min_size(pos2(-300.0, 700.0), vec2(size[0], size[1]));
             let mut view = View::default();

@@ -34,7 +34,7 @@ pub(super) fn name_of(document: &OpenDocument, from: &OutputRef) -> String {
 /// End of a named wire.
 struct Tag {
     from: OutputRef,
-    /// Input that reads it; none at its source.
+    /// Input that reads it; `None` at its source.
     to: Option<SlotRef>,
     /// Place of the port on the canvas.
     port: [f32; 2],

@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_cuts_what_it_crosses_only() {
+    fn a_line_cuts_only_the_wires_that_it_crosses() {
         let wire = wire([pos2(0.0, 0.0), pos2(300.0, 0.0)]);
         assert!(wire.is_crossed([pos2(150.0, -20.0), pos2(160.0, 20.0)]));
         assert!(

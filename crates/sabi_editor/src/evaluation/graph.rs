@@ -1,4 +1,4 @@
-//! What the evaluation is yet to learn about the graph.
+//! Changes of the graph that the evaluation does not have yet.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use sabi_graph::Edit;
 /// Largest number of edits that wait to be sent, as moves of nodes do; beyond it the whole graph is sent.
 const MOST_UNSENT: usize = 1000;
 
-/// Follows a document, and collects what the evaluation is yet to learn about its graph.
+/// Follows a document, and collects the changes of its graph that the evaluation does not have yet.
 #[derive(Default)]
 pub(super) struct EvaluatedGraph {
     /// Rises with every change that results depend on.
@@ -29,7 +29,7 @@ struct Followed {
 }
 
 impl EvaluatedGraph {
-    /// Takes in what has changed since the last call: its edits where they are known, or the whole graph.
+    /// Collects the changes since the last call: the edits if they are known, or else the whole graph.
     pub(super) fn follow(&mut self, document: &OpenDocument) {
         let session = &document.session;
         let (revision, files) = (session.revision(), document.files_revision());
@@ -59,7 +59,7 @@ impl EvaluatedGraph {
         self.unsent = std::mem::take(&mut self.unsent).followed_by(update);
     }
 
-    /// Change that the evaluation does not know yet; it counts as sent from now on.
+    /// Returns the change that was not sent yet, which counts as sent from now on.
     pub(super) fn take_unsent(&mut self) -> GraphUpdate {
         std::mem::take(&mut self.unsent)
     }

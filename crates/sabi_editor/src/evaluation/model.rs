@@ -1,4 +1,4 @@
-//! Model that results are evaluated on: how it is read, and what was received of it.
+//! Model that results are evaluated on: its import options, and the received model.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,7 +13,7 @@ pub(crate) enum ModelOutcome {
     Shown,
     /// It cannot be shown, and the one before it is requested again.
     Refused {
-        /// Its file.
+        /// File of the model.
         file: PathBuf,
         error: EngineError,
     },
@@ -24,7 +24,7 @@ pub(crate) struct RequestedModel {
     pub(super) options: Arc<ModelOptions>,
     import: ImportOptions,
     cache_dir: Option<PathBuf>,
-    /// Paths from which it may open what it names.
+    /// Paths from which the model may open the files that it names.
     trusted: TrustedPaths,
     /// Revision of the options: another one after every change.
     pub(super) revision: u64,
@@ -76,8 +76,8 @@ impl RequestedModel {
         &self.options.path
     }
 
-    /// Warnings about the model at its full size; a coarse one, which nobody asked for, has none, and neither has one that is
-    /// being read in place of another.
+    /// Warnings about the requested model at its full size. There are none about a coarse one, whose size nobody asked
+    /// for, and none while another model is being read.
     pub(crate) fn warnings(&self) -> &[Warning] {
         let is_requested = |model: &&Arc<LiveModel>| model.model_revision >= self.file_since;
         let full = self.received.as_ref().filter(|model| model.size == self.size());
@@ -121,7 +121,7 @@ impl RequestedModel {
 
     /// Requests another model, or the same one with other options.
     pub(crate) fn replace(&mut self, file: &Path, import: ImportOptions) {
-        // One that stands in for another does so as well when it is read again.
+        // A substitute for another model is still one when it is read again.
         if file != self.file() {
             self.refused = None;
         }
@@ -144,7 +144,7 @@ impl RequestedModel {
         }
     }
 
-    /// Lets the model open what it names below these paths. It is read again if that may give another result.
+    /// Lets the model open the files that it names below these paths. It is read again if that may give another result.
     pub(super) fn set_trusted(&mut self, trusted: &TrustedPaths) {
         if self.trusted == *trusted {
             return;
@@ -173,8 +173,8 @@ impl RequestedModel {
         self.failure.is_none() && self.good.as_ref().is_some_and(is_another)
     }
 
-    /// Requests the model again that was there before the one that is being read. Returns its file and how it is read; none where
-    /// there was none.
+    /// Requests the previous model again in place of the one that is being read. Returns the previous model's file and
+    /// import options; `None` if there is no previous model.
     pub(crate) fn cancel(&mut self) -> Option<(PathBuf, ImportOptions)> {
         if !self.is_replacing() {
             return None;
@@ -198,7 +198,7 @@ impl RequestedModel {
         self.refused = Some(left);
     }
 
-    /// Returns whether a model is being read in this way already, so that requesting it again would only begin anew.
+    /// Returns whether a model is being read in this way already, so that requesting it again would only restart it.
     pub(crate) fn is_being_read(&self, file: &Path, import: &ImportOptions) -> bool {
         (self.is_replacing() || self.is_first()) && self.file() == file && self.import == *import
     }
@@ -218,13 +218,13 @@ impl RequestedModel {
         self.refused.as_deref()
     }
 
-    /// Outcome of the last request, once.
+    /// Takes the outcome of the last request.
     pub(crate) fn take_outcome(&mut self) -> Option<ModelOutcome> {
         self.outcome.take()
     }
 
-    /// Takes over what was read for a revision, unless another one is requested since. Where another file cannot be shown and
-    /// there is no remedy, the model before it is requested again.
+    /// Takes the model or the error of a revision, unless another revision was requested since. If a new file cannot be
+    /// shown and there is no remedy, the previous model is requested again.
     pub(super) fn receive(&mut self, revision: u64, read: Result<Arc<LiveModel>, EngineError>) {
         if revision != self.revision {
             return;

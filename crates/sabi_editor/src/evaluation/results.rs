@@ -13,7 +13,8 @@ use sabi_graph::NodeRef;
 
 use super::Wanted;
 
-/// Results on the model that are kept besides the wanted ones, since artists switch back to what they have just seen.
+/// Results on the model that are kept besides the wanted ones, since artists switch back to results that they have just
+/// seen.
 const KEPT_PICTURES: usize = 6;
 
 /// Maps of one result on the model.
@@ -32,7 +33,8 @@ pub(crate) struct Picture {
 /// Earlier pictures that a picture remembers: as many as may come between two frames.
 const EARLIER: usize = 8;
 
-/// The picture before, and those that it remembers, each with the boxes in view space outside of which a newer one looks the same.
+/// The previous picture and those that it remembers, by their numbers, each with the boxes in view space outside of
+/// which the newer one looks the same.
 fn changed_since(before: &Picture, picture: &Picture) -> Vec<(u64, Vec<[Vec3; 2]>)> {
     let identities = before.looks.identity.as_ref().zip(picture.looks.identity.as_ref());
     let since = identities.and_then(|(old, new)| new.since.as_ref().filter(|(key, _)| *key == old.key));
@@ -71,7 +73,8 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// Uses values that are in memory for another purpose: the engine sends what has not changed once.
+    /// Reuses values between the 2D view and the histogram among parameters, since the engine sends unchanged values
+    /// only once.
     pub(super) fn share_values(&mut self, wanted: &Wanted) {
         let values_of = |wanted: &Option<NodeRef>, known: &Option<(NodeRef, Arc<Inspected>)>| {
             known.clone().filter(|(node, _)| Some(node) == wanted.as_ref())
@@ -161,7 +164,7 @@ impl Results {
         [self.pictures.len(), self.thumbnails.len(), self.times.len()]
     }
 
-    /// Drops results that are not wanted and are of deleted nodes, of another model, or old.
+    /// Drops results that are not wanted, if they are old, or of deleted nodes or another model.
     pub(super) fn evict(&mut self, document: &OpenDocument, wanted: &Wanted, model_revision: u64) -> Dropped {
         let mut numbers: Vec<u64> = self.pictures.values().map(|picture| picture.number).collect();
         numbers.sort_unstable();

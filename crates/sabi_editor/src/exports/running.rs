@@ -16,7 +16,7 @@ pub(crate) struct Running {
     task: Task<Result<BakeReport, EngineError>>,
     /// Folder that it writes to.
     pub(crate) folder: PathBuf,
-    /// True if its result belongs to that of the export before it.
+    /// True if its result is added to that of the previous export.
     pub(crate) continues: bool,
 }
 
@@ -31,7 +31,7 @@ struct Watch {
 
 impl Watch {
     fn waits_for(&self) -> MutexGuard<'_, Option<String>> {
-        // Every change is a single assignment.
+        // A panic leaves no half-changed value, since every change is a single assignment.
         self.waits_for.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -57,7 +57,7 @@ type BakeWork = dyn FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + S
 pub(crate) struct Bake {
     /// Folder that it writes to.
     pub(crate) folder: PathBuf,
-    /// True if its result belongs to that of the export before it.
+    /// True if its result is added to that of the previous export.
     pub(crate) continues: bool,
     pub(crate) work: Box<BakeWork>,
 }
@@ -96,7 +96,7 @@ impl Running {
         self.watch.is_canceled.store(true, Ordering::Relaxed);
     }
 
-    /// Result of the export, once.
+    /// Returns the result of the export once, after it has ended.
     pub(crate) fn poll(&self) -> Option<Result<Result<BakeReport, EngineError>, Failed>> {
         self.task.poll()
     }

@@ -143,8 +143,8 @@ fn is_named(file: &Path, name: &str) -> bool {
     file.ends_with(Path::new(EXAMPLES_FOLDER).join(MESHES).join(name))
 }
 
-/// File of a model that a graph names: where there is none and it is a built-in model of another computer or user, the one here, which
-/// is written if it is missing.
+/// File of a model that a graph names. If that is missing and is a built-in model of another computer or user, the file
+/// of the same model in `folder`, which is written if it is missing, too.
 pub(crate) fn at_home(folder: Option<&Path>, file: PathBuf) -> PathBuf {
     let Some(folder) = folder.filter(|_| !file.exists()) else {
         return file;
@@ -156,7 +156,7 @@ pub(crate) fn at_home(folder: Option<&Path>, file: PathBuf) -> PathBuf {
     let own = folder.join(MESHES).join(name);
     match write_where_none(&own, bytes) {
         Ok(()) => own,
-        // That the model is missing is told when it is read.
+        // The missing model is reported when it is read.
         Err(_) => file,
     }
 }
@@ -167,7 +167,7 @@ pub(crate) fn write_model(folder: &Path, file: &Path) -> io::Result<()> {
     known.map_or(Ok(()), |(file, (_, bytes))| write_where_none(&file, bytes))
 }
 
-/// An existing file may have been edited, and is not replaced.
+/// Writes a file unless it exists: an existing one may have been edited.
 fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
     if file.exists() {
         return Ok(());
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_built_in_model_of_another_computer_is_the_one_here() {
+    fn a_built_in_model_of_another_computer_is_found_among_the_examples_here() {
         let folder = tempfile::tempdir().expect("a folder");
         let home = |path: &str| at_home(Some(folder.path()), PathBuf::from(path));
         let own = folder.path().join("assets/meshes/crate.glb");

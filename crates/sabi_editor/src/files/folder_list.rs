@@ -68,7 +68,7 @@ fn listed(folder: &Path, endings: &[&str]) -> std::io::Result<Vec<FolderEntry>> 
     Ok(entries)
 }
 
-/// Longest text with which all names continue that begin with a part, whatever its case.
+/// Longest common beginning of all names that begin with `part`, whatever its case; `None` if there are no such names.
 pub(super) fn completed<'n>(part: &str, names: impl Iterator<Item = &'n str>) -> Option<String> {
     let lower = part.to_lowercase();
     let mut fitting = names.filter(|name| name.to_lowercase().starts_with(&lower));
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_completed_as_far_as_it_is_certain() {
+    fn a_name_is_completed_up_to_where_the_matching_names_differ() {
         let names = ["rust.sabi", "rusty-metal.sabi", "Wood"];
         let completed = |part: &str| completed(part, names.into_iter());
         assert_eq!(completed("ru").as_deref(), Some("rust"));

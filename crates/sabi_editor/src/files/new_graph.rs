@@ -27,7 +27,7 @@ pub(crate) fn session(recovery: Option<&Path>) -> Result<Session, EngineError> {
     Ok(Session::beginning_with(document, recovery))
 }
 
-/// Returns whether a graph is still as it began, so that the canvas says what can be done.
+/// Returns whether a graph has no other nodes than it began with, so that the canvas shows a hint.
 pub(crate) fn is_untouched(graph: &sabi_graph::Graph) -> bool {
     let is_of_start = |kind: &str| ["source/model", "output/material"].contains(&kind);
     graph.len() <= 2 && graph.nodes().all(|(_, node)| is_of_start(&node.kind))

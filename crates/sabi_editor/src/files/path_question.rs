@@ -35,7 +35,7 @@ pub(crate) struct PathQuestion {
     text: String,
     /// Part of a name that was typed, which narrows the list. A name that is chosen in the list does not.
     typed: String,
-    /// Interface that was clicked last.
+    /// Entry that was clicked last.
     clicked: Option<PathBuf>,
     /// True before it was drawn.
     is_new: bool,
@@ -199,7 +199,7 @@ impl PathQuestion {
         }
     }
 
-    /// Goes to a folder. The name of what is saved stays.
+    /// Goes to a folder. The name stays, if it is that of a file to write or to find.
     fn enter(&mut self, folder: PathBuf) {
         let name = self.listed().1;
         self.text = match self.what {
@@ -251,7 +251,7 @@ impl PathQuestion {
         }
         if std::mem::take(&mut self.is_new) {
             field.request_focus();
-            // Without the ending, which stays as one types another name.
+            // Selects the name without its ending, so that the ending stays when another name is typed.
             let stem = Path::new(&self.text)
                 .file_stem()
                 .map_or(0, |stem| stem.to_string_lossy().chars().count());
@@ -350,7 +350,7 @@ impl PathQuestion {
                 true => format!("No name here contains '{}'.", self.typed),
                 false => {
                     let endings: Vec<String> = self.what.endings().iter().map(|ending| format!(".{ending}")).collect();
-                    // Who looks for anything else here learns where it is opened.
+                    // Users who look for other files here are told where those are opened.
                     let elsewhere = if self.what == PathFor::Open {
                         " Pictures are added by Import pictures… in the File menu, models by + above the 3D view."
                     } else {

@@ -22,10 +22,10 @@ const NODE: [f32; 2] = [160.0, 90.0];
 const LARGEST_SCALE: f32 = 0.25;
 /// Most height of the rows, points; more of them are scrolled.
 const MOST_HEIGHT: f32 = 240.0;
-/// Names of nodes that are said.
+/// Most names of nodes in the text about a graph.
 const MOST_NAMES: usize = 4;
 
-/// Rows of what can be recovered.
+/// Rows of unsaved work that can be recovered.
 #[derive(Default)]
 pub(super) struct RecoveryList {
     /// Drawings of the graphs, in the order of the rows, with the files that they were made of.
@@ -63,7 +63,7 @@ impl RecoveryList {
         let theme = context.theme;
         let mut chosen = None;
         ui.colored_label(theme.warning, "The program ended before this was saved:");
-        // As many rows as sessions have ended; what stands below them stays in sight.
+        // There is a row for each session that ended; the limited height keeps the contents below in view.
         let rows = ScrollArea::vertical()
             .max_height(MOST_HEIGHT)
             .auto_shrink([false, true]);
@@ -83,7 +83,7 @@ impl RecoveryList {
     }
 }
 
-/// Shows what was not saved in words, and the buttons for it. Returns the action of a clicked one.
+/// Shows a description of unsaved work, and the buttons for it. Returns the action of a clicked one.
 fn row(
     ui: &mut Ui,
     theme: &Theme,
@@ -197,7 +197,7 @@ fn title_of(node: &Node, catalog: &Catalog) -> String {
     own.or_else(of_group).or_else(of_kind).unwrap_or_else(plain)
 }
 
-/// Ages and sizes of what was recovered and of the file that it belongs to, so that the newer one is seen.
+/// Ages and sizes of the recovered work and of the file that it belongs to, which show which one is newer.
 pub(super) fn dates_text(recovery: &Recovery) -> String {
     let with_size = |age: String, bytes: Option<u64>| match bytes {
         Some(bytes) => format!("{age}, {}", size_text(bytes)),

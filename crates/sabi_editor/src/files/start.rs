@@ -21,7 +21,7 @@ use sabi_engine::catalog::small_picture;
 const HEIGHT: f32 = 44.0;
 const WITH_PICTURE: f32 = 60.0;
 const PICTURE: f32 = 52.0;
-/// Width of the page, and what stays free above and below it, points.
+/// Width of the page, and margin above and below it, points.
 const WIDTH: f32 = 720.0;
 const MARGIN: f32 = 40.0;
 /// Pixels along a side of a picture.
@@ -33,7 +33,7 @@ pub(crate) struct StartPage {
     /// Pictures of the examples, in their order, once the page was shown.
     examples: Vec<Option<TextureHandle>>,
     recovery_list: RecoveryList,
-    /// True if what is chosen opens with the model and its parameters only; none until the page was shown.
+    /// True if a chosen graph opens with the model and its parameters only; `None` until the page was shown.
     opens_use_view: Option<bool>,
 }
 
@@ -95,7 +95,7 @@ fn title(ui: &mut Ui, theme: &Theme) {
 }
 
 impl StartPage {
-    /// Shows all that is on the page. Returns the action of what was clicked.
+    /// Shows the contents of the page. Returns the requested action.
     fn page(&mut self, ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) -> Option<Action> {
         title(ui, context.theme);
         ui.add_space(space::WIDE);

@@ -25,7 +25,7 @@ pub(crate) enum PathFor {
     Model,
     /// Model beside the main one.
     ModelBeside,
-    /// File that the graph names by this path, where there is none.
+    /// Missing file, which the graph names by this path.
     Missing(String),
     /// Picture to add as a node, or a folder of pictures to add as texture sets.
     ImportedPictures,
@@ -126,8 +126,8 @@ impl PathFor {
 /// Sentence about a system without dialogs.
 pub(crate) const NO_DIALOG: &str = "The system's dialog could not be opened: on Linux it needs a desktop portal \
                                     (xdg-desktop-portal), or zenity.";
-/// Time in which nobody can have closed a dialog: one that ends sooner was not opened. The library below tells no difference, and
-/// where it looks for a portal and for zenity in vain, that may take longer.
+/// Time in which nobody can close a dialog: one that ends sooner was not opened. The library of the dialogs does not
+/// tell the two apart, and may take longer than this to find neither a portal nor zenity.
 const AT_ONCE: Duration = Duration::from_millis(300);
 
 /// System dialog that is open.
@@ -149,8 +149,8 @@ pub(crate) enum DialogAnswer {
 }
 
 impl DialogAnswer {
-    /// Answer of a dialog that gave this path after some time. One that opens takes the focus from the window, since nobody can
-    /// close it otherwise.
+    /// Answer of a dialog that gave this path after some time. One that was opened has taken the focus from the window,
+    /// since nobody can close it otherwise.
     fn after(path: Option<PathBuf>, lasted: Duration, has_lost_focus: bool) -> DialogAnswer {
         match path {
             Some(path) => DialogAnswer::Chosen(path),

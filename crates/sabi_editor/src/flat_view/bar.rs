@@ -1,4 +1,4 @@
-//! The bar above the texture: what is shown of which result.
+//! The bar above the texture: the title of the result, and choices of what is shown of it.
 
 use egui::{Align, Label, Layout, RichText, Ui, UiBuilder, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
@@ -114,7 +114,7 @@ impl FlatView {
                 (Choice::Components, _, Some(values)) => {
                     ui.scope_builder(named("components"), |ui| self.components(ui, values));
                 }
-                // There are no choices without what is chosen from.
+                // A choice is listed only if there is a model or a result to choose from.
                 (Choice::Sets, None, _) | (Choice::Planes | Choice::Components, _, None) => {}
             }
         }
@@ -164,7 +164,7 @@ impl FlatView {
     }
 }
 
-/// With an id of its own, a part of the bar takes clicks whatever appears and disappears beside it.
+/// Builder of a part of the bar. It has an id of its own, so that its clicks do not depend on what appears beside it.
 fn named(name: &str) -> UiBuilder {
     UiBuilder::new().id(egui::Id::new(("texture", name)))
 }

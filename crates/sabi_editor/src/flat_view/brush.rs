@@ -107,7 +107,7 @@ fn grid_of(linked: &LinkedModel, set: SetKey) -> TriangleGrid {
     }))
 }
 
-/// Corners of a triangle in the square of a texture set; none for a triangle of another set.
+/// Corners of a triangle in the square of a texture set; `None` for a triangle of another set.
 fn corners_in(linked: &LinkedModel, set: SetKey, triangle: u32) -> Option<[DVec2; 3]> {
     let mesh = &linked.model.mesh;
     let chart = linked.atlas.triangle_chart.get(triangle as usize)?;
@@ -122,7 +122,7 @@ fn corners_in(linked: &LinkedModel, set: SetKey, triangle: u32) -> Option<[DVec2
     Some([place(a)?, place(b)?, place(c)?])
 }
 
-/// Weights of the corners of a triangle at a place in it, a little beyond its edges, too; none elsewhere.
+/// Weights of the corners of a triangle at a place in it, a little beyond its edges, too; `None` elsewhere.
 fn weights(at: DVec2, [a, b, c]: [DVec2; 3]) -> Option<[f64; 3]> {
     let area = (b - a).perp_dot(c - a);
     if area == 0.0 {

@@ -10,8 +10,8 @@ const NARROWEST: f32 = 80.0;
 /// Brightness beside the charts.
 const BESIDE: f32 = 0.45;
 
-/// A plane of values, or one number of it, as it is looked at: masks and single numbers gray as they are, colors encoded,
-/// vectors from −1..1.
+/// Picture of a plane of values, or of one component of it in gray. Colors are encoded as sRGB, other numbers are kept,
+/// and vectors are mapped from −1..1 to 0..1.
 pub(super) fn picture_of(values: &Inspected, plane: &ResultPlane, component: Option<usize>) -> ColorImage {
     let side = values.size as usize;
     let code = |number: f32| match plane.holds {
@@ -97,7 +97,7 @@ impl Histogram {
         self.draw_in(painter, rect, theme);
     }
 
-    /// Place of a value between the ends of a histogram that is drawn in a rectangle; none beside them.
+    /// Horizontal place of a value in a histogram that is drawn in a rectangle; `None` for values outside of its range.
     pub(crate) fn place_of(&self, value: f32, rect: Rect) -> Option<f32> {
         let [low, high] = self.range;
         (low..=high)
@@ -135,7 +135,7 @@ impl Histogram {
         }
         let font = egui::FontId::monospace(9.0);
         let ends = [
-            // Beside the line of a parameter at an end.
+            // Leaves room for the line of a parameter at an end.
             (rect.left_top() + vec2(4.0, 1.0), egui::Align2::LEFT_TOP),
             (rect.right_top() + vec2(-4.0, 1.0), egui::Align2::RIGHT_TOP),
         ];
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mask_is_gray_as_it_is_and_darker_beside_the_charts() {
+    fn a_mask_is_drawn_in_gray_and_is_darker_outside_of_the_charts() {
         let values = mask(&[0.0, 0.5, 2.0, 1.0]);
         let picture = picture_of(&values, &values.planes[0], None);
         let gray: Vec<u8> = picture.pixels.iter().map(|pixel| pixel.r()).collect();

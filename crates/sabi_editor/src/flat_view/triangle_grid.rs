@@ -96,7 +96,7 @@ mod tests {
         const COUNT: u32 = 600;
         let grid = TriangleGrid::new((0..COUNT).map(|number| (number, square(number))));
         assert!(!grid.wide.is_empty() && grid.cells.iter().any(|cell| !cell.is_empty()));
-        // From beside the square to beside it.
+        // Places in the square and beyond it on all sides.
         for step in 0..3600_u32 {
             let at = 0.025 * DVec2::new(f64::from(step % 60), f64::from(step / 60)) - 0.25;
             for least in [0, COUNT / 2] {
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn boxes_without_area_or_without_numbers_do_no_harm() {
+    fn boxes_that_are_points_or_not_finite_are_handled() {
         let empty = TriangleGrid::new(std::iter::empty());
         assert_eq!(empty.first(DVec2::ZERO, Some), None);
         let boxes = [[DVec2::NAN; 2], [DVec2::ONE; 2], [DVec2::ZERO, DVec2::INFINITY]];

@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_lead_nowhere_are_left_out() {
+    fn lines_with_an_end_that_is_not_finite_are_left_out() {
         let wild = [pos2(f32::NAN, 0.0), pos2(f32::INFINITY, 2.0)];
         let mut edges = grid(4);
         edges.push(wild);

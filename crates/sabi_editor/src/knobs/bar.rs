@@ -178,7 +178,7 @@ impl Bar<'_> {
         (steps != 0.0).then(|| self.settled(self.value + steps * self.step(), self.step() * FINE * FINE))
     }
 
-    /// Opens the text field by a click or a key, or takes the keyboard.
+    /// Opens the text field by a click or a key, or takes the keyboard focus.
     fn open(&self, ui: &Ui, knob_ui: &mut KnobUi<'_>, response: &Response) {
         let [has_command, is_entered] = ui.input(|input| {
             [
@@ -305,7 +305,7 @@ impl Bar<'_> {
             painter
                 .with_clip_rect(within.intersect(ui.clip_rect()))
                 .rect_filled(self.rect, space::CORNER, fill);
-            // The end of the text matters most.
+            // Marks the end of the filled part, which is at the value.
             let x = end.min(self.rect.right() - 1.0).max(self.rect.left() + 1.0);
             let edge = ground.lerp_to_gamma(mix, 0.9);
             painter.vline(x, self.rect.shrink(3.0).y_range(), (1.5, edge));
@@ -342,7 +342,7 @@ impl Bar<'_> {
     }
 }
 
-/// Value of a number in files.
+/// Number as a graph file stores it. The error is a sentence.
 fn kept(number: f64) -> Result<f64, String> {
     let kept = sabi_graph::canonical_number(number);
     kept.ok_or_else(|| format!("{number:e} is larger than a graph file can hold."))

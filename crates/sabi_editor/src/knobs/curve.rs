@@ -116,7 +116,7 @@ impl Curve {
         self.add([middle, height_at(&self.points, middle)])
     }
 
-    /// The last point cannot be removed.
+    /// Removes the selected point, unless it is the only one. Returns whether it was removed.
     fn remove(&mut self) -> bool {
         if self.points.len() < 2 {
             return false;

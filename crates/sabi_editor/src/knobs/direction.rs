@@ -162,7 +162,7 @@ fn paint(ui: &Ui, knob_ui: &KnobUi<'_>, response: &Response, view: &BallView, di
         painter.line_segment([view.middle, tip], (2.0, theme.accent));
         painter.circle_filled(tip, 4.0, theme.accent);
     } else {
-        // A direction to the far side is drawn through the ball.
+        // A direction that points away from the eye is drawn through the ball.
         let dim = theme.accent.gamma_multiply(0.6);
         painter.line_segment([view.middle, tip], (1.0, dim));
         painter.circle(tip, 3.5, ground, (1.5, dim));

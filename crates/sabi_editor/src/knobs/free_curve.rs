@@ -19,7 +19,8 @@ pub(crate) struct CurveMemory {
     before: Vec<[f64; 2]>,
 }
 
-/// Shows a curve in the square from 0 to 1, as those of nodes, and returns its points where they have changed. It holds `room` points.
+/// Shows a curve in the square from 0 to 1, with the widget of the curves of nodes. Returns its points if they have
+/// changed. It holds at most `room` points.
 pub(crate) fn curve_ui(
     ui: &mut Ui,
     theme: &Theme,

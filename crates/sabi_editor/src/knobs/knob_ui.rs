@@ -31,7 +31,7 @@ pub(super) struct Typing {
     pub(super) text: String,
     /// True until the field was given the keyboard focus.
     pub(super) is_new: bool,
-    /// True if all of its text is selected at that moment.
+    /// True if all of its text is selected when it gets the focus.
     pub(super) is_selected: bool,
 }
 
@@ -161,7 +161,7 @@ impl KnobUi<'_> {
             && response.drag_started_by(PointerButton::Primary)
             && self.memory.drag.is_none()
         {
-            // Includes the distance until the press became a drag, which is none where that took no frame.
+            // Includes the distance before the press became a drag; without it, both happened in one frame.
             let origin = place - response.total_drag_delta().unwrap_or_default();
             self.begin(&response.ctx, response.id, values_at(origin)?, origin);
         }
@@ -216,7 +216,7 @@ impl KnobUi<'_> {
         }
         if is_owner && is_canceled {
             self.events.push(KnobEvent::Canceled);
-            // Escape closes nothing else then.
+            // Escape has no other effect.
             context.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape));
         } else {
             self.events.push(KnobEvent::Ended);

@@ -10,11 +10,11 @@ use super::values::text_of;
 pub(crate) struct Lengths {
     /// Factor from working units to units of the model's file.
     pub(crate) model_units_per_working: f64,
-    /// Factor from units of the model's file to metres; none if unknown.
+    /// Factor from units of the model's file to meters; 0 if unknown.
     pub(crate) metres_per_model_unit: f64,
 }
 
-/// Names of units, their length in metres, and the least length they are used for.
+/// Names of units, their length in meters, and the least length they are used for.
 const UNITS: [(&str, f64, f64); 4] = [
     ("km", 1000.0, 1000.0),
     ("m", 1.0, 1.0),
@@ -27,7 +27,7 @@ impl Lengths {
     pub(crate) fn on(model: Option<&LiveModel>) -> Lengths {
         Lengths {
             model_units_per_working: model.map_or(1.0, |model| model.fitted().model_from_working()),
-            // glTF counts in metres.
+            // glTF counts in meters.
             metres_per_model_unit: 1.0,
         }
     }
@@ -47,7 +47,7 @@ impl Lengths {
         (metres.is_normal() && metres > 0.0).then_some(metres)
     }
 
-    /// A length on the model, such as `3.4 cm`; none where the size of the model is unknown.
+    /// A length on the model, such as `3.4 cm`; `None` where the size of the model is unknown.
     pub(super) fn text(&self, working: f64) -> Option<String> {
         let metres = working * self.metres()?;
         let (name, unit, _) = UNITS.iter().find(|(_, _, least)| metres.abs() >= *least)?;
@@ -59,7 +59,7 @@ impl Lengths {
 
     /// Units that can follow a typed number, with their length in working units.
     pub(super) fn units(&self) -> [(&'static str, f64); 4] {
-        // Where the size of the model is unknown, a metre is a unit of its file.
+        // Where the size of the model is unknown, a meter is a unit of its file.
         let metres = self.metres().unwrap_or(1.0);
         UNITS.map(|(name, unit, _)| (name, unit / metres))
     }
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_length_is_said_in_the_unit_that_suits_its_size() {
+    fn a_length_is_written_in_the_unit_that_suits_its_size() {
         let lengths = Lengths {
             model_units_per_working: 1.7,
             metres_per_model_unit: 1.0,
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_said_where_the_size_of_the_model_is_not_known() {
+    fn a_length_has_no_unit_where_the_size_of_the_model_is_unknown() {
         for metres_per_model_unit in [0.0, f64::NAN, f64::INFINITY, -1.0] {
             let lengths = Lengths {
                 model_units_per_working: 1.0,

@@ -17,7 +17,7 @@ use super::{KnobEvent, KnobRow, direction};
 
 /// Names of the components of a vector.
 const AXES: [&str; 4] = ["X", "Y", "Z", "W"];
-/// Random seeds are below this, short enough to read aloud.
+/// Limit of random seeds, which are short enough to read aloud.
 const SEEDS: u64 = 10_000;
 /// Number of seeds that a drag over the whole bar goes through, since seeds have no range.
 const SEEDS_OF_A_BAR: f64 = 50.0;

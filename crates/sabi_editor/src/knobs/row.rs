@@ -139,7 +139,7 @@ fn name(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     response.on_hover_ui(|ui| doc::show(ui, theme, row));
 }
 
-/// Shows what is connected to an input, in place of its value.
+/// Shows the node that is connected to an input, in place of its value.
 fn wired(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from: &str) {
     let response = ui.interact(rect, id.with("wired"), Sense::hover());
     let text = format!("from {from}");

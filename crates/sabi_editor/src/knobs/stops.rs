@@ -103,7 +103,7 @@ impl Gradient {
         true
     }
 
-    /// The last stop cannot be removed.
+    /// Removes the selected stop, unless it is the only one. Returns whether it was removed.
     fn remove(&mut self) -> bool {
         if self.stops.len() < 2 {
             return false;

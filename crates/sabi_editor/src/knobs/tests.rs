@@ -1,4 +1,4 @@
-//! Rows of parameters under test, which do what they ask for and log it.
+//! Rows of parameters under test, whose requests are performed and logged.
 
 mod colors;
 mod curves;
@@ -29,7 +29,7 @@ const LENGTHS: Lengths = Lengths {
 /// The built-in kinds, which take a moment to read.
 static CATALOG: LazyLock<Catalog> = LazyLock::new(|| Catalog::new(&Kinds::builtin()));
 
-/// A knob with what is set.
+/// A knob with the state that its row shows.
 #[derive(Clone, Debug)]
 struct Shown {
     knob: Knob,
@@ -62,11 +62,11 @@ struct State {
     rows: Vec<Shown>,
     memory: KnobMemory,
     theme: Theme,
-    /// Everything that was asked for, but lengths to show.
+    /// All events of knobs, except for lengths to show.
     log: Vec<KnobEvent>,
     /// The length that was shown last.
     length: Option<f64>,
-    /// Shown on a node of this zoom instead of the panel.
+    /// Zoom of the node that shows the rows; `None` for the panel.
     zoom: Option<f32>,
 }
 

@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_is_shown_with_the_digits_that_count() {
+    fn a_number_is_shown_without_superfluous_digits() {
         for (number, step, expected) in [
             (0.5, 0.01, "0.5"),
             (1.0 / 3.0, 0.01, "0.3333"),

@@ -1,4 +1,4 @@
-//! The brush in the viewport: what is under the pointer, and the outline of the brush there.
+//! The brush in the viewport: the surface under the pointer, and the outline of the brush there.
 
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Stroke, Ui, vec2};
 use glam::{DMat4, DVec3, Vec3};
@@ -97,7 +97,7 @@ impl SeenModel {
 }
 
 impl ModelView {
-    /// Has the brush paint on the model. Returns whether the drag is the brush's.
+    /// Lets the brush paint on the model. Returns whether the drag belongs to the brush.
     pub(super) fn paint_on(
         &mut self,
         ui: &Ui,

@@ -38,7 +38,7 @@ pub(super) fn title(mode: Mode) -> &'static str {
         .map_or("Material", |(title, _)| title)
 }
 
-/// The channel so many steps after a mode; the first one after a mode that shows no channel.
+/// Channel that is `steps` after a mode; the first one, if the mode shows no channel.
 pub(super) fn after(mode: Mode, steps: isize) -> Mode {
     let at = CHANNELS.iter().position(|(_, known)| *known == mode);
     let next = at.map_or(0, |at| (at as isize + steps).rem_euclid(CHANNELS.len() as isize));

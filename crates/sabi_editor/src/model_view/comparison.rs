@@ -8,7 +8,7 @@ const REACH: f32 = 8.0;
 /// Line between the pictures of two results.
 #[derive(Default)]
 pub(crate) struct Comparison {
-    /// Left edge of the pinned result's picture as a share of the width; none without a comparison.
+    /// Left edge of the pinned result's picture as a share of the width; `None` without a comparison.
     pub(crate) share: Option<f32>,
     /// True if the current drag moves the line.
     is_dragged: bool,

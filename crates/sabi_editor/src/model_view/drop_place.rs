@@ -1,4 +1,4 @@
-//! What is dropped on the model: a layer for the material under the pointer.
+//! Target of a layer that is dropped on the model: the material under the pointer.
 
 use egui::Pos2;
 use sabi_editing::dropped_layers::DroppedOn;
@@ -21,7 +21,7 @@ pub(crate) struct DropPlace {
 }
 
 impl ModelView {
-    /// Place of the model that something is dropped on; none beside the view, and for what gives no material.
+    /// Place of the model that a node is dropped on; `None` outside of the view, or if the node gives no material.
     pub(crate) fn drop_place(
         &self,
         document: &OpenDocument,

@@ -52,7 +52,7 @@ impl EnvironmentLoader {
         choice.clone_into(&mut self.choice);
     }
 
-    /// Chosen file; none for a built-in environment.
+    /// Chosen file; `None` for a built-in environment.
     pub(crate) fn file(&self) -> Option<&Path> {
         let is_own = built_in_environments().any(|own| own == self.choice);
         (!is_own).then(|| Path::new(&self.choice))

@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_light_comes_from_where_its_angles_say() {
+    fn a_light_comes_from_the_direction_of_its_angles() {
         for (turn_degrees, height_degrees, from) in [
             (0.0, 0.0, [0.0, 0.0, 1.0]),
             (90.0, 0.0, [1.0, 0.0, 0.0]),
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn lights_that_nobody_can_have_meant_are_mended_and_those_too_many_left_out() {
+    fn lights_out_of_range_are_corrected_and_those_beyond_the_limit_left_out() {
         let wild = LightSetting {
             turn_degrees: f32::NAN,
             height_degrees: 700.0,

@@ -1,4 +1,4 @@
-//! The menus of the viewport: what is shown, camera, channels, light and overlays.
+//! The menus of the viewport: subject, camera, channels, light and overlays.
 
 use egui::containers::menu::MenuButton;
 use egui::{Rect, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, vec2};
@@ -159,7 +159,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
     if let Some(remark) = quality.remark() {
         ui.separator();
         ui.set_max_width(260.0);
-        // Labels of menus are justified, which tears the words of a sentence apart.
+        // Labels of menus are justified, which would spread the words of a sentence.
         ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| ui.weak(remark));
     }
 }

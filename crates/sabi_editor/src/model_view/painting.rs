@@ -70,7 +70,8 @@ impl ModelView {
     }
 }
 
-/// Mode of results that are not lit: while one paints, the shape of the model is seen below the mask.
+/// Mode of results that are not lit. While the user paints, the mask is drawn on clay, so that the shape of the model
+/// is seen.
 pub(super) fn unlit_mode(subject: &Subject<'_>) -> Mode {
     match subject.painted {
         Some(_) => Mode::NodeOnClay,
@@ -78,7 +79,7 @@ pub(super) fn unlit_mode(subject: &Subject<'_>) -> Mode {
     }
 }
 
-/// Shot of a result: a shot of the view as it is set up, from a camera. Results that are not lit have the mode `unlit`.
+/// Shot of a result from a camera, with the settings of the view. Results that are not lit have the mode `unlit`.
 pub(super) fn shot_of(camera: sabi_engine::view::Camera, shot: &Shot, picture: &Picture, unlit: Mode) -> Shot {
     Shot {
         camera,

@@ -18,7 +18,7 @@ struct Screen {
     texture: Option<(TextureId, wgpu::Texture)>,
 }
 
-/// First picture of another model than the main one, after those of the shown and of the pinned result.
+/// Index of the first picture of a model beside the main one, after those of the shown and of the pinned result.
 pub(super) const FIRST_BESIDE: usize = 2;
 
 /// Pictures of the shown result and of the pinned one beside it, and of other models.
@@ -62,7 +62,7 @@ impl<'a> Lighting<'a> {
             return Ok(true);
         };
         let scene = self.scene(picture, environment);
-        // Another environment or light makes another picture, too.
+        // The revision also changes with the environment and the lights.
         viewport.show(gpu, &scene, &self.revision_of(picture), shot, size, false)
     }
 
@@ -119,7 +119,7 @@ impl Pictures {
         screen.is_some_and(|screen| screen.texture.is_some())
     }
 
-    /// A viewport for a picture that is not shown; none while the renderer is being made.
+    /// A viewport for a picture that is not shown; `None` while the renderer is being made.
     pub(super) fn new_viewport(&self, gpu: &Gpu) -> Option<Viewport> {
         let renderer = self.renderer_loader.made()?;
         Some(Viewport::new(gpu, renderer))
@@ -130,7 +130,7 @@ impl Pictures {
         self.renderer_loader.is_loading()
     }
 
-    /// Releases all pictures from one on.
+    /// Releases all pictures from the index `first` on.
     pub(super) fn release_from(&mut self, first: usize, render: &RenderState) {
         let released = self.screens.drain(first.min(self.screens.len())..).flatten();
         for (id, _) in released.filter_map(|screen| screen.texture) {
@@ -206,7 +206,7 @@ impl Pictures {
             return Ok(false);
         };
         let scene = request.lighting.scene(request.picture, environment);
-        // Another environment or light makes another picture, too.
+        // The revision also changes with the environment and the lights.
         let revision = request.lighting.revision_of(request.picture);
         let viewport = &mut screen.viewport;
         Ok(viewport.show(gpu, &scene, &revision, &request.shot, size, request.is_moving)?)
@@ -214,7 +214,7 @@ impl Pictures {
 }
 
 impl Screen {
-    /// Texture of the picture in the window; none before the first picture.
+    /// Texture of the picture in the window; `None` before the first picture.
     fn texture_id(&mut self, render: &RenderState) -> Option<TextureId> {
         let shown = self.viewport.picture()?.texture().clone();
         if let Some((id, known)) = &self.texture

@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_made_is_said_and_tried_again_after_a_while() {
+    fn a_failed_creation_is_reported_and_tried_again_after_a_while() {
         let context = Context::default();
         assert_eq!(end(Pending::begin(&context, || Ok(7))), Ok(7));
         let lost = || {

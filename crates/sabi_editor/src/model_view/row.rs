@@ -29,7 +29,7 @@ const NAMES: f32 = 20.0;
 /// Time after which the progress of a model is drawn again.
 const DRAWN_AGAIN: Duration = Duration::from_millis(500);
 
-/// What the view remembers about the models beside the main one.
+/// State of the view for the models beside the main one.
 #[derive(Default)]
 pub(super) struct RowView {
     /// Last picture and framing of each model, by its file.
@@ -49,7 +49,7 @@ struct Cell {
     fault: Option<String>,
 }
 
-/// How the usual viewpoint frames a model.
+/// Framing of a model from the usual viewpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Framing {
     target: Vec3,
@@ -140,7 +140,7 @@ impl ModelView {
         self.row.cells.get(model)?.fault.as_ref()
     }
 
-    /// File of the model whose picture is in the place of a model.
+    /// File of the model whose picture is in the cell of a model.
     pub(crate) fn pictured_beside(&self, model: &Path) -> Option<&PathBuf> {
         let picture = self.row.cells.get(model)?.last.as_ref()?;
         picture.model.linked.model.files.first()
@@ -154,7 +154,7 @@ impl ModelView {
         let Some((before, aspect_before)) = self.row.fitted.replace(now) else {
             return;
         };
-        // A camera that nobody has moved is set up anew.
+        // A camera that was not moved is set up for the new cell instead.
         if before == count || self.navigation.is_untouched() {
             return;
         }
@@ -163,7 +163,7 @@ impl ModelView {
         self.navigation.camera.zoom(before / after);
     }
 
-    /// Paints the models beside the main one, each in its cell, with its name and what can be done with it.
+    /// Paints the models beside the main one, each in its cell, with its name and its buttons.
     pub(super) fn paint_beside(
         &mut self,
         ui: &mut Ui,
@@ -199,7 +199,7 @@ impl ModelView {
         for (at, (evaluation, cell)) in subject.beside.iter().zip(others).enumerate() {
             let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
             own.fault = failure_of(evaluation);
-            // A fault is told whether the main model has a picture or not.
+            // An error is shown whether or not the main model has a picture.
             let state = match (&own.fault, render, main) {
                 (Some(fault), _, _) => {
                     sentence_in_cell(ui, *cell, subject, fault);
@@ -218,7 +218,8 @@ impl ModelView {
         }
     }
 
-    /// Paints one model beside the main one, or a sentence about why it is not shown. Returns a word about what is going on.
+    /// Paints one model beside the main one, or a sentence about why it is not shown. Returns a word about its
+    /// progress.
     fn paint_cell(
         &mut self,
         ui: &Ui,
@@ -230,7 +231,7 @@ impl ModelView {
         first: Rect,
         subject: &Subject<'_>,
     ) -> Option<String> {
-        // That of the model that was in this place before would stand under the name of this one.
+        // A picture of the model that had this place before would stand under the name of this one.
         let newest = evaluation.results.picture(subject.shown);
         let newest = newest.filter(|picture| !evaluation.is_outdated(picture)).cloned();
         let state = state_of(evaluation, newest.is_some());
@@ -276,7 +277,7 @@ fn sentence_in_cell(ui: &Ui, cell: Rect, subject: &Subject<'_>, text: &str) {
     painting::sentence(ui, cell, subject.theme, text);
 }
 
-/// Words about what is going on with a model, while what it shows is not the wanted result.
+/// Words about the progress of a model while it does not show the wanted result.
 fn state_of(evaluation: &Evaluation, has_picture: bool) -> Option<String> {
     let doing = doing(evaluation);
     match (has_picture, evaluation.is_busy()) {
@@ -286,7 +287,7 @@ fn state_of(evaluation: &Evaluation, has_picture: bool) -> Option<String> {
     }
 }
 
-/// Activity of the evaluation on a model; none while it waits for its turn.
+/// Activity of the evaluation on a model; `None` while it waits for its turn.
 fn doing(evaluation: &Evaluation) -> Option<String> {
     evaluation.activity().map(|activity| activity_text(&activity))
 }

@@ -1,4 +1,4 @@
-//! A picture of the view at any size, drawn sample by sample while the window goes on, and written to a file.
+//! A picture of the view at any size, drawn one sample in each frame, and written to a file.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -83,7 +83,7 @@ impl ModelView {
     }
 }
 
-/// Writes a finished picture, and says so or why it could not be written.
+/// Writes a finished picture. Returns a sentence about the file, or about why it could not be written.
 fn written(gpu: &Gpu, drawn: &PictureInProgress, with_alpha: bool) -> String {
     let file = drawn.file.display();
     let Some(target) = drawn.viewport.picture() else {

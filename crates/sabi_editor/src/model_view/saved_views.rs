@@ -12,7 +12,7 @@ use sabi_graph::SavedView;
 use super::{ModelView, Subject};
 use crate::action::Action;
 
-/// The view that a camera has.
+/// View of a camera, as graphs keep it.
 fn view_of(camera: &Camera) -> SavedView {
     SavedView {
         target: camera.target.to_array().map(f64::from),
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_camera_comes_back_from_its_view() {
+    fn a_camera_is_restored_from_its_saved_view() {
         let camera = Camera {
             target: Vec3::new(0.25, -0.5, 0.125),
             yaw_degrees: 40.0,

@@ -12,14 +12,15 @@ use crate::evaluation::Evaluation;
 use crate::settings::brush::Hand;
 use crate::theme::{Theme, space, type_size};
 
-/// Height of a hint over the titles at the foot, points: under the menus it would lie on them where the view is narrow.
+/// Height of a hint above the titles at the lower edge, in points. At the top it would cover the menus of a narrow
+/// view.
 const HINT: f32 = 24.0;
 /// Border of the ground of a caption, points.
 const GROUND: Vec2 = vec2(4.0, 2.0);
 /// Least width of a caption beside the line between two pictures, points.
 const LEAST_SIDE: f32 = 40.0;
 
-/// Menu that chooses what the model shows.
+/// Menu that chooses the subject that the model shows.
 pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<Action>) {
     let showing = subject.showing;
     let is_compared = view.comparison.share.is_some();
@@ -86,7 +87,7 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<A
     ui.weak(format!("{look}  {}", Command::Viewport(ViewportCommand::Focus).title()));
 }
 
-/// Writes on the picture what it shows; of two pictures, on either side of the line between them.
+/// Writes the title of the shown result on the picture; of two pictures, on either side of the line between them.
 pub(super) fn label(view: &mut ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, subject: &Subject<'_>) {
     let showing = subject.showing;
     let theme = subject.theme;
@@ -142,7 +143,7 @@ pub(super) fn label(view: &mut ModelView, ui: &Ui, rect: Rect, evaluation: &Eval
     }
 }
 
-/// Sentence about what a drag or a click on the model does now, with the name of its caption.
+/// Sentence about the effect that a drag or a click on the model has now, with the name of its caption.
 fn hint(subject: &Subject<'_>) -> Option<(&'static str, String)> {
     if subject.is_picking_color {
         let text = format!("{} Click the color to take. Escape cancels.", icon::EYEDROPPER);
@@ -236,7 +237,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn captions_that_want_one_place_lie_above_each_other() {
+    fn captions_at_one_place_are_drawn_above_each_other() {
         let mut captions = Captions::default();
         let at = |left: f32, width: f32| Rect::from_min_size(pos2(left, 100.0), vec2(width, 12.0));
         let wanted = [at(0.0, 200.0), at(150.0, 100.0), at(180.0, 40.0), at(400.0, 50.0)];

@@ -1,4 +1,4 @@
-//! Whether the view is soft, since the maps have fewer texels than the view has pixels.
+//! Check whether the view is soft because the maps have fewer texels than the view has pixels.
 
 use std::sync::{Arc, Weak};
 
@@ -81,7 +81,7 @@ pub(super) fn show(
 fn link(view: &mut ModelView, ui: &Ui, theme: &Theme, beside: Rect, text: &str) -> Response {
     let font = FontId::proportional(type_size::SMALL);
     let words = ui.painter().layout_no_wrap(text.to_owned(), font, theme.accent);
-    // Both have a border.
+    // Leaves room for the borders of both.
     let left = beside.right_center() + vec2(space::USUAL + 2.0, 0.0);
     let place = view.captions.free(Align2::LEFT_CENTER.anchor_size(left, words.size()));
     let ground = place.expand2(vec2(4.0, 2.0));

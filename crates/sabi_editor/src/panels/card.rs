@@ -57,7 +57,7 @@ pub(super) struct Card<'a> {
 }
 
 impl Card<'_> {
-    /// Shows the card; enlarged beside it with a text while the pointer rests on it.
+    /// Shows the card. While the pointer rests on it, a larger picture with a text is shown beside it.
     pub(super) fn show(&self, ui: &mut Ui, theme: &Theme, text: &str) -> Response {
         let side = self.size.side();
         let (rect, response) = ui.allocate_exact_size(Vec2::new(side, side + NAME), Sense::click());

@@ -1,4 +1,4 @@
-//! What rests under the pointer, shown larger beside it.
+//! Enlarged pictures beside the widget that the pointer rests on.
 
 use egui::epaint::RectShape;
 use egui::{Color32, Rect, RectAlign, Response, Sense, TextureId, Tooltip, Ui, Vec2, pos2};
@@ -8,8 +8,8 @@ use crate::theme::{Theme, space};
 /// Side of the picture.
 const SIDE: f32 = 192.0;
 
-/// Shows a large picture beside a widget while the pointer rests on it, with texts below. Without a picture that is ready its
-/// place is left free; `None` shows the texts alone.
+/// Shows a large picture beside a widget while the pointer rests on it, with texts below. The place of a picture that
+/// is not ready is left free; without `picture`, only the texts are shown.
 pub(super) fn show(
     response: &Response,
     theme: &Theme,

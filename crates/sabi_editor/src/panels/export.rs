@@ -81,7 +81,7 @@ impl View for ExportPanel {
 }
 
 impl ExportPanel {
-    /// Waits for the answer of the system dialog no longer, since another graph is opened.
+    /// Stops waiting for the answer of the system dialog, since another graph is opened.
     pub(crate) fn forget_dialog(&mut self) {
         self.dialog = None;
     }
@@ -165,7 +165,7 @@ impl ExportPanel {
     }
 }
 
-/// Rows for what is exported and how.
+/// Rows of the settings of an export.
 fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
     ui.label("Size");
     egui::ComboBox::from_id_salt("size")
@@ -220,7 +220,7 @@ fn channels_text(channels: &[String]) -> String {
     }
 }
 
-/// Switches for channels; all of them is the same as none.
+/// Switches for channels. An empty choice stands for all of them.
 fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
     let known = export_channels();
     let is_chosen = |channel: &String| chosen.is_empty() || chosen.contains(channel);
@@ -240,7 +240,7 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
 
 fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, has_variants: bool, ui: &mut Ui) {
     let has_model = chosen.has_model;
-    // The panel is as narrow as these words; what else there is to say stands in the tips.
+    // These labels are short, since the panel is narrow; the tooltips explain them.
     let variants = has_variants.then_some((
         &mut place.variants,
         "All variants",

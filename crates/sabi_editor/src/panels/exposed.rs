@@ -1,4 +1,4 @@
-//! Exposed parameters of the shown graph, for people who never open it; and, with the pen, their names and ranges.
+//! Exposed parameters of the shown graph, for people who never open it; while they are edited, their names and ranges.
 
 mod editing;
 
@@ -62,7 +62,7 @@ impl ExposedParameters {
             let mut edits = Vec::new();
             editing::show(ui, theme, &panel, &mut edits);
             actions.extend(edits.into_iter().map(Action::edit));
-            // Without rows, so that a drag whose row is gone ends.
+            // Called without rows, so that a drag whose row has disappeared ends.
             let events = exposed_ui(ui, theme, memory, &[], &context.lengths());
             actions.extend(events.into_iter().map(Action::TurnExposed));
             return actions;
@@ -94,7 +94,7 @@ impl ExposedParameters {
     }
 }
 
-/// A parameter as a row shows it: it counts as changed where its value is not that of when the graph was opened.
+/// A parameter as a row shows it: it counts as changed if it has another value than when the graph was opened.
 fn shown(knob: &ExposedKnob) -> sabi_engine::catalog::Knob {
     let mut shown = knob.knob.clone();
     shown.ty.default = knob.at_first.clone();

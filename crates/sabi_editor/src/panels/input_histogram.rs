@@ -1,4 +1,4 @@
-//! The histogram of what an adjustment reads, above its parameters: where black and white are set by what is there.
+//! Histogram of the input of an adjustment, above its parameters: it shows where black and white should be.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ const SOURCE: &str = "source";
 const HEIGHT: f32 = 56.0;
 const BINS: usize = 96;
 
-/// Result that the selected node reads, where its values are counted.
+/// Result that the selected node reads, if its histogram is shown.
 pub(crate) fn measured(document: &OpenDocument) -> Option<NodeRef> {
     let id = document.selected_one()?;
     marks_of(document, id)?;
@@ -36,13 +36,13 @@ pub(crate) fn measured(document: &OpenDocument) -> Option<NodeRef> {
     Some(result_of(document, &from.node, from.port.clone()))
 }
 
-/// Parameters of a node that stand for a value of its input; none where the input is not counted.
+/// Parameters of a node that stand for a value of its input; `None` where the input is not counted.
 fn marks_of(document: &OpenDocument, id: &NodeId) -> Option<&'static [&'static str]> {
     let kind = &document.node(id)?.kind;
     KINDS.iter().find(|(known, _)| known == kind).map(|(_, marks)| *marks)
 }
 
-/// Histogram of what the selected node reads.
+/// Histogram of the input of the selected node.
 #[derive(Default)]
 pub(super) struct InputHistogram {
     shown: Option<(Arc<Inspected>, Histogram)>,

@@ -19,7 +19,7 @@ use crate::trials::Trial;
 /// Parameter of an instance that chooses a variant of its group.
 const VARIANT: &str = "variant";
 
-/// Group of a node that is its only selected instance.
+/// Group of a node, if the node is a group instance and the only selected node.
 fn group_of<'d>(document: &'d OpenDocument, id: &NodeId) -> Option<&'d String> {
     let node = document.node(id).filter(|node| node.kind == GROUP_KIND)?;
     node.group.as_ref().filter(|_| document.selection().len() == 1)
@@ -105,7 +105,7 @@ fn variants(
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
         for (at, word) in words.iter().enumerate() {
-            // The first word stands for no variant.
+            // The first card is for the values without a variant.
             let name = (at > 0).then(|| word.clone());
             let label = name.as_deref().map_or_else(|| "Base".to_owned(), label_of);
             let card = Card {
@@ -129,7 +129,7 @@ fn variants(
     chosen
 }
 
-/// Link of a group to its library, and what can be done about it.
+/// Link of a group to its library, with buttons that unlink and update it.
 fn library(ui: &mut Ui, context: &ViewContext<'_>, group: &str, source: &LibrarySource) -> Vec<GroupCommand> {
     let mut commands = Vec::new();
     ui.horizontal_wrapped(|ui| {

@@ -34,8 +34,8 @@ impl View for LibraryPanel {
         let favorites = &context.settings.favorites;
         let number = |candidate: &Candidate| candidate.favorite_number(favorites);
         let mut found: Vec<&Candidate> = ranked(context.candidates, &self.query);
-        // Favorites come first in their own order, then the effects, which artists look for more than for single nodes; the
-        // sort keeps the order of the others. What is searched for stays in the order of its rank.
+        // Favorites come first in their own order, then the effects, which artists look for more often than for single
+        // nodes. The sort is stable: the others keep their order, which in a search is that of their rank.
         let is_single = |candidate: &Candidate| self.query.is_empty() && matches!(candidate.new, NodeSource::Kind(_));
         found.sort_by_key(|candidate| (number(candidate).unwrap_or(usize::MAX), is_single(candidate)));
         let mut area = ScrollArea::vertical().auto_shrink(false);

@@ -110,7 +110,7 @@ impl Page {
         }
     }
 
-    /// Picture of what a node does.
+    /// Picture of the effect of a node.
     fn picture(&mut self, ui: &mut Ui, interface: &Interface) {
         if self.picture.as_ref().is_none_or(|(kind, _)| *kind != interface.id) {
             let picture = picture_of(&interface.id, PICTURE_SIDE).map(|picture| {

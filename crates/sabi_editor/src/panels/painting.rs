@@ -100,7 +100,7 @@ impl Painting {
     }
 }
 
-/// A list to choose one of several from.
+/// A list from which one of several values is chosen.
 fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(T, &str)]) -> Response {
     let title = all
         .iter()

@@ -1,4 +1,4 @@
-//! Parameters of the selected nodes; with nothing selected, what the shown graph exposes.
+//! Parameters of the selected nodes; with nothing selected, the exposed parameters of the shown graph.
 
 use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::connections::PendingWire;
@@ -39,7 +39,7 @@ impl View for Parameters {
         let sentence =
             format!("{count} nodes of several kinds are selected; select nodes of one kind to change them together.");
         ui.add(Label::new(RichText::new(sentence).color(context.theme.quiet)).wrap());
-        // Without rows, so that a drag whose row is gone ends.
+        // Called without rows, so that a drag whose row has disappeared ends.
         let events = knobs_ui(ui, context.theme, &mut self.memory, &[], &context.lengths());
         drop(events);
         Vec::new()
@@ -90,7 +90,7 @@ impl Parameters {
             .knobs
             .iter()
             .zip(&links)
-            // Versions of strokes are for files; the list of strokes shows what they hold.
+            // Versions of strokes are for files; the list of strokes shows their contents.
             .filter(|(knob, _)| node.kind != PAINT || knob.name != STROKES)
             .map(|(knob, links)| KnobRow {
                 knob,
@@ -156,7 +156,7 @@ fn heading(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, interface: &Inte
     }
 }
 
-/// Names of what a parameter is linked to.
+/// Links of a parameter, by their names.
 struct KnobLinks<'d> {
     /// Title of the node that gives it its value.
     wired: Option<String>,

@@ -102,7 +102,7 @@ impl View for Problems {
             for beside in context.row.beside() {
                 let model = &beside.model;
                 for warning in model.warnings() {
-                    // What helps is offered once it is the first model of the view, which the buttons are about.
+                    // Remedies are offered only for the main model, which the buttons act on.
                     let text = format!("{}: {warning}", file_stem(model.file()));
                     ui.add(egui::Label::new(RichText::new(text).color(theme.warning)).wrap());
                 }
@@ -133,7 +133,8 @@ fn pictures_of_model(context: &ViewContext<'_>) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-/// The model that the graph names and that could not be read, or not to its end, with a button that reads it again.
+/// The model that the graph names, if it could not be read or its reading was canceled, with a button that reads it
+/// again.
 fn unread_model(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
     let model = &context.evaluation.model;
     let refused = model.refused()?;

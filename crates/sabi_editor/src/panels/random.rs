@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use egui::Ui;
 use egui_phosphor::regular as icon;
 
-/// Parameters that random values leave alone, by what they belong to.
+/// Parameters that random values leave alone, by the graph or node that has them.
 pub(super) type Kept<K> = BTreeSet<(K, String)>;
 
 /// Shows *Random* and *Keep* for the parameters of `of`, given by name and label. Returns the names of those that are kept, if

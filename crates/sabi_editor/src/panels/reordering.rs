@@ -11,7 +11,7 @@ use crate::theme::Theme;
 const NEAR: f32 = 12.0;
 
 /// Shows the dragged row and the line where it would be inserted. Once it is dropped, returns it and the index of the row
-/// that it goes before. `title` gives its title, or none if it belongs to another list.
+/// that it goes before. `title` gives its title, or `None` if it belongs to another list.
 pub(crate) fn dropped<P: Any + Send + Sync>(
     ui: &Ui,
     theme: &Theme,

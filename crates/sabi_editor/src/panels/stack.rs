@@ -1,4 +1,4 @@
-//! The chain behind an output as a list of layers.
+//! The chain of layers behind an output, as a list.
 
 mod row;
 
@@ -78,7 +78,7 @@ impl View for Layers {
 }
 
 impl Layers {
-    /// Layer under a place of the screen whose mask a node that is dropped there becomes.
+    /// Layer under a place of the screen, if a node that is dropped there can become its mask.
     pub(crate) fn mask_target(&self, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<NodeId> {
         let (_, node) = self.rows.iter().find(|(rect, _)| rect.contains(at))?;
         let slot = layers::mask_input(document, node)?;
@@ -129,7 +129,7 @@ impl Layers {
         };
         if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
             let from = dragged.at;
-            // The gap is counted with the dragged row in its place.
+            // Gaps are counted with the dragged row still in the list.
             let to = if gap > from { gap - 1 } else { gap };
             if to != from {
                 let end = stack.end.clone();
@@ -189,7 +189,7 @@ fn modes(ui: &mut Ui, document: &OpenDocument, layer: &Layer, actions: &mut Vec<
     }
 }
 
-/// Menu of what can be the mask of a layer, by category.
+/// Menu of nodes that can be the mask of a layer, by category.
 fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Vec<Action>) {
     let document = context.document;
     if layer.mask.is_some() && ui.button("No mask").clicked() {
@@ -273,7 +273,7 @@ fn head(document: &OpenDocument, ui: &mut Ui, stack: &Stack, actions: &mut Vec<A
     });
 }
 
-/// Buttons that add layers that are painted or filled, on top of a stack, or with an output of their own.
+/// Buttons that add painted or filled layers, on top of a stack or with an output of their own.
 fn by_hand(ui: &mut Ui, end: Option<&StackEnd>, actions: &mut Vec<Action>) {
     for (what, title) in HandLayer::ALL {
         let (sign, tip) = match what {

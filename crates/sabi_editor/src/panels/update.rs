@@ -1,4 +1,5 @@
-//! Groups whose library has a newer version: what an update changes, as two pictures side by side, and the buttons that do it.
+//! Groups whose library has a newer version: pictures of the model before and after an update, and the buttons that
+//! update.
 
 use egui::{RichText, Ui, Vec2};
 use egui_phosphor::regular as icon;

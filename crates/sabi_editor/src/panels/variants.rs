@@ -1,5 +1,5 @@
-//! Variants: named sets of values, as cards with pictures of the open model. The card that is chosen is shown, and changed by
-//! the knobs.
+//! Variants: named sets of values, as cards with pictures of the open model. The chosen variant is shown, and the knobs
+//! change it.
 
 use egui::{Key, RichText, TextureId, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
@@ -128,7 +128,7 @@ impl VariantCard<'_> {
         action
     }
 
-    /// The variant on the open model; until that is drawn, as it looked when it was shown last.
+    /// Picture of the variant on the open model; until that is drawn, the picture from when the variant was shown last.
     fn picture(&self, ui: &Ui, context: &ViewContext<'_>) -> Option<TextureId> {
         let tried = context.trials.find(Trial::Variant {
             place: format!("{:?}", context.document.shown()),

@@ -1,4 +1,4 @@
-//! Events of a pen as those of the pointer.
+//! Conversion of the events of a pen to events of the pointer.
 
 #[cfg(test)]
 mod tests;
@@ -9,20 +9,21 @@ use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, TouchPhase};
 
 use super::{PenEvent, PenPlace, PenState};
 
-/// Farthest place that a driver is believed, logical pixels.
+/// Largest coordinate that is accepted from a driver, in logical pixels.
 const FAR: f32 = 1e6;
-/// Largest lean, degrees: a pen that lies flat has no direction on the screen.
+/// Largest tilt, degrees: a pen that lies flat has no direction on the screen.
 const FLAT: f32 = 89.0;
-/// Most events that wait: hours of a pen, if no frame came.
+/// Most events that wait for a frame: hours of input.
 const WAITING_LIMIT: usize = 1 << 20;
 
-/// Seconds without a word from a pen that holds no button, after which it lies on its tablet and the mouse counts again.
+/// Seconds without an event of a pen that holds no button, after which the pen counts as lying on its tablet, and the
+/// mouse is used again.
 const REST: f64 = 1.0;
 
 /// The pointer that a pen moves.
 #[derive(Default)]
 pub(super) struct PenPointer {
-    /// Events that were not told yet.
+    /// Events that were not added to a frame yet.
     waiting: VecDeque<PenEvent>,
     is_near: bool,
     is_eraser: bool,
@@ -30,13 +31,13 @@ pub(super) struct PenPointer {
     at: Option<Pos2>,
     pressure: Option<f32>,
     tilt_degrees: Option<[f32; 2]>,
-    /// True from a touch until the place of its moment is known.
+    /// True from a touch until the next place is reported, which is where it touched.
     touches: bool,
     /// Buttons that the pen holds down.
     held: Vec<PointerButton>,
-    /// Time of the frame that it was heard of last, seconds.
+    /// Time of the frame that had its last event, seconds.
     heard: Option<f64>,
-    /// True if it lies on its tablet.
+    /// True if the pen was left on its tablet: it is near, but sends nothing.
     rests: bool,
 }
 
@@ -52,7 +53,7 @@ impl PenPointer {
         self.is_near || !self.waiting.is_empty()
     }
 
-    /// Returns true if a pen that is near lies on its tablet.
+    /// Returns true if a pen that is near was left on its tablet and sends nothing.
     pub(super) fn rests(&self) -> bool {
         self.rests
     }
@@ -67,8 +68,9 @@ impl PenPointer {
         self.at.filter(|_| self.is_near)
     }
 
-    /// Adds events to those of a frame, and returns the places of the pen among them. A frame ends where a button goes down or up: then
-    /// what was pressed, drawn and lifted within one slow frame stays apart, and each of it is where it was.
+    /// Adds events to those of a frame, and returns the places of the pen among them. A frame ends when a button is
+    /// pressed or released, so that a press, a movement and a release within one slow frame stay apart, each at its
+    /// place.
     pub(super) fn enter_frame(&mut self, raw: &mut RawInput, zoom: f32) -> Vec<PenPlace> {
         let mut places = Vec::new();
         if !self.is_near() {
@@ -79,7 +81,8 @@ impl PenPointer {
         }
         let silence = raw.time.zip(self.heard).map(|(now, heard)| now - heard);
         self.rests = self.held.is_empty() && silence.is_some_and(|silence| silence > REST);
-        // Some systems move the pointer as well, and a touch of the tip is no touch of a finger.
+        // Removes events that some systems send in addition: movements of the pointer, and touches of the tip as those
+        // of a finger.
         raw.events.retain(|event| self.rests || !self.is_doubled(event));
         let mut told = Told {
             events: &mut raw.events,
@@ -96,7 +99,8 @@ impl PenPointer {
         places
     }
 
-    /// True for events of the pointer that are the pen's own. What the pen has not pressed itself may be lifted.
+    /// Returns whether an event of the pointer repeats one of the pen. Releases of buttons that the pen does not hold
+    /// are kept.
     fn is_doubled(&self, event: &Event) -> bool {
         match event {
             Event::PointerMoved(_) | Event::PointerGone | Event::MouseMoved(_) => true,
@@ -111,7 +115,7 @@ impl PenPointer {
         match event {
             PenEvent::Near { is_eraser } if self.is_near && self.is_eraser == is_eraser => {}
             PenEvent::Near { is_eraser } => {
-                // Another end of the pen, whose first end was not seen to leave.
+                // The other end of the pen is near, and no event has said that the first one left.
                 self.lift_all(told);
                 self.is_near = true;
                 self.is_eraser = is_eraser;
@@ -161,7 +165,7 @@ impl PenPointer {
         }
     }
 
-    /// Moves the pointer, unless the place is none, and presses there what was to be pressed.
+    /// Moves the pointer, unless the place is invalid, and performs a pending press there.
     fn move_to(&mut self, at: [f32; 2], zoom: f32, told: &mut Told<'_>) -> Option<PenPlace> {
         let is_place = at.iter().all(|number| number.abs() <= FAR);
         let place = is_place.then(|| PenPlace {
@@ -180,7 +184,7 @@ impl PenPointer {
 
     fn state(&self) -> PenState {
         PenState {
-            pressure: self.pressure.unwrap_or(PenState::MOUSE.pressure), // Of a tool without pressure.
+            pressure: self.pressure.unwrap_or(PenState::MOUSE.pressure), // The tool has no pressure.
             tilt_degrees: self.tilt_degrees,
             is_eraser: self.is_eraser,
         }
@@ -191,7 +195,7 @@ impl PenPointer {
         self.button(PointerButton::Primary, true, told);
     }
 
-    /// Presses or lifts a button, unless it is so already, or the pen was nowhere yet.
+    /// Presses or releases a button, unless it is in that state already, or the pen has no place yet.
     fn button(&mut self, button: PointerButton, pressed: bool, told: &mut Told<'_>) {
         let Some(pos) = self.at.filter(|_| self.held.contains(&button) != pressed) else {
             return;
@@ -229,7 +233,7 @@ fn finite(number: f32) -> Option<f32> {
     number.is_finite().then_some(number)
 }
 
-/// A lean of numbers, no flatter than [`FLAT`].
+/// Tilt with finite angles, no flatter than [`FLAT`]; `None` for other numbers.
 fn lean(degrees: [f32; 2]) -> Option<[f32; 2]> {
     let [x, y] = degrees.map(finite);
     Some([x?, y?].map(|angle| angle.clamp(-FLAT, FLAT)))

@@ -11,7 +11,7 @@ use super::UNSUPPORTED;
 /// Name of the tablet protocol, and its newest version that `octotablet` knows.
 const TABLETS: (&str, u32) = ("zwp_tablet_manager_v2", 1);
 
-/// Returns whether the compositor tells of tablets in a version that is known, and else the reason why not.
+/// Checks that the compositor has the tablet protocol in a known version. The error is the reason that it has not.
 pub(super) fn check() -> Result<(), String> {
     // A connection of its own; outside of Wayland there is none.
     let Ok(connection) = Connection::connect_to_env() else {
@@ -44,7 +44,7 @@ fn suits(known: &[(String, u32)]) -> Result<(), String> {
     }
 }
 
-/// Nothing is kept of the registry.
+/// State for the events of the registry, of which nothing is kept.
 struct Asked;
 
 impl Dispatch<WlRegistry, GlobalListContents> for Asked {

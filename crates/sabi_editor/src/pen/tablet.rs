@@ -11,12 +11,13 @@ use super::{PenEvent, UNSUPPORTED};
 /// Tablets of the system.
 pub(super) struct Tablet {
     manager: Manager,
-    /// Buttons of shafts in the order in which they were pressed first, so that none of them changes what it does.
+    /// Buttons of shafts in the order in which they were pressed first, so that each of them keeps its meaning.
     buttons: Vec<ButtonID>,
 }
 
 impl Tablet {
-    /// Connects to the tablets behind the window of a frame, or says what is in the way; nothing where the frame has no window.
+    /// Connects to the tablets behind the window of a frame. The error is a sentence; `None` where the frame has no
+    /// window.
     pub(super) fn connect(frame: &eframe::Frame) -> Option<Result<Tablet, String>> {
         let window = frame.winit_window()?;
         #[cfg(all(unix, not(target_os = "macos")))]
@@ -63,7 +64,7 @@ impl Tablet {
     }
 }
 
-/// An event of a tool as ours.
+/// Converts an event of a tool.
 fn pen_events(tool: &Tool, event: ToolEvent<'_>, buttons: &mut Vec<ButtonID>) -> [Option<PenEvent>; 2] {
     // Fingers on a tablet move the pointer by themselves.
     if matches!(tool.tool_type, Some(Type::Finger | Type::Emulated)) {
@@ -79,7 +80,7 @@ fn pen_events(tool: &Tool, event: ToolEvent<'_>, buttons: &mut Vec<ButtonID>) ->
             pressure: pose.pressure.get(),
             tilt_degrees: pose.tilt.map(|tilt| tilt.map(f32::to_degrees)),
         },
-        // A tool that comes and touches at once is told to touch only.
+        // A tool that comes near and touches at once is only reported as touching.
         ToolEvent::Down => return [Some(near), Some(PenEvent::Down)],
         ToolEvent::Up => PenEvent::Up,
         // Windows counts the tip among the buttons, and does not say which one it is.

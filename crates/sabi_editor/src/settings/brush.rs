@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) const SIZES: RangeInclusive<f32> = 0.001..=0.5;
 /// Limits of the height that a stroke adds or carves, shares of the model's largest side.
 pub(crate) const HEIGHTS: RangeInclusive<f32> = -0.02..=0.02;
-/// Limits of the way between two stamps, shares of the radius.
+/// Limits of the distance between two stamps, shares of the radius.
 pub(crate) const SPACINGS: RangeInclusive<f32> = 0.02..=4.0;
 /// Limits of the brush's size on the screen, points.
 pub(crate) const POINTS: RangeInclusive<f32> = 1.0..=400.0;
@@ -31,7 +31,7 @@ pub(crate) struct BrushChoices {
     pub(crate) action: Action,
     /// Source of a clone: the paint of the node or another node.
     pub(crate) copy_of: CopyOf,
-    /// Where strokes act.
+    /// Area that strokes act on.
     pub(crate) area: Area,
     /// Way in which strokes are drawn.
     pub(crate) hand: Hand,
@@ -39,22 +39,22 @@ pub(crate) struct BrushChoices {
     pub(crate) size: f32,
     /// Share of the radius that is painted in full.
     pub(crate) hardness: f32,
-    /// Way in which it fades to its border.
+    /// Course of its fade from the hard part to its border.
     pub(crate) fade: Fade,
     pub(crate) flow: f32,
     pub(crate) opacity: f32,
-    /// Way between two stamps, as a share of the radius.
+    /// Distance between two stamps, as a share of the radius.
     pub(crate) spacing: f32,
     /// Direction that the tip follows.
     pub(crate) turn: Turn,
     /// Turn of the tip away from it, degrees.
     pub(crate) angle_degrees: f32,
     pub(crate) jitter: Jitter,
-    /// Places that are left alone.
+    /// Limits of the places that strokes change.
     pub(crate) limits: Limits,
     /// Angle of the edges up to which a side is filled, degrees.
     pub(crate) side_degrees: f32,
-    /// Difference of cover at which a bucket ends.
+    /// Difference of coverage at which a fill ends.
     pub(crate) tolerance: f32,
     pub(crate) symmetry: Symmetry,
     /// True if strokes stay on the piece under the pointer.
@@ -65,9 +65,9 @@ pub(crate) struct BrushChoices {
     pub(crate) color: [f32; 3],
     /// Height that is added; below 0 it carves.
     pub(crate) height: f32,
-    /// What the pressure of a pen changes.
+    /// Effects of the pressure of a pen.
     pub(crate) pressure: PenEffects,
-    /// Effects of its tilt.
+    /// Effects of the tilt of a pen.
     pub(crate) tilt: PenEffects,
     /// True if the size is measured on the screen, where a stroke begins.
     pub(crate) is_on_screen: bool,
@@ -201,8 +201,8 @@ impl BrushChoices {
         }
     }
 
-    /// The brush with a picture as its tip, which lays decals, labels or ribbons as before, and decals in place of what shows
-    /// no picture; as a stroke, one beside another.
+    /// The brush with a picture as its tip. It lays decals, labels or ribbons if it did so before, strokes if it
+    /// stamped a picture before, and decals otherwise.
     pub(crate) fn with_picture(&self, picture: PictureTip) -> BrushChoices {
         let area = match self.area {
             Area::Decal | Area::Label | Area::Ribbon => self.area,

@@ -21,7 +21,7 @@ pub(crate) struct ExportChoices {
     /// Padding around the UV islands.
     pub(crate) padding: ExportPadding,
     pub(crate) has_model: bool,
-    /// True if the copy of the model keeps what the textures do not replace of its look.
+    /// True if the copy of the model keeps the parts of its materials that the textures do not replace.
     pub(crate) keeps_look: bool,
     /// True if the copy of the model is one file with the maps in it.
     pub(crate) embeds: bool,
@@ -32,10 +32,10 @@ pub(crate) struct ExportChoices {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ExportPadding {
-    /// As wide as the mip levels of game engines need it at a size.
+    /// The width that the mip levels of game engines need at the size of the texture.
     #[default]
     Automatic,
-    /// So many texels.
+    /// A number of texels.
     Texels(u32),
     /// Everything around the islands is filled.
     Everything,
@@ -54,7 +54,7 @@ impl ExportPadding {
         ExportPadding::Everything,
     ];
 
-    /// Width in texels at a size; none to fill everything.
+    /// Width in texels at a size; `None` to fill everything.
     pub(crate) fn texels(self, size: u32) -> Option<u32> {
         match self {
             ExportPadding::Automatic => Some(default_padding(size)),
@@ -90,7 +90,7 @@ impl Default for ExportChoices {
 }
 
 impl ExportChoices {
-    /// Options of the copy of the model; none without one.
+    /// Options of the copy of the model; `None` without one.
     pub(crate) fn copy_options(&self) -> Option<CopyOptions> {
         self.has_model.then_some(CopyOptions {
             keeps_look: self.keeps_look,
@@ -98,7 +98,7 @@ impl ExportChoices {
         })
     }
 
-    /// Choices with what is not known replaced by the default, since settings may have been edited by hand.
+    /// Choices with unknown values replaced by the default, since settings may have been edited by hand.
     pub(crate) fn sanitized(mut self) -> ExportChoices {
         let usual = ExportChoices::default();
         if self.preset.is_empty() {

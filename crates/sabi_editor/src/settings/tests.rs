@@ -5,7 +5,7 @@ use serde_json::json;
 use super::*;
 
 #[test]
-fn what_is_kept_comes_back() {
+fn saved_settings_are_read_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut kept = Settings {
         scale: 1.5,
@@ -24,7 +24,7 @@ fn what_is_kept_comes_back() {
 
 #[cfg(unix)]
 #[test]
-fn settings_with_a_path_that_is_not_utf_8_come_back() {
+fn settings_with_a_path_that_is_not_utf_8_are_read_again() {
     use std::os::unix::ffi::OsStrExt;
     let folder = tempfile::tempdir().expect("a folder");
     let file = Path::new(std::ffi::OsStr::from_bytes(b"/no such folder/a\xff.sabi"));
@@ -44,7 +44,7 @@ fn settings_with_a_path_that_is_not_utf_8_come_back() {
 }
 
 #[test]
-fn settings_that_cannot_be_read_are_said_put_aside_and_begun_anew() {
+fn unreadable_settings_are_reported_put_aside_and_replaced_by_new_ones() {
     for damaged in [b"{ \"scale\": \"huge\" }".as_slice(), b"{ \"scale\": 1.5 \xff }"] {
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join(FILE), damaged).expect("written");
@@ -56,7 +56,7 @@ fn settings_that_cannot_be_read_are_said_put_aside_and_begun_anew() {
 }
 
 #[test]
-fn two_windows_keep_what_each_of_them_changed() {
+fn changes_of_two_windows_are_both_saved() {
     let folder = tempfile::tempdir().expect("a folder");
     let began = Settings::default();
     let (mut one, mut other) = (began.clone(), began.clone());
@@ -97,7 +97,7 @@ fn lists_and_maps_keep_what_each_window_added_and_lose_what_one_removed() {
 }
 
 #[test]
-fn settings_that_another_program_damaged_are_put_aside_before_they_are_saved_again() {
+fn settings_damaged_by_another_program_are_put_aside_before_the_next_save() {
     let folder = tempfile::tempdir().expect("a folder");
     let settings = Settings::default();
     fs::write(folder.path().join(FILE), "theirs").expect("written");
@@ -114,7 +114,7 @@ fn settings_that_another_program_damaged_are_put_aside_before_they_are_saved_aga
 }
 
 #[test]
-fn what_a_newer_version_keeps_stays() {
+fn settings_of_a_newer_version_are_kept() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join(FILE), r#"{ "scale": 2.0, "newer": [1] }"#).expect("written");
     let (read, _) = Settings::load(Some(folder.path()));
@@ -139,7 +139,7 @@ fn each_value(value: &mut Json, see: &mut dyn FnMut(&mut Json)) {
 }
 
 #[test]
-fn settings_with_any_value_replaced_by_any_other_open_or_are_said() {
+fn settings_with_any_value_replaced_by_any_other_are_read_or_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = Path::new("a.sabi");
     let mut whole = Settings::default();

@@ -87,7 +87,7 @@ impl LightSetting {
         }
     }
 
-    /// The light with what is out of range brought into it, since settings may have been edited by hand.
+    /// The light with all values within their limits, since settings may have been edited by hand.
     pub(crate) fn sanitized(self) -> LightSetting {
         let usual = LightSetting::default();
         LightSetting {
@@ -175,7 +175,7 @@ impl ViewChoices {
         }
     }
 
-    /// Choices with what is out of range brought into it, since settings may have been edited by hand.
+    /// Choices with all values within their limits, since settings may have been edited by hand.
     pub(crate) fn sanitized(mut self) -> ViewChoices {
         let usual = ViewChoices::default();
         for (number, limits, usual) in [
@@ -215,7 +215,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_chosen_comes_back_and_nonsense_does_not() {
+    fn choices_are_restored_and_invalid_ones_are_replaced() {
         let mut shot = Shot::new(Camera::default());
         shot.has_ground = true;
         shot.background = Background::Studio;

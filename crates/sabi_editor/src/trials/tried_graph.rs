@@ -7,7 +7,7 @@ use sabi_graph::{Graph, Node};
 use super::{Trial, TrialSource};
 use crate::looks::material_port;
 
-/// The graph of a trial, and the node whose result is shown; without one, all outputs are.
+/// The graph of a trial, and the node whose result is shown; without a node, all outputs are shown.
 pub(super) fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(OpenGraph, Option<NodeRef>)> {
     let document = source.document;
     match trial {

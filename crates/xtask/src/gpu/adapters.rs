@@ -58,7 +58,7 @@ impl Adapter {
         self.kind == "cpu"
     }
 
-    /// The name as one of a folder.
+    /// Name of the folder of its results.
     pub(super) fn folder_name(&self) -> String {
         let letters = self.name.chars().map(|c| {
             if c.is_ascii_alphanumeric() {
@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn adapters_are_read_from_what_the_doctor_says() {
+    fn adapters_are_read_from_the_output_of_the_doctor() {
         let json = br#"{ "adapters": [{ "name": "llvmpipe (LLVM 15.0.6, 256 bits)", "kind": "cpu", "driver": "llvmpipe Mesa 22",
             "backend": "vulkan" }] }"#;
         let adapters = listed(json).unwrap();

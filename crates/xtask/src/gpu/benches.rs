@@ -51,7 +51,7 @@ pub(super) fn run_all(project: &Project, pack: &Pack, adapter: &Adapter) -> Resu
     Ok(results)
 }
 
-/// The rows of a table in Markdown whose first two columns are what was measured and the number.
+/// Rows of a table in Markdown whose first two columns are the measured quantity and the number.
 fn rows(printed: &str) -> Vec<Row> {
     let cells = |line: &str| -> Option<Row> {
         let inner = line.trim().strip_prefix('|')?.strip_suffix('|')?;

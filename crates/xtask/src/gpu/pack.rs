@@ -30,7 +30,7 @@ impl Role {
     }
 }
 
-/// A target of cargo: its package, how cargo calls its kind, its name.
+/// A target of cargo: its package, its kind as cargo names it, and its own name.
 type Target = (&'static str, &'static str, &'static str);
 
 const TESTS: [Target; 6] = [
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_without_a_program_is_told_to_be_packed_again() {
+    fn a_folder_without_a_program_has_to_be_packed_again() {
         let folder = env::temp_dir();
         let stop = Pack::open(&folder).unwrap_err();
         assert!(stop.sentence.ends_with("pack the folder again."), "{}", stop.sentence);

@@ -32,7 +32,7 @@ impl Results {
     }
 }
 
-/// The report as Markdown. Software drivers stand last, as what the others are compared with.
+/// The report as Markdown. Software drivers come last, since the others are compared with them.
 pub(super) fn written(results: &[Results]) -> String {
     let mut sorted: Vec<&Results> = results.iter().collect();
     sorted.sort_by_key(|results| results.adapter.is_software());
@@ -103,7 +103,7 @@ fn write_times(text: &mut String, results: &[&Results]) {
     }
 }
 
-/// All that some adapter measured, in the order of the benches' tables.
+/// Names of the measurements of all adapters, in the order of the benches' tables.
 fn measurements<'r>(results: &[&'r Results]) -> Vec<(&'r str, &'r str)> {
     let mut known = Vec::new();
     for bench in results.iter().flat_map(|results| &results.benches) {

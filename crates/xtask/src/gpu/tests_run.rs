@@ -1,4 +1,4 @@
-//! The tests on one adapter: which passed, which failed and with what words.
+//! The tests on one adapter: how many passed, and which failed with which message.
 
 use std::process::Stdio;
 
@@ -51,7 +51,7 @@ fn last_lines(text: &str) -> String {
     lines.into_iter().rev().collect::<Vec<_>>().join(" / ")
 }
 
-/// Reads what a program of tests prints; `end` is how it ended if that was not well.
+/// Reads the output of a program of tests. `end` says how the program ended, if it failed.
 fn read(program: &str, printed: &str, end: Option<String>) -> TestResults {
     let outcome = |line: &str, word: &str| {
         let name = line.strip_prefix("test ")?.strip_suffix(&format!(" ... {word}"))?;
@@ -116,7 +116,7 @@ test result: FAILED. 2 passed; 1 failed; 0 ignored
     }
 
     #[test]
-    fn a_program_that_a_driver_takes_down_is_not_one_that_passed() {
+    fn a_program_that_a_driver_crashes_has_not_passed() {
         let results = read(
             "views",
             "running 2 tests\ntest sun::up ... ok\n",

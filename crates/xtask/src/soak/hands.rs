@@ -6,7 +6,7 @@ use xtask::project::TaskError;
 
 /// Pixels of the display.
 pub(crate) const SIZE: [u32; 2] = [1600, 900];
-/// Height of the menu bar. Its menus quit the program and open dialogs of the system, which no random hand should meet.
+/// Height of the menu bar, which is never clicked: its menus quit the program and open dialogs of the system.
 const MENUS: u32 = 36;
 
 /// Keys of commands that work on the graph, the view and the file that is open.
@@ -60,7 +60,7 @@ const NODES: [&str; 12] = [
     "moss",
 ];
 
-/// Chooser of actions, and the display that they are done on.
+/// Random choice of actions, and the display that they are performed on.
 pub(crate) struct Hands {
     display: String,
     state: u64,
@@ -91,7 +91,7 @@ impl Hands {
         [x.to_string(), y.to_string()]
     }
 
-    /// Does the next action.
+    /// Performs the next action.
     pub(crate) fn act(&mut self) -> Result<(), TaskError> {
         let [x, y] = self.place();
         let mut words = vec!["mousemove", x.as_str(), y.as_str()];
@@ -109,7 +109,8 @@ impl Hands {
             12 => words.extend(["click", "--repeat", "2", "--delay", "80", "1"]),
             13 => words.extend(["click", "3"]),
             14..16 => {
-                // The search for nodes opens where the pointer is; what is typed elsewhere goes into a field or does nothing.
+                // The search for nodes opens where the pointer is on the canvas; elsewhere the text goes into a field
+                // or has no effect.
                 words.extend(["key", "Tab", "sleep", "0.3", "type", self.one_of(&NODES)]);
                 self.send(&words)?;
                 return self.send(&["sleep", "0.3", "key", "Return"]);
@@ -140,7 +141,7 @@ impl Hands {
     fn send(&self, words: &[&str]) -> Result<(), TaskError> {
         let status = self.tool(words).stdout(Stdio::null()).status();
         match status {
-            // A window that has just closed refuses what is sent to it, which the caller finds out by itself.
+            // A window that has just closed refuses input; the caller notices by itself that it is gone.
             Ok(_) => Ok(()),
             Err(error) => Err(TaskError::failed(format!("xdotool cannot be started: {error}."))),
         }

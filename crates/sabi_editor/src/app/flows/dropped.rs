@@ -44,7 +44,7 @@ impl Editor {
         }
     }
 
-    /// Marks the window and says what a file that is held over it does when it is dropped.
+    /// Marks the window while a file is held over it, with a caption that says what a drop does.
     pub(in crate::app) fn mark_hovered_file(&self, ui: &Ui) {
         let hovered = ui.input(|input| input.raw.hovered_files.first().cloned());
         let Some(hovered) = hovered else { return };
@@ -62,7 +62,7 @@ impl Editor {
         self.mark_target(ui, ui.ctx().content_rect(), &words);
     }
 
-    /// Adds the texture sets that the images of a folder are.
+    /// Adds the images of a folder as texture sets.
     fn take_dropped_folder(&mut self, folder: &Path, ui: &Ui) {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
@@ -80,7 +80,7 @@ impl Editor {
         self.add_texture_sets(files, ui);
     }
 
-    /// Adds the texture sets that some images are, and shows the first of their materials.
+    /// Adds images as texture sets, and shows the first of their materials.
     pub(in crate::app) fn add_texture_sets(&mut self, files: Vec<PathBuf>, ui: &Ui) {
         let place = self.views.canvas.camera.place_for_new(ui);
         let before = self.documents.document.selection().clone();

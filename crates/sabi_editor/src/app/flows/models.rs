@@ -1,4 +1,4 @@
-//! Models: which one is shown, and which ones beside it.
+//! The shown model, and the models beside it.
 
 use std::path::Path;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use crate::files::examples;
 use crate::import_options::ImportOptions;
 use crate::paths::{file_stem, in_canonical_folder};
 
-/// Time after the last input for which evaluations that nobody waits for rest.
+/// Time after the last input for which the models beside the main one are not evaluated.
 const REST: Duration = Duration::from_millis(250);
 
 impl Editor {
@@ -25,13 +25,13 @@ impl Editor {
         if self.evaluation.model.is_being_read(&path, &reading) {
             return;
         }
-        // The model that was the first one takes the place of the one that becomes it.
+        // If the requested model is beside the main one, they trade places.
         let before = self.evaluation.model.file().to_owned();
         self.row.replace(&path, &before, self.reading(&before));
         self.evaluation.model.replace(&path, reading);
     }
 
-    /// Puts a model that is shown now on the strip, and says why one is not shown.
+    /// Puts a newly shown model on the strip, or reports why a model cannot be shown.
     pub(in crate::app) fn follow_model(&mut self) {
         match self.evaluation.model.take_outcome() {
             None => {}
@@ -78,7 +78,8 @@ impl Editor {
         self.evaluation.model.replace(&file, reading);
     }
 
-    /// Reads the requested model no further: the one before it is shown again, or a built-in one in place of the first.
+    /// Cancels the reading of the requested model. The previous one is shown again; if there is none, a built-in one is
+    /// shown.
     pub(in crate::app) fn cancel_reading(&mut self) {
         if let Some((file, reading)) = self.evaluation.model.cancel() {
             return self.keep_reading(&file, &reading);
@@ -103,7 +104,8 @@ impl Editor {
         }
     }
 
-    /// Keeps the options for reading a model: in the graph what that keeps of its own model, the others in the settings.
+    /// Keeps the options for reading a model: in the graph those that it stores for its own model, all others in the
+    /// settings.
     fn keep_reading(&mut self, file: &Path, reading: &ImportOptions) {
         let kept = match self.documents.keep_reading(file, reading) {
             true => reading.clone().with_saved(SavedReading::default()),
@@ -117,7 +119,7 @@ impl Editor {
         self.documents.reading(&self.shell.settings, model)
     }
 
-    /// Reads the shown model otherwise after a step was undone that says how the graph's model is read.
+    /// Reads the shown model again if its options in the graph have changed, such as by an undo.
     pub(in crate::app) fn follow_reading(&mut self) {
         if !self.documents.takes_new_reading() {
             return;
@@ -157,8 +159,8 @@ impl Editor {
         folder.is_some_and(|folder| examples::models(folder).any(|own| own == model))
     }
 
-    /// Takes over what arrived about the models beside the main one, and lets their evaluation rest while the artist does
-    /// something: a frame must not wait for it.
+    /// Takes the events of the models beside the main one. Their evaluation pauses after input, so that no frame waits
+    /// for it.
     pub(in crate::app) fn follow_row(&mut self, context: &Context) {
         for (model, outcome) in self.row.take_events(context) {
             match outcome {

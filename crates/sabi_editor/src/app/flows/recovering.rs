@@ -1,4 +1,4 @@
-//! Work that was not saved when a program ended: it is offered again, also where that program is only just ending.
+//! Recovery of work that was not saved when a program ended, even if that program is still ending.
 
 use std::time::Duration;
 
@@ -8,20 +8,20 @@ use sabi_engine::is_open_in_a_window;
 use super::super::Editor;
 use crate::files::Question;
 
-/// Time between two looks at whether the graph's file is still open in another window.
+/// Time between two checks whether the graph's file is still open in another window.
 const LOOK_AGAIN: Duration = Duration::from_millis(200);
 
-/// Sentence about work that was found while other work goes on.
+/// Notice about unsaved work that was found after the open graph was changed.
 const FOUND: &str = "There is unsaved work from before. It is on the start page: File, Examples…";
 
 impl Editor {
-    /// Offers unsaved work that belongs to the open graph's file, and shows other work that was found meanwhile.
+    /// Offers unsaved work on the open graph's file. For other unsaved work, opens the start page or shows a notice.
     pub(in crate::app) fn follow_recoveries(&mut self, context: &Context) {
         self.claim_file_again(context);
         let is_new = self.documents.recoveries.take_freed(context);
         if is_new && self.documents.recovery_of_open_graph().is_none() {
             if self.documents.document.session.is_dirty() {
-                // Not over work that was begun meanwhile.
+                // The start page would cover work that was begun meanwhile.
                 self.shell.notify(FOUND);
             } else {
                 self.views.start.is_open = true;
@@ -36,8 +36,8 @@ impl Editor {
         }
     }
 
-    /// Uses the graph's file once no other window has it open, while that is asked about: a program that was killed holds it until
-    /// the system has ended it.
+    /// While the question about a file that is open elsewhere is shown: claims the file as soon as no other window has
+    /// it open. A killed program holds its file until the system has ended it.
     fn claim_file_again(&mut self, context: &Context) {
         let Some(Question::OpenElsewhere { file }) = &self.views.questions.open else {
             return;
@@ -49,7 +49,7 @@ impl Editor {
         }
         session.set_read_only(false);
         self.views.questions.open = None;
-        // The other window may have saved meanwhile.
+        // The other window may have saved the file before it closed.
         let deleted = self.documents.check_file();
         deleted.into_iter().for_each(|sentence| self.shell.notify(sentence));
     }

@@ -1,4 +1,4 @@
-//! Saving of the graph: the file is looked at first, and a difference is asked about.
+//! Saving of the graph. The user is asked first if another program has changed the file.
 
 use std::path::{Path, PathBuf};
 
@@ -18,14 +18,14 @@ impl Editor {
         };
         let session = &mut self.documents.document.session;
         if session.is_read_only() {
-            // The other window may be closed by now.
+            // The other window may have been closed meanwhile.
             if is_open_in_a_window(&file) || !session.claim_file() {
                 self.views.questions.ask_about_open_file(file);
                 return;
             }
             session.set_read_only(false);
         }
-        // That the file is gone is no reason to ask: it is written again.
+        // The notice about a deleted file is not needed: the file is written again.
         let _ = self.documents.check_file();
         if self.documents.is_file_foreign {
             self.views
@@ -38,7 +38,7 @@ impl Editor {
         if let Err(error) = &saved
             && error.remedies.contains(&Remedy::ReplaceFile)
         {
-            // Written at this very moment.
+            // Another program has written the file since the check.
             self.views
                 .questions
                 .ask_to_replace(file, ReplaceReason::WrittenByAnother);
@@ -47,7 +47,7 @@ impl Editor {
         self.report_saved(&file, saved);
     }
 
-    /// Saves to the graph's file, after what another program has written there was copied beside it.
+    /// Copies the version that another program has written, then saves to the graph's file.
     pub(in crate::app) fn save_beside_theirs(&mut self) {
         let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
             return;
@@ -71,10 +71,10 @@ impl Editor {
         self.documents.document.session.set_backups(backups);
     }
 
-    /// Marks the graph's file as open in this window. If another window has it open, saving to it is refused until the user
-    /// says otherwise.
+    /// Marks the graph's file as open in this window. If another window has it open, saving to it is refused until the
+    /// user allows it.
     pub(in crate::app) fn claim_file(&mut self) {
-        // Without a place for unsaved work, nobody works in the window: it is drawn for a picture.
+        // A window without a recovery folder is only drawn for a picture, and claims no file.
         let is_worked_in = self.documents.recovery_folder().is_some();
         let session = &mut self.documents.document.session;
         if !is_worked_in || session.claim_file() {
@@ -115,7 +115,7 @@ impl Editor {
             return;
         }
         let session = &mut self.documents.document.session;
-        // A first file is not marked yet. Where another window has it open, the user has chosen to replace it.
+        // A new file is not claimed yet. If another window has it open, the user has chosen to replace it.
         session.claim_file();
         session.set_read_only(false);
         self.documents.is_file_foreign = false;
@@ -135,7 +135,7 @@ impl Editor {
         self.shell.report_on(Work::Export, exported);
     }
 
-    /// Saves to another file, and asks first where that would replace one or where its folder is missing.
+    /// Saves to another file, and asks first if that would replace a file or if the folder is missing.
     pub(in crate::app) fn save_as(&mut self, file: PathBuf) {
         let session = &self.documents.document.session;
         let own = session.file().map(canonical_if_present);

@@ -12,7 +12,7 @@ use crate::import_options::ImportOptions;
 use crate::paths::canonical_if_present;
 
 impl Editor {
-    /// Takes over trust that the user gives, for this graph and all later ones.
+    /// Performs an action about trust. Trusted paths hold for this graph and all later ones.
     pub(in crate::app) fn trust(&mut self, action: TrustAction) {
         match action {
             TrustAction::Folder(folder) => {
@@ -59,15 +59,16 @@ impl Editor {
         self.show_beside(file);
     }
 
-    /// Lets every graph open a model that the user chose: a graph that is saved names it.
+    /// Lets every graph open a model that the user chose, since the open graph names it once it is saved.
     fn trust_model(&mut self, file: &Path) {
         if !self.opens_again(file) {
             self.remember_file(file);
         }
     }
 
-    /// Remembers the files that the graph names where it was saved, and those that its model was read from, so that it opens them the
-    /// next time. It may have been saved in another folder, or been opened with files that the command line named.
+    /// Remembers the files that the saved graph names, and those that its model was read from, so that it may open them
+    /// the next time. It may be in another folder now, or have been opened with files that only the command line
+    /// trusted.
     pub(in crate::app) fn remember_named(&mut self) {
         let named = missing_files::named(&self.documents.document);
         let model = self.evaluation.model.received.as_ref();
@@ -77,7 +78,7 @@ impl Editor {
             let is_beside = move |file: &&PathBuf| beside.as_ref().is_some_and(|beside| beside.is_above(file));
             files.iter().filter(move |file| !is_beside(file)).cloned()
         });
-        // Another model may stand in for one that was not found.
+        // The loaded model may be a substitute for one that was not found.
         let has_own_model = self.evaluation.model.loaded().1 && self.evaluation.model.refused().is_none();
         let of_model: Vec<PathBuf> = of_model.filter(|_| has_own_model).collect();
         for file in named.into_iter().chain(of_model) {
@@ -87,7 +88,7 @@ impl Editor {
         }
     }
 
-    /// Returns whether the graph opens a file the next time, with nothing but its place and the settings to go by.
+    /// Returns whether the folder of the graph and the settings alone allow the graph to open a file.
     fn opens_again(&self, file: &Path) -> bool {
         let place = self.documents.document.session.file();
         let by_place = place.is_some_and(|place| TrustedPaths::of_file(place).contains(file));
@@ -102,7 +103,7 @@ impl Editor {
         self.documents.trust(&TrustedPaths::default().with_path(file));
     }
 
-    /// Names a file in place of one that is missing, and those beside it in place of others.
+    /// Names a file in place of a missing one, and files beside it in place of other missing ones.
     pub(in crate::app) fn find_missing(&mut self, lost: &str, file: &Path) {
         let model = self.evaluation.model.received.as_ref();
         let is_texture = model.is_some_and(|model| model.linked.model.missing_pictures().contains(lost));
@@ -134,7 +135,7 @@ impl Editor {
         self.shell.notify(sentence);
     }
 
-    /// Has the pictures that the shown model lacks looked for in the folder of a file, and below it.
+    /// Reads the shown model again, and looks for its missing pictures in and below the folder of a file.
     fn look_for_textures_beside(&mut self, file: &Path) {
         let Some(folder) = file.parent().map(canonical_if_present) else {
             return;

@@ -1,4 +1,4 @@
-//! Nodes that are dragged from the library: where they would be dropped, which is shown meanwhile, and what the drop does.
+//! Nodes that are dragged from the library: the target below the pointer, its mark, and the drop.
 
 use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
 use sabi_editing::command::{LayerCommand, NodeSource};
@@ -24,14 +24,14 @@ enum DropTarget {
     Canvas([f32; 2], Option<SlotRef>),
 }
 
-/// Way from the lower edge of a view to what stands above its captions, points.
+/// Distance from the lower edge of a view to a label above its captions, in points.
 const ABOVE_CAPTIONS: f32 = 52.0;
 
 impl Editor {
-    /// Target of a node at a place of the screen; none where it cannot be dropped.
+    /// Target of a node at a place of the screen; `None` where it cannot be dropped.
     fn drop_target(&self, interface: &Interface, at: Pos2) -> Option<DropTarget> {
         let document = &self.documents.document;
-        // Places of panels that are not shown are those of their last frame.
+        // Hidden panels still have the rectangles of their last frame.
         let is_shown = |panel: Panel| self.shell.dock.is_shown(panel);
         if is_shown(Panel::Stack)
             && let Some(node) = self.views.layers.mask_target(document, interface, at)
@@ -82,7 +82,8 @@ impl Editor {
             .drag_new(ui, &self.shell.theme, document, interface, at);
     }
 
-    /// Part of the window beside the canvas that a drop at a place goes to, and what it does there. The canvas marks its own.
+    /// Rectangle outside of the canvas that a drop at a place goes to, with a caption that says what the drop does. The
+    /// canvas marks its own targets.
     fn marked_target(&self, interface: &Interface, at: Pos2) -> Option<(Rect, String)> {
         let document = &self.documents.document;
         match self.drop_target(interface, at)? {
@@ -103,7 +104,7 @@ impl Editor {
         }
     }
 
-    /// Marks a part of the window that something that is dragged goes to, and says what happens there.
+    /// Marks the target of a drag, with a caption that says what a drop does there.
     pub(in crate::app) fn mark_target(&self, ui: &Ui, place: Rect, words: &str) {
         let theme = &self.shell.theme;
         let layer = LayerId::new(Order::Foreground, Id::new("target of a drop"));
@@ -118,7 +119,7 @@ impl Editor {
         let font = FontId::proportional(type_size::BODY);
         let text = painter.layout_no_wrap(words.to_owned(), font, theme.on_accent);
         let size = text.size() + vec2(2.0 * space::USUAL, space::TIGHT);
-        // A view has captions along its lower edge, above which there is room for this one; a row has neither.
+        // Keeps the captions along the lower edge of a view uncovered; a row has none.
         let ground = match place.height() > 4.0 * ABOVE_CAPTIONS {
             true => Align2::CENTER_BOTTOM.anchor_size(place.center_bottom() - vec2(0.0, ABOVE_CAPTIONS), size),
             false => Align2::LEFT_BOTTOM.anchor_size(place.left_bottom() + vec2(2.5, -2.5), size),

@@ -7,7 +7,7 @@ use sabi_engine::{PackRequest, PackedModel};
 use crate::app::Editor;
 
 impl Editor {
-    /// Asks for an archive. What is packed is read from files, so that the graph has to be saved before.
+    /// Asks for the archive to write. The graph has to be saved first, since it is packed from its file.
     pub(super) fn ask_to_pack(&mut self) {
         if self.packing.is_running() {
             self.shell.notify("The graph is being packed already.");
@@ -28,9 +28,9 @@ impl Editor {
             model: PackedModel::File(model),
             reading: self.evaluation.model.import_options().saved(),
             output,
-            // Missing files are named beside the number of packed ones.
+            // The notice at the end lists missing files.
             allows_missing: true,
-            // The question asks before a name that is taken is chosen.
+            // The dialog has asked before it accepts the name of an existing file.
             replaces: true,
             trusted: self.documents.document.session.graph().trusted.clone(),
         };
@@ -38,7 +38,7 @@ impl Editor {
         self.shell.notify("Packing the graph with all files that it uses…");
     }
 
-    /// Returns true if the graph is in its file as it is shown; else asks for that.
+    /// Returns whether the graph has a file and no unsaved changes; if not, asks the user to save it.
     fn is_saved(&mut self) -> bool {
         let session = &mut self.documents.document.session;
         let is_saved = session.file().is_some() && !session.is_dirty();

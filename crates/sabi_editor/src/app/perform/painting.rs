@@ -107,7 +107,8 @@ impl Editor {
         self.shell.settings.brush = brush;
     }
 
-    /// Marks a decal or a path that was just laid, so that it has handles; after another stroke, nothing.
+    /// Marks the decal or the path that was just laid, so that it has handles. After any other stroke, nothing is
+    /// marked.
     fn mark_new_decal(&mut self) {
         let document = &self.documents.document;
         let model = self.evaluation.model.received.as_ref();
@@ -174,7 +175,7 @@ impl Editor {
         }
     }
 
-    /// Uses the result of a node as the tip of the brush, once it is there.
+    /// Uses the rendered result of a node as the tip of the brush, if one has arrived.
     pub(in crate::app) fn take_node_tip(&mut self) {
         let Some(made) = self.node_tips.take() else { return };
         let taken = made.and_then(|made| {
@@ -191,13 +192,14 @@ impl Editor {
         }
     }
 
-    /// Has the brush stamp a picture that its strokes have, and keeps it for other graphs.
+    /// Makes a picture of the document's strokes the tip of the brush, and keeps it for other graphs.
     fn stamp_picture(&mut self, picture: PictureName) {
         let tip = likely_tip(&self.strokes(), picture);
         self.choose_brush(self.shell.settings.brush.with_picture(tip));
     }
 
-    /// Uses a kept brush; what it does not say, such as the color of one that comes with the program, is as usual.
+    /// Uses a kept brush. Settings that it does not list, such as the color of one that comes with the program, have
+    /// their defaults.
     fn use_kept_brush(&mut self, kept: KeptBrush) {
         let brush = match &kept.file {
             Some(file) => self.shell.report(brush_shelf::opened(file, &self.strokes())),
@@ -208,7 +210,7 @@ impl Editor {
         }
     }
 
-    /// Holds the stencil so from now on.
+    /// Uses these settings of the stencil from now on.
     fn choose_stencil(&mut self, stencil: StencilChoices) {
         self.shell.settings.stencil = stencil;
         self.find_stencil_picture();
@@ -226,7 +228,7 @@ impl Editor {
         self.shell.settings.stencil = StencilChoices::with_picture(likely_tip(&strokes, picture));
     }
 
-    /// Hands the picture of the stencil to the strokes of the document, which may be another one than it was taken in.
+    /// Loads the picture of the stencil into the open document, if that does not have it yet.
     fn find_stencil_picture(&mut self) {
         let strokes = self.strokes();
         let stencil = &self.shell.settings.stencil;
@@ -245,8 +247,7 @@ impl Editor {
         }
     }
 
-    /// Hands the pictures of the brush and of the stencil to the strokes of the document, which may be another one than they were taken
-    /// in.
+    /// Loads the pictures of the brush and of the stencil into the open document, if that does not have them yet.
     fn find_brush_picture(&mut self) {
         self.find_stencil_picture();
         let strokes = self.strokes();
@@ -261,7 +262,7 @@ impl Editor {
         }
     }
 
-    /// Stores the strokes, and has the graph that names them stored soon.
+    /// Stores the strokes, and makes the next autosave store the graph that names them.
     pub(super) fn keep_strokes(&mut self) {
         if let Err(error) = self.documents.document.session.keep_strokes() {
             self.shell.fail(error.to_string());
@@ -285,14 +286,14 @@ impl Editor {
         }
     }
 
-    /// Returns whether drags on the model paint: with another node selected they do not.
+    /// Returns whether drags on the model paint: painting is on, and the selected node has strokes.
     fn paints(&self) -> bool {
         let document = &self.documents.document;
         let selected = document.selected_one();
         self.looks.is_painting && selected.is_some_and(|node| painting::strokes_of(document, node).is_some())
     }
 
-    /// Ends painting. What the model showed meanwhile stays: the result of the node that was painted is its mask alone.
+    /// Ends painting, and keeps what the model shows: the result of the painted node would be its mask alone.
     fn end_painting(&mut self) {
         let shown = self.looks.on_model(&self.documents.document, &self.shell.settings);
         self.looks.is_painting = false;
@@ -301,7 +302,7 @@ impl Editor {
         }
     }
 
-    /// Has the brush paint where its action would change nothing, as an eraser that was used last does on a new layer.
+    /// Switches the brush to painting if its action would change nothing, such as erasing on a new layer.
     fn leave_idle_action(&mut self, node: &NodeId) {
         let strokes = painting::strokes_of(&self.documents.document, node);
         let brush = &mut self.shell.settings.brush;
@@ -338,7 +339,7 @@ impl Editor {
     }
 }
 
-/// The part that an artist means most likely of a picture that was just taken.
+/// Tip of a picture that was just taken, with the part of the picture that the artist most likely means.
 fn likely_tip(strokes: &Strokes, picture: PictureName) -> PictureTip {
     let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());
     PictureTip {

@@ -63,13 +63,13 @@ impl Editor {
         };
         self.edit(command, ui);
         self.keep_strokes();
-        let list = strokes_on(&self.documents.document, &node, &model).unwrap_or_default(); // As before.
+        let list = strokes_on(&self.documents.document, &node, &model).unwrap_or_default(); // Nothing is painted yet.
         let pasted = list.strokes.iter().rev().take(count).map(|stroke| stroke.id);
         self.looks.marked_strokes = pasted.collect::<BTreeSet<_>>();
     }
 }
 
-/// Steps that add strokes; their groups get numbers from a free one on.
+/// Steps that add strokes. Their groups are numbered from `free` on.
 fn additions(strokes: Vec<Stroke>, free: u32) -> Vec<Step> {
     let mut numbers: BTreeMap<u32, u32> = BTreeMap::new();
     let added = strokes.into_iter().map(|stroke| {

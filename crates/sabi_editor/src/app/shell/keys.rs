@@ -47,7 +47,7 @@ impl Keyboard {
         context.send_viewport_cmd(ViewportCommand::RequestPaste);
     }
 
-    /// Remembers at the end of a frame whether a text field has the keyboard.
+    /// Remembers at the end of a frame whether a text field has the keyboard focus.
     pub(crate) fn end_frame(&mut self, context: &Context) {
         self.was_typing = context.text_edit_focused();
     }
@@ -91,7 +91,7 @@ impl Shell {
         }
         let is_escape_spent = self.is_escape_spent(context, views);
         self.keep_focus(context);
-        // A drag is an open step, which has to end first.
+        // The undo step of a drag is open, and has to end before a command runs.
         if views.key_list.takes_keys() || views.canvas.is_moving_nodes() || is_dragging {
             return Vec::new();
         }
@@ -122,8 +122,9 @@ impl Shell {
         actions
     }
 
-    /// Takes the keyboard from a text field in another panel than the active one on a Tab that does something there, such as
-    /// adding a node: it would lead to the next widget beside the field, which what is typed next would press.
+    /// Takes the keyboard focus from a text field of another panel when Tab runs a command of the active panel, such as
+    /// adding a node. Otherwise Tab would move the focus to the widget after the field, and the keys typed next would
+    /// press that.
     fn take_tab_from_text(&self, ui: &Ui) {
         let context = ui.ctx();
         let is_tab = |event: &Event| matches!(event, Event::Key { key: Key::Tab, pressed: true, modifiers, .. } if modifiers.is_none());
@@ -218,15 +219,15 @@ impl Shell {
             && self.keyboard.active != *panel
         {
             self.keyboard.active = *panel;
-            // A widget in another panel loses the keyboard; a text field keeps it.
+            // A widget in another panel loses the keyboard focus; a text field keeps it.
             if !ui.ctx().text_edit_focused() {
                 ui.memory_mut(Memory::stop_text_input);
             }
         }
     }
 
-    /// Keeps the keyboard focus on the canvas while it is active: Tab and the arrow keys do not lead from widget to widget
-    /// then.
+    /// Keeps the keyboard focus on the canvas while it is active, so that Tab and the arrow keys do not move the focus
+    /// between widgets.
     fn keep_focus(&self, context: &Context) {
         let id = focus_id();
         // Assistive technology cannot follow a focus on a widget that is not drawn.
@@ -250,7 +251,7 @@ impl Shell {
         });
     }
 
-    /// Makes a panel active that is shown, where the active one is not.
+    /// Makes a shown panel active if the active one is hidden.
     pub(crate) fn leave_hidden_panel(&mut self, views: &mut Views) {
         if !self.dock.is_shown(self.keyboard.active)
             && let Some(shown) = self.dock.shown().next()

@@ -1,4 +1,4 @@
-//! Beginnings: the start page, dropped files, and the window as it was closed.
+//! Start page, dropped files, and the state of the window after a restart.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use super::safety::CLOUDS;
 use crate::dock::Panel;
 
 #[test]
-fn the_start_page_begins_opens_and_unpacks() {
+fn the_start_page_opens_recent_files_examples_and_new_graphs() {
     let mut window = Window::opened(CLOUDS);
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text("")).expect("a graph");
@@ -31,7 +31,7 @@ fn the_start_page_begins_opens_and_unpacks() {
 }
 
 #[test]
-fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
+fn a_dropped_model_is_shown_and_a_dropped_graph_opened() {
     let mut window = Window::opened(CLOUDS);
     let model = window.path("other.obj");
     fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a model");
@@ -53,7 +53,7 @@ fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
 }
 
 #[test]
-fn panels_stay_where_they_were_put_until_they_are_put_back() {
+fn the_layout_of_the_panels_survives_a_restart_and_can_be_reset() {
     let mut window = Window::opened(CLOUDS);
     window.open(Panel::History);
     window.harness.state_mut().save_settings();
@@ -67,11 +67,11 @@ fn panels_stay_where_they_were_put_until_they_are_put_back() {
 }
 
 #[test]
-fn settings_that_could_not_be_kept_are_kept_with_the_next_ones() {
+fn settings_that_could_not_be_saved_are_saved_with_the_next_change() {
     let mut window = Window::opened(CLOUDS);
     let folder = window.path("settings");
     let _ = fs::remove_file(folder.join("settings.json"));
-    // A folder is where the file would be written.
+    // A folder of this name prevents the file from being written.
     fs::create_dir_all(folder.join("settings.json")).expect("a folder");
     let editor = window.harness.state_mut();
     editor.shell.settings.has_mini_map = true;

@@ -25,7 +25,7 @@ fn the_result_of_a_node_becomes_the_tip_of_the_brush() {
     let at = menu.rect().left_center();
     menu.click();
     window.settle();
-    // The canvas and the library name the node as well, farther away.
+    // The canvas and the library show the name as well, but farther from the pointer.
     let all = window.harness.get_all_by_role_and_label(Role::Button, "Dots");
     let distance = |node: &Node<'_>| node.rect().center().distance(at);
     let entry = all.min_by(|one, other| distance(one).total_cmp(&distance(other)));

@@ -1,7 +1,7 @@
 use super::Window;
 
 #[test]
-fn a_graph_is_built_from_nothing_by_clicks_and_keys_and_taken_back_to_nothing() {
+fn a_graph_that_is_built_by_clicks_and_keys_can_be_undone_completely() {
     let mut window = Window::empty();
     window.settle();
     let empty = window.text();
@@ -20,7 +20,7 @@ fn a_graph_is_built_from_nothing_by_clicks_and_keys_and_taken_back_to_nothing() 
 }
 
 #[test]
-fn every_node_that_is_seen_gets_a_picture_and_the_model_is_lit() {
+fn every_visible_node_gets_a_picture_and_the_model_is_lit() {
     let mut window = Window::empty();
     let noise = window.add([0.3, 0.3], "clouds");
     window.until("a picture of the noise", |editor| editor.thumbnail_of(&noise).is_some());

@@ -15,7 +15,7 @@ use crate::dock::Panel;
 use crate::key_map::Chord;
 use proofs::proof;
 
-/// Two masks in a blend, which is a layer's mask; the layer on paint, which is muted, is the material.
+/// Two masks are blended into the mask of a layer. The layer lies on a muted material, and the output shows it.
 const NODES: &str = r#"
     "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
     "dots": { "kind": "noise/dots", "pos": [10, 330] },
@@ -133,7 +133,7 @@ fn every_command_does_what_its_title_says_by_each_of_its_keys() {
         .filter(|it| !tried.contains(it))
         .map(|it| it.name())
         .collect();
-    // The last three by keys alone.
+    // Commands that other tests try; the last three have keys and no menu entries.
     let elsewhere = "new save undo redo keys copy paste ungroup enter leave frame_model focus_model front right top \
                      lens wires seams next_channel previous_channel material wipe fit_flat true_size tile_flat uv_wires \
                      paint brush_larger brush_smaller brush_erase next_port previous_port wire";
@@ -184,7 +184,7 @@ fn the_keys_1_to_9_add_favorites_under_the_pointer() {
 }
 
 #[test]
-fn undo_redo_groups_and_files_by_their_keys() {
+fn keys_undo_redo_group_and_open_files() {
     for (preset, name) in InputPreset::ALL {
         let mut window = window_with(preset);
         let before = window.prepare(&["mix", "clouds"], Scope::Canvas);

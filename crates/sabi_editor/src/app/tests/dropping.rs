@@ -110,7 +110,7 @@ impl Window {
 }
 
 #[test]
-fn a_layer_is_for_the_material_under_the_pointer_with_the_normal_map_there() {
+fn a_dropped_layer_is_added_to_the_material_under_the_pointer_and_its_normal_map() {
     let mut window = Window::of(TWO_OUTPUTS);
     let squares = write_two_squares(window.folder.path());
     window.show_squares(&squares);
@@ -130,7 +130,7 @@ fn a_layer_is_for_the_material_under_the_pointer_with_the_normal_map_there() {
     window.drop_entry("Relief", "relief", middle - vec2(40.0, 0.0));
     assert_eq!(window.layers("a"), ["Relief", "Paint"]);
     assert_eq!(window.steps(), 2);
-    // Beside the model it is not known which one is meant.
+    // A drop beside the model names no material.
     let corner = window.panel(Panel::Viewport).left_bottom() + vec2(6.0, -6.0);
     window.harness.state_mut().looks.followed = None;
     window.drop_entry("Relief", "relief", corner);
@@ -139,7 +139,7 @@ fn a_layer_is_for_the_material_under_the_pointer_with_the_normal_map_there() {
 }
 
 #[test]
-fn a_layer_that_is_dropped_on_a_model_beside_the_first_one_is_for_its_material_there() {
+fn a_layer_dropped_on_a_model_beside_the_main_one_is_added_to_its_material() {
     let mut window = Window::of(TWO_OUTPUTS);
     window.until_model();
     let squares = write_two_squares(window.folder.path());
@@ -160,7 +160,7 @@ fn a_layer_that_is_dropped_on_a_model_beside_the_first_one_is_for_its_material_t
 }
 
 #[test]
-fn a_layer_is_not_dropped_on_a_view_that_is_not_shown() {
+fn a_layer_is_not_dropped_on_a_hidden_view() {
     let one_output = TWO_OUTPUTS.replace(r#""materials": "left""#, r#""materials": "*""#);
     let mut window = Window::of(&one_output);
     window.until_model();
@@ -187,7 +187,7 @@ fn a_layer_is_not_dropped_on_a_view_that_is_not_shown() {
 }
 
 #[test]
-fn a_layer_that_is_dropped_on_a_node_lies_on_its_material() {
+fn a_layer_dropped_on_a_node_is_added_on_its_material() {
     let mut window = Window::of(TWO_OUTPUTS);
     window.settle();
     let paint = window.rect(&id("paint")).center();
@@ -226,7 +226,7 @@ fn the_2d_view_shows_the_texture_set_that_is_clicked_or_painted_on_the_model() {
 }
 
 #[test]
-fn a_model_that_is_being_read_is_not_read_from_the_beginning_again() {
+fn requesting_a_model_that_is_being_read_does_not_restart_the_reading() {
     let mut window = Window::of(TWO_OUTPUTS);
     let squares = write_two_squares(window.folder.path());
     window.until_model();

@@ -43,7 +43,7 @@ fn ready() -> Window {
         .max_by(|one, other| one.width().total_cmp(&other.width()));
     let field = field.expect("a field for the folder").center();
     window.click_at(field);
-    // In place of the folder that is proposed.
+    // Replaces the proposed folder.
     window.keys(Modifiers::COMMAND, Key::A);
     window.typed("maps");
     window
@@ -131,7 +131,7 @@ fn an_export_is_canceled_and_leaves_nothing() {
 }
 
 #[test]
-fn an_export_says_that_it_waits_for_another_bake_of_its_folder_and_can_be_canceled_meanwhile() {
+fn an_export_that_waits_for_another_bake_of_its_folder_says_so_and_can_be_canceled() {
     let mut window = ready();
     let own = window.path("maps").join(".sabi");
     fs::create_dir_all(&own).expect("a folder");
@@ -162,7 +162,7 @@ fn an_export_says_that_it_waits_for_another_bake_of_its_folder_and_can_be_cancel
 }
 
 #[test]
-fn what_cannot_be_exported_says_why() {
+fn a_refused_export_says_why() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
     window.open(Panel::Export);
     window.harness.state_mut().exports.place.folder.clear();
@@ -192,7 +192,7 @@ fn chosen_channels_are_written_under_the_names_that_were_asked_for() {
 }
 
 #[test]
-fn a_folder_with_files_of_somebody_else_is_asked_about() {
+fn exporting_to_a_folder_with_foreign_files_is_asked_about() {
     let mut window = ready();
     let folder = window.path("maps");
     fs::create_dir_all(&folder).expect("a folder");
@@ -209,7 +209,7 @@ fn a_folder_with_files_of_somebody_else_is_asked_about() {
     assert!(!maps_in(&folder).is_empty());
     assert!(folder.join("thesis.doc").exists());
     window.press("Export");
-    // A quick export may be over by now.
+    // A quick export may have ended already.
     assert!(
         !window.says("none of them is a map of this graph"),
         "now there are maps"
@@ -218,7 +218,7 @@ fn a_folder_with_files_of_somebody_else_is_asked_about() {
 }
 
 #[test]
-fn the_window_writes_the_bytes_that_a_bake_without_it_writes() {
+fn the_window_exports_the_same_bytes_as_a_bake_without_a_window() {
     let mut window = ready();
     window.press("Export");
     window.until("the maps", |editor| editor.exports.running.is_none());
@@ -234,7 +234,7 @@ fn the_window_writes_the_bytes_that_a_bake_without_it_writes() {
 }
 
 #[test]
-fn textures_of_another_model_are_not_put_in_the_place_of_those_that_are_there() {
+fn a_save_does_not_replace_exported_textures_by_those_of_another_model() {
     let mut window = ready();
     window.press("Export");
     window.until("the maps", |editor| editor.exports.running.is_none());
@@ -275,7 +275,7 @@ fn the_base_and_every_variant_are_exported_to_folders_of_their_own() {
         fs::read(color.expect("a map of the color")).expect("a file")
     });
     assert_ne!(base, coarse);
-    // The format of each map and the channels without a map are told.
+    // The panel lists the format of each map, and the channels without a map.
     let texts = window.labels().join("\n");
     assert!(texts.contains("base_color.png  (8 bits, sRGB)"), "{texts}");
     assert!(

@@ -27,7 +27,7 @@ fn told_of(window: &Window, node: &str) -> String {
 }
 
 #[test]
-fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictures() {
+fn a_missing_input_is_reported_on_its_node_and_only_its_readers_wait() {
     let mut window = Window::opened(BROKEN);
     window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
@@ -39,7 +39,7 @@ fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictu
     assert!(window.editor().thumbnail_of(&id("invert")).is_none());
     window.click_at(window.title(&id("blur")));
     assert!(window.says(&fault), "in the panel of parameters too");
-    // Tied, all is well.
+    // Once the blur is connected, all errors are gone.
     window.wire(&id("clouds"), "mask", &id("blur"), "source");
     window.until("a picture of what waited", |editor| {
         editor.thumbnail_of(&id("invert")).is_some()
@@ -81,7 +81,7 @@ fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
 }
 
 #[test]
-fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
+fn a_missing_picture_and_an_unknown_kind_are_reported_and_nothing_else_stops() {
     let mut window = Window::opened(
         r#"
         "clouds": { "kind": "noise/simplex", "pos": [0, 330] },
@@ -114,7 +114,7 @@ fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
     );
     window.open(Panel::Problems);
     assert!(window.says("nowhere.png") && window.says("noise/of_tomorrow"));
-    // What is not known is kept as it is.
+    // The unknown node is kept unchanged.
     window.click_at(window.title(&id("odd")));
     window.drag_from(window.title(&id("clouds")), window.on_canvas([0.5, 0.9]));
     window.undo(1);
@@ -122,7 +122,7 @@ fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
 }
 
 #[test]
-fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
+fn a_group_shows_the_faults_and_the_time_of_its_nodes() {
     let mut window = Window::with(|folders| {
         let text = r#"{
             "format": "sabi", "version": 1, "preview": { "size": 64 },
@@ -158,7 +158,7 @@ fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
 }
 
 #[test]
-fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
+fn a_missing_group_file_is_reported_on_its_node_and_nothing_else_stops() {
     let mut window = Window::opened(
         r#"
         "clouds": { "kind": "noise/simplex", "pos": [0, 330] },

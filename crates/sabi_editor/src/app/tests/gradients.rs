@@ -72,7 +72,7 @@ fn a_line_is_drawn_over_the_picture_from_left_to_right_or_back() {
 }
 
 #[test]
-fn a_file_that_is_no_picture_is_told_and_changes_nothing() {
+fn a_file_that_is_no_picture_is_reported_and_changes_nothing() {
     let mut window = Window::opened(COLORS);
     let before = window.text();
     let file = window.path("broken.png");

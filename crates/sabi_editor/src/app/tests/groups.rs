@@ -78,7 +78,7 @@ fn groups_in_groups_are_left_step_by_step_or_at_once_by_the_path() {
 }
 
 #[test]
-fn each_graph_is_looked_at_where_it_was_left() {
+fn the_canvas_returns_to_the_place_that_each_graph_was_left_at() {
     let mut window = grouped();
     let group = window.document().selected_one().expect("an instance").clone();
     window.wheel(window.title(&group), -120.0);
@@ -93,7 +93,7 @@ fn each_graph_is_looked_at_where_it_was_left() {
 }
 
 #[test]
-fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
+fn a_group_that_was_saved_to_the_library_is_added_by_search_and_by_drag() {
     let mut window = grouped();
     window.key(Key::F2);
     window.keys(Modifiers::COMMAND, Key::A);
@@ -171,7 +171,7 @@ fn replaces_by_a_group_of_the_library(window: &mut Window) {
 }
 
 #[test]
-fn what_fits_a_wire_is_found_in_the_library_panel_by_a_click_too() {
+fn a_click_on_an_entry_of_the_library_adds_its_node() {
     let mut window = Window::empty();
     let field = window.harness.get_by_label("Search the library").rect().center();
     window.click_at(field);
@@ -191,7 +191,7 @@ fn what_fits_a_wire_is_found_in_the_library_panel_by_a_click_too() {
 }
 
 #[test]
-fn escape_that_ends_a_text_a_menu_or_a_drag_leaves_no_group() {
+fn escape_that_ends_a_text_a_menu_or_a_drag_does_not_leave_the_group() {
     let mut window = grouped();
     let group = window.document().selected_one().expect("an instance").clone();
     window.double_click(window.title(&group));

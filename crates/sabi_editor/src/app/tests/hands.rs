@@ -31,7 +31,7 @@ impl Window {
         self.harness.step();
     }
 
-    /// Presses or releases a button in the next frame, together with what else happens before it.
+    /// Presses or releases a button in the next frame, together with other events that are queued before it.
     pub(super) fn queue_button(&mut self, at: Pos2, button: PointerButton, pressed: bool) {
         let modifiers = self.harness.input().modifiers;
         self.harness.event(Event::PointerButton {
@@ -128,7 +128,7 @@ impl Window {
     }
 
     pub(super) fn keys(&mut self, modifiers: Modifiers, key: Key) {
-        // Systems report these keys as clipboard events.
+        // Systems report copying and cutting as clipboard events in place of these keys.
         let told = match key {
             Key::C if modifiers == Modifiers::COMMAND => Some(Event::Copy),
             Key::X if modifiers == Modifiers::COMMAND => Some(Event::Cut),
@@ -221,7 +221,7 @@ impl Window {
         added.unwrap_or_else(|| panic!("nothing is called '{query}'"))
     }
 
-    /// Place on the screen of a node's input, or else of its output with the name.
+    /// Place on the screen of a node's input with this name, or of its output if no input has the name.
     pub(super) fn port(&self, node: &NodeId, name: &str) -> Pos2 {
         let interface = self.document().interface(node).expect("a node");
         let side = if interface.input(name).is_some() {
@@ -318,7 +318,7 @@ fn is_tab(label: &str, panel: Panel) -> bool {
     rest.is_some_and(|rest| rest.trim().chars().all(|letter| letter.is_ascii_digit()))
 }
 
-/// An id.
+/// Parses an id.
 pub(super) fn id(text: &str) -> NodeId {
     text.parse().expect("an id")
 }
@@ -352,7 +352,7 @@ impl Window {
         self.key(Key::Enter);
     }
 
-    /// Place of what has this accessible name.
+    /// Rectangle of the widget with this accessible name.
     pub(super) fn area(&self, name: &str) -> Rect {
         self.harness.get_by_label(name).rect()
     }

@@ -7,7 +7,7 @@ use super::Window;
 use super::hands::id;
 use crate::dock::Panel;
 
-/// Accessible name of what has the keyboard.
+/// Accessible name of the widget that has the keyboard focus.
 fn focused(window: &Window) -> String {
     let found = window.harness.query_all(by().predicate(|node| node.is_focused()));
     found
@@ -17,7 +17,7 @@ fn focused(window: &Window) -> String {
 }
 
 #[test]
-fn a_graph_is_built_turned_and_taken_back_by_keys_alone() {
+fn a_graph_is_built_changed_and_undone_by_keys_alone() {
     let mut window = Window::empty();
     window.settle();
     let empty = window.text();
@@ -81,7 +81,7 @@ fn ports_are_stepped_through_both_ways_and_escape_drops_the_wire() {
 }
 
 #[test]
-fn f6_goes_round_the_panels_and_says_where_it_is() {
+fn f6_steps_through_the_panels_and_says_which_one_is_active() {
     let mut window = Window::empty();
     window.settle();
     assert_eq!(window.editor().shell.keyboard.active, Panel::Canvas);
@@ -141,7 +141,7 @@ fn tab_opens_the_menu_only_while_keys_are_for_the_canvas() {
 }
 
 #[test]
-fn the_menu_is_gone_through_by_arrows() {
+fn the_arrow_keys_move_through_the_menu() {
     let mut window = Window::empty();
     window.settle();
     window.key(Key::Tab);
@@ -181,7 +181,7 @@ fn the_menu_is_as_tall_as_before_once_a_search_is_cleared_or_it_is_opened_again(
 }
 
 #[test]
-fn what_is_typed_into_a_field_is_no_command() {
+fn keys_typed_into_a_field_run_no_commands() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
     window.click_at(window.title(&id("clouds")));
     let field = window.harness.get_by_label("Search the library").rect().center();
@@ -197,7 +197,7 @@ fn what_is_typed_into_a_field_is_no_command() {
 }
 
 #[test]
-fn keys_act_on_what_the_pointer_is_over_whatever_was_turned_before() {
+fn keys_act_on_the_panel_under_the_pointer_even_after_a_knob_was_turned() {
     let mut window =
         Window::opened(r#""clouds": { "kind": "noise/simplex", "params": { "size": 0.5 }, "pos": [0, 0] }"#);
     window.click_at(window.title(&id("clouds")));
@@ -211,7 +211,7 @@ fn keys_act_on_what_the_pointer_is_over_whatever_was_turned_before() {
     );
 }
 
-/// Drag of a second mask to an input that has one, by keys alone.
+/// A window in which a second mask was wired by keys to an input that has one.
 fn asked_about_masks() -> Window {
     let mut window = Window::opened(
         r#"
@@ -335,7 +335,7 @@ fn in_one_frame(window: &mut Window, keys: &[(Key, &str)]) {
 }
 
 #[test]
-fn what_is_typed_before_the_node_menu_is_drawn_is_searched_in_it() {
+fn text_typed_before_the_node_menu_is_drawn_goes_into_its_search() {
     let mut window = Window::empty();
     window.settle();
     // L and V are keys of commands, too.
@@ -379,7 +379,7 @@ fn escape_in_the_frame_of_the_key_that_opens_a_name_closes_it_again() {
 }
 
 #[test]
-fn tab_over_the_graph_opens_its_menu_while_a_field_of_another_panel_has_the_keyboard() {
+fn tab_over_the_canvas_opens_its_menu_while_a_field_elsewhere_has_the_focus() {
     let mut window = Window::empty();
     window.open(Panel::Library);
     let field = window.area("Search the library").center();

@@ -13,7 +13,7 @@ const TWO: &str = r#"
 "#;
 
 #[test]
-fn a_drag_in_the_panel_is_one_step_and_the_window_knows_that_it_moves() {
+fn a_drag_in_the_panel_is_one_undo_step_and_evaluates_fast_until_it_ends() {
     let mut window = Window::opened(TWO);
     window.click_at(window.title(&id("clouds")));
     let before = window.text();
@@ -89,7 +89,7 @@ fn several_selected_nodes_of_a_kind_are_turned_together() {
 }
 
 #[test]
-fn an_expression_is_worked_out_and_what_is_none_is_told() {
+fn an_expression_is_evaluated_and_an_invalid_one_is_reported() {
     let mut window = Window::opened(TWO);
     window.click_at(window.title(&id("clouds")));
     window.set_number("Grain", "2*0.3");
@@ -100,7 +100,7 @@ fn an_expression_is_worked_out_and_what_is_none_is_told() {
 }
 
 #[test]
-fn after_a_number_was_typed_keys_mean_commands_again() {
+fn after_a_number_was_typed_keys_run_commands_again() {
     let mut window = Window::opened(TWO);
     window.click_at(window.title(&id("clouds")));
     window.set_number("Grain", "0.25");
@@ -112,7 +112,7 @@ fn after_a_number_was_typed_keys_mean_commands_again() {
 }
 
 #[test]
-fn a_knob_is_put_on_the_panel_of_the_graph_and_taken_off_by_its_menu() {
+fn a_parameter_is_exposed_and_unexposed_by_its_menu() {
     let mut window = Window::opened(TWO);
     window.click_at(window.title(&id("clouds")));
     let bar = window.knob("Grain");
@@ -128,7 +128,7 @@ fn a_knob_is_put_on_the_panel_of_the_graph_and_taken_off_by_its_menu() {
 }
 
 #[test]
-fn a_number_on_a_wired_input_is_not_offered() {
+fn the_value_of_a_connected_input_cannot_be_dragged() {
     let mut window = Window::opened(
         r#"
         "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
@@ -143,7 +143,7 @@ fn a_number_on_a_wired_input_is_not_offered() {
 }
 
 #[test]
-fn a_drag_that_is_given_up_leaves_the_graph_and_what_can_be_done_again_as_they_were() {
+fn a_canceled_drag_leaves_the_graph_and_the_redo_steps_unchanged() {
     let mut window = Window::opened(r#""blend": { "kind": "blend/mask", "pos": [0, 0] }"#);
     let blend = id("blend");
     window.click_at(window.title(&blend));
@@ -161,7 +161,7 @@ fn a_drag_that_is_given_up_leaves_the_graph_and_what_can_be_done_again_as_they_w
 }
 
 #[test]
-fn a_drag_whose_node_is_gone_ends_with_the_button_outside_of_the_window() {
+fn a_drag_whose_knob_disappeared_ends_when_the_button_is_released_outside() {
     let mut window = Window::opened(TWO);
     let near = window.rect(&id("dots"));
     let found = window.harness.query_all_by_label("Spacing");

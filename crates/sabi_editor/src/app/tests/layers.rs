@@ -42,7 +42,7 @@ fn row(window: &Window, title: &str) -> egui::Pos2 {
 }
 
 #[test]
-fn a_layer_is_dragged_to_another_place_and_what_cannot_be_says_why() {
+fn a_layer_is_dragged_to_another_place_or_says_why_it_cannot_be() {
     let mut window = layered(LAYERED);
     let [rust, dents, paint] = ["Rust", "Dents", "Paint"].map(|title| row(&window, title));
     window.drag(rust, dents + vec2(0.0, 20.0), PointerButton::Primary, Modifiers::NONE);
@@ -60,7 +60,7 @@ fn a_layer_is_dragged_to_another_place_and_what_cannot_be_says_why() {
 }
 
 #[test]
-fn eyes_bars_and_bins_of_layers_do_what_they_say_as_one_step_each() {
+fn the_eye_the_bar_and_the_bin_of_a_layer_each_make_one_undo_step() {
     let mut window = layered(LAYERED);
     window.click("Show Rust");
     assert!(stack::all(&window.editor().documents.document)[0].layers[0].is_muted);
@@ -98,7 +98,7 @@ fn a_layer_of_a_kind_is_added_on_top_and_above_another() {
 }
 
 #[test]
-fn a_layer_that_is_read_elsewhere_is_locked_and_says_by_what() {
+fn a_layer_that_other_nodes_read_is_locked_and_names_its_readers() {
     let shared = LAYERED.replace(
         r#""out": {"#,
         r#""other": { "kind": "material/split", "inputs": { "material": "dents" } }, "out": {"#,

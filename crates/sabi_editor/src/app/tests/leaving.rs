@@ -1,4 +1,4 @@
-//! Protection against loss: by opening, by replacing, and by closing during an export.
+//! Protection against loss of work: when a graph is opened, a file is replaced, and the window closes.
 
 use std::fs;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use crate::action::LibraryKind;
 use crate::dock::Panel;
 
 #[test]
-fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
+fn a_recent_file_is_opened_only_after_the_question_about_unsaved_changes() {
     let mut window = Window::opened(CLOUDS);
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text("")).expect("a graph");
@@ -35,7 +35,7 @@ fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
 }
 
 #[test]
-fn another_graph_is_evaluated_as_soon_as_it_is_opened() {
+fn another_graph_is_evaluated_as_soon_as_it_is_open() {
     let mut window = Window::opened("");
     window.until("rest", |editor| {
         !editor.evaluation.is_busy() && editor.views.model.pictures.drawn > 0
@@ -92,7 +92,7 @@ fn the_file_of_another_graph_is_not_replaced_without_a_question() {
 }
 
 #[test]
-fn a_graph_never_takes_the_place_of_a_picture_by_its_name() {
+fn a_graph_saved_under_the_name_of_a_picture_gets_its_own_ending() {
     let mut window = Window::opened(CLOUDS);
     window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     window.answer_path(&window.path("wood.png"));
@@ -101,7 +101,7 @@ fn a_graph_never_takes_the_place_of_a_picture_by_its_name() {
 }
 
 #[test]
-fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
+fn a_group_in_the_library_is_not_replaced_by_another_of_the_same_name() {
     let mut window = Window::opened(CLOUDS);
     window
         .harness
@@ -130,7 +130,7 @@ fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
 }
 
 #[test]
-fn the_window_stays_until_textures_are_written() {
+fn the_window_stays_open_until_textures_are_written() {
     let mut window = Window::opened(
         r##""clouds": { "kind": "noise/simplex" }, "layer": { "kind": "effect/layer", "inputs": { "mask": "clouds" },
             "params": { "color": "#6b3a1e" } }, "out": { "kind": "output/material", "inputs": { "material": "layer" } }"##,
@@ -164,7 +164,7 @@ fn exporting_at_every_save() -> Window {
 }
 
 #[test]
-fn a_save_while_textures_are_written_has_them_written_once_more() {
+fn a_save_during_an_export_exports_once_more() {
     let mut window = exporting_at_every_save();
     let editor = window.harness.state_mut();
     editor.save();
@@ -175,7 +175,7 @@ fn a_save_while_textures_are_written_has_them_written_once_more() {
 }
 
 #[test]
-fn where_textures_go_is_known_for_each_graph_and_in_the_next_window() {
+fn the_export_folder_of_each_graph_is_remembered_by_the_next_window() {
     let mut window = Window::opened(CLOUDS);
     let first = window.path("graph.sabi");
     let other = window.path("other.sabi");
@@ -196,7 +196,7 @@ fn where_textures_go_is_known_for_each_graph_and_in_the_next_window() {
 }
 
 #[test]
-fn a_window_with_the_unsaved_text_of_a_node_stays() {
+fn a_window_with_an_unsaved_node_file_stays_open() {
     let mut window = Window::opened(CLOUDS);
     window
         .harness
@@ -213,7 +213,7 @@ fn a_window_with_the_unsaved_text_of_a_node_stays() {
 }
 
 #[test]
-fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_without_changes_of_it() {
+fn an_unsaved_node_file_is_recovered_whether_or_not_the_graph_was_changed() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window
@@ -226,7 +226,7 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
     window.press("Copy as a node of my own");
     window.fill("Id of the node", "noise/mine");
     window.settle();
-    // A save deletes the copy of the graph alone.
+    // A save deletes only the recovery copy of the graph.
     window.keys(Modifiers::COMMAND, Key::S);
     window.settle();
     let unsaved = window.editor().views.page.unsaved();
@@ -247,7 +247,7 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
 }
 
 #[test]
-fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_place_of_one_that_is_not() {
+fn a_recovered_node_file_is_kept_beside_another_unsaved_version_of_it() {
     let mut window = Window::opened(CLOUDS);
     let draft = |text: &str| sabi_engine::NodeDraft {
         folder: window.path("nodes"),
@@ -273,7 +273,7 @@ fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_p
 }
 
 #[test]
-fn what_was_kept_and_cannot_be_read_is_told_until_it_is_let_go() {
+fn an_unreadable_recovery_file_is_listed_until_it_is_discarded() {
     let folder = tempfile::tempdir().expect("a folder");
     let unsaved = folder.path().join("unsaved");
     fs::create_dir_all(&unsaved).expect("a folder");
@@ -289,7 +289,7 @@ fn what_was_kept_and_cannot_be_read_is_told_until_it_is_let_go() {
 }
 
 #[test]
-fn however_much_was_kept_the_start_page_stays_in_sight() {
+fn the_start_page_stays_in_view_however_many_recoveries_are_listed() {
     let folder = tempfile::tempdir().expect("a folder");
     let unsaved = folder.path().join("unsaved");
     fs::create_dir_all(&unsaved).expect("a folder");
@@ -308,7 +308,7 @@ fn however_much_was_kept_the_start_page_stays_in_sight() {
 }
 
 #[test]
-fn keys_of_the_window_are_heard_while_a_text_is_typed_and_letters_are_not() {
+fn keys_of_the_window_work_while_text_is_typed_but_letters_run_no_commands() {
     let mut window = Window::opened(CLOUDS);
     window.mute();
     let text = window.text();
@@ -325,7 +325,7 @@ fn keys_of_the_window_are_heard_while_a_text_is_typed_and_letters_are_not() {
 }
 
 #[test]
-fn asking_for_a_panel_that_the_use_view_lacks_leaves_it() {
+fn showing_a_panel_that_the_use_view_lacks_ends_that_view() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().toggle_use_view();
     window.settle();
@@ -337,7 +337,7 @@ fn asking_for_a_panel_that_the_use_view_lacks_leaves_it() {
 }
 
 #[test]
-fn what_was_kept_can_be_let_go_and_a_window_that_uses_it_keeps_it() {
+fn a_recovery_file_can_be_discarded_once_no_window_uses_it() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();
@@ -367,7 +367,7 @@ fn settings_that_cannot_be_read_are_put_aside() {
 }
 
 #[test]
-fn the_window_is_called_after_its_graph() {
+fn the_title_of_the_window_names_the_graph() {
     let mut window = Window::opened(CLOUDS);
     window.settle();
     assert_eq!(window.editor().shell.title, "graph.sabi – Sabi");

@@ -71,7 +71,7 @@ fn the_first_favorites_are_added_by_number_where_the_pointer_is() {
 }
 
 #[test]
-fn a_star_makes_a_favorite_and_takes_it_back() {
+fn a_click_on_the_star_adds_a_favorite_and_the_next_one_removes_it() {
     let mut window = Window::empty();
     window.settle();
     window.click("Levels is a favorite");
@@ -81,7 +81,7 @@ fn a_star_makes_a_favorite_and_takes_it_back() {
 }
 
 #[test]
-fn an_entry_is_dragged_to_where_it_is_dropped_and_nowhere_beside_the_canvas() {
+fn a_dragged_entry_is_added_where_it_is_dropped_but_not_outside_of_the_canvas() {
     let mut window = Window::empty();
     window.settle();
     let entry = window.harness.get_by_label("Levels").rect().center();
@@ -108,12 +108,12 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
     assert!(sabi_engine::load_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
     window.settle();
     assert_eq!(sections_of(&window, "Wear"), ["project library"], "it is listed once");
-    // Added from there, it is the group that the graph has.
+    // Adding it from the library gives the group that the graph has already.
     let document = &mut window.harness.state_mut().documents.document;
     let named = sabi_editing::library::import(document, &file);
     assert_eq!(named.as_deref(), Some("Wear"));
     assert_eq!(document.contents().groups.len(), 1);
-    // A changed group is another one than that of the library.
+    // Once changed, the group differs from that of the library, and both are listed.
     let document = &mut window.harness.state_mut().documents.document;
     sabi_editing::navigation::enter(document, &instance);
     sabi_editing::nodes::add(document, "noise/simplex", [0.0; 2], None);
@@ -129,7 +129,7 @@ fn sections_of(window: &Window, name: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_library_follows_its_folder_and_says_what_there_cannot_be_read() {
+fn the_library_follows_its_folder_and_reports_unreadable_files() {
     let mut window = Window::of(GROUPED);
     let library = window.path("library");
     std::fs::create_dir_all(&library).expect("a folder");
@@ -138,7 +138,7 @@ fn the_library_follows_its_folder_and_says_what_there_cannot_be_read() {
         found.any(|candidate| candidate.section == "project library")
     };
     window.until("the watch", |editor| editor.documents.watching.is_watching());
-    // As another program writes it.
+    // Writes the file as another program does.
     let group = r#"{ "format": "sabi", "version": 1, "outputs": { "mask": "n" },
         "nodes": { "n": { "kind": "noise/cells" } } }"#;
     let file = library.join("wear.sabi");
@@ -183,7 +183,7 @@ fn f1_opens_the_page_of_a_node() {
 fn nodes_that_come_with_the_program_have_pictures_in_the_library() {
     let mut window = Window::empty();
     for kind in ["adjust/levels", "noise/cells"] {
-        // Asks for it as an entry does that comes into sight.
+        // Asks for the picture as an entry does when it is scrolled into view.
         window.until("a picture", |editor| {
             editor.views.library.picture_of_kind(kind).is_some()
         });
@@ -203,7 +203,7 @@ fn a_group_of_the_graph_has_the_picture_of_an_instance_in_the_library() {
 }
 
 #[test]
-fn a_node_of_ones_own_begins_as_another_one_and_its_faults_are_told_as_it_is_typed() {
+fn a_custom_node_starts_as_a_copy_and_its_faults_are_reported_while_typing() {
     let mut window = Window::of(GROUPED);
     let added = window.add([0.3, 0.6], "levels");
     window.key(Key::F1);
@@ -253,7 +253,7 @@ fn a_dropped_folder_becomes_a_material() {
     );
     assert!(kinds.contains(&"material/combine".to_owned()));
     assert_eq!(window.steps(), 1);
-    // Its nodes cover none that were there, and are in view, and its material is shown.
+    // The new nodes cover no others and are in view, and their material is shown.
     let canvas = window.editor().shell.dock.rects[&Panel::Canvas];
     let rects: Vec<_> = window
         .document()
@@ -294,7 +294,7 @@ fn a_folder_of_pictures_is_imported_by_the_file_menu_as_by_a_drop() {
         std::fs::write(folder.join(name), "").expect("a file");
     }
     window.ask_for_pictures();
-    // The folder that is listed, or one that is typed.
+    // Either the listed folder is imported, or one whose name is typed, as here.
     window.typed("bricks");
     window.click("Import the folder");
     let found = kinds(&window);
@@ -332,7 +332,7 @@ fn a_dropped_picture_is_a_node_in_one_step() {
 }
 
 #[test]
-fn an_entry_that_is_dropped_on_a_wire_is_put_into_it_where_it_fits() {
+fn an_entry_dropped_on_a_wire_is_inserted_into_it_if_it_fits() {
     let mut window = Window::opened(
         r#"
         "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
@@ -376,7 +376,7 @@ fn an_entry_that_is_dropped_on_a_wire_is_put_into_it_where_it_fits() {
 }
 
 #[test]
-fn an_entry_that_is_dragged_to_the_far_edge_pulls_the_canvas() {
+fn an_entry_that_is_dragged_to_the_far_edge_scrolls_the_canvas() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
     let entry = window.harness.get_by_label("Levels").rect().center();
     let still = window.screen([0.0, 0.0]);
@@ -392,7 +392,7 @@ fn an_entry_that_is_dragged_to_the_far_edge_pulls_the_canvas() {
 }
 
 #[test]
-fn f1_shows_the_selected_node_while_a_draft_is_kept_and_lost_only_when_that_is_said() {
+fn f1_leaves_an_unsaved_draft_which_is_kept_until_the_user_discards_it() {
     let mut window = Window::of(GROUPED);
     window.add([0.3, 0.6], "levels");
     window.key(Key::F1);

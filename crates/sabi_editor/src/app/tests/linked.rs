@@ -24,7 +24,7 @@ fn write_group(folder: &Path, name: &str, color: &str) {
     std::fs::write(folder.join(format!("{}.sabi", name.to_lowercase())), text).expect("a writable folder");
 }
 
-/// A window with instances of two groups of the library of the user, the first of which the output gives.
+/// A window with instances of two groups of the user's library. The first one is connected to the output.
 fn with_instances() -> (Window, PathBuf, [NodeId; 2]) {
     let mut library = PathBuf::new();
     let mut window = Window::with(|folders| {
@@ -65,7 +65,7 @@ impl Window {
         self.settle();
     }
 
-    /// Clicks what has this name in the panel of parameters.
+    /// Clicks the widget with this name in the panel of parameters.
     fn click_parameter(&mut self, name: &str) {
         let at = self.knob(name);
         self.click_at(at);
@@ -89,7 +89,7 @@ fn outdated(editor: &Editor) -> usize {
 }
 
 #[test]
-fn newer_versions_are_told_without_a_selection_and_shown_before_they_are_taken() {
+fn newer_versions_are_listed_without_a_selection_and_shown_before_an_update() {
     let (mut window, library, _) = with_instances();
     assert!(!window.says("newer group"));
     window.write_newer(&library);
@@ -140,7 +140,7 @@ fn a_selected_instance_is_updated_with_its_values_and_unlinked() {
 }
 
 #[test]
-fn random_changes_an_instance_and_leaves_what_is_kept() {
+fn random_changes_an_instance_but_none_of_its_kept_parameters() {
     let (mut window, _, [red, _]) = with_instances();
     window.select(&red);
     let random = format!("{} Random", icon::DICE_FIVE);
@@ -170,7 +170,7 @@ fn random_changes_an_instance_and_leaves_what_is_kept() {
 }
 
 #[test]
-fn random_changes_the_panel_of_a_graph_and_leaves_its_seed_where_that_is_kept() {
+fn random_changes_the_exposed_parameters_of_a_graph_but_not_its_kept_seed() {
     let text = r#"{ "format": "sabi", "version": 1, "seed": 9, "preview": { "size": 64 },
         "exposed": { "size": { "to": ["cells.size"], "range": [0.02, 1], "default": 0.3, "label": "Width" } },
         "nodes": { "cells": { "kind": "noise/cells" } } }"#;

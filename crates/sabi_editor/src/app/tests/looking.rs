@@ -50,7 +50,7 @@ fn the_middle_button_moves_the_canvas_and_no_node() {
 }
 
 #[test]
-fn what_is_dragged_to_the_edge_pulls_the_canvas_along() {
+fn dragging_to_the_edge_scrolls_the_canvas() {
     let mut window = Window::opened(TWO);
     let still = window.screen([0.0, 0.0]);
     let handle = window.title(&id("dots"));
@@ -88,7 +88,7 @@ fn a_click_on_the_mini_map_goes_there() {
 }
 
 #[test]
-fn nodes_are_told_to_those_who_do_not_see_them_at_every_zoom() {
+fn nodes_have_accessible_names_at_every_zoom() {
     let mut window = Window::opened(TWO);
     let at = window.rect(&id("clouds")).left_top();
     for points in [0.0, -300.0, -600.0] {
@@ -106,7 +106,7 @@ fn nodes_are_told_to_those_who_do_not_see_them_at_every_zoom() {
 }
 
 #[test]
-fn the_wheel_moves_the_canvas_aside_with_shift() {
+fn the_wheel_scrolls_the_canvas_sideways_with_shift() {
     let mut window = Window::opened(TWO);
     let at = window.on_canvas([0.3, 0.6]);
     let (zoom, still) = (window.zoom(), window.screen([0.0, 0.0]));

@@ -16,7 +16,7 @@ impl Window {
 }
 
 #[test]
-fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
+fn no_work_is_lost_with_the_device_and_undo_still_reaches_the_first_step() {
     let mut window = Window::empty();
     window.settle();
     let empty = window.text();

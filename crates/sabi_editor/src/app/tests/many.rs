@@ -33,7 +33,7 @@ fn seen_nodes(window: &Window) -> usize {
 }
 
 #[test]
-fn of_five_hundred_nodes_only_those_that_are_seen_are_drawn() {
+fn of_five_hundred_nodes_only_the_visible_ones_are_drawn() {
     let mut window = Window::opened(&field());
     assert_eq!(window.document().graph().len(), 500);
     let at = window.on_canvas([0.5, 0.5]);

@@ -6,7 +6,7 @@ use sabi_graph::Fit;
 use super::{Window, beside};
 
 #[test]
-fn the_size_that_is_worked_at_is_chosen_in_the_status_bar() {
+fn the_texture_size_while_editing_is_chosen_in_the_status_bar() {
     let mut window = Window::opened("");
     window.click("64 texels");
     window.click("256 × 256");
@@ -17,7 +17,7 @@ fn the_size_that_is_worked_at_is_chosen_in_the_status_bar() {
 }
 
 #[test]
-fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
+fn the_unit_of_length_can_be_chosen_and_undone() {
     let mut window = Window::opened("");
     window.click("1 = largest side");
     window.click("a metre");
@@ -29,7 +29,7 @@ fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
 }
 
 #[test]
-fn the_parts_of_the_graphs_model_are_chosen_in_its_import_settings_and_kept_in_the_graph() {
+fn the_chosen_parts_of_the_graphs_model_are_kept_in_the_graph() {
     let mut window = Window::with(|folders| {
         let folder = beside(folders);
         let square = "vt 0 0\nvt 1 0\nvt 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -46,7 +46,7 @@ fn the_parts_of_the_graphs_model_are_chosen_in_its_import_settings_and_kept_in_t
             let (_, is_loaded) = editor.evaluation.model.loaded();
             let received = editor.evaluation.model.received.as_ref();
             let is_received = received.is_some_and(|model| model.linked.model.parts == expected);
-            // Parts are listed once the model has proved good.
+            // Parts are listed once the model was read without an error.
             is_loaded && is_received && !editor.evaluation.model.file_parts().is_empty()
         });
     };
@@ -68,7 +68,7 @@ fn the_parts_of_the_graphs_model_are_chosen_in_its_import_settings_and_kept_in_t
 }
 
 #[test]
-fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
+fn import_options_are_chosen_kept_and_used_for_exports() {
     let mut window = Window::opened("");
     let is_there = |editor: &super::Editor| editor.evaluation.model.loaded().1;
     window.until("the model", is_there);

@@ -1,4 +1,4 @@
-//! The menu of nodes: what it lists for the selected node.
+//! The menu of nodes: its list for the selected node.
 
 use egui::Key;
 
@@ -8,7 +8,7 @@ use super::hands::id;
 const NODES: &str = r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#;
 
 #[test]
-fn the_menu_offers_what_takes_the_result_of_the_selected_node_and_connects_it() {
+fn the_menu_offers_nodes_that_fit_the_selected_one_and_connects_them() {
     let mut window = Window::opened(NODES);
     window.click_at(window.title(&id("clouds")));
     window.point(window.on_canvas([0.8, 0.8]));
@@ -23,7 +23,7 @@ fn the_menu_offers_what_takes_the_result_of_the_selected_node_and_connects_it() 
     window.key(Key::Enter);
     let added = window.document().selected_one().expect("the new node").clone();
     assert_eq!(window.reads(&added, "source"), "clouds");
-    // Without the second Tab, it stands alone.
+    // Without the second Tab, the new node is not connected.
     window.point(window.on_canvas([0.8, 0.2]));
     window.key(Key::Tab);
     window.typed("invert");

@@ -79,7 +79,7 @@ fn moved(window: &mut Window, button: PointerButton, modifiers: Modifiers) -> (e
 }
 
 #[test]
-fn the_canvas_is_moved_and_zoomed_by_the_drags_of_each_habit() {
+fn the_canvas_is_moved_and_zoomed_by_the_drags_of_each_preset() {
     use PointerButton::{Middle, Primary, Secondary};
     let by = egui::vec2(-30.0, -50.0);
     let is = |(way, is_nearer): (egui::Vec2, bool), expected: egui::Vec2, zooms: bool| {
@@ -106,7 +106,7 @@ fn the_canvas_is_moved_and_zoomed_by_the_drags_of_each_habit() {
 }
 
 #[test]
-fn in_blender_a_box_selects_and_a_selects_all() {
+fn in_the_blender_preset_a_drag_selects_by_a_box_and_the_key_a_selects_all() {
     let mut window = window_with(InputPreset::Blender);
     let around: [Pos2; 2] = [window.on_canvas([0.01, 0.03]), window.on_canvas([0.99, 0.97])];
     window.drag_from(around[0], around[1]);
@@ -119,7 +119,7 @@ fn in_blender_a_box_selects_and_a_selects_all() {
 }
 
 #[test]
-fn the_list_of_keys_shows_the_drags_of_the_habit() {
+fn the_list_of_keys_shows_the_drags_of_the_preset() {
     let mut window = window_with(InputPreset::Blender);
     window.key(egui::Key::F1);
     window.harness.state_mut().views.key_list.is_open = true;

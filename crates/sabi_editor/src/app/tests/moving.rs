@@ -53,7 +53,7 @@ fn selected_nodes_move_together_and_another_one_alone() {
 }
 
 #[test]
-fn escape_lets_nodes_go_that_are_dragged_as_if_nothing_had_been() {
+fn escape_returns_dragged_nodes_to_where_they_were() {
     let mut window = Window::opened(THREE);
     let before = window.text();
     let handle = window.title(&id("invert"));
@@ -87,7 +87,7 @@ fn keys_wait_while_nodes_are_dragged() {
 }
 
 #[test]
-fn a_box_and_a_lasso_select_what_they_hold_and_shift_keeps_what_was() {
+fn a_box_and_a_lasso_select_nodes_and_shift_keeps_the_earlier_selection() {
     let mut window = Window::opened(THREE);
     let around = window.rect(&id("dots")).expand(12.0);
     window.drag_from(around.left_top(), around.center());
@@ -125,7 +125,7 @@ fn strip(window: &Window) -> Pos2 {
 }
 
 #[test]
-fn a_frame_moves_its_nodes_is_named_and_goes_while_they_stay() {
+fn a_frame_moves_its_nodes_can_be_named_and_is_removed_without_them() {
     let mut window = Window::opened(FRAMED);
     window.click_at(window.title(&id("clouds")));
     window.click_with(window.title(&id("dots")), PointerButton::Primary, Modifiers::SHIFT);
@@ -205,7 +205,7 @@ fn nodes_are_copied_as_text_and_pasted_under_the_pointer() {
 }
 
 #[test]
-fn the_right_button_on_a_node_offers_what_can_be_done_with_it() {
+fn the_right_button_on_a_node_opens_a_menu_of_its_commands() {
     let mut window = Window::opened(THREE);
     window.click_with(window.title(&id("invert")), PointerButton::Secondary, Modifiers::NONE);
     assert_eq!(selected(&window), ["invert"]);
@@ -238,7 +238,7 @@ fn the_right_button_on_a_node_offers_what_can_be_done_with_it() {
 }
 
 #[test]
-fn the_right_button_beside_nodes_adds_one_and_on_a_wire_puts_it_into_it() {
+fn the_right_button_beside_nodes_adds_a_node_and_on_a_wire_inserts_one() {
     let mut window = Window::opened(THREE);
     let [one, other] = [window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source")];
     window.click_with(one.lerp(other, 0.5), PointerButton::Secondary, Modifiers::NONE);
@@ -255,7 +255,7 @@ fn the_right_button_beside_nodes_adds_one_and_on_a_wire_puts_it_into_it() {
 }
 
 #[test]
-fn a_click_shows_a_node_a_port_its_result_and_ctrl_shift_pins() {
+fn a_click_on_a_node_or_a_port_shows_its_result_and_ctrl_shift_pins_it() {
     let mut window = Window::opened(
         r#"
         "cells": { "kind": "noise/cells", "pos": [0, 0] },
@@ -312,7 +312,7 @@ fn a_frame_takes_only_its_own_nodes_along_whatever_is_selected() {
 }
 
 #[test]
-fn a_frame_takes_its_next_color_by_its_menu() {
+fn the_menu_of_a_frame_gives_it_the_next_color() {
     let mut window = Window::opened(FRAMED);
     window.click_at(window.title(&id("clouds")));
     window.key(Key::C);

@@ -1,4 +1,4 @@
-//! What somebody meets who opens the window for the first time.
+//! First steps of a new user.
 
 use std::fs;
 
@@ -28,7 +28,7 @@ impl Window {
         self.editor().shell.dock.rects[&Panel::Canvas]
     }
 
-    /// Interface of the library that is shown.
+    /// Rectangle of a visible entry of the library.
     pub(super) fn listed_entry(&self, name: &str) -> Rect {
         let library = self.editor().shell.dock.rects[&Panel::Library];
         let mut entries = self.harness.query_all_by_label(name).map(|node| node.rect());
@@ -53,7 +53,7 @@ fn a_new_graph_shows_the_model_and_says_what_to_do_until_something_is_done() {
 }
 
 #[test]
-fn what_is_dropped_on_the_model_first_is_seen_whole_on_the_canvas() {
+fn nodes_of_the_first_drop_on_the_model_are_fully_in_view_on_the_canvas() {
     let mut window = Window::untitled();
     window.until_model();
     window.open(Panel::Library);
@@ -87,7 +87,7 @@ fn a_layer_that_is_added_outside_of_the_view_is_brought_into_it() {
 }
 
 #[test]
-fn the_names_of_a_groups_inputs_are_seen_whole_when_it_is_entered() {
+fn the_names_of_a_groups_inputs_are_not_cut_off_when_it_is_entered() {
     // The nodes are so near that they are drawn with their ports and names rather than as cards.
     let name = "where_the_old_paint_of_the_boards_is_gone";
     let text = r#"{ "format": "sabi", "version": 1,
@@ -123,7 +123,7 @@ fn the_place_of_a_drop_is_marked_and_named_while_it_is_dragged() {
 }
 
 #[test]
-fn a_file_that_is_held_over_the_window_says_what_it_will_do() {
+fn a_file_held_over_the_window_has_a_caption_that_says_what_a_drop_does() {
     let mut window = new_graph();
     for (name, words) in [
         ("worn.sabi", "Drop worn.sabi to open it"),
@@ -181,7 +181,7 @@ fn a_paint_layer_is_one_click_from_the_layers_and_is_painted_at_once() {
         ViewSubject::Outputs,
         "what was shown while painting stays"
     );
-    // Another one is painted on in its turn. The row of the first one has the name of the button.
+    // A second layer is added, and painted on instead. The row of the first layer has the same name as the button.
     window.open(Panel::Stack);
     let panel = window.editor().shell.dock.rects[&Panel::Stack];
     let named = window.harness.get_all_by_role_and_label(Role::Button, "Paint layer");
@@ -303,11 +303,11 @@ fn a_new_image_asks_for_its_file_and_is_no_problem_without_one() {
 }
 
 #[test]
-fn levels_show_the_histogram_of_what_they_read() {
+fn levels_show_the_histogram_of_their_input() {
     let mut window = Window::opened(
         r#""n": { "kind": "noise/simplex" }, "l": { "kind": "adjust/levels", "inputs": { "source": "n" }, "pos": [300, 0] }"#,
     );
-    // Whatever the 2D view showed before.
+    // The histogram does not depend on what the 2D view showed before.
     window.click_at(window.title(&id("n")));
     window.until_inspected("n");
     assert!(!window.has("Histogram of the input"));
@@ -361,7 +361,7 @@ fn a_slider_on_a_node_is_exposed_by_its_own_menu() {
 }
 
 #[test]
-fn the_start_page_offers_the_model_and_its_parameters_only() {
+fn the_start_page_can_open_an_example_with_only_the_model_and_its_parameters() {
     let mut window = new_graph();
     window.harness.state_mut().views.start.is_open = true;
     window.settle();
@@ -428,7 +428,7 @@ fn every_workspace_is_one_entry_of_the_menu() {
 }
 
 #[test]
-fn a_graph_is_exported_beside_it_unless_another_folder_is_chosen() {
+fn textures_are_exported_beside_the_graph_unless_another_folder_is_chosen() {
     let mut window = Window::opened("");
     assert_eq!(window.editor().exports.place.folder, "graph-textures");
     window.harness.state_mut().exports.place.folder = "maps".to_owned();
@@ -444,7 +444,7 @@ fn a_graph_is_exported_beside_it_unless_another_folder_is_chosen() {
 }
 
 #[test]
-fn the_history_names_what_was_added() {
+fn the_history_names_added_nodes() {
     let mut window = new_graph();
     window.add([0.2, 0.8], "clouds");
     window.open(Panel::Stack);

@@ -18,7 +18,7 @@ fn note(window: &Window) -> Option<Note> {
 #[test]
 fn a_note_is_moved_resized_colored_rewritten_and_removed_each_as_a_step() {
     let mut window = Window::of(NOTED);
-    // So that nothing lies over it.
+    // Moves the note to where nothing lies over it.
     let rect = window.harness.get_by_label("Note: Rust").rect();
     window.drag_from(rect.center(), rect.center() + vec2(0.0, 60.0));
     let zoom = window.zoom();

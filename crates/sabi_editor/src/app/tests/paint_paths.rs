@@ -109,7 +109,7 @@ fn a_drag_pulls_handles_out_of_a_new_knot_and_moves_one_that_is_there() {
 }
 
 #[test]
-fn a_press_on_the_way_puts_a_knot_into_it() {
+fn a_press_on_a_path_between_two_knots_inserts_a_knot() {
     let mut window = drawing(Hand::Path);
     let [from, to, beside] = window.corners();
     for knot in [from, to] {
@@ -125,7 +125,7 @@ fn a_click_near_an_edge_lays_a_path_along_it() {
     let mut window = drawing(Hand::HardEdges);
     window.harness.state_mut().shell.settings.brush.area = Area::Ribbon;
     let [left, _] = window.way();
-    // One of the upright edges of the cube is before the middle.
+    // The clicks reach one of the upright edges of the cube, which is in front of the middle.
     for step in 0..40 {
         window.click_at(left + vec2(5.0 * step as f32 - 70.0, 0.0));
         if window.list("mask").is_some_and(|list| !list.strokes.is_empty()) {
@@ -144,7 +144,7 @@ fn a_click_near_an_edge_lays_a_path_along_it() {
 }
 
 #[test]
-fn a_mere_click_on_a_knot_is_no_step_and_leaves_the_path_as_it_was() {
+fn a_click_on_a_knot_makes_no_undo_step_and_leaves_the_path_unchanged() {
     let mut window = drawing(Hand::Path);
     let [first, ..] = window.click_corners();
     window.key(Key::Enter);
@@ -179,7 +179,7 @@ fn a_path_is_drawn_and_bent_in_the_2d_view_too() {
     let texture = window.harness.get_by_label_contains("Texture of").rect();
     let side = texture.width().min(texture.height());
     let at = |x: f32, y: f32| texture.center() + side * vec2(x, y);
-    // Chart by chart, from the middle outward, until a click lies on the model.
+    // Tries several places of the 2D view, from the middle outward, since not every place is on a chart.
     let places: Vec<Pos2> = [[0.02, 0.02], [0.1, 0.1], [0.2, 0.1], [0.1, 0.2], [0.2, 0.2]]
         .map(|[x, y]: [f32; 2]| at(x, y))
         .to_vec();

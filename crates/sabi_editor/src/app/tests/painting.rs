@@ -38,7 +38,7 @@ pub(super) fn painting_on(node: &str) -> Window {
 }
 
 impl Window {
-    /// A way over the middle of the model.
+    /// Ends of a line over the middle of the model, on the screen.
     pub(super) fn way(&self) -> [Pos2; 2] {
         let middle = self.editor().shell.dock.rects[&Panel::Viewport].center();
         [middle - vec2(30.0, 0.0), middle + vec2(30.0, 10.0)]
@@ -49,13 +49,13 @@ impl Window {
         self.drag_along(&way, PointerButton::Primary, modifiers);
     }
 
-    /// Strokes of a node on the model, from the lowest; none where nothing is painted.
+    /// Strokes of a node on the model, the lowest first; `None` where nothing is painted.
     pub(super) fn list(&self, node: &str) -> Option<Arc<StrokeList>> {
         let model = self.editor().evaluation.model.received.as_ref().expect("a model");
         strokes_on(self.document(), &id(node), &model.linked.model.stem)
     }
 
-    /// The actions of a node's strokes, from the lowest.
+    /// Actions of a node's strokes, the lowest first.
     fn strokes(&self, node: &str) -> Vec<BrushAction> {
         let list = self.list(node).unwrap_or_default(); // Nothing is painted yet.
         list.strokes.iter().map(|stroke| stroke.action).collect()
@@ -63,7 +63,7 @@ impl Window {
 }
 
 #[test]
-fn a_drag_paints_a_stroke_that_is_one_step_and_lies_on_disk_at_once() {
+fn a_drag_paints_a_stroke_as_one_undo_step_and_stores_it_at_once() {
     let mut window = painting_on("mask");
     let camera = window.editor().views.model.navigation.camera;
     window.paint(Modifiers::NONE);
@@ -86,7 +86,7 @@ fn a_drag_paints_a_stroke_that_is_one_step_and_lies_on_disk_at_once() {
 }
 
 #[test]
-fn escape_takes_a_stroke_back_while_it_is_drawn() {
+fn escape_cancels_a_stroke_while_it_is_drawn() {
     let mut window = painting_on("mask");
     let way = window.way();
     window.pull(&way, PointerButton::Primary, Modifiers::NONE);
@@ -184,7 +184,7 @@ fn shift_draws_a_straight_line_from_where_the_last_stroke_ended() {
 }
 
 #[test]
-fn a_click_that_is_over_within_a_frame_is_a_stroke_too() {
+fn a_click_within_one_frame_paints_a_stroke() {
     let mut window = painting_on("mask");
     let at = window.way()[0];
     window.point(at);

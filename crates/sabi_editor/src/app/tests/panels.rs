@@ -42,7 +42,7 @@ impl Window {
         window
     }
 
-    /// A graph of this text, with or without a folder of kept results.
+    /// A graph of this text, with or without a cache folder.
     pub(super) fn with_cache(has_cache: bool, text: &str) -> Window {
         let mut window = Window::prepared(
             |folders| folders.cache = folders.cache.take().filter(|_| has_cache),
@@ -61,7 +61,7 @@ impl Window {
         self.settle();
     }
 
-    /// Clicks something that has a namesake in another panel.
+    /// Clicks the widget of this name outside of a panel that has a widget of the same name.
     pub(super) fn click_beside(&mut self, panel: Panel, name: &str) {
         let rect = self.editor().shell.dock.rects[&panel];
         let mut all = self.harness.get_all_by_label(name);
@@ -102,7 +102,7 @@ impl Window {
 }
 
 #[test]
-fn a_drag_of_a_exposed_knob_is_one_step_and_turns_what_it_stands_for() {
+fn a_drag_of_an_exposed_knob_is_one_undo_step_and_changes_its_parameter() {
     let mut window = Window::of(EXPOSED);
     let bar = window.harness.get_by_label("Wear").rect();
     window.drag(
@@ -130,7 +130,7 @@ fn a_drag_of_a_exposed_knob_is_one_step_and_turns_what_it_stands_for() {
 }
 
 #[test]
-fn the_use_view_has_the_model_the_exposed_knobs_and_the_export_and_nothing_else() {
+fn the_use_view_has_only_the_model_the_exposed_knobs_and_the_export() {
     let mut window = Window::of(EXPOSED);
     let noise = "n".parse().expect("an id");
     window.harness.state_mut().documents.document.select([noise]);
@@ -153,7 +153,7 @@ fn the_use_view_has_the_model_the_exposed_knobs_and_the_export_and_nothing_else(
 }
 
 #[test]
-fn nothing_exposed_says_how_to_expose_a_knob() {
+fn a_graph_without_exposed_parameters_says_how_to_expose_one() {
     let mut window = Window::empty();
     window.settle();
     let sentence = "No parameter is exposed yet. Right-click a parameter of a node and choose Expose parameter; it then stands here.";
@@ -161,7 +161,7 @@ fn nothing_exposed_says_how_to_expose_a_knob() {
 }
 
 #[test]
-fn the_pen_changes_what_exposed_knobs_say_of_themselves() {
+fn exposed_parameters_are_labeled_renamed_and_removed_in_their_cards() {
     let mut window = Window::of(EXPOSED);
     window.click("Change the panel");
     let labels: Vec<_> = window.harness.get_all_by_label("Label").collect();
@@ -187,7 +187,7 @@ fn the_pen_changes_what_exposed_knobs_say_of_themselves() {
 }
 
 #[test]
-fn exposed_knobs_are_put_into_order_by_dragging() {
+fn exposed_knobs_are_reordered_by_dragging() {
     let mut window = Window::of(EXPOSED);
     window.click("Change the panel");
     let [first, second] =
@@ -243,7 +243,7 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
 }
 
 #[test]
-fn a_shown_variant_starts_from_the_base_is_changed_by_knobs_and_leaves_the_base_as_it_was() {
+fn knobs_change_the_shown_variant_and_leave_the_base_unchanged() {
     let mut window = Window::of(EXPOSED);
     window.settle();
     let wear = |window: &Window| window.held("amount");
@@ -270,7 +270,7 @@ fn a_shown_variant_starts_from_the_base_is_changed_by_knobs_and_leaves_the_base_
 }
 
 #[test]
-fn every_variant_that_is_shown_has_a_picture_and_so_has_the_base() {
+fn the_base_and_every_shown_variant_have_a_picture() {
     let mut window = Window::of(EXPOSED);
     let has_picture = |editor: &crate::app::Editor, of_variant: Option<&str>| {
         let document = &editor.documents.document;

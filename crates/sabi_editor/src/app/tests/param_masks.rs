@@ -39,7 +39,7 @@ fn a_parameter_gets_a_new_node_as_its_mask_by_its_menu_and_loses_it_again() {
 }
 
 #[test]
-fn a_wire_dropped_on_a_node_asks_which_parameter_it_multiplies_where_no_input_takes_it() {
+fn a_wire_that_fits_no_input_of_a_node_asks_which_parameter_it_multiplies() {
     let mut window = Window::opened(LOOSE);
     let from = window.port(&id("clouds"), "mask");
     window.drag_from(from, window.title(&id("dots")));
@@ -53,7 +53,7 @@ fn a_wire_dropped_on_a_node_asks_which_parameter_it_multiplies_where_no_input_ta
 }
 
 #[test]
-fn a_wire_dropped_on_a_parameter_offers_inputs_and_then_the_parameter_that_is_meant() {
+fn a_wire_dropped_on_a_parameter_offers_the_inputs_and_that_parameter() {
     let mut window = Window::opened(LOOSE);
     let near = window.rect(&id("levels"));
     let found = window.harness.query_all_by_label("White");
@@ -69,7 +69,7 @@ fn a_wire_dropped_on_a_parameter_offers_inputs_and_then_the_parameter_that_is_me
     window.key(Key::Enter);
     assert_eq!(window.reads(&id("levels"), "white"), "clouds");
     assert_eq!(window.reads(&id("levels"), "source"), "");
-    // Taken off there, the wire leads to the input.
+    // Dragged from there to the node again, the wire is connected to the input.
     window.drag_from(window.port(&id("levels"), "white"), bar);
     window.press("Source");
     assert_eq!(window.reads(&id("levels"), "source"), "clouds");

@@ -23,7 +23,7 @@ fn paths_are_chosen_from_lists_completed_by_tab_and_pasted_whole() {
     assert!(window.says("There is no folder"), "none is made without a question");
     window.press("Create it and save");
     assert_eq!(file(&window), Some(folder.join("deep/er/x.sabi")));
-    // Up, and down again into another graph.
+    // Goes to the folder above, and opens another graph from there.
     window.keys(Modifiers::COMMAND, Key::O);
     for entry in ["To the folder above", "To the folder above"] {
         window.press(entry);
@@ -50,7 +50,7 @@ fn paths_are_chosen_from_lists_completed_by_tab_and_pasted_whole() {
 }
 
 #[test]
-fn a_double_click_opens_what_it_lies_on_and_nothing_in_the_folder_that_it_opens() {
+fn a_double_click_opens_one_entry_and_nothing_in_a_folder_that_it_opens() {
     let mut window = Window::opened("");
     let folder = window.folder.path().canonicalize().expect("a folder");
     for name in ["a/a/a", "b"] {
@@ -76,7 +76,7 @@ fn a_double_click_opens_what_it_lies_on_and_nothing_in_the_folder_that_it_opens(
 }
 
 #[test]
-fn text_and_tab_of_one_frame_complete_what_is_typed_then() {
+fn text_and_tab_in_one_frame_complete_the_new_text() {
     let mut window = Window::opened("");
     let folder = window.folder.path().canonicalize().expect("a folder");
     fs::write(folder.join("étude.sabi"), super::graph_text("")).expect("a graph");
@@ -100,7 +100,7 @@ fn text_and_tab_of_one_frame_complete_what_is_typed_then() {
 }
 
 #[test]
-fn places_are_called_home_and_recent() {
+fn the_lists_of_places_are_called_home_and_recent() {
     let mut window = Window::opened("");
     window.keys(Modifiers::COMMAND, Key::O);
     assert!(window.has("Home") && window.says("RECENT"), "{:?}", window.labels());

@@ -13,7 +13,8 @@ use crate::pen::PenEvent;
 /// Time of a frame, milliseconds.
 const FRAME: f32 = 1000.0 / 60.0;
 
-/// Events of a log with their times, milliseconds. A line without numbers has the time of the one behind it, or of the last one.
+/// Events of a log with their times, milliseconds. A line without numbers has the time of the next place where the pen
+/// comes near or touches, and that of the last place otherwise.
 fn read(log: &str) -> Vec<(f32, PenEvent)> {
     let mut events: Vec<(f32, PenEvent)> = Vec::new();
     let mut unplaced = 0;
@@ -45,7 +46,7 @@ fn read(log: &str) -> Vec<(f32, PenEvent)> {
         };
         let time = events.last().map_or(0.0, |(time, _)| *time);
         events.push((time, event));
-        // Events at the end of a stroke come behind its place.
+        // These two events take the time of the next place; others keep the time of the last place.
         unplaced += usize::from(matches!(event, PenEvent::Near { .. } | PenEvent::Down));
     }
     events
@@ -65,8 +66,8 @@ fn thinned(log: &str, step: usize) -> String {
 }
 
 impl Window {
-    /// Draws a frame in which a tablet sends events, and those frames that it takes to tell them. Places are relative to the middle of
-    /// the model.
+    /// Draws a frame in which a tablet sends events, and further frames until the window has received all of them.
+    /// Places are relative to the middle of the model.
     fn pen_frame(&mut self, events: &[PenEvent]) {
         let middle = self.editor().shell.dock.rects[&Panel::Viewport].center();
         let placed = events.iter().map(|event| match event {
@@ -93,7 +94,7 @@ impl Window {
         }
     }
 
-    /// Plays a log, some frames a second.
+    /// Plays a log, at the speed of [`FRAME`].
     fn play(&mut self, log: &str) {
         let events = read(log);
         let mut rest = events.as_slice();
@@ -108,7 +109,7 @@ impl Window {
         self.settle();
     }
 
-    /// Clicks something in a panel that is scrolled to first.
+    /// Scrolls to a widget of a panel, and clicks it.
     fn unfold(&mut self, name: &str) {
         self.harness.get_by_label(name).scroll_to_me();
         self.settle();
@@ -122,7 +123,7 @@ impl Window {
     }
 }
 
-/// Angle of the pen from the surface upward, degrees, and its direction; from upright.
+/// Angle between a pen and the normal of the surface in degrees, and the direction along the surface in which it leans.
 fn lean(point: &StrokePoint) -> (f64, DVec3) {
     let shaft = point.shaft.expect("a pen that leans").direction();
     let normal = DVec3::from(point.normal.map(f64::from));
@@ -136,7 +137,7 @@ fn lean(point: &StrokePoint) -> (f64, DVec3) {
 const STROKE: &str = include_str!("pens/stroke.txt");
 
 #[test]
-fn a_recorded_pen_leaves_its_pressure_and_its_lean_at_each_place() {
+fn the_pressure_and_the_tilt_of_a_recorded_pen_are_stored_at_each_place() {
     let mut window = painting_on("mask");
     window.play(STROKE);
     let [points] = window.penned().try_into().expect("one stroke");
@@ -169,7 +170,7 @@ fn a_recorded_pen_leaves_its_pressure_and_its_lean_at_each_place() {
 }
 
 #[test]
-fn thirty_events_a_second_give_the_way_that_two_hundred_and_forty_give() {
+fn thirty_events_a_second_give_the_same_stroke_as_two_hundred_and_forty() {
     let [many, few] = [1, 8].map(|step| {
         let mut window = painting_on("mask");
         window.play(&thinned(STROKE, step));
@@ -196,7 +197,7 @@ fn thirty_events_a_second_give_the_way_that_two_hundred_and_forty_give() {
 }
 
 #[test]
-fn a_driver_that_errs_leaves_a_stroke_whose_numbers_are_in_range() {
+fn wrong_numbers_of_a_driver_give_a_stroke_whose_numbers_are_in_range() {
     let mut window = painting_on("mask");
     window.play(include_str!("pens/odd.txt"));
     let [points] = window.penned().try_into().expect("one stroke");
@@ -206,7 +207,7 @@ fn a_driver_that_errs_leaves_a_stroke_whose_numbers_are_in_range() {
         assert!(lean(point).0 <= 91.0);
     }
     let pressures = || points.iter().map(|point| point.pressure);
-    // No place lies exactly where the driver erred.
+    // The stroke's points lie between the places with wrong numbers, so that the extremes are not reached exactly.
     assert!(pressures().any(|pressure| pressure > 0.8) && pressures().any(|pressure| pressure < 0.25));
     assert!(
         !points.iter().skip(1).any(|point| point.starts),
@@ -215,7 +216,7 @@ fn a_driver_that_errs_leaves_a_stroke_whose_numbers_are_in_range() {
 }
 
 #[test]
-fn a_pen_that_leaves_ends_its_stroke_and_a_mouse_paints_in_full_after_it() {
+fn a_pen_that_leaves_ends_its_stroke_and_a_mouse_then_has_full_pressure() {
     let mut window = painting_on("mask");
     window.play(include_str!("pens/leaves.txt"));
     let [points] = window.penned().try_into().expect("one stroke");
@@ -245,7 +246,7 @@ fn two_dabs_within_a_slow_frame_are_two_strokes() {
 }
 
 #[test]
-fn the_end_of_a_pen_that_erases_erases() {
+fn the_eraser_end_of_a_pen_erases() {
     let mut window = painting_on("mask");
     window.play(include_str!("pens/eraser.txt"));
     let list = window.list("mask").expect("strokes");
@@ -257,7 +258,7 @@ fn the_end_of_a_pen_that_erases_erases() {
 }
 
 #[test]
-fn the_panel_tells_of_pens_and_has_the_curve_of_a_fade() {
+fn the_panel_says_that_pens_are_looked_for_and_can_flip_the_curve_of_a_fade() {
     let mut window = painting_on("mask");
     window.open(Panel::Parameters);
     window.unfold("Pen");

@@ -33,7 +33,7 @@ fn inside() -> Window {
 }
 
 #[test]
-fn ports_are_exposed_and_taken_back_by_their_menus() {
+fn ports_are_exposed_and_unexposed_by_their_menus() {
     let mut window = inside();
     window.choose("Cells, input Position, vector", "Expose as input of the group");
     window.choose("Cells, output Mask, mask", "Expose as output of the group");
@@ -115,7 +115,7 @@ fn the_main_graph_is_named_and_can_be_a_group_for_others() {
 }
 
 #[test]
-fn a_click_on_an_input_is_one_on_its_node() {
+fn a_click_on_an_input_selects_and_shows_its_node() {
     let mut window = Window::of(GROUPED);
     let group = "g".parse().expect("an id");
     window.click_at(window.port(&group, "where"));
@@ -144,7 +144,7 @@ fn wires_are_drawn_as_names_that_lead_to_their_source_and_can_be_connected_to() 
         window.wire_into(&id("out"), "source").map(|from| from.node),
         Some(id("w"))
     );
-    // A node shows what is wired alone, and then its title alone; the wires stay.
+    // The key shows only connected rows, and then only the title; the wires stay.
     window.click_at(window.title(&id("g")));
     let height = |window: &mut Window| node_size::of(window.document(), &id("g"))[1];
     let all = height(&mut window);

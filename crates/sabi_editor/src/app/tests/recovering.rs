@@ -28,7 +28,7 @@ fn open(folders: &Folders) -> Session {
 #[test]
 fn work_of_a_program_that_is_still_ending_is_offered_once_it_has_ended() {
     let (window, text) = worked();
-    // As a killed process, whose locks the system holds for a while.
+    // Stands for a killed process, whose locks the system holds for a while.
     let ending = window.harness.into_state().documents.document.session;
     let mut next = Window::in_folder(window.folder, open);
     next.settle();
@@ -45,7 +45,7 @@ fn work_of_a_program_that_is_still_ending_is_offered_once_it_has_ended() {
 }
 
 #[test]
-fn work_of_a_program_that_is_still_ending_comes_to_the_start_page() {
+fn work_of_a_program_that_is_still_ending_appears_on_the_start_page() {
     let (window, _) = worked();
     let ending = window.harness.into_state().documents.document.session;
     let mut next = Window::in_folder(window.folder, |folders| Session::new(folders.recovery.as_deref()));
@@ -79,7 +79,7 @@ fn unsaved_work_is_offered_whenever_its_file_is_opened() {
 }
 
 #[test]
-fn a_file_of_another_window_is_saved_to_once_that_window_is_closed() {
+fn a_file_of_another_window_can_be_saved_once_that_window_is_closed() {
     let mut first = None;
     let mut window = Window::with(|folders| {
         let file = beside(folders).join("graph.sabi");

@@ -101,7 +101,7 @@ impl Window {
 }
 
 #[test]
-fn titles_knobs_cards_and_reroutes_say_what_they_are_and_what_is_wrong() {
+fn titles_knobs_cards_and_reroutes_have_tooltips_with_names_and_faults() {
     let (mut window, reroute, _) = window_with_reroute();
     window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     let fault = window.fault_of("blur");
@@ -132,7 +132,7 @@ fn titles_knobs_cards_and_reroutes_say_what_they_are_and_what_is_wrong() {
 }
 
 #[test]
-fn the_time_of_a_node_stands_on_its_title() {
+fn the_time_of_a_node_is_shown_in_its_title() {
     let mut window = Window::opened(WIRED);
     window.until("a time", |editor| editor.evaluation.results.time("clouds").is_some());
     window.settle();
@@ -163,7 +163,7 @@ impl Window {
 }
 
 #[test]
-fn a_muted_node_shows_what_it_passes_on() {
+fn a_muted_node_shows_the_picture_of_the_input_that_it_passes_on() {
     let mut window = Window::opened(WIRED);
     let pixels = |window: &Window, node: &str| {
         let editor = window.editor();
@@ -186,7 +186,7 @@ fn a_muted_node_shows_what_it_passes_on() {
 }
 
 #[test]
-fn what_is_put_into_a_wire_by_its_menu_is_only_what_fits_both_ends() {
+fn the_menu_of_a_wire_offers_only_nodes_that_fit_both_ends() {
     let mut window = Window::opened(WIRED);
     let [one, other] = [window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source")];
     let gap = between(one, other);

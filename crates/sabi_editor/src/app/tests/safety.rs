@@ -1,4 +1,4 @@
-//! No work is lost: saving, the questions before, and copies in case of a crash.
+//! Protection against loss of work: saving, the questions before it, and recovery copies.
 
 use std::fs;
 use std::sync::mpsc::channel;
@@ -38,7 +38,7 @@ impl Window {
         self.key(Key::M);
     }
 
-    /// Asks the window to close, as its frame does; gives whether it closes.
+    /// Asks the window to close, as its close button does. Returns whether it closes.
     pub(super) fn asks_to_close(&mut self) -> bool {
         let viewport = self.harness.input_mut().viewports.entry(ViewportId::ROOT).or_default();
         viewport.events.push(ViewportEvent::Close);
@@ -70,7 +70,7 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
     window.until("the answer", |editor| editor.views.questions.open.is_none());
     assert_eq!(window.document().session.file(), Some(&*file));
     assert!(file.exists());
-    // A dialog that is closed leaves the question as it was; one that cannot be opened is told.
+    // A dialog that is closed leaves the question open; one that cannot be opened is reported.
     window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     for (answer, is_told) in [(DialogAnswer::Closed, false), (DialogAnswer::NotOpened, true)] {
         window.opens_dialog(move || answer);
@@ -81,7 +81,7 @@ fn the_window_goes_on_while_the_systems_dialog_is_open_and_takes_its_answer() {
 }
 
 #[test]
-fn a_system_dialog_that_never_took_the_focus_is_told_as_not_opened() {
+fn a_system_dialog_that_never_took_the_focus_is_reported_as_not_opened() {
     let mut window = Window::untitled();
     window.keys(Modifiers::COMMAND, Key::S);
     for (takes_focus, is_told) in [(true, false), (false, true)] {
@@ -127,7 +127,7 @@ fn a_graph_is_saved_under_a_name_and_opens_again_as_it_was() {
 }
 
 #[test]
-fn undo_goes_on_past_a_save_and_the_file_before_is_kept() {
+fn undo_continues_past_a_save_and_the_earlier_file_is_kept() {
     let mut window = Window::opened(CLOUDS);
     let first = window.document().contents().graph.clone();
     window.mute();
@@ -141,7 +141,7 @@ fn undo_goes_on_past_a_save_and_the_file_before_is_kept() {
 }
 
 #[test]
-fn before_something_else_is_opened_changes_are_asked_about() {
+fn opening_another_graph_asks_about_unsaved_changes() {
     let mut window = Window::opened(CLOUDS);
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text("")).expect("a graph");
@@ -171,7 +171,7 @@ fn before_something_else_is_opened_changes_are_asked_about() {
 }
 
 #[test]
-fn a_graph_without_a_file_is_saved_before_it_makes_room_for_another() {
+fn a_graph_without_a_file_is_saved_before_another_one_replaces_it() {
     let mut window = Window::untitled();
     window.add([0.3, 0.3], "clouds");
     let graph = window.document().contents().graph.clone();
@@ -185,7 +185,7 @@ fn a_graph_without_a_file_is_saved_before_it_makes_room_for_another() {
 }
 
 #[test]
-fn work_that_could_not_be_saved_stays() {
+fn work_that_could_not_be_saved_stays_open() {
     let mut window = Window::untitled();
     window.add([0.3, 0.3], "clouds");
     let text = window.text();
@@ -225,7 +225,7 @@ fn a_window_with_changes_asks_before_it_closes() {
 }
 
 #[test]
-fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
+fn unsaved_work_is_kept_and_offered_to_the_next_window() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();
@@ -250,7 +250,7 @@ fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
 }
 
 #[test]
-fn a_node_is_kept_in_the_frame_in_which_it_is_added_since_its_kernel_may_hold_up_the_window() {
+fn a_recovery_copy_is_written_in_the_frame_in_which_a_node_is_added() {
     let mut window = Window::opened(CLOUDS);
     window.settle();
     window.harness.state_mut().documents.autosave.every = Duration::from_secs(3600);
@@ -262,7 +262,7 @@ fn a_node_is_kept_in_the_frame_in_which_it_is_added_since_its_kernel_may_hold_up
 }
 
 #[test]
-fn settings_and_recent_files_are_there_in_the_next_window() {
+fn settings_and_recent_files_are_kept_for_the_next_window() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.keys(Modifiers::COMMAND, Key::Equals);
@@ -308,7 +308,7 @@ fn a_graph_on_a_built_in_model_names_it_without_a_path_and_opens_on_it_anywhere(
     window.keys(Modifiers::COMMAND, Key::S);
     let text = fs::read_to_string(window.path("graph.sabi")).expect("a graph");
     assert!(text.contains(r#""mesh": "builtin:bench""#), "{text}");
-    // A save elsewhere leaves the name, and another computer has the model in another folder.
+    // A save to another place keeps the name, and another computer has the model in another folder.
     let other = Window::with(|folders| {
         let file = super::beside(folders).join("sent.sabi");
         fs::write(&file, &text).expect("a graph");
@@ -321,7 +321,7 @@ fn a_graph_on_a_built_in_model_names_it_without_a_path_and_opens_on_it_anywhere(
 }
 
 #[test]
-fn an_end_that_nobody_asked_for_keeps_what_is_not_saved() {
+fn unsaved_work_is_kept_when_the_system_ends_the_program() {
     let mut window = Window::opened(CLOUDS);
     window.mute();
     let text = window.text();
@@ -338,7 +338,7 @@ fn an_end_that_nobody_asked_for_keeps_what_is_not_saved() {
 }
 
 #[test]
-fn a_save_takes_no_step_away_that_could_be_done_again() {
+fn a_save_keeps_the_redo_steps() {
     let mut window = Window::opened(CLOUDS);
     let model = window.path("other.obj");
     fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a model");
@@ -353,7 +353,7 @@ fn a_save_takes_no_step_away_that_could_be_done_again() {
 }
 
 #[test]
-fn a_graph_keeps_the_model_that_it_names_where_another_one_stands_in_for_it() {
+fn a_save_on_a_substitute_model_keeps_the_model_that_the_graph_names() {
     let mut window = Window::opened("");
     window.until("the model", |editor| editor.evaluation.model.loaded().1);
     let other = window.path("other.sabi");

@@ -37,7 +37,7 @@ fn second_window() -> (Window, Session) {
 }
 
 #[test]
-fn a_graph_that_is_open_in_another_window_opens_for_reading_only_unless_more_is_chosen() {
+fn a_graph_that_is_open_in_another_window_can_be_opened_for_reading_only() {
     let (mut window, _first) = second_window();
     assert!(window.says("This graph is open already"));
     assert!(window.says("is open in another window. If both windows save it"));
@@ -56,7 +56,7 @@ fn a_graph_that_is_open_in_another_window_opens_for_reading_only_unless_more_is_
 }
 
 #[test]
-fn a_graph_that_is_open_in_another_window_can_be_saved_all_the_same() {
+fn a_graph_that_is_open_in_another_window_can_be_saved_if_the_user_opens_it_anyway() {
     let (mut window, _first) = second_window();
     window.press("Open it anyway");
     assert!(!window.says("for reading only"));
@@ -91,7 +91,7 @@ fn the_same_graph_opens_in_its_own_window_again_without_a_question() {
     window.harness.state_mut().open_file(&file);
     window.settle();
     assert!(!window.says("This graph is open already"));
-    // A first file is marked, too.
+    // The first file of a new graph is claimed, too.
     window.keys(Modifiers::COMMAND, Key::N);
     assert!(!sabi_engine::is_open_in_a_window(&file));
     window.add([0.3, 0.3], "clouds");
@@ -101,12 +101,12 @@ fn the_same_graph_opens_in_its_own_window_again_without_a_question() {
 }
 
 #[test]
-fn a_save_looks_at_the_file_itself_and_keeps_what_another_program_wrote_beside_it() {
+fn a_save_checks_the_file_and_can_keep_the_version_of_another_program_beside_it() {
     let mut window = Window::opened(CLOUDS);
     window.mute();
     let theirs = super::graph_text("");
     fs::write(window.path("graph.sabi"), &theirs).expect("written");
-    // Before the next frame looks at what changed.
+    // Saves before the next frame, which would notice the change.
     window.harness.state_mut().save();
     window.settle();
     assert!(window.says("Another program has written this file"));
@@ -139,7 +139,7 @@ fn the_number_of_backups_is_a_setting() {
 }
 
 #[test]
-fn what_can_be_recovered_shows_its_nodes_and_both_dates_and_sizes() {
+fn a_recovery_shows_its_nodes_and_the_dates_and_sizes_of_both_files() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();
@@ -156,7 +156,7 @@ fn what_can_be_recovered_shows_its_nodes_and_both_dates_and_sizes() {
 }
 
 #[test]
-fn a_file_that_was_written_since_a_crash_is_asked_about_when_the_recovered_graph_is_saved() {
+fn saving_a_recovered_graph_asks_first_if_its_file_was_written_since_the_crash() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();

@@ -142,7 +142,7 @@ fn the_bar_of_the_texture_has_room_for_the_sets_of_a_model_with_several_material
 #[test]
 fn rows_of_layers_and_of_strokes_have_room_for_all_they_show() {
     let mut window = Window::of(LAYERED);
-    // Without nodes on a canvas, which have the same names.
+    // This workspace has no canvas, whose nodes would have the same names.
     window.harness.state_mut().shell.dock.arrange(Workspace::Look);
     window.harness.state_mut().shell.dock.bring_up(Panel::Stack);
     for size in [vec2(1280.0, 720.0), vec2(1600.0, 900.0)] {

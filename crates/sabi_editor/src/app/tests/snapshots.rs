@@ -31,7 +31,7 @@ impl Window {
         editor.documents.document.select([id(node)]);
         context.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
         window.harness.event(egui::Event::PointerGone);
-        // Pictures are drawn again with it.
+        // Pictures are drawn again once the shade has arrived.
         window.until("the shade", |editor| editor.evaluation.has_shade());
         window.until("rest", |editor| {
             let has_picture = |id: &str| editor.thumbnail_of(&id.parse().expect("an id")).is_some();
@@ -63,7 +63,7 @@ impl Window {
 }
 
 #[test]
-fn knobs_look_as_they_did() {
+fn knobs_look_as_in_their_reviewed_pictures() {
     let mut results = SnapshotResults::new();
     for (node, shade, name) in [
         ("rust", Shade::Dark, "knobs_of_a_layer"),
@@ -72,7 +72,7 @@ fn knobs_look_as_they_did() {
         ("bend", Shade::Dark, "knobs_of_a_curve"),
     ] {
         let mut window = Window::on(node, shade);
-        // A curve shows the histogram of what it reads above its points.
+        // A curve shows the histogram of its input above its points.
         let height = if node == "bend" {
             window.until("the histogram", |editor| editor.views.parameters.has_histogram());
             330.0
@@ -85,7 +85,7 @@ fn knobs_look_as_they_did() {
 }
 
 #[test]
-fn a_node_looks_as_it_did_below_its_title_where_no_time_stands() {
+fn a_node_looks_as_in_its_reviewed_picture_except_for_the_time_in_its_title() {
     let mut results = SnapshotResults::new();
     for (shade, name) in [(Shade::Dark, "node"), (Shade::Light, "node_on_light")] {
         let mut window = Window::on("rust", shade);
@@ -96,7 +96,7 @@ fn a_node_looks_as_it_did_below_its_title_where_no_time_stands() {
 }
 
 #[test]
-fn the_add_menu_looks_as_it_did() {
+fn the_add_menu_looks_as_in_its_reviewed_picture() {
     let mut window = Window::on("rust", Shade::Dark);
     let at = window.on_canvas([0.05, 0.1]);
     window.point(at);
@@ -107,7 +107,7 @@ fn the_add_menu_looks_as_it_did() {
 }
 
 #[test]
-fn a_texture_with_its_histogram_looks_as_it_did() {
+fn a_texture_with_its_histogram_looks_as_in_its_reviewed_picture() {
     let mut window = Window::on("clouds", Shade::Dark);
     window.until("its picture", |editor| {
         let inspected = editor.evaluation.results.inspected.as_ref();

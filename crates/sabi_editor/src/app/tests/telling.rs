@@ -1,5 +1,5 @@
-//! What went wrong is told until it is read, warnings have a badge, missing files are found again, and a model that takes
-//! long can be left.
+//! Errors that are shown until the user closes them, badges of warnings, missing files that are found again, and models
+//! whose reading is canceled.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -28,7 +28,7 @@ impl Window {
         self.click_at(at);
     }
 
-    /// A model of this text, which is shown.
+    /// Writes a model of this text, and shows it.
     fn shows(&mut self, name: &str, text: &str) {
         let file = self.path(name);
         fs::write(&file, text).expect("a model");
@@ -38,7 +38,7 @@ impl Window {
 }
 
 #[test]
-fn a_failed_save_is_told_with_its_file_until_it_is_closed_or_a_save_succeeds() {
+fn a_failed_save_is_reported_until_the_user_closes_it_or_a_save_succeeds() {
     let mut window = Window::opened(CLOUDS);
     let file = window.path("graph.sabi");
     let told = format!(
@@ -51,7 +51,7 @@ fn a_failed_save_is_told_with_its_file_until_it_is_closed_or_a_save_succeeds() {
         permissions.set_readonly(true);
         fs::set_permissions(&file, permissions.clone()).expect("a file of one's own");
         window.harness.state_mut().save();
-        // Longer than a sentence that goes by itself.
+        // Longer than a notice is shown.
         window
             .harness
             .state_mut()
@@ -88,7 +88,7 @@ fn the_message_about_a_failed_save_leads_to_saving_elsewhere() {
 }
 
 #[test]
-fn a_failed_export_is_told_whichever_panel_is_in_front() {
+fn a_failed_export_is_reported_whichever_panel_is_in_front() {
     let mut window = Window::opened(
         r#""clouds": { "kind": "noise/simplex", "label": "Old stains", "pos": [0, 0] },
            "out": { "kind": "output/material", "inputs": { "material": "clouds" }, "pos": [260, 0] }"#,
@@ -112,7 +112,7 @@ fn a_failed_export_is_told_whichever_panel_is_in_front() {
 }
 
 #[test]
-fn warnings_about_a_model_have_a_badge_there_and_in_the_status_bar_that_lists_them() {
+fn warnings_about_a_model_have_badges_at_the_model_and_in_the_status_bar() {
     let mut window = Window::opened(CLOUDS);
     window.until_model();
     assert!(!window.says("warning"), "{:?}", window.labels());
@@ -196,7 +196,7 @@ fn a_missing_picture_is_found_again_with_the_model_that_lies_beside_it() {
 }
 
 #[test]
-fn lost_pictures_of_a_model_are_found_in_the_folder_of_one_of_them_which_the_graph_keeps() {
+fn pictures_of_a_model_are_found_beside_one_of_them_and_the_graph_keeps_the_folder() {
     let mut window = Window::opened(CLOUDS);
     window.until_model();
     let moved = window.path("moved");
@@ -278,7 +278,7 @@ fn write_grid(file: &Path, side: usize) {
 }
 
 #[test]
-fn the_first_model_can_be_left_for_a_built_in_one_and_read_again_later() {
+fn reading_the_first_model_can_be_canceled_for_a_built_in_one_and_repeated_later() {
     let folder = tempfile::tempdir().expect("a folder");
     let folders = super::folders_in(folder.path());
     let grid = folder.path().join("grid.obj");
@@ -314,7 +314,7 @@ fn the_first_model_can_be_left_for_a_built_in_one_and_read_again_later() {
 }
 
 #[test]
-fn a_model_that_takes_long_can_be_left_and_the_one_before_stays() {
+fn reading_a_model_can_be_canceled_and_the_previous_one_stays() {
     let mut window = Window::opened(CLOUDS);
     window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
     let before = window.editor().evaluation.model.file().to_owned();

@@ -142,7 +142,7 @@ fn effect_color(editor: &Editor) -> Option<[f32; 3]> {
 }
 
 #[test]
-fn an_effect_of_the_library_is_tried_on_the_open_model_once_nothing_else_is_to_do() {
+fn an_effect_of_the_library_is_tried_on_the_open_model_while_the_window_is_idle() {
     let (mut window, _) = with_effect();
     window.until_model();
     let entry = window.harness.get_by_label("Green paint").rect().center();
@@ -185,7 +185,7 @@ fn pictures_of_nodes_and_variants_have_the_shade_of_the_view() {
         let covered: Vec<&[u8]> = pixels.rgba.chunks_exact(4).filter(|pixel| pixel[3] == 255).collect();
         covered.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / covered.len() as f64
     };
-    // Without a folder for the cache no shade is looked for.
+    // Without a cache folder there is no shade.
     let [without, with] = [false, true].map(|has_shade| {
         let mut window = Window::with_cache(has_shade, COLORS);
         let bench = window.path("bench.glb");
@@ -219,7 +219,7 @@ fn pictures_of_nodes_and_variants_have_the_shade_of_the_view() {
 }
 
 #[test]
-fn a_card_of_a_variant_is_larger_beside_the_list_and_all_of_them_to_compare() {
+fn cards_of_variants_can_be_enlarged_and_a_hovered_one_is_larger_beside_the_list() {
     let mut window = Window::of(COLORS);
     let side = |window: &Window| window.harness.get_by_label("Green").rect().width();
     let small = side(&window);

@@ -86,7 +86,7 @@ fn a_model_that_was_chosen_is_shown_again_and_one_that_was_not_is_asked_about() 
 }
 
 #[test]
-fn nodes_that_come_with_a_graph_are_used_once_the_user_wants_them() {
+fn nodes_that_come_with_a_graph_are_used_once_the_user_trusts_them() {
     let level = "//! Level\n//! One value.\n\n/// The value.\nfn mask(at: Surface) -> f32 {\n    return 0.5;\n}\n";
     let open = |folders: &Folders| {
         let file = shared(folders, r#""own": { "kind": "mine/level" }"#);
@@ -133,22 +133,23 @@ fn gltf_beside(folder: &Path) -> PathBuf {
 }
 
 #[test]
-fn a_file_that_is_chosen_before_the_first_save_is_remembered_wherever_the_program_was_started() {
+fn a_file_chosen_before_the_first_save_is_remembered_wherever_the_program_started() {
     let mut window = Window::untitled();
-    // Below the folder that the program was started in, which is that of a graph without a file. It is no model, and refused.
+    // A file below the working directory, which is the folder of a graph without a file. It is no model, so that it is
+    // refused.
     let chosen = canonical_if_present(&Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml"));
     window.harness.state_mut().take_chosen_model(&chosen);
     assert_eq!(window.editor().shell.settings.trusted, [chosen]);
 }
 
 #[test]
-fn a_model_of_several_files_that_the_command_line_named_is_shown_again_once_the_graph_is_saved() {
+fn a_saved_graph_opens_a_model_of_several_files_that_the_command_line_named() {
     let mut window = Window::opened("");
     let hero = gltf_beside(&window.path("models"));
     let kept = tempfile::tempdir().expect("a folder");
     let file = kept.path().join("graph.sabi");
     let editor = window.harness.state_mut();
-    // As at the start with a model; this is not kept.
+    // Starts with the trust that a model on the command line gets; it is not stored.
     editor.documents.trust(&sabi_engine::TrustedPaths::of_file(&hero));
     editor.take_model(&hero);
     window.until("the model", |editor| {

@@ -34,7 +34,7 @@ impl Window {
 }
 
 #[test]
-fn the_model_follows_its_keys() {
+fn keys_of_the_viewport_change_its_view() {
     let mut window = window_with(InputPreset::Default);
     window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
     for (command, keys) in [
@@ -103,7 +103,7 @@ fn a_result_is_locked_on_the_model_by_a_key_while_the_pointer_is_over_the_model(
 }
 
 #[test]
-fn the_texture_follows_its_keys() {
+fn keys_of_the_2d_view_change_its_view() {
     let mut window = window_with(InputPreset::Default);
     window.click_at(window.title(&id("clouds")));
     window.until("the texture", |editor| editor.evaluation.results.inspected.is_some());
@@ -134,7 +134,7 @@ fn with_keys() -> Window {
 }
 
 #[test]
-fn a_key_is_added_to_those_of_a_command_and_taken_away_from_it() {
+fn a_key_is_added_to_a_command_and_removed_again() {
     let mut window = with_keys();
     let clash = "M means both \"New graph\" and \"Mute\"";
     window.press("Add a key for New graph");
@@ -175,7 +175,7 @@ fn escape_leaves_the_list_of_keys_as_it_was_and_a_known_key_is_not_added_twice()
 }
 
 #[test]
-fn what_the_system_tells_as_paste_means_what_its_key_is_bound_to() {
+fn a_paste_event_of_the_system_runs_the_command_that_its_key_is_bound_to() {
     let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
     let copied = clipboard::copy(&window.harness.state_mut().documents.document).expect("a copy");
@@ -212,7 +212,7 @@ fn paste_works_by_the_menu_and_by_any_key_wherever_the_pointer_is() {
 }
 
 #[test]
-fn what_the_menu_opens_on_the_canvas_brings_the_canvas_up_and_no_hidden_menu_holds_the_keys() {
+fn a_menu_on_the_canvas_brings_the_canvas_up_and_holds_no_keys_once_it_is_hidden() {
     let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
     for entry in ["Add a node", "Rename"] {

@@ -23,8 +23,8 @@ fn graph_of(nodes: &str) -> String {
     format!(r#"{{ "format": "sabi", "version": 1, "preview": {{ "size": 64 }}, "nodes": {{ {nodes} }} }}"#)
 }
 
-/// A window on a graph of these nodes with files beside it, all of them watched. It shows the node `seen`, which has this
-/// value first.
+/// A window on a graph with files beside it, all of them watched, and the folder of the files. The window shows the
+/// node `seen`.
 struct Watched {
     window: Window,
     folder: PathBuf,
@@ -64,7 +64,7 @@ impl Watched {
         self.window.until("the value", |editor| value_of(editor) == Some(value));
     }
 
-    /// Has another program write the graph, and waits for the question. Returns the text of its version.
+    /// Writes the graph as another program does, and waits for the question. Returns the text of that version.
     fn written_by_another(&mut self) -> String {
         let theirs = graph_of(&PLAIN.replace("#ffffff", "#000000"));
         self.write("graph.sabi", &theirs);
@@ -101,7 +101,7 @@ fn level(value: f32) -> String {
 const LEVEL: &str = r#""seen": { "kind": "own/level" }"#;
 
 #[test]
-fn a_node_file_that_changes_changes_what_is_shown_and_a_broken_one_leaves_it() {
+fn a_changed_node_file_changes_the_shown_result_and_a_broken_one_leaves_it() {
     let mut watched = Watched::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
     watched.write("nodes/own/level.wgsl", level(0.5));
     watched.until_value(0.5);
@@ -128,7 +128,7 @@ fn slow(value: f32) -> String {
 }
 
 #[test]
-fn a_node_that_keeps_the_device_is_stopped_and_muted_and_the_window_goes_on() {
+fn a_node_that_blocks_the_device_is_stopped_and_muted_and_the_window_goes_on() {
     let mut watched = Watched::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
     watched.window.editor().evaluation.gpu().set_impatient(true);
     watched.write("nodes/own/level.wgsl", slow(0.5));
@@ -150,7 +150,7 @@ fn a_node_that_keeps_the_device_is_stopped_and_muted_and_the_window_goes_on() {
 }
 
 #[test]
-fn a_first_node_file_of_ones_own_is_found_and_asked_about() {
+fn the_first_node_file_beside_a_graph_is_found_and_asked_about() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.write("nodes/own/level.wgsl", level(0.5));
     watched.window.until("a question", |editor| {
@@ -163,7 +163,7 @@ fn a_first_node_file_of_ones_own_is_found_and_asked_about() {
 }
 
 #[test]
-fn a_model_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
+fn a_rewritten_model_is_shown_and_a_broken_one_leaves_the_last() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let triangles = |editor: &Editor| {
         let model = editor.evaluation.model.received.as_ref().expect("a model");
@@ -199,7 +199,7 @@ fn picture(gray: u8) -> Vec<u8> {
 }
 
 #[test]
-fn a_picture_that_is_painted_over_is_shown() {
+fn a_rewritten_picture_is_shown() {
     let image = r#""seen": { "kind": "source/image", "params": { "file": "gray.bmp" } }"#;
     let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
     watched.write("gray.bmp", picture(255));
@@ -220,7 +220,7 @@ fn group(color: &str) -> String {
 }
 
 #[test]
-fn a_group_file_that_is_saved_elsewhere_is_used() {
+fn a_group_file_that_another_program_saves_is_used() {
     let instance = r#""seen": { "kind": "graph/group", "group": "lib/wear.sabi" }"#;
     let mut watched = Watched::of(instance, &[("lib/wear.sabi", group("#000000").as_bytes())], 0.0);
     watched.write("lib/wear.sabi", group("#ffffff"));
@@ -230,7 +230,7 @@ fn a_group_file_that_is_saved_elsewhere_is_used() {
 const PLAIN: &str = r##""seen": { "kind": "color/constant", "params": { "color": "#ffffff" } }"##;
 
 #[test]
-fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
+fn a_graph_that_another_program_writes_is_asked_about_and_can_be_reloaded() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.write("graph.sabi", graph_of(&PLAIN.replace("#ffffff", "#000000")));
     watched
@@ -252,7 +252,7 @@ fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
 }
 
 #[test]
-fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
+fn the_open_graph_can_be_kept_when_another_program_writes_its_file() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let theirs = watched.written_by_another();
     watched.window.harness.run_steps(2);
@@ -268,7 +268,7 @@ fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
 }
 
 #[test]
-fn a_save_over_what_another_program_wrote_asks_first() {
+fn a_save_over_the_version_of_another_program_asks_first() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let theirs = watched.written_by_another();
     let on_disk = |watched: &Watched| fs::read_to_string(watched.path("graph.sabi")).expect("a file");
@@ -281,7 +281,7 @@ fn a_save_over_what_another_program_wrote_asks_first() {
 }
 
 #[test]
-fn saving_is_no_news() {
+fn a_save_of_the_window_is_not_reported_as_a_change_by_another_program() {
     let image = r#""seen": { "kind": "source/image", "params": { "file": "gray.bmp" } }"#;
     let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
     let editor = watched.window.harness.state_mut();
@@ -300,7 +300,7 @@ fn saving_is_no_news() {
 }
 
 #[test]
-fn a_device_that_goes_while_nothing_is_evaluated_is_noticed() {
+fn a_device_that_is_lost_while_nothing_is_evaluated_is_noticed() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.window.destroy_device();
     watched.window.until("a way out", |editor| editor.is_leaving);
@@ -318,7 +318,7 @@ fn light(value: u8) -> Vec<u8> {
 }
 
 #[test]
-fn an_environment_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
+fn a_rewritten_environment_is_shown_and_a_broken_one_leaves_the_last() {
     let mut watched = Watched::of(PLAIN, &[("sky.hdr", &light(40))], 1.0);
     let sky = watched.path("sky.hdr");
     let number = |watched: &Watched| watched.window.editor().views.model.environment.number();

@@ -10,7 +10,7 @@ use serde_json::{Value as Json, json};
 
 use super::Window;
 
-/// The graph file that is to come out.
+/// Expected graph file.
 fn file_of_the_graph() -> Json {
     json!({
         "format": "sabi",
@@ -43,7 +43,7 @@ fn add_at(window: &mut Window, place: [f32; 2], query: &str) -> NodeId {
 }
 
 fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
-    // All of it has to be on the screen.
+    // The whole graph has to be on the screen.
     window.wheel(window.on_canvas([0.0, 0.0]), -190.0);
     let ends = [window.on_canvas([0.1, 0.1]), window.on_canvas([0.14, 0.4])];
     window.drag_along(&ends, PointerButton::Middle, Modifiers::NONE);
@@ -90,7 +90,7 @@ fn build(window: &mut Window) -> BTreeMap<NodeId, &'static str> {
     ids.into_iter().zip(names).collect()
 }
 
-/// Puts a knob of a node on the panel, and keeps what it was turned to once as a variant.
+/// Exposes a parameter of a node, and saves a value of it as a variant.
 fn expose(window: &mut Window, worn: &NodeId) {
     window.click_at(window.title(worn));
     window.click_with(window.knob("Opacity"), PointerButton::Secondary, Modifiers::NONE);
@@ -100,7 +100,7 @@ fn expose(window: &mut Window, worn: &NodeId) {
     window.click("Change the panel");
     window.fill("Label", "Rust amount");
     window.fill("Name in files", "amount");
-    // The node's own range is the same; it is the graph's own once it was said.
+    // The range equals that of the node, and is stored in the graph once it was set.
     window.fill("Highest value", "2");
     window.fill("Highest value", "1");
     window.click("Change the panel");
@@ -111,7 +111,7 @@ fn expose(window: &mut Window, worn: &NodeId) {
     window.key(Key::Backspace);
 }
 
-/// Names the graph, has it worked on finely on a model of its own, and saves it.
+/// Names the graph, chooses a larger texture size and a model, and saves it.
 fn settle_down(window: &mut Window) -> PathBuf {
     let [model, file] = ["assets/meshes/bench.glb", "graphs/rusty.sabi"].map(|path| window.path(path));
     for path in [&model, &file] {
@@ -120,7 +120,7 @@ fn settle_down(window: &mut Window) -> PathBuf {
     fs::copy(window.editor().evaluation.model.file(), &model).expect("a model");
     window.click_at(window.on_canvas([0.97, 0.9]));
     window.click("GROUP INPUTS AND OUTPUTS");
-    // It opens little by little.
+    // The section opens in an animation.
     window.harness.run_steps(30);
     window.fill("Name of the graph", "Rusty edges");
     window.click("512 texels");

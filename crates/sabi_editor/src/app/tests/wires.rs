@@ -48,7 +48,7 @@ fn a_wire_is_pulled_backwards_from_an_input_too() {
 }
 
 #[test]
-fn a_wire_that_fits_nowhere_near_offers_the_nodes_that_it_fits() {
+fn a_wire_dropped_in_a_free_place_offers_the_nodes_that_it_fits() {
     let mut window = Window::opened(LOOSE);
     let from = window.port(&id("paint"), "material");
     let free = window.on_canvas([0.6, 0.8]);
@@ -67,7 +67,7 @@ fn a_wire_that_fits_nowhere_near_offers_the_nodes_that_it_fits() {
 }
 
 #[test]
-fn a_wire_pulled_from_an_input_into_empty_space_offers_what_gives_that() {
+fn a_wire_pulled_from_an_input_into_empty_space_offers_nodes_that_fit() {
     let mut window = Window::opened(LOOSE);
     let from = window.port(&id("layer"), "base");
     window.drag_from(from, window.on_canvas([0.6, 0.85]));
@@ -78,7 +78,7 @@ fn a_wire_pulled_from_an_input_into_empty_space_offers_what_gives_that() {
 }
 
 #[test]
-fn a_wire_taken_off_an_input_is_gone_or_tied_elsewhere_as_one_step() {
+fn a_wire_taken_off_an_input_is_removed_or_reconnected_as_one_step() {
     let mut window = Window::opened(WIRED);
     let mask = window.port(&id("layer"), "mask");
     window.drag_from(mask, window.on_canvas([0.5, 0.95]));
@@ -103,7 +103,7 @@ fn a_wire_dropped_where_it_was_taken_changes_nothing() {
 }
 
 #[test]
-fn a_second_wire_on_a_taken_mask_asks_how_both_are_put_together() {
+fn a_second_wire_on_a_connected_mask_asks_how_to_combine_both() {
     let mut window = Window::opened(WIRED);
     for (answer, mode) in [
         ("Multiply", "multiply"),
@@ -132,7 +132,7 @@ fn a_second_wire_on_a_taken_mask_asks_how_both_are_put_together() {
 }
 
 #[test]
-fn a_second_wire_may_replace_the_first_or_be_let_go() {
+fn a_second_wire_can_replace_the_first_or_be_canceled() {
     let mut window = Window::opened(WIRED);
     window.wire(&id("dots"), "mask", &id("layer"), "mask");
     window.key(Key::Escape);
@@ -158,7 +158,7 @@ fn a_port_that_refuses_a_wire_says_why_and_nothing_changes() {
 }
 
 #[test]
-fn a_node_dropped_on_a_wire_is_put_into_it() {
+fn a_node_dropped_on_a_wire_is_inserted_into_it() {
     let mut window = Window::opened(WIRED);
     let middle = between(window.port(&id("clouds"), "mask"), window.port(&id("layer"), "mask"));
     let handle = window.title(&id("invert"));
@@ -182,7 +182,7 @@ const CHAIN: &str = r#"
 "#;
 
 #[test]
-fn a_node_dragged_with_alt_leaves_its_wires_which_heal() {
+fn a_node_dragged_with_alt_leaves_its_wires_and_their_ends_are_connected() {
     let mut window = Window::opened(CHAIN);
     let handle = window.title(&id("invert"));
     window.drag_with(handle, beside(handle, [0.0, 420.0]), Modifiers::ALT);
@@ -211,7 +211,7 @@ fn a_line_drawn_with_ctrl_and_the_right_button_cuts_what_it_crosses() {
 }
 
 #[test]
-fn a_click_with_alt_cuts_a_wire_and_a_double_click_bends_it() {
+fn a_click_with_alt_cuts_a_wire_and_a_double_click_adds_a_reroute() {
     let mut window = Window::opened(CHAIN);
     let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
     window.double_click(gap);
@@ -242,7 +242,7 @@ fn ports_stand_beside_the_rows_that_name_them() {
 }
 
 #[test]
-fn a_wire_that_is_pulled_and_dropped_within_one_slow_frame_is_tied() {
+fn a_wire_that_is_pulled_and_dropped_within_one_slow_frame_is_connected() {
     let mut window = Window::opened(LOOSE);
     let ends = [window.port(&id("clouds"), "mask"), window.port(&id("layer"), "mask")];
     window.pause();

@@ -25,7 +25,7 @@ pub(super) fn end_box(
     select(context, modifiers, actions, |rect| taken.intersects(rect));
 }
 
-/// Selects what is inside; with Shift or Ctrl, in addition to the selection.
+/// Selects the nodes inside; with Shift or Ctrl, in addition to the selection.
 fn select(context: &CanvasContext<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, is_in: impl Fn(Rect) -> bool) {
     let document = context.document;
     let inside = document
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lasso_holds_what_it_goes_around() {
+    fn a_lasso_contains_the_places_that_it_encloses() {
         let line = [
             pos2(0.0, 0.0),
             pos2(100.0, 0.0),

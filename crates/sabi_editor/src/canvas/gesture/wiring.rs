@@ -33,7 +33,7 @@ impl Gesture {
         Gesture::wire(place.pending_wire(), None)
     }
 
-    /// Returns whether the dragged wire may be dropped at a port; none if no wire is dragged.
+    /// Returns whether the dragged wire may be dropped at a port; `None` if no wire is dragged.
     pub(in crate::canvas) fn accepts(&self, document: &OpenDocument, place: &PortRef) -> Option<bool> {
         let Gesture::Wire { pending, .. } = self else {
             return None;
@@ -57,7 +57,7 @@ impl Gesture {
     }
 }
 
-/// Ends of a pending wire that is dropped at a port; none where both are inputs or both outputs.
+/// Ends of a pending wire that is dropped at a port; `None` where both are inputs or both outputs.
 fn ends<'w>(pending: &'w PendingWire, place: &'w PortRef) -> Option<(&'w OutputRef, &'w SlotRef)> {
     match (pending, place) {
         (PendingWire::From(from), PortRef::Input(to)) | (PendingWire::Into(to), PortRef::Output(from)) => {
@@ -108,7 +108,7 @@ pub(in crate::canvas) fn target(
     best.map(|(_, place)| place).or(under.map(|(_, place)| place))
 }
 
-/// Returns whether a port is none for a mask that multiplies a parameter.
+/// Returns whether a port is not the input for the mask of a parameter.
 fn is_plain(document: &OpenDocument, place: &PortRef) -> bool {
     let PortRef::Input(slot) = place else { return true };
     document
@@ -128,8 +128,9 @@ fn choices(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2)
     port_question::choices(canvas, document, panel, from, pointer)
 }
 
-/// Drops the dragged wire: connects it to the port there, asks on a node's body which of its parameters it multiplies, says why a
-/// port under the pointer refuses it, or in a free place opens the menu of nodes that take it. A wire that was taken off an input is disconnected in a free place.
+/// Drops the dragged wire. At a port, connects it or says why the port refuses it; on a node's body, asks which
+/// parameter it multiplies; in a free place, opens the menu of nodes that fit it. A wire that was taken off an input is
+/// disconnected in a free place.
 pub(super) fn drop_wire(
     canvas: &mut Canvas,
     context: &CanvasContext<'_>,
@@ -167,7 +168,7 @@ pub(super) fn drop_wire(
     }
 }
 
-/// Reason why a port refuses a wire; none if it accepts the wire, or if both ends would be inputs or outputs.
+/// Reason why a port refuses a wire; `None` if it accepts the wire, or if both ends would be inputs or outputs.
 fn refusal(document: &OpenDocument, pending: &PendingWire, port: &PortRef) -> Option<String> {
     let (from, to) = ends(pending, port)?;
     wires::check(document, from, to).err()

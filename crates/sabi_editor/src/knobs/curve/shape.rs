@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_view_leads_back_to_where_it_came_from() {
+    fn a_point_of_a_curve_is_the_same_after_a_way_to_the_screen_and_back() {
         let rect = Rect::from_min_size(Pos2::new(10.0, 20.0), egui::vec2(200.0, 100.0));
         let view = View::of(rect, [0.0, 1.0], &[[-1.0, 3.0]]);
         let [x, y] = view.point(view.place([0.25, 1.5]));

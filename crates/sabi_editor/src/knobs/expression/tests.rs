@@ -5,7 +5,7 @@ fn plain(text: &str) -> Result<f64, String> {
 }
 
 #[test]
-fn sums_have_the_results_of_mathematics() {
+fn expressions_have_the_results_of_mathematics() {
     for (text, expected) in [
         ("2*0.3", 0.6),
         ("1/3", 1.0 / 3.0),
@@ -38,7 +38,7 @@ fn sums_have_the_results_of_mathematics() {
 }
 
 #[test]
-fn a_sum_may_start_from_what_is_there() {
+fn an_expression_can_start_from_the_present_number() {
     for (text, expected) in [("+=0.1", 0.6), ("-= 1/4", 0.25), ("*=2", 1.0), ("/=2", 0.25)] {
         assert_eq!(plain(text), Ok(expected), "{text}");
     }
@@ -69,7 +69,7 @@ fn a_unit_behind_a_number_is_brought_to_that_of_the_knob() {
 }
 
 #[test]
-fn a_mistake_is_told_with_its_place() {
+fn an_error_names_the_character_that_it_is_at() {
     for (text, expected) in [
         ("", "A number is missing (character 1)."),
         ("1 +", "A number is missing (character 4)."),
@@ -90,7 +90,7 @@ fn a_mistake_is_told_with_its_place() {
 }
 
 #[test]
-fn no_depth_of_signs_takes_the_stack() {
+fn no_depth_of_an_expression_overflows_the_stack() {
     for text in [
         "(".repeat(100_000),
         "-".repeat(100_000),

@@ -8,7 +8,7 @@ fn type_code(board: &mut Board, name: &str, code: &str) {
 }
 
 #[test]
-fn a_color_is_typed_as_people_write_it_and_asked_for_as_files_hold_it() {
+fn a_color_can_be_typed_in_several_notations_and_is_requested_in_that_of_files() {
     let mut board = board([knob("effect/layer.color")]);
     for (written, expected) in [("#6B3A1E", "#6b3a1e"), ("fff", "#ffffff"), ("102030", "#102030")] {
         type_code(&mut board, "Color: code", written);
@@ -17,7 +17,7 @@ fn a_color_is_typed_as_people_write_it_and_asked_for_as_files_hold_it() {
 }
 
 #[test]
-fn what_is_no_color_changes_nothing_and_is_told() {
+fn a_text_that_is_no_color_changes_nothing_and_is_reported() {
     let mut board = board([knob("effect/layer.color")]);
     for written in ["rust", "#12345", "#gggggg", "é€"] {
         type_code(&mut board, "Color: code", written);
@@ -123,7 +123,7 @@ fn a_click_on_the_ramp_adds_a_stop_of_the_color_that_is_there() {
 }
 
 #[test]
-fn a_stop_that_is_dragged_away_is_taken_out_but_not_the_last_one() {
+fn a_stop_that_is_dragged_away_is_removed_unless_it_is_the_last_one() {
     let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
     let at = handle(&board, 1.0);
     press(&mut board, at);
@@ -143,7 +143,7 @@ fn a_stop_that_is_dragged_away_is_taken_out_but_not_the_last_one() {
 }
 
 #[test]
-fn escape_gives_the_drag_of_a_stop_up() {
+fn escape_cancels_the_drag_of_a_stop() {
     let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
     let at = handle(&board, 1.0);
     press(&mut board, at);
@@ -191,7 +191,7 @@ fn a_preset_replaces_all_stops_at_once() {
 }
 
 #[test]
-fn a_picture_is_asked_for_to_pick_a_gradient_from() {
+fn the_menu_of_stops_asks_for_a_picture_to_pick_a_gradient_from() {
     let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
     click(&mut board, "Stops: presets and pictures");
     click(&mut board, "Pick from a picture…");

@@ -51,12 +51,12 @@ fn a_point_is_dragged_past_another_one() {
 }
 
 #[test]
-fn a_double_click_adds_a_point_and_takes_one_out() {
+fn a_double_click_adds_a_point_or_removes_one() {
     let mut board = curve("[[0, 0], [1, 1]]");
     let at = place(&board, 0.25, 0.75);
     double_click(&mut board, at);
     assert_near(&board, &[[0.0, 0.0], [0.25, 0.75], [1.0, 1.0]]);
-    // A third click soon after would be one of three.
+    // A third click soon after the second would make a triple click.
     board.run_steps(60);
     let at = place(&board, 0.25, 0.75);
     double_click(&mut board, at);
@@ -64,7 +64,7 @@ fn a_double_click_adds_a_point_and_takes_one_out() {
 }
 
 #[test]
-fn a_point_that_is_dragged_away_is_taken_out_but_not_the_last_one() {
+fn a_point_that_is_dragged_away_is_removed_unless_it_is_the_last_one() {
     let mut board = curve("[[0, 0], [1, 1]]");
     let at = place(&board, 1.0, 1.0);
     drag(&mut board, at, Vec2::new(0.0, 300.0));
@@ -75,7 +75,7 @@ fn a_point_that_is_dragged_away_is_taken_out_but_not_the_last_one() {
 }
 
 #[test]
-fn a_point_is_typed_beyond_the_usual_but_not_beyond_the_range() {
+fn a_point_can_be_typed_beyond_the_usual_range_but_not_beyond_the_hard_one() {
     let mut board = curve("[[0, 0], [1, 1]]");
     type_into(&mut board, "Points X", "-1");
     type_into(&mut board, "Points Y", "99");
@@ -83,7 +83,7 @@ fn a_point_is_typed_beyond_the_usual_but_not_beyond_the_range() {
 }
 
 #[test]
-fn points_are_added_on_the_curve_and_taken_out_by_buttons() {
+fn points_are_added_on_the_curve_and_removed_by_buttons() {
     let mut board = curve("[[0, 0], [1, 1]]");
     click(&mut board, "Points: add a point");
     assert_near(&board, &[[0.0, 0.0], [0.5, 0.5], [1.0, 1.0]]);
@@ -92,7 +92,7 @@ fn points_are_added_on_the_curve_and_taken_out_by_buttons() {
 }
 
 #[test]
-fn shapes_to_begin_with_are_curves_that_a_file_may_hold() {
+fn preset_shapes_are_curves_that_a_file_can_hold() {
     let mut board = curve("[[0, 0], [0.5, 0.25], [1, 1]]");
     click(&mut board, "Points: upside down");
     assert_near(&board, &[[0.0, 1.0], [0.5, 0.75], [1.0, 0.0]]);

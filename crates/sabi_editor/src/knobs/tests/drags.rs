@@ -1,6 +1,6 @@
 use super::*;
 
-/// The borders of drags in a log, and how often something was set between them.
+/// How often drags began, values were set, and drags ended in a log.
 fn borders(log: &[KnobEvent]) -> (usize, usize, usize) {
     let count = |what: fn(&KnobEvent) -> bool| log.iter().filter(|event| what(event)).count();
     (
@@ -55,7 +55,7 @@ fn a_drag_goes_on_outside_the_window_and_ends_once() {
 }
 
 #[test]
-fn escape_gives_a_drag_up() {
+fn escape_cancels_a_drag() {
     let mut board = opacity();
     let at = middle(&board, "Opacity");
     press(&mut board, at);
@@ -63,14 +63,14 @@ fn escape_gives_a_drag_up() {
     taken(&mut board);
     key(&mut board, Key::Escape);
     assert_eq!(taken(&mut board), [KnobEvent::Canceled]);
-    // What the pointer does until it is released is no drag any more.
+    // Later movement of the pointer is no drag any more.
     pull(&mut board, at + Vec2::new(60.0, 0.0));
     release(&mut board, at + Vec2::new(60.0, 0.0));
     assert_eq!(taken(&mut board), []);
 }
 
 #[test]
-fn a_drag_ends_when_its_row_has_gone() {
+fn a_drag_ends_when_its_row_has_disappeared() {
     let mut board = opacity();
     let at = middle(&board, "Opacity");
     press(&mut board, at);
@@ -82,7 +82,7 @@ fn a_drag_ends_when_its_row_has_gone() {
 }
 
 #[test]
-fn nothing_is_asked_for_twice() {
+fn the_same_value_is_not_requested_twice() {
     let mut board = opacity();
     let at = middle(&board, "Opacity");
     press(&mut board, at);

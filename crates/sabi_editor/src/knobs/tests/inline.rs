@@ -24,7 +24,7 @@ fn a_bar_on_a_node_is_dragged_as_one_step_at_any_zoom() {
 }
 
 #[test]
-fn escape_gives_a_drag_on_a_node_up() {
+fn escape_cancels_a_drag_on_a_node() {
     let mut board = node(["blend/mask.opacity", "blend/mask.below"].map(knob), 1.0);
     let at = middle(&board, "Opacity");
     press(&mut board, at);
@@ -35,7 +35,7 @@ fn escape_gives_a_drag_on_a_node_up() {
 }
 
 #[test]
-fn a_drag_ends_when_its_node_has_gone() {
+fn a_drag_ends_when_its_node_has_disappeared() {
     let mut board = node(["blend/mask.opacity", "blend/mask.below"].map(knob), 1.0);
     let at = middle(&board, "Opacity");
     press(&mut board, at);
@@ -59,7 +59,7 @@ fn numbers_switches_words_and_colors_are_set_on_nodes() {
 }
 
 #[test]
-fn what_is_edited_in_the_panel_is_shown_on_nodes() {
+fn parameters_that_are_edited_in_the_panel_only_are_shown_on_nodes() {
     let rows = [
         "noise/simplex.stretch",
         "color/gradient.stops",
@@ -79,7 +79,7 @@ fn what_is_edited_in_the_panel_is_shown_on_nodes() {
 }
 
 #[test]
-fn a_mistake_on_a_node_is_told_beside_it_until_something_else_is_pressed() {
+fn an_error_on_a_node_is_shown_beside_it_until_something_else_is_pressed() {
     let mut board = node([knob("blend/mask.opacity")], 1.0);
     type_into(&mut board, "Opacity", "1+");
     assert!(says(&board, "A number is missing"));

@@ -27,7 +27,7 @@ fn arrows_step_a_bar_and_shift_makes_the_steps_tenths() {
 }
 
 #[test]
-fn a_digit_begins_another_number_in_a_bar() {
+fn a_digit_starts_a_new_number_in_a_bar() {
     let mut board = board([knob("blend/mask.opacity")]);
     focus(&mut board, "Opacity");
     for digit in ["0", ".", "2"] {
@@ -43,7 +43,7 @@ fn a_digit_begins_another_number_in_a_bar() {
 }
 
 #[test]
-fn what_a_screen_reader_asks_for_is_done() {
+fn requests_of_screen_readers_are_performed() {
     use egui::accesskit::{Action, ActionData, ActionRequest};
     use egui_kittest::kittest::NodeT;
     let mut board = board([knob("noise/simplex.octaves")]);
@@ -78,7 +78,7 @@ fn a_switch_a_word_and_a_list_change_by_keyboard() {
     key(&mut board, Key::ArrowDown);
     let expected = [set("color_on", false), set("mode", "billow"), set("profile", "raised")];
     assert_eq!(taken(&mut board), expected);
-    // The list opens at the word that holds, and goes on from there.
+    // The list opens at the present word, and the keys continue from there.
     key(&mut board, Key::Enter);
     key(&mut board, Key::ArrowDown);
     key(&mut board, Key::Enter);
@@ -100,7 +100,7 @@ fn a_ball_is_turned_by_arrows() {
 }
 
 #[test]
-fn stops_are_chosen_moved_added_and_taken_out_by_keyboard() {
+fn stops_are_chosen_moved_added_and_removed_by_keyboard() {
     let mut board = board([knob("color/gradient.stops")]);
     focus(&mut board, "Stops");
     key(&mut board, Key::Insert);
@@ -121,7 +121,7 @@ fn stops_are_chosen_moved_added_and_taken_out_by_keyboard() {
 }
 
 #[test]
-fn points_are_chosen_moved_added_and_taken_out_by_keyboard() {
+fn points_are_chosen_moved_added_and_removed_by_keyboard() {
     let mut board = board([knob("adjust/curve.points")]);
     focus(&mut board, "Points");
     key(&mut board, Key::Insert);

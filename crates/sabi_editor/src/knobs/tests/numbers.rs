@@ -17,7 +17,7 @@ fn a_drag_over_half_of_a_bar_goes_through_half_of_its_range() {
 }
 
 #[test]
-fn shift_makes_a_drag_a_tenth() {
+fn shift_makes_a_drag_ten_times_finer() {
     let mut board = board([knob("blend/mask.opacity")]);
     board.state_mut().rows[0].value = Some(Value::Number(0.2));
     board.run();
@@ -56,7 +56,7 @@ fn whole_numbers_stay_whole() {
 }
 
 #[test]
-fn a_sum_can_be_typed() {
+fn an_expression_can_be_typed() {
     let mut board = board([knob("blend/mask.opacity")]);
     type_into(&mut board, "Opacity", "2*0.3");
     assert_eq!(number(&board), 0.6);
@@ -67,13 +67,13 @@ fn a_sum_can_be_typed() {
 }
 
 #[test]
-fn a_bad_sum_changes_nothing_and_says_why() {
+fn an_invalid_expression_changes_nothing_and_says_why() {
     let mut board = board([knob("blend/mask.opacity")]);
     taken(&mut board);
     type_into(&mut board, "Opacity", "0,5");
     assert_eq!(taken(&mut board), []);
     assert!(says(&board, "Decimals are written with a point"));
-    // The field stays open, with what was typed, to be mended.
+    // The field stays open with the typed text, so that it can be corrected.
     board.event(Event::Text("x".to_owned()));
     board.run();
     assert!(!says(&board, "Decimals"), "typing on takes the sentence away");
@@ -83,7 +83,7 @@ fn a_bad_sum_changes_nothing_and_says_why() {
 }
 
 #[test]
-fn what_no_file_can_hold_is_refused_with_a_sentence() {
+fn a_number_that_no_file_can_hold_is_refused_with_a_sentence() {
     let mut free = knob("adjust/levels.gamma");
     free.knob.ty.range = None;
     let mut board = board([free]);
@@ -93,7 +93,7 @@ fn what_no_file_can_hold_is_refused_with_a_sentence() {
 }
 
 #[test]
-fn escape_leaves_a_field_with_what_was_there() {
+fn escape_leaves_a_field_with_its_earlier_value() {
     let mut board = board([knob("blend/mask.opacity")]);
     double_click_bar(&mut board, "Opacity");
     board.event(Event::Text("0.1".to_owned()));
@@ -122,7 +122,7 @@ fn a_field_opens_by_double_click_and_by_ctrl_click() {
 }
 
 #[test]
-fn what_was_typed_is_taken_when_something_else_is_clicked() {
+fn a_typed_number_is_accepted_when_something_else_is_clicked() {
     let mut board = board([knob("blend/mask.opacity"), knob("blend/mask.mode")]);
     double_click_bar(&mut board, "Opacity");
     board.event(Event::Text("0.1".to_owned()));
@@ -195,7 +195,7 @@ fn an_angle_is_turned_by_its_dial_the_short_way_around() {
     board.run();
     let bar = board.get_by_label("Hue").rect();
     let middle = Pos2::new(bar.right() + 2.0 + bar.height() / 2.0, bar.center().y);
-    // From the left of the face down, behind half a turn.
+    // From the left side of the dial downward, past half a turn.
     press(&mut board, middle + Vec2::new(-8.0, -1.0));
     pull(&mut board, middle + Vec2::new(-8.0, 0.0));
     let before = number(&board);
@@ -215,7 +215,7 @@ fn angles_are_typed_in_degrees() {
 }
 
 #[test]
-fn a_length_says_what_it_is_on_the_model_and_shows_it_there() {
+fn a_length_is_written_in_units_of_the_model_and_shown_on_it() {
     let mut board = board([knob("filter/blur.radius")]);
     let value = board.get_by_label("Radius").value();
     assert_eq!(value.as_deref(), Some("0.02 = 3.4 cm here"));

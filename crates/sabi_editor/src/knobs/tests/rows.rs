@@ -12,7 +12,7 @@ fn open_menu(board: &mut Board, name: &str) {
 }
 
 #[test]
-fn only_what_is_not_the_default_has_a_dot_which_resets_it() {
+fn only_changed_values_have_a_dot_which_resets_them() {
     let mut board = changed();
     click(&mut board, "Reset Opacity");
     let knob = "opacity".to_owned();
@@ -27,7 +27,7 @@ fn only_what_is_not_the_default_has_a_dot_which_resets_it() {
 }
 
 #[test]
-fn a_random_seed_is_no_change() {
+fn a_changed_seed_has_no_dot_that_resets_it() {
     let mut seed = knob("noise/simplex.seed");
     seed.value = Some(Value::Number(77.0));
     let board = board([seed]);
@@ -35,7 +35,7 @@ fn a_random_seed_is_no_change() {
 }
 
 #[test]
-fn the_menu_resets_exposes_and_takes_back() {
+fn the_menu_resets_exposes_and_unexposes_a_parameter() {
     let mut board = changed();
     open_menu(&mut board, "Opacity");
     click(&mut board, "Expose parameter");
@@ -111,7 +111,7 @@ fn a_value_is_copied_as_a_file_would_have_it() {
     assert_eq!(copied.as_deref(), Some("\"#808080\""));
 }
 
-/// Asks for the clipboard's text by the menu, which then holds `text`.
+/// Chooses to paste in the menu, while the clipboard holds `text`.
 fn paste(board: &mut Board, name: &str, text: &str) {
     open_menu(board, name);
     board.get_by_label("Paste value").click();
@@ -121,7 +121,7 @@ fn paste(board: &mut Board, name: &str, text: &str) {
 }
 
 #[test]
-fn what_fits_can_be_pasted_and_what_does_not_is_told() {
+fn a_value_that_fits_can_be_pasted_and_another_one_is_reported() {
     let mut board = board([knob("effect/layer.color"), knob("blend/mask.opacity")]);
     for text in ["\"#102030\"", " #102030\n"] {
         board.state_mut().rows[0].value = None;
@@ -139,7 +139,7 @@ fn what_fits_can_be_pasted_and_what_does_not_is_told() {
 }
 
 #[test]
-fn what_is_pasted_later_is_not_for_the_knob() {
+fn a_paste_that_arrives_late_is_not_taken_by_the_knob() {
     let mut board = board([knob("blend/mask.opacity")]);
     open_menu(&mut board, "Opacity");
     click(&mut board, "Paste value");
@@ -177,7 +177,7 @@ fn nodes_that_differ_show_no_value_and_take_one_together() {
 }
 
 #[test]
-fn what_cannot_be_read_is_told_and_can_be_set_anew() {
+fn an_unreadable_value_is_reported_and_can_be_set_again() {
     for (name, label, value) in [
         ("blend/mask.opacity", "Opacity", "\"much\""),
         ("noise/simplex.octaves", "Detail", "2.5"),
@@ -198,7 +198,7 @@ fn what_cannot_be_read_is_told_and_can_be_set_anew() {
 }
 
 #[test]
-fn a_doc_is_told_to_those_who_point_at_the_name() {
+fn pointing_at_a_name_shows_the_doc_of_its_parameter() {
     let mut board = changed();
     board.state_mut().rows[0].knob.doc = "How much of `above` is seen.".to_owned();
     let bar = board.get_by_label("Opacity").rect();

@@ -4,7 +4,7 @@ use egui_kittest::kittest::NodeT;
 use super::*;
 
 #[test]
-fn a_switch_switches() {
+fn a_click_on_a_switch_toggles_it() {
     let mut board = board([knob("effect/layer.color_on")]);
     let toggled = |board: &Board| board.get_by_label("Color on").accesskit_node().toggled();
     assert_eq!(toggled(&board), Some(Toggled::True));
@@ -46,7 +46,7 @@ fn many_words_are_a_list_that_opens() {
 }
 
 #[test]
-fn a_text_is_taken_by_enter_and_left_by_escape() {
+fn a_text_is_accepted_by_enter_and_canceled_by_escape() {
     let mut board = board([knob("output/mask.name")]);
     for (text, end, expected) in [("worn", Key::Enter, "worn"), ("lost", Key::Escape, "worn")] {
         click(&mut board, "Name");
@@ -60,7 +60,7 @@ fn a_text_is_taken_by_enter_and_left_by_escape() {
 }
 
 #[test]
-fn a_file_is_typed_or_asked_for_and_its_lack_is_said() {
+fn a_file_is_typed_or_asked_for_and_a_missing_one_is_reported() {
     let mut board = board([knob("source/image.file")]);
     assert!(says(&board, "No file yet"));
     click(&mut board, "File: choose a file");

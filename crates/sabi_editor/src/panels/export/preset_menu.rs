@@ -22,7 +22,8 @@ impl PresetMenu {
         let mut wanted = chosen.to_owned();
         ui.label("Preset");
         let listed = self.found.iter().find(|listed| listed.name == chosen);
-        // As high as all that come with Sabi, so that none fades at the edge as if it could not be chosen.
+        // High enough for all presets that come with Sabi: an entry that fades at the edge looks as if it could not be
+        // chosen.
         let menu = ComboBox::from_id_salt("preset").height(400.0);
         let menu = menu.selected_text(listed.map_or(chosen, title));
         let shown = menu.show_ui(ui, |ui| {
@@ -43,7 +44,8 @@ impl PresetMenu {
         (wanted != chosen).then_some(wanted)
     }
 
-    /// The files of the chosen preset with what each is packed of, or why it cannot be used.
+    /// Shows the files of the chosen preset with the channels that each is packed from, or the reason that it cannot be
+    /// used.
     pub(super) fn files(&self, chosen: &str, ui: &mut Ui, theme: &Theme) {
         let Some(listed) = self.found.iter().find(|listed| listed.name == chosen) else {
             let why = format!("There is no preset '{chosen}' any more; choose another one.");
@@ -76,7 +78,8 @@ impl PresetMenu {
     }
 }
 
-/// Name of a preset as the program that it is for writes its own; the user's own presets have the names of their files.
+/// Title of a preset: the name of the program that it is for, as that program writes it. The user's own presets have
+/// the names of their files.
 fn title(listed: &ListedPreset) -> &str {
     match (listed.name.as_str(), &listed.file) {
         ("raw", None) => "Raw channels",
@@ -92,7 +95,7 @@ fn title(listed: &ListedPreset) -> &str {
     }
 }
 
-/// Files with what each is packed of, and documents.
+/// Files with the channels that each is packed from, and documents.
 fn table(preset: &PresetDescription, ui: &mut Ui, theme: &Theme) {
     let grid = Grid::new("files of the preset").num_columns(2);
     grid.spacing([space::USUAL, space::TIGHT]).show(ui, |ui| {

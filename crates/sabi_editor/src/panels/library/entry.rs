@@ -33,7 +33,7 @@ pub(super) struct Entry<'a> {
     pub(super) picture: &'a dyn Fn(Side) -> Option<TextureId>,
 }
 
-/// What an entry gives, each with the dot that stands for it in the list.
+/// Outputs of an entry, each with its dot in the list.
 fn outputs(ui: &mut Ui, interface: &Interface, theme: &Theme) {
     if interface.outputs.is_empty() {
         return;
@@ -88,7 +88,7 @@ impl Entry<'_> {
             None => "A favorite; the first nine are added by the keys 1 to 9",
         };
         if star.on_hover_text(tooltip).clicked() {
-            // A key of an earlier version is removed as it is.
+            // A favorite that was stored under a key of an earlier version is removed by that key.
             let known = self.number.and_then(|number| context.settings.favorites.get(number));
             let key = known.unwrap_or(&self.candidate.favorite).clone();
             actions.push(Action::Setting(SettingAction::ToggleFavorite(key)));
@@ -96,8 +96,8 @@ impl Entry<'_> {
         actions
     }
 
-    /// Shows what the entry is beside the list, while the pointer rests on it: a large picture, its name, what it does, and the
-    /// words that it is found by.
+    /// Describes the entry beside the list while the pointer rests on it: with a large picture, its name, its effect,
+    /// and the words that it is found by.
     fn show_beside(&self, response: &Response, context: &ViewContext<'_>) {
         let interface = &self.candidate.interface;
         let picture = || (self.picture)(Side::Large).or_else(|| (self.picture)(Side::Small));

@@ -1,4 +1,5 @@
-//! Small pictures of what built-in nodes and groups do, loaded on a thread of their own when they come into sight.
+//! Small pictures of the effects of built-in nodes and groups, loaded on a thread of their own when they are scrolled
+//! into view.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,7 +32,7 @@ impl Side {
 /// Pictures that were read, with the kind or file of a group and the size that each was asked for.
 type ReadPictures = Vec<((String, Side), ColorImage)>;
 
-/// Small pictures of what built-in nodes do, by id, and groups of the effect library, by file.
+/// Small pictures of the effects of built-in nodes, by id, and of groups of the effect library, by file.
 #[derive(Default)]
 pub(super) struct Pictures {
     coming: Option<Task<ReadPictures>>,

@@ -69,7 +69,7 @@ fn laid_out(ui: &Ui, theme: &Theme, text: &str, faulty: &[u32]) -> Arc<Galley> {
         }
     }
     if text.is_empty() {
-        // Gives the only line its height, and with it the caret.
+        // Gives an empty text the height of a line, and with it a caret.
         job.append("", 0.0, TextFormat::simple(font(), theme.text));
     }
     ui.ctx().fonts_mut(|fonts| fonts.layout_job(job))

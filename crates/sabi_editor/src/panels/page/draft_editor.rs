@@ -72,7 +72,7 @@ impl DraftEditor {
         self.check(document);
     }
 
-    /// Editor of a new node that begins as a copy of another one; none where there is no folder for it.
+    /// Editor of a new node that begins as a copy of another one; `None` where there is no folder for it.
     pub(super) fn like(document: &OpenDocument, id: &str, text: &str) -> Option<DraftEditor> {
         let folder = new_node_folder(document.session.file())?;
         let kinds = document.kinds().0;

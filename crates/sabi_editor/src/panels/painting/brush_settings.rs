@@ -1,4 +1,4 @@
-//! The brush: what it does, its tip, its size, and all that strokes depend on.
+//! Settings of the brush: its action, its tip, its size, and everything else that strokes depend on.
 
 use egui::epaint::Hsva;
 use egui::{Button, Color32, Popup, PopupCloseBehavior, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
@@ -16,7 +16,7 @@ use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, POINTS, SIZES, S
 /// Side of the colors that were used last, points.
 const COLOR_SIDE: f32 = 15.0;
 
-/// Actions of the brush with their signs and what they do.
+/// Actions of the brush with their signs and descriptions.
 const ACTIONS: [(BrushAction, &str, &str); 6] = [
     (BrushAction::Paint, icon::PENCIL_SIMPLE, "Paint"),
     (
@@ -34,7 +34,8 @@ const ACTIONS: [(BrushAction, &str, &str); 6] = [
     ),
 ];
 
-/// Shows the brush; changes it. `text` is what is typed to be stamped, `curve` the curve of the fade.
+/// Shows the settings of the brush, and changes it. `text` is the text to stamp, `curve` the state of the curve of the
+/// fade.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
@@ -47,7 +48,7 @@ pub(super) fn show(
     ui.horizontal(|ui| {
         for (action, sign, doc) in ACTIONS {
             let button = ui.selectable_label(brush.action == action, sign);
-            let name = doc.split(&[':', ';']).next().unwrap_or(doc); // The whole where nothing follows.
+            let name = doc.split(&[':', ';']).next().unwrap_or(doc); // The whole text, if no sign is in it.
             button.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
             if button.on_hover_text(doc).clicked() {
                 brush.action = action;
@@ -84,7 +85,7 @@ pub(super) fn show(
     actions
 }
 
-/// Settings of the action and of the area alone.
+/// Settings that only some actions or areas have.
 fn details(ui: &mut Ui, brush: &mut BrushChoices) {
     if brush.action == BrushAction::Clone {
         ui.horizontal(|ui| choice(ui, "Copies", &mut brush.copy_of, &CopyOf::ALL))
@@ -208,7 +209,7 @@ fn color_button(ui: &mut Ui, color: &mut [f32; 3]) {
     });
 }
 
-/// The way between stamps, their turn, and their fade.
+/// Distance between stamps, their turn, and their fade.
 fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
     ui.add(
         Slider::new(&mut brush.spacing, SPACINGS)
@@ -273,7 +274,7 @@ fn symmetry(ui: &mut Ui, brush: &mut BrushChoices) {
         .on_hover_text("Copies strokes around the upright axis");
 }
 
-/// Places that are left alone, and the hand.
+/// Settings of the places that strokes change, and of how the brush follows the pointer.
 fn limits(ui: &mut Ui, brush: &mut BrushChoices) {
     ui.add(
         Slider::new(&mut brush.limits.angle_degrees, 10.0..=180.0)

@@ -9,7 +9,7 @@ use crate::settings::brush::BrushChoices;
 /// Side of the curve of a pen, points.
 const CURVE_SIDE: f32 = 56.0;
 
-/// Words for one of the two.
+/// Texts about the effects of pressure, or of tilt.
 struct Words {
     title: &'static str,
     /// Tips for the size, strength, hardness, scatter, turn, and the curve.
@@ -40,7 +40,7 @@ const TILT: Words = Words {
     ],
 };
 
-/// Shows what the pen changes, and what is known of pens.
+/// Shows the effects of the pen, and the state of the search for pens.
 pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoices) {
     effects(ui, &PRESSURE, &mut brush.pressure);
     effects(ui, &TILT, &mut brush.tilt);

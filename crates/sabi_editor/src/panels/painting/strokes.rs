@@ -49,7 +49,7 @@ enum Named {
 
 /// State of the field for a name.
 enum Typed {
-    /// It is not there.
+    /// The field is not shown.
     Nothing,
     Still,
     /// Another name was typed.
@@ -58,9 +58,9 @@ enum Typed {
 
 /// Request of a row or a tool.
 enum Asked {
-    /// Steps in the list, with their name in the history.
+    /// Change the list by these steps, with their name in the history.
     Steps(&'static str, Vec<Step>),
-    /// These strokes marked.
+    /// Mark these strokes.
     Mark(BTreeSet<Version>),
 }
 
@@ -260,8 +260,8 @@ impl StrokeRows {
         }
     }
 
-    /// The marked strokes after a click on a row: it alone, with Ctrl besides others, with Shift all from the row that was clicked
-    /// before.
+    /// The marked strokes after a click on a row: only this one; with Ctrl, this one in addition; with Shift, all from
+    /// the row that was clicked before.
     fn mark(&mut self, ui: &Ui, known: &BTreeSet<Version>, list: &StrokeList, index: usize) -> BTreeSet<Version> {
         let modifiers = ui.input(|input| input.modifiers);
         let id = list.strokes[index].id;
@@ -291,7 +291,7 @@ fn named_row(ui: &mut Ui, is_marked: bool, title: &str) -> Response {
     label.interact(Sense::click_and_drag())
 }
 
-/// The brush of a stroke as its picture shows it: a decal upright, and once.
+/// Brush that the picture of a stroke is drawn with: a decal is drawn upright, and once.
 fn shown_brush(stroke: &Stroke) -> Brush {
     let brush = stroke.brush.clone();
     if !stroke.area.is_single() {

@@ -24,12 +24,12 @@ pub(super) struct Swatches {
 }
 
 impl Swatches {
-    /// Lets swatches be drawn again for a while.
+    /// Gives the new frame its own time for drawing swatches.
     pub(super) fn begin_frame(&mut self) {
         self.began = None;
     }
 
-    /// A stroke of a brush; none where it is drawn in a later frame.
+    /// Picture of a stroke of a brush; `None` if it is drawn in a later frame.
     pub(super) fn of(&mut self, ui: &Ui, context: &ViewContext<'_>, brush: &Brush) -> Option<TextureId> {
         let key = key_of(ui, brush);
         if let Some(texture) = self.drawn.get(&key) {
@@ -66,7 +66,7 @@ fn key_of(ui: &Ui, brush: &Brush) -> String {
     format!("{seen:?} {:?}", ui.visuals().text_color())
 }
 
-/// The picture of a brush; none where it has one that is not in memory.
+/// Pictures that a brush stamps; `None` if one of them is not in memory.
 fn pictures_of(context: &ViewContext<'_>, brush: &Brush) -> Option<StampPictures> {
     let mut pictures = StampPictures::new();
     if let Some(tip) = &brush.picture {

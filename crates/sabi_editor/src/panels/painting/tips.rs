@@ -17,10 +17,10 @@ use crate::settings::text_font::TextFont;
 const COLUMNS: usize = 3;
 /// Height of the list of nodes, points.
 const RESULTS_HEIGHT: f32 = 320.0;
-/// Lengths by which swatches are sized: they do not depend on the model.
+/// Largest side of the model that swatches are drawn for, so that they do not depend on the shown model.
 const MODEL: f64 = 1.0;
 
-/// Shows the tip; changes the brush where another one is chosen. `text` is what is typed to be stamped.
+/// Shows the tip, and changes the brush if another one is chosen. `text` is the text to stamp.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
@@ -99,7 +99,7 @@ fn results(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
     let document = context.document;
     let nodes = document.graph().nodes().map(|(id, _)| id);
     let mut nodes: Vec<_> = nodes
-        // Not of the paint itself, which a square has none of.
+        // The paint node itself has no paint on the square that tips are evaluated on.
         .filter(|id| Some(*id) != document.selected_one())
         .filter(|id| {
             document

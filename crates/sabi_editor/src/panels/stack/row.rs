@@ -43,7 +43,7 @@ pub(super) fn show(
 ) -> Response {
     let (document, theme) = (context.document, context.theme);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click_and_drag());
-    // While its mask is selected, as it is while one paints it, the row is what one works on as well.
+    // A row also counts as selected while its mask is, as during painting on the mask.
     let is_mask_selected = layer.mask.as_ref().is_some_and(|mask| document.is_selected(&mask.node));
     let is_selected = document.is_selected(&layer.node) || is_mask_selected;
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, &layer.title));
@@ -221,7 +221,7 @@ fn name_and_opacity(
     let builder = egui::UiBuilder::new()
         .max_rect(below.shrink2(vec2(0.0, 1.0)))
         .id_salt(("opacity", &layer.node));
-    // The place of the next row is that below this one, whatever is shown in it.
+    // Drawn in a child, so that its contents do not change the place of the next row.
     let events = knob_inline(&mut ui.new_child(builder), theme, &row, below.width(), 0.85);
     for event in events {
         actions.push(match event {

@@ -10,7 +10,7 @@ fn moved(x: f32, pressure: f32) -> PenEvent {
     }
 }
 
-/// Events and places of the frames in which events are told, with the events of the system before them.
+/// Events and places of the frames that these events of a pen are added to.
 fn frames(pointer: &mut PenPointer, events: &[PenEvent]) -> Vec<(Vec<Event>, Vec<PenPlace>)> {
     pointer.receive(events.iter().copied());
     let mut frames = Vec::new();
@@ -44,7 +44,7 @@ fn told(events: &[PenEvent]) -> Vec<Vec<String>> {
 const NEAR: PenEvent = PenEvent::Near { is_eraser: false };
 
 #[test]
-fn a_touch_presses_at_the_place_of_its_moment_and_a_press_and_a_lift_end_a_frame() {
+fn a_touch_presses_at_its_place_and_each_press_or_release_ends_a_frame() {
     let events = [
         NEAR,
         moved(1.0, 0.0),
@@ -70,7 +70,7 @@ fn a_touch_presses_at_the_place_of_its_moment_and_a_press_and_a_lift_end_a_frame
 }
 
 #[test]
-fn a_touch_that_is_told_behind_its_place_presses_there() {
+fn a_touch_that_is_reported_after_its_place_presses_there() {
     assert_eq!(
         told(&[NEAR, moved(2.0, 0.3), PenEvent::Down, PenEvent::Frame, moved(9.0, 0.3)]),
         [vec!["at 2", "Primary down at 2"], vec!["at 9"]]
@@ -87,7 +87,7 @@ fn a_touch_that_is_told_behind_its_place_presses_there() {
 }
 
 #[test]
-fn a_pen_that_leaves_lifts_all_that_it_holds() {
+fn a_pen_that_leaves_releases_all_its_buttons() {
     let button = PenEvent::Button {
         is_first: true,
         is_pressed: true,
@@ -112,7 +112,7 @@ fn a_pen_that_leaves_lifts_all_that_it_holds() {
 }
 
 #[test]
-fn each_place_has_its_own_pressure_and_lean_and_the_end_that_erases() {
+fn each_place_has_its_own_pressure_and_tilt_and_the_end_of_the_pen() {
     let mut pointer = PenPointer::default();
     let events = [PenEvent::Near { is_eraser: true }, moved(1.0, 0.25), moved(2.0, 0.75)];
     let [(_, places)] = frames(&mut pointer, &events).try_into().expect("one frame");
@@ -129,7 +129,7 @@ fn each_place_has_its_own_pressure_and_lean_and_the_end_that_erases() {
 }
 
 #[test]
-fn a_pen_that_is_told_to_be_near_again_goes_on_and_its_other_end_begins_anew() {
+fn a_pen_that_is_reported_near_again_goes_on_and_its_other_end_starts_anew() {
     let events = [
         NEAR,
         moved(1.0, 0.5),
@@ -144,7 +144,7 @@ fn a_pen_that_is_told_to_be_near_again_goes_on_and_its_other_end_begins_anew() {
 }
 
 #[test]
-fn numbers_of_a_driver_that_are_none_leave_those_before_and_others_are_bounded() {
+fn invalid_numbers_of_a_driver_leave_the_earlier_ones_and_others_are_clamped() {
     let mut pointer = PenPointer::default();
     let odd = |at, pressure, tilt| PenEvent::Moved {
         at,
@@ -175,7 +175,7 @@ fn numbers_of_a_driver_that_are_none_leave_those_before_and_others_are_bounded()
 }
 
 #[test]
-fn a_tool_without_pressure_presses_as_a_mouse_does() {
+fn a_tool_without_pressure_has_the_full_pressure_of_a_mouse() {
     let mut pointer = PenPointer::default();
     let plain = PenEvent::Moved {
         at: [1.0, 10.0],
@@ -187,7 +187,7 @@ fn a_tool_without_pressure_presses_as_a_mouse_does() {
 }
 
 #[test]
-fn while_a_pen_is_near_the_pointer_is_the_pen_and_a_mouse_may_lift_what_it_pressed() {
+fn a_near_pen_alone_moves_the_pointer_and_a_mouse_can_release_its_own_buttons() {
     let button = |button, pressed| Event::PointerButton {
         pos: pos2(7.0, 10.0),
         button,
@@ -215,14 +215,14 @@ fn while_a_pen_is_near_the_pointer_is_the_pen_and_a_mouse_may_lift_what_it_press
 }
 
 #[test]
-fn places_are_points_of_the_zoom() {
+fn places_are_in_points_of_the_zoom() {
     let mut pointer = PenPointer::default();
     pointer.receive([NEAR, moved(20.0, 0.5)]);
     let places = pointer.enter_frame(&mut RawInput::default(), 2.0);
     assert_eq!(places[0].at, pos2(10.0, 5.0));
 }
 
-/// Names of the events that are left of those of the system in a frame at a time, seconds.
+/// Names of the system's events that are kept in a frame at a time, seconds.
 fn left_of(pointer: &mut PenPointer, time: f64, events: Vec<Event>) -> Vec<String> {
     let mut raw = RawInput {
         time: Some(time),
@@ -234,7 +234,7 @@ fn left_of(pointer: &mut PenPointer, time: f64, events: Vec<Event>) -> Vec<Strin
 }
 
 #[test]
-fn a_pen_that_lies_on_its_tablet_leaves_the_pointer_to_the_mouse_until_it_moves_again() {
+fn a_pen_lying_on_its_tablet_leaves_the_pointer_to_the_mouse_until_it_moves() {
     let mut pointer = PenPointer::default();
     let mouse = || vec![Event::PointerMoved(pos2(7.0, 7.0))];
     pointer.receive([NEAR, moved(1.0, 0.0)]);

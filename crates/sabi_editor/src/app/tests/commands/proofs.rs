@@ -16,7 +16,7 @@ use crate::files::system_dialog::PathFor;
 /// Nodes that are selected for a command, and whether it did what its title says.
 pub(super) type Proof = (&'static [&'static str], fn(&mut Window, &Before) -> bool);
 
-/// Proof of a command; none where another test has it.
+/// Proof of a command; `None` if another test proves it.
 pub(super) fn proof(command: Command) -> Option<Proof> {
     match command {
         Command::File(command) => of_file(command),

@@ -26,7 +26,7 @@ impl Window {
             .collect()
     }
 
-    /// Interface of a model on the strip.
+    /// Place of a model on the strip.
     fn entry(&self, name: &str) -> Pos2 {
         let label = format!("{} {name}", icon::CUBE);
         self.harness.get_by_label(&label).rect().center()
@@ -34,7 +34,7 @@ impl Window {
 }
 
 #[test]
-fn models_are_added_to_the_strip_switched_and_taken_off() {
+fn models_are_added_to_the_strip_switched_and_removed() {
     let mut window = Window::empty();
     window.until_model();
     let sphere = window.path("sphere.glb");
@@ -53,7 +53,7 @@ fn models_are_added_to_the_strip_switched_and_taken_off() {
 }
 
 #[test]
-fn a_model_that_cannot_be_shown_is_told_and_the_one_before_it_stays() {
+fn a_model_that_cannot_be_shown_is_reported_and_the_previous_one_stays() {
     let mut window = Window::empty();
     window.until_model();
     let cube = window.editor().evaluation.model.file().to_owned();
@@ -70,7 +70,7 @@ fn a_model_that_cannot_be_shown_is_told_and_the_one_before_it_stays() {
 }
 
 #[test]
-fn where_the_shown_model_is_removed_the_next_one_is_shown_and_the_only_one_stays() {
+fn removing_the_shown_model_shows_the_next_one_and_the_only_one_stays() {
     let mut window = Window::empty();
     window.until_model();
     let sphere = window.path("sphere.glb");
@@ -90,7 +90,7 @@ fn where_the_shown_model_is_removed_the_next_one_is_shown_and_the_only_one_stays
 }
 
 #[test]
-fn the_strip_holds_many_models_and_the_oldest_makes_room() {
+fn the_strip_drops_its_oldest_model_when_it_is_full() {
     let mut window = Window::empty();
     for at in 0..MOST_MODELS {
         let file = window.path(&format!("model{at}.glb"));
@@ -103,7 +103,7 @@ fn the_strip_holds_many_models_and_the_oldest_makes_room() {
 }
 
 #[test]
-fn an_environment_that_is_gone_is_told_and_another_stands_in_for_it() {
+fn a_missing_environment_is_reported_and_another_one_is_used() {
     let mut window = Window::empty();
     let gone = window.path("gone.hdr").display().to_string();
     let environment = gone.clone();
@@ -191,7 +191,7 @@ const LENGTHS: &str = r#"
 "#;
 
 #[test]
-fn a_length_that_is_pointed_at_is_a_bar_on_the_model_with_its_length_in_both_units() {
+fn pointing_at_a_length_draws_it_on_the_model_with_its_value_in_both_units() {
     let mut window = Window::opened(LENGTHS);
     window.until_model();
     window.click_at(window.title(&id("blur")));
@@ -232,7 +232,7 @@ fn a_length_on_a_node_is_shown_too_while_another_panel_is_in_front() {
 }
 
 #[test]
-fn results_of_the_model_before_are_covered_until_those_of_the_next_one_arrive() {
+fn results_of_the_previous_model_are_covered_until_those_of_the_next_arrive() {
     let mut window = Window::opened(r#""n": { "kind": "noise/simplex" }"#);
     window.until_model();
     window.harness.state_mut().look_at(&id("n"), None);
@@ -246,7 +246,7 @@ fn results_of_the_model_before_are_covered_until_those_of_the_next_one_arrive() 
         !editor.evaluation.is_inspected_outdated()
     });
     assert!(window.editor().evaluation.model.loaded().1);
-    // A model that cannot be shown leaves them as they are.
+    // A model that cannot be shown leaves the results as they are.
     window
         .harness
         .state_mut()

@@ -49,7 +49,7 @@ impl Window {
 }
 
 #[test]
-fn a_model_of_the_menu_is_shown_beside_the_first_one_and_taken_away_again() {
+fn a_model_of_the_menu_is_shown_beside_the_main_one_and_removed_again() {
     let mut window = Window::with_beside("sphere");
     assert_eq!(window.beside(), ["sphere"]);
     window.until("its texture", |editor| editor.views.model.has_picture_beside(0));
@@ -86,7 +86,7 @@ fn a_click_on_a_name_makes_that_model_the_first_one() {
     window.press("sphere beside");
     assert!(window.main_model().ends_with("sphere.glb"));
     assert_eq!(window.beside(), ["cube"]);
-    // The model that was in this place before is not shown under the name of the one that is read for it.
+    // While the new model is read, its name does not stand at the picture of the model that had its place before.
     let cube = window.editor().row.files().remove(0);
     let pictured = window.editor().views.model.pictured_beside(&cube);
     assert!(pictured.is_none_or(|file| file.ends_with("cube.glb")), "{pictured:?}");
@@ -96,7 +96,7 @@ fn a_click_on_a_name_makes_that_model_the_first_one() {
 }
 
 #[test]
-fn a_drag_on_any_of_them_turns_all() {
+fn a_drag_on_any_model_turns_all_of_them() {
     let mut window = Window::with_beside("sphere");
     let before = window.editor().views.model.navigation.camera;
     let at = window.harness.get_by_label("Remove sphere").rect().center();
@@ -131,7 +131,7 @@ fn a_model_that_cannot_be_read_says_why_in_its_place() {
 }
 
 #[test]
-fn a_model_is_shown_once_and_no_more_than_fit() {
+fn a_model_is_shown_only_once_and_the_number_of_models_is_limited() {
     let mut window = Window::opened(PAINTED);
     window.until_model();
     let cube = window.main_model().to_owned();

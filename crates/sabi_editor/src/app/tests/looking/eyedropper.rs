@@ -38,7 +38,7 @@ fn ready(nodes: &str) -> Window {
 }
 
 #[test]
-fn a_click_on_the_model_takes_the_color_that_is_seen_there_and_not_the_nodes_own() {
+fn a_click_on_the_model_takes_the_visible_color_and_not_that_of_the_node() {
     let mut window = ready(NODES);
     window.take_dropper(&id("tint"));
     assert_eq!(
@@ -71,7 +71,7 @@ fn a_click_on_the_texture_takes_a_color_too() {
 }
 
 #[test]
-fn escape_gives_it_up_and_leaves_no_group() {
+fn escape_cancels_the_eyedropper_and_does_not_leave_the_group() {
     let mut window = ready(NODES);
     window.take_dropper(&id("tint"));
     window.point(window.on_canvas([0.9, 0.5]));
@@ -82,7 +82,7 @@ fn escape_gives_it_up_and_leaves_no_group() {
 }
 
 #[test]
-fn where_there_is_no_color_it_says_so_and_waits() {
+fn a_click_where_there_is_no_color_says_so_and_the_eyedropper_waits() {
     let mut window = ready(NODES);
     window.take_dropper(&id("tint"));
     window.click_at(window.at_model([0.02, 0.97]));
@@ -115,7 +115,7 @@ const TWO: &str = r##"
 "##;
 
 #[test]
-fn of_several_texture_sets_the_one_that_is_clicked_gives_its_color() {
+fn the_color_is_taken_from_the_texture_set_that_is_clicked() {
     let mut window = Window::with(|folders| {
         let folder = super::super::beside(folders);
         std::fs::write(folder.join("squares.obj"), SQUARES).expect("a model");

@@ -56,7 +56,7 @@ impl Window {
 }
 
 #[test]
-fn the_exact_values_of_the_texel_under_the_pointer_are_told() {
+fn the_exact_values_of_the_texel_under_the_pointer_are_shown() {
     let mut window = painted();
     let at = window.texture().center() + vec2(1.0, 1.0);
     let told = window.probed(at);
@@ -74,7 +74,7 @@ fn the_exact_values_of_the_texel_under_the_pointer_are_told() {
 }
 
 #[test]
-fn each_number_of_a_color_can_be_looked_at_alone() {
+fn each_channel_of_a_color_can_be_shown_alone() {
     let mut window = painted();
     for name in ["R", "G", "B", "RGB"] {
         window.press(name);

@@ -18,7 +18,7 @@ fn many(count: usize) -> String {
 }
 
 #[test]
-fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
+fn pictures_of_deleted_nodes_are_released() {
     const COUNT: usize = 12;
     let mut window = Window::opened(&many(COUNT));
     window.until_model();
@@ -46,7 +46,7 @@ fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
 }
 
 #[test]
-fn choices_of_looking_are_there_again_in_the_next_run() {
+fn choices_of_the_views_are_restored_in_the_next_run() {
     let mut window = Window::untitled();
     let editor = window.harness.state_mut();
     let shot = &mut editor.views.model.shot;

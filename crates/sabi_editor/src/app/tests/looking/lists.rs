@@ -10,7 +10,7 @@ use sabi_editing::nodes;
 use crate::dock::Panel;
 
 #[test]
-fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
+fn times_are_listed_by_title_and_lead_to_their_node_until_it_is_deleted() {
     let mut window = Window::opened(NODES);
     window.until("times of both", |editor| {
         ["cells", "dots"]
@@ -39,7 +39,7 @@ fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
 }
 
 #[test]
-fn a_click_in_the_history_goes_there() {
+fn a_click_in_the_history_goes_to_that_step() {
     let mut window = Window::opened(NODES);
     let before = window.text();
     for way in [[40.0, 0.0], [0.0, 60.0]] {

@@ -16,7 +16,7 @@ const LIT: &str = r##"
     "out": { "kind": "output/material", "inputs": { "material": "rust" }, "pos": [600, 0] }"##;
 
 #[test]
-fn a_view_is_kept_by_a_name_and_comes_back_in_any_session() {
+fn a_view_is_saved_under_a_name_and_available_in_every_session() {
     let mut window = Window::opened(LIT);
     window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
     let camera = |window: &Window| window.editor().views.model.navigation.camera;

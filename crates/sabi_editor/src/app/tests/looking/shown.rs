@@ -52,7 +52,7 @@ impl Window {
 }
 
 #[test]
-fn a_click_shows_a_node_on_the_model_and_one_beside_all_nodes_the_outputs() {
+fn a_click_on_a_node_shows_it_on_the_model_and_one_beside_nodes_the_outputs() {
     let mut window = Window::opened(NODES);
     window.until_model();
     assert!(window.on_model().is_empty() && window.says("Outputs"));
@@ -98,7 +98,7 @@ fn a_second_node_that_is_shown_takes_the_place_of_the_first() {
 }
 
 #[test]
-fn the_menu_on_the_picture_says_and_chooses_what_the_model_shows() {
+fn the_menu_on_the_picture_shows_and_changes_the_subject_of_the_model() {
     let mut window = Window::opened(NODES);
     window.until_model();
     window.click_at(window.title(&id("cells")));
@@ -129,7 +129,7 @@ fn the_menu_on_the_picture_says_and_chooses_what_the_model_shows() {
 }
 
 #[test]
-fn the_menu_of_views_looks_from_where_its_entries_say() {
+fn each_entry_of_the_menu_of_views_sets_the_camera_that_it_names() {
     let mut window = Window::opened(NODES);
     window.until_model();
     let mut looks = Vec::new();
@@ -152,7 +152,7 @@ fn the_menu_of_views_looks_from_where_its_entries_say() {
 }
 
 #[test]
-fn a_click_on_a_node_keeps_the_output_that_was_chosen_and_a_pin_takes_it() {
+fn a_click_on_a_node_shows_its_chosen_output_which_a_pin_keeps() {
     let mut window = Window::opened(NODES);
     window.click_at(window.port(&id("cells"), "id"));
     window.click_at(window.title(&id("dots")));
@@ -170,7 +170,7 @@ fn a_click_on_a_node_keeps_the_output_that_was_chosen_and_a_pin_takes_it() {
 }
 
 #[test]
-fn a_pin_is_seen_on_its_node_and_above_the_texture_where_it_is_taken_off() {
+fn a_pin_is_shown_on_its_node_and_above_the_texture_where_it_can_be_removed() {
     let mut window = Window::opened(NODES);
     assert!(!window.has("Unpin"));
     let both = Modifiers::COMMAND | Modifiers::SHIFT;
@@ -190,7 +190,7 @@ fn a_pin_is_seen_on_its_node_and_above_the_texture_where_it_is_taken_off() {
 }
 
 #[test]
-fn what_cannot_be_shown_says_why_on_the_picture() {
+fn a_subject_that_cannot_be_shown_says_why_on_the_picture() {
     let mut window = Window::opened(r#""blur": { "kind": "filter/blur", "pos": [0, 0] }"#);
     window.until_model();
     window.click_at(window.title(&id("blur")));

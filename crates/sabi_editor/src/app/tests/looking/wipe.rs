@@ -23,7 +23,7 @@ impl Window {
     }
 }
 
-/// Two nodes beside each other.
+/// A window that compares two nodes.
 fn compared() -> Window {
     let mut window = Window::opened(NODES);
     window.until_model();
@@ -65,7 +65,7 @@ fn a_drag_that_crosses_the_line_turns_the_model_and_leaves_the_line() {
 }
 
 #[test]
-fn the_cursor_says_that_the_line_would_be_taken() {
+fn the_cursor_shows_that_a_drag_would_move_the_line() {
     let mut window = compared();
     let cursor = |window: &Window| window.harness.output().platform_output.cursor_icon;
     window.point(beside(window.line(), [5.0, 0.0]));
@@ -77,7 +77,7 @@ fn the_cursor_says_that_the_line_would_be_taken() {
 }
 
 #[test]
-fn the_key_f_looks_at_what_is_under_the_pointer() {
+fn the_key_f_focuses_the_point_under_the_pointer() {
     let mut window = Window::opened(NODES);
     window.until_model();
     let before = window.editor().views.model.navigation.camera;
@@ -95,7 +95,7 @@ fn the_key_f_looks_at_what_is_under_the_pointer() {
 }
 
 #[test]
-fn what_is_compared_is_named_on_its_own_side_of_the_line() {
+fn each_compared_subject_is_named_on_its_side_of_the_line() {
     let mut window = compared();
     let editor = window.harness.state_mut();
     for node in ["cells", "dots"] {

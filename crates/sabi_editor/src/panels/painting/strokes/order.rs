@@ -28,7 +28,8 @@ impl Row {
     }
 }
 
-/// Rows of a list, without the strokes of groups that are closed. Strokes of a group that lie apart have a title each time.
+/// Rows of a list, without the strokes of groups that are closed. A group whose strokes are apart has a title for each
+/// part.
 pub(super) fn rows_of(list: &StrokeList, closed: &BTreeSet<u32>) -> Vec<Row> {
     let number = |stroke: &Stroke| stroke.group.as_ref().map(|group| group.number);
     let mut rows = Vec::new();
@@ -55,7 +56,7 @@ pub(super) fn below_gap(rows: &[Row], gap: usize) -> usize {
     rows.get(gap).map_or(0, |row| row.top() + 1)
 }
 
-/// Steps that bring strokes together, in their order, above the strokes that lie below a gap in the list.
+/// Steps that move strokes to the gap in the list that has `below_gap` strokes below it. They keep their order.
 pub(super) fn moved(list: &StrokeList, strokes: &BTreeSet<Version>, below_gap: usize) -> Vec<Step> {
     let all: Vec<Version> = list.strokes.iter().map(|stroke| stroke.id).collect();
     let is_moved = |id: &&Version| strokes.contains(id);
@@ -83,7 +84,8 @@ pub(super) fn moved(list: &StrokeList, strokes: &BTreeSet<Version>, below_gap: u
     steps
 }
 
-/// Steps that put strokes into a group, where the topmost of them is: into the only one that some of them are in, or into a new one.
+/// Steps that put strokes into a group at the place of the topmost one: into the only group that some of them are in,
+/// or into a new one.
 pub(super) fn grouped(list: &StrokeList, strokes: &BTreeSet<Version>) -> Vec<Step> {
     let top = list.strokes.iter().rposition(|stroke| strokes.contains(&stroke.id));
     let mut steps = moved(list, strokes, top.map_or(0, |top| top + 1));
@@ -136,7 +138,7 @@ mod tests {
 
     use super::*;
 
-    /// A list of strokes that are named by letters, with the books of its steps.
+    /// A list of strokes that are named by letters, with the book of its steps.
     fn list_of(names: &str) -> (StrokeBook, Version) {
         let mut book = StrokeBook::default();
         let mut version = Version::EMPTY;

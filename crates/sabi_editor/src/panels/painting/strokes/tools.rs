@@ -15,7 +15,7 @@ use crate::context::ViewContext;
 /// Tools for marked strokes.
 #[derive(Default)]
 pub(super) struct Tools {
-    /// Place of the opacity slider while it is dragged: a step is taken once it is let go.
+    /// Value of the opacity slider while it is dragged; a step is made when it is released.
     slid: Option<f32>,
 }
 
@@ -70,7 +70,7 @@ impl Tools {
         if slider.changed() {
             self.slid = Some(opacity);
         }
-        // One step once it is let go, so that the list stays short.
+        // One step when the slider is released, so that the list of steps stays short.
         let is_done = slider.drag_stopped() || slider.lost_focus() || (slider.changed() && !slider.dragged());
         let opacity = self.slid.take_if(|_| is_done)?;
         if let Some(group) = group {
@@ -143,7 +143,7 @@ fn group_tools(ui: &mut Ui, context: &ViewContext<'_>, list: &StrokeList, marked
     None
 }
 
-/// The step that makes a path of a stroke that was drawn by hand; none for others.
+/// The step that makes a path of a stroke that was drawn by hand; `None` for others.
 fn as_path(stroke: &Stroke) -> Option<Step> {
     let path = Path::of_stroke(stroke).filter(|_| stroke.path.is_none())?;
     let (points, form) = path.places();
