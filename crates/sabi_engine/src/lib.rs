@@ -132,8 +132,8 @@ pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
 // Sessions: edits, files and what watches them.
 pub use session::watch::{Changes, Watched, Watcher};
 pub use session::{
-    BACKUPS, FileState, Keeping, Recovery, Session, document_with_paths, free_graph_file, is_open_in_a_window,
-    recoveries, recoveries_in_use, relocate_paths, with_absolute_paths,
+    BACKUPS, FileState, GraphFile, Keeping, Recovery, Session, document_with_paths, free_graph_file,
+    is_open_in_a_window, recoveries, recoveries_in_use, relocate_paths, with_absolute_paths,
 };
 pub use stroke_chores::{FlattenReport, LostStroke, ReprojectReport, flatten_strokes, reproject_strokes};
 

@@ -216,7 +216,7 @@ impl Borders {
             ],
         );
         let links = &surface.ghosts.all;
-        let bound = links.bindings(gpu, surface);
+        let bound = surface.bindings_of_ghosts(gpu, links);
         let groups = links.count.div_ceil(GROUP);
         pass.set_pipeline(&kernel.pipeline);
         pass.set_bind_group(0, bound, &[]);

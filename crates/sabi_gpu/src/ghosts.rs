@@ -62,7 +62,7 @@ pub(crate) fn fill_ghosts(
     gpu.submit_compute_pass(|pass| {
         for (links, rounds) in parts {
             let filled = Filled::new(gpu, links, texture, format);
-            filled.encode(pass, links.bindings(gpu, surface), rounds)?;
+            filled.encode(pass, surface.bindings_of_ghosts(gpu, links), rounds)?;
         }
         Ok(())
     })
@@ -77,7 +77,7 @@ pub(crate) fn encode_scattered_ghosts(
     format: Format,
 ) -> Result<(), GpuError> {
     let links = &surface.ghosts.all;
-    pass.set_bind_group(0, links.bindings(gpu, surface), &[]);
+    pass.set_bind_group(0, surface.bindings_of_ghosts(gpu, links), &[]);
     Filled::new(gpu, links, texture, format).encode_dispatch(pass, FillRound::Cubic, FillDispatch::Scatter)
 }
 

@@ -40,6 +40,7 @@ mod mirrors;
 mod needed_steps;
 mod normals;
 mod pace;
+mod pass_constants;
 mod pipeline_cache;
 mod pipelines;
 mod plan_likeness;

@@ -10,7 +10,6 @@ use sabi_surface::atlas::{Atlas, Orphan};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::surface::GpuSurface;
 use crate::uploads::{storage_buffer, table_texture};
 pub(crate) use rows::{GHOST_ROWS, GhostLinkRow, GhostReadRow};
 use rows::{LinkRow, coupled_slots, fill_rows, orphan_rows};
@@ -71,7 +70,7 @@ pub(crate) struct Links {
     /// Constants of rounds over owned texels only, and of rounds with ghosts.
     pub(crate) constants: [wgpu::Buffer; 2],
     /// Bind group of the surface with these links; made at its first use.
-    surface_bindings: OnceLock<wgpu::BindGroup>,
+    pub(crate) surface_bindings: OnceLock<wgpu::BindGroup>,
     /// One value per link, between gathering and scattering.
     pub(crate) values: wgpu::Buffer,
 }
@@ -96,12 +95,6 @@ impl Links {
     pub(crate) fn of_orphans(gpu: &Gpu, orphans: &[Orphan]) -> Result<Links, GpuError> {
         let rows: Vec<[[u32; 4]; 2]> = orphans.iter().map(orphan_rows).collect();
         Links::upload(gpu, &rows, 2)
-    }
-
-    /// Bind group of `surface`, whose ghosts these are, with these links.
-    pub(crate) fn bindings(&self, gpu: &Gpu, surface: &GpuSurface) -> &wgpu::BindGroup {
-        self.surface_bindings
-            .get_or_init(|| surface.bindings_of_links(gpu, self))
     }
 
     fn upload<Row: Pod>(gpu: &Gpu, rows: &[Row], link_rows: u32) -> Result<Links, GpuError> {

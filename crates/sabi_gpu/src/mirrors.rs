@@ -9,6 +9,7 @@ use crate::leaps::LEAP_BITS;
 use crate::levels::Scale;
 use crate::links::{self, FillConstants, GHOST_ROWS, GhostLinkRow, GhostReadRow};
 use crate::normals::NormalConstants;
+use crate::pass_constants::PassConstants;
 use crate::rays::device::{self, CastConstants};
 use crate::rays::hierarchy::MAX_DEPTH;
 use crate::rays::{HitRow, RayRow};
@@ -20,7 +21,6 @@ use crate::source_constants::{
 use crate::source_shader::{PartRows, PictureStorage, ProjectionWay};
 use crate::survey::{BINS, SurveyConstants};
 use crate::tables::{FRAME_ROWS, GEOMETRY_ROWS, PIECE_ROWS};
-use crate::tiles::PassConstants;
 use crate::uploads::TABLE_BITS;
 
 /// Returns the structs, constants and workgroup sizes that are declared here and in WGSL. A test compares them with all linked modules.

@@ -11,11 +11,11 @@ use crate::error::GpuError;
 use crate::layer_rows::LayerRows;
 use crate::leaps::leaps;
 use crate::links::{GhostLinks, Links};
+use crate::pass_constants::PassConstants;
 use crate::pool::Extent;
 use crate::shown_tiles::ShownTiles;
 use crate::tables::{SurfaceTables, texel_area_vector};
 use crate::tile_set::{TileSet, tile_number};
-use crate::tiles::PassConstants;
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
 
 /// Texel widths and extent of a surface, working units.
@@ -179,6 +179,12 @@ impl GpuSurface {
     pub(crate) fn bindings_of_links(&self, gpu: &Gpu, links: &Links) -> wgpu::BindGroup {
         let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
         self.bindings_with(gpu, &self.tiles, links, &constants)
+    }
+
+    /// Returns the bind group of the surface with the links of some of its ghosts. It is created at its first use.
+    pub(crate) fn bindings_of_ghosts<'l>(&self, gpu: &Gpu, ghosts: &'l Links) -> &'l wgpu::BindGroup {
+        let bindings = &ghosts.surface_bindings;
+        bindings.get_or_init(|| self.bindings_of_links(gpu, ghosts))
     }
 
     /// Returns the bind group of the surface with these tiles, links and constants.

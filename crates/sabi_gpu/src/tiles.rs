@@ -3,12 +3,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use sabi_nodes::wgsl_struct;
-
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::layer_rows::LayerRows;
 use crate::pace::{MARGIN, Pace};
+use crate::pass_constants::PassConstants;
 use crate::shown_tiles::ShownTiles;
 use crate::surface::GpuSurface;
 use crate::tile_set::TileSet;
@@ -16,25 +15,6 @@ use crate::waiting::Patience;
 
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
-
-wgsl_struct! {
-    "atlas" Pass:
-    /// Constants of a dispatch over tiles.
-    pub(crate) struct PassConstants {
-        first_tile: u32,
-        end_tile: u32,
-        row_length: u32,
-        size: f32,
-        round: u32,
-        rounds: u32,
-        texel: f32,
-        finest: f32,
-        farthest: f32,
-        first_page: u32,
-        first_row: u32,
-        pad: u32,
-    }
-}
 
 /// Tiles of a surface in slices, for the dispatches of a kernel.
 pub(crate) struct Slices<'a> {

@@ -405,7 +405,7 @@ impl Documents {
 
     /// Checks whether another program wrote the graph's file. Returns a sentence if the file was deleted.
     pub(crate) fn check_file(&mut self) -> Option<String> {
-        let state = self.document.session.check_file();
+        let state = self.document.session.graph_file.check();
         self.is_file_foreign = state == FileState::Another;
         self.autosave.invalidate();
         let file = self.document.session.file().filter(|_| state == FileState::Gone)?;

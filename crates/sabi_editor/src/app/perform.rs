@@ -112,7 +112,7 @@ impl Editor {
             FileAction::SaveAs(file) => self.save_as(file),
             FileAction::Overwrite(file) => self.save_to(&file),
             FileAction::SaveBesideTheirs => self.save_beside_theirs(),
-            FileAction::AllowSaving => self.documents.document.session.set_read_only(false),
+            FileAction::AllowSaving => self.documents.document.session.graph_file.set_read_only(false),
             FileAction::Pack(file) => self.pack_into(file),
             FileAction::AskForMissing(lost) => {
                 self.views.questions.ask_for_missing(&self.documents.document, lost);
@@ -121,7 +121,7 @@ impl Editor {
             FileAction::Reload => self.reload(),
             FileAction::KeepOpen => {
                 self.documents.is_file_foreign = false;
-                self.documents.document.session.keep_document();
+                self.documents.document.session.graph_file.keep_document();
                 self.documents.autosave.invalidate();
             }
             FileAction::DeleteRecovery(at) => {

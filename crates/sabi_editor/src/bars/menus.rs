@@ -157,7 +157,7 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
 pub(crate) fn marked_name(document: &OpenDocument, is_dirty: bool) -> String {
     let mark = if is_dirty { " •" } else { "" };
     let name = document.session.file().map_or("untitled".into(), file_name);
-    let access = if document.session.is_read_only() {
+    let access = if document.session.graph_file.is_read_only() {
         " (for reading only)"
     } else {
         ""

@@ -5,13 +5,35 @@ use std::path::{Path, PathBuf};
 
 use sabi_files::{FileLock, LockError, behind_links, is_locked};
 
-use super::Session;
-
 /// Mark that a file is open. It is removed when it is dropped. If the program is killed, the hidden file remains, but it
 /// has no effect without a lock.
 #[derive(Debug, Default)]
 pub(super) struct FileMark {
     lock: Option<FileLock>,
+}
+
+impl FileMark {
+    /// Returns true if it marks a file.
+    pub(super) fn is_set(&self) -> bool {
+        self.lock.is_some()
+    }
+
+    /// Marks a graph file, unless a file is marked. Returns false if another window has marked it.
+    pub(super) fn claim(&mut self, graph: &Path) -> bool {
+        if self.is_set() {
+            return true;
+        }
+        let Some(lock) = lock_of(graph) else {
+            return true;
+        };
+        match FileLock::acquire(&lock) {
+            Ok(lock) => self.lock = Some(lock),
+            Err(LockError::InUse { .. }) => return false,
+            // In a folder that cannot be written to, and on a share without locks, windows cannot see each other.
+            Err(LockError::Unavailable(_)) => {}
+        }
+        true
+    }
 }
 
 impl Drop for FileMark {
@@ -35,43 +57,4 @@ fn lock_of(graph: &Path) -> Option<PathBuf> {
     name.push(graph.file_name()?);
     name.push(".lock");
     Some(graph.with_file_name(name))
-}
-
-impl Session {
-    /// Marks the file as open in this window, until the session ends. Returns false if another window has marked it.
-    pub fn claim_file(&mut self) -> bool {
-        if self.mark.lock.is_some() {
-            return true;
-        }
-        let Some(lock) = self.file.as_deref().and_then(lock_of) else {
-            return true;
-        };
-        match FileLock::acquire(&lock) {
-            Ok(lock) => self.mark.lock = Some(lock),
-            Err(LockError::InUse { .. }) => return false,
-            // In a folder that cannot be written to, and on a share without locks, windows cannot see each other.
-            Err(LockError::Unavailable(_)) => {}
-        }
-        true
-    }
-
-    /// Marks another file, which has become the session's file.
-    pub(super) fn claim_other_file(&mut self) {
-        let was_marked = self.mark.lock.is_some();
-        self.mark = FileMark::default();
-        if was_marked {
-            // If another window has the file, the user has already been asked about replacing it.
-            self.claim_file();
-        }
-    }
-
-    /// Sets whether saving to the session's file is refused.
-    pub fn set_read_only(&mut self, is_read_only: bool) {
-        self.is_read_only = is_read_only;
-    }
-
-    /// Returns true if saving to the session's file is refused.
-    pub fn is_read_only(&self) -> bool {
-        self.is_read_only
-    }
 }

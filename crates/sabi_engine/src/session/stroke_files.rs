@@ -7,8 +7,8 @@ use sabi_files::Disk;
 use sabi_graph::{Document, Value};
 use sabi_paint::PictureName;
 
-use super::Session;
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
 use crate::source::paint::NAME;
 use crate::source::strokes::{paint_folder, picture_folder};
 
@@ -27,87 +27,25 @@ fn versions_of(document: &Document) -> String {
     named.collect::<Vec<&str>>().join(" ")
 }
 
-impl Session {
-    /// Returns the file beside which strokes are stored: that of the graph, or its recovery file; `None` if the graph has neither.
-    pub fn stroke_place(&self) -> Option<PathBuf> {
-        let recovery = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
-        self.file.clone().or(recovery)
-    }
+/// Stores the known strokes of all paint nodes of a graph beside a graph file or a recovery file.
+///
+/// # Errors
+/// A sentence about why they are in memory alone.
+pub(super) fn store(open: &OpenGraph, place: &Path) -> Result<(), EngineError> {
+    let stored = open.strokes.store(place, &versions_of(&open.document));
+    stored.map_err(|why| EngineError::new(ErrorKind::CannotWrite, why))
+}
 
-    /// Takes the strokes beside another graph file, of which nodes were copied, and stores those that this graph names now.
-    ///
-    /// # Errors
-    /// A sentence about why they are in memory alone.
-    pub fn take_strokes_beside(&self, other: &Path) -> Result<(), EngineError> {
-        if self.stroke_place().as_deref() != Some(other) {
-            self.open.strokes.read_beside(other);
-        }
-        self.keep_strokes()
+/// Stores the strokes of all paint nodes of a graph beside the file to which it is saved.
+///
+/// # Errors
+/// As for [`store`].
+pub(super) fn store_on_save(open: &OpenGraph, graph: &Path) -> Result<(), EngineError> {
+    if graph != open.path {
+        // Strokes of other models, and of nodes that were not evaluated, are not in memory yet.
+        open.strokes.read_beside(&open.path);
     }
-
-    /// Stores the strokes of all paint nodes. To be called after each stroke: a stroke that is stored survives the end of the
-    /// program.
-    ///
-    /// # Errors
-    /// A sentence about why they are in memory alone.
-    pub fn keep_strokes(&self) -> Result<(), EngineError> {
-        match self.stroke_place() {
-            Some(place) => self.store_strokes(&place),
-            None => {
-                self.open.strokes.settle();
-                Ok(())
-            }
-        }
-    }
-
-    /// Stores the strokes of all paint nodes as [`Session::keep_strokes`] does; where that fails, beside the recovery file.
-    ///
-    /// # Errors
-    /// A sentence about why they are in memory alone.
-    pub(super) fn keep_all_strokes(&mut self) -> Result<(), EngineError> {
-        match self.keep_strokes() {
-            Ok(()) => {
-                self.has_unsaved_strokes = false;
-                Ok(())
-            }
-            Err(error) => {
-                self.has_unsaved_strokes = true;
-                if self.store_strokes_in_recovery() {
-                    Ok(())
-                } else {
-                    Err(error)
-                }
-            }
-        }
-    }
-
-    /// Stores the strokes of all paint nodes beside the recovery file. Returns true if they are stored there.
-    pub(super) fn store_strokes_in_recovery(&self) -> bool {
-        let place = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
-        place.is_some_and(|place| self.store_strokes(&place).is_ok())
-    }
-
-    /// Stores the strokes of all paint nodes beside the file to which the graph is saved.
-    pub(super) fn save_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
-        if graph != self.open.path {
-            // Strokes of other models, and of nodes that were not evaluated, are not in memory yet.
-            self.open.strokes.read_beside(&self.open.path);
-        }
-        self.store_strokes(graph)
-    }
-
-    /// Stores the known strokes of all paint nodes beside a graph file.
-    fn store_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
-        let stored = self.open.strokes.store(graph, &versions_of(&self.open.document));
-        stored.map_err(|why| EngineError::new(ErrorKind::CannotWrite, why))
-    }
-
-    /// Reads the strokes beside the recovery file.
-    pub(super) fn read_recovered_strokes(&self) {
-        if let Some(recovery) = &self.recovery {
-            self.open.strokes.read_beside(recovery.path());
-        }
-    }
+    store(open, graph)
 }
 
 /// Removes the strokes beside a recovery file.

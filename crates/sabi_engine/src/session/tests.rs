@@ -14,8 +14,8 @@ use std::fs;
 use sabi_graph::{Body, Node, Value};
 use tempfile::TempDir;
 
+use super::edits::RECENT_EDITS;
 use super::*;
-use crate::catalog::node_file::NodeDraft;
 
 fn add(id: &str) -> Edit {
     Edit::AddNode {
@@ -85,12 +85,12 @@ fn a_drag_is_compared_with_the_file_once_it_ends() {
     let mut session = Session::new(None);
     session.edit("Add", add("a")).unwrap();
     session.save_as(&desk.path().join("a.sabi")).unwrap();
-    let saved = session.text.0;
+    let saved = session.text.revision;
     session.begin("Gain");
     assert!(!session.is_dirty());
     session.edit("Gain", set_gain(0.25)).unwrap();
     assert!(session.is_dirty());
-    assert_eq!(session.text.0, saved, "no text is made while it lasts");
+    assert_eq!(session.text.revision, saved, "no text is made while it lasts");
     session.cancel().unwrap();
     assert!(!session.is_dirty());
 }

@@ -3,15 +3,18 @@
 //! The analysis traces each member of the returned material back to its origin. A member that is only copied, mixed or selected from
 //! material inputs is passed on, which does not count as set. Code that the analysis cannot follow counts as always set.
 
+mod frame;
 mod members;
 mod needs;
 mod tracer;
+mod writes;
 
 use naga::{Function, Handle, Module, Type, TypeInner};
 
 use self::members::Members;
-use self::needs::{Needs, channel_write, without_stronger};
+use self::needs::Needs;
 use self::tracer::{TraceFuel, Tracer};
+use self::writes::{channel_write, without_stronger};
 use crate::kind::{Argument, Channel, ChannelWrite, Param};
 use crate::params::params_type;
 

@@ -33,7 +33,9 @@ impl Hands {
             Ok(()) => self.safe = vec![self.document.session.text().to_owned()],
             // The file is newer than the recovered copy, since the program was killed after saving. The editor would ask
             // whether to replace the file; the answer here is yes.
-            Err(error) if error.remedies.contains(&Remedy::ReplaceFile) => self.document.session.keep_document(),
+            Err(error) if error.remedies.contains(&Remedy::ReplaceFile) => {
+                self.document.session.graph_file.keep_document()
+            }
             Err(error) => assert!(self.document.session.disk().has_ended(), "{error}"),
         }
     }

@@ -44,10 +44,10 @@ impl Editor {
         };
         context.request_repaint_after(LOOK_AGAIN);
         let session = &mut self.documents.document.session;
-        if is_open_in_a_window(file) || !session.claim_file() {
+        if is_open_in_a_window(file) || !session.graph_file.claim() {
             return;
         }
-        session.set_read_only(false);
+        session.graph_file.set_read_only(false);
         self.views.questions.open = None;
         // The other window may have saved the file before it closed.
         let deleted = self.documents.check_file();

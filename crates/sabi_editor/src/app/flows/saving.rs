@@ -17,13 +17,13 @@ impl Editor {
             return self.views.questions.ask_to_save(&self.documents.document);
         };
         let session = &mut self.documents.document.session;
-        if session.is_read_only() {
+        if session.graph_file.is_read_only() {
             // The other window may have been closed meanwhile.
-            if is_open_in_a_window(&file) || !session.claim_file() {
+            if is_open_in_a_window(&file) || !session.graph_file.claim() {
                 self.views.questions.ask_about_open_file(file);
                 return;
             }
-            session.set_read_only(false);
+            session.graph_file.set_read_only(false);
         }
         // The notice about a deleted file is not needed: the file is written again.
         let _ = self.documents.check_file();
@@ -68,7 +68,7 @@ impl Editor {
     fn prepare_to_save(&mut self) {
         self.documents.name_model(&self.evaluation);
         let backups = self.shell.settings.backups;
-        self.documents.document.session.set_backups(backups);
+        self.documents.document.session.graph_file.set_backups(backups);
     }
 
     /// Marks the graph's file as open in this window. If another window has it open, saving to it is refused until the
@@ -77,10 +77,10 @@ impl Editor {
         // A window without a recovery folder is only drawn for a picture, and claims no file.
         let is_worked_in = self.documents.recovery_folder().is_some();
         let session = &mut self.documents.document.session;
-        if !is_worked_in || session.claim_file() {
+        if !is_worked_in || session.graph_file.claim() {
             return;
         }
-        session.set_read_only(true);
+        session.graph_file.set_read_only(true);
         if let Some(file) = session.file().map(Path::to_owned) {
             self.views.questions.ask_about_open_file(file);
         }
@@ -116,8 +116,8 @@ impl Editor {
         }
         let session = &mut self.documents.document.session;
         // A new file is not claimed yet. If another window has it open, the user has chosen to replace it.
-        session.claim_file();
-        session.set_read_only(false);
+        session.graph_file.claim();
+        session.graph_file.set_read_only(false);
         self.documents.is_file_foreign = false;
         // A save deletes the copies of the graph, but node files may still need theirs.
         self.documents.autosave.invalidate();
@@ -142,7 +142,7 @@ impl Editor {
         let is_own = own == Some(canonical_if_present(&file));
         let is_taken = file.exists() && !is_own;
         let is_open_elsewhere = match is_own {
-            true => session.is_read_only() && file.exists(),
+            true => session.graph_file.is_read_only() && file.exists(),
             false => is_open_in_a_window(&file),
         };
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());

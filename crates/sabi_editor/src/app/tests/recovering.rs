@@ -85,7 +85,7 @@ fn a_file_of_another_window_can_be_saved_once_that_window_is_closed() {
         let file = beside(folders).join("graph.sabi");
         fs::write(&file, super::graph_text(CLOUDS)).expect("a graph");
         let mut session = Session::open(&file, None).expect("a graph that can be read");
-        assert!(session.claim_file());
+        assert!(session.graph_file.claim());
         first = Some(session);
         open(folders)
     });

@@ -28,7 +28,7 @@ fn second_window() -> (Window, Session) {
         let file = super::beside(folders).join("graph.sabi");
         fs::write(&file, super::graph_text(CLOUDS)).expect("a graph");
         let mut session = Session::open(&file, None).expect("a graph that can be read");
-        assert!(session.claim_file());
+        assert!(session.graph_file.claim());
         first = Some(session);
         Session::open(&file, folders.recovery.as_deref()).expect("a graph that can be read")
     });
@@ -74,7 +74,7 @@ fn a_file_that_is_open_in_another_window_is_not_replaced_without_a_question() {
         let mut other = Session::new(None);
         let _held = (name == "other.sabi").then(|| {
             other.save_as(&file).expect("a file");
-            assert!(other.claim_file());
+            assert!(other.graph_file.claim());
         });
         window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
         window.answer_path(&file);

@@ -74,7 +74,7 @@ fn a_save_leaves_the_old_graph_or_the_new_one_and_removes_the_copy_after_that_al
     for (disk, told) in Disk::each_fault(steps) {
         let place = Place::new();
         let mut session = place.edited().on_disk(&disk);
-        let (old, new) = (session.saved.clone(), session.text().to_owned());
+        let (old, new) = (session.graph_file.saved().to_owned(), session.text().to_owned());
         let is_told = session.save().is_ok();
         crash(session);
         let saved = fs::read_to_string(place.file()).unwrap();

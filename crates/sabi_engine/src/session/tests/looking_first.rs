@@ -42,13 +42,13 @@ fn what_was_accepted_is_replaced_and_what_comes_after_it_is_not() {
     let desk = desk();
     let (mut session, file) = edited(&desk);
     fs::write(&file, "theirs").unwrap();
-    session.keep_document();
-    assert_eq!(session.check_file(), FileState::Same, "it was answered");
+    session.graph_file.keep_document();
+    assert_eq!(session.graph_file.check(), FileState::Same, "it was answered");
     assert!(session.is_dirty());
     fs::write(&file, "theirs, later").unwrap();
-    assert_eq!(session.check_file(), FileState::Another);
+    assert_eq!(session.graph_file.check(), FileState::Another);
     session.save().unwrap_err();
-    session.keep_document();
+    session.graph_file.keep_document();
     session.save().unwrap();
     assert!(!session.is_dirty());
 }
@@ -92,12 +92,12 @@ fn the_last_three_files_are_kept_the_latest_first() {
     // A save that changes nothing makes no backup.
     session.save().unwrap();
     assert_eq!(backup("3").as_ref(), Some(&written[3]));
-    session.set_backups(1);
+    session.graph_file.set_backups(1);
     session.edit("Gain", set_gain(0.6)).unwrap();
     session.save().unwrap();
     assert_eq!(backup("").as_ref(), Some(&written[0]));
     assert_eq!(backup("2").as_ref(), Some(&written[2]), "those that are there stay");
-    session.set_backups(0);
+    session.graph_file.set_backups(0);
     session.edit("Gain", set_gain(0.7)).unwrap();
     session.save().unwrap();
     assert_eq!(backup("").as_ref(), Some(&written[0]));
@@ -163,11 +163,11 @@ fn a_recovered_graph_does_not_replace_what_was_saved_since_without_a_question() 
     let recovery = recoveries(&kept).remove(0);
     assert!(recovery.is_file_changed());
     let mut session = Session::recover(recovery).unwrap();
-    assert_eq!(session.check_file(), FileState::Another);
+    assert_eq!(session.graph_file.check(), FileState::Another);
     session.save().unwrap_err();
     assert_eq!(fs::read_to_string(&file).unwrap(), "theirs");
     fs::write(&file, &before).unwrap();
-    assert_eq!(session.check_file(), FileState::Same);
+    assert_eq!(session.graph_file.check(), FileState::Same);
     session.save().unwrap();
 }
 
@@ -176,16 +176,16 @@ fn a_file_is_open_in_one_window_until_that_ends_in_any_way() {
     let desk = desk();
     let (mut session, file) = edited(&desk);
     assert!(!is_open_in_a_window(&file));
-    assert!(session.claim_file() && session.claim_file());
+    assert!(session.graph_file.claim() && session.graph_file.claim());
     assert!(is_open_in_a_window(&file));
     let mut second = Session::open(&file, None).unwrap();
-    assert!(!second.claim_file());
+    assert!(!second.graph_file.claim());
     // The lock file of a killed program has no effect.
     session.save().unwrap();
     session.close();
     fs::write(desk.path().join(".a.sabi.lock"), "").unwrap();
     assert!(!is_open_in_a_window(&file));
-    assert!(second.claim_file());
+    assert!(second.graph_file.claim());
     let other = desk.path().join("b.sabi");
     second.save_as(&other).unwrap();
     assert!(is_open_in_a_window(&other) && !is_open_in_a_window(&file));
@@ -207,7 +207,7 @@ fn a_graph_that_is_open_for_reading_alone_is_saved_under_another_name() {
     let desk = desk();
     let (mut session, file) = edited(&desk);
     let before = fs::read(&file).unwrap();
-    session.set_read_only(true);
+    session.graph_file.set_read_only(true);
     let told = format!(
         "{} is open in another window, and here for reading alone; save under another name",
         file.display()
@@ -215,7 +215,7 @@ fn a_graph_that_is_open_for_reading_alone_is_saved_under_another_name() {
     assert_eq!(session.save().unwrap_err().to_string(), told);
     assert_eq!(fs::read(&file).unwrap(), before);
     session.save_as(&desk.path().join("b.sabi")).unwrap();
-    assert!(!session.is_read_only());
+    assert!(!session.graph_file.is_read_only());
     session.edit("Gain", set_gain(0.5)).unwrap();
     session.save().unwrap();
 }

@@ -7,30 +7,31 @@ fn what_another_program_wrote_is_seen_and_taken_as_a_step() {
     let desk = desk();
     let file = desk.path().join("a.sabi");
     let mut session = Session::new(None);
-    assert_eq!(session.check_file(), FileState::Same, "there is none");
+    assert_eq!(session.graph_file.check(), FileState::Same, "there is none");
     session.edit("Add", add("a")).unwrap();
     session.save_as(&file).unwrap();
-    assert_eq!(session.check_file(), FileState::Same);
+    assert_eq!(session.graph_file.check(), FileState::Same);
     session.edit("Turn", set_gain(0.25)).unwrap();
     let ours = session.text().to_owned();
     assert_eq!(
-        session.check_file(),
+        session.graph_file.check(),
         FileState::Same,
         "what is not saved is not in the file"
     );
     // As another program lays it out.
     let theirs = session
-        .saved
+        .graph_file
+        .saved()
         .replace("noise/simplex", "noise/white")
         .replace("  ", "\t");
     fs::write(&file, &theirs).unwrap();
-    assert_eq!(session.check_file(), FileState::Another);
+    assert_eq!(session.graph_file.check(), FileState::Another);
     let revision = session.revision();
     session.reload().unwrap();
     assert_eq!(session.document().graph.node("a").unwrap().kind, "noise/white");
     assert!(session.revision() > revision);
     assert!(!session.is_dirty());
-    assert_eq!(session.check_file(), FileState::Same);
+    assert_eq!(session.graph_file.check(), FileState::Same);
     assert_eq!(session.undo().unwrap().as_deref(), Some("Reload the file"));
     assert_eq!(session.text(), ours, "nothing was lost");
     assert!(session.is_dirty());
@@ -45,14 +46,14 @@ fn a_file_that_cannot_be_read_any_more_changes_nothing() {
     session.save_as(&file).unwrap();
     let ours = session.text().to_owned();
     fs::write(&file, "{ \"format\": ").unwrap();
-    assert_eq!(session.check_file(), FileState::Another);
+    assert_eq!(session.graph_file.check(), FileState::Another);
     assert!(session.reload().is_err());
     fs::remove_file(&file).unwrap();
-    assert_eq!(session.check_file(), FileState::Gone);
+    assert_eq!(session.graph_file.check(), FileState::Gone);
     assert!(session.reload().is_err());
     assert_eq!(session.text(), ours);
     session.save().unwrap();
-    assert_eq!(session.check_file(), FileState::Same);
+    assert_eq!(session.graph_file.check(), FileState::Same);
 }
 
 #[test]
@@ -65,17 +66,17 @@ fn what_is_kept_against_its_file_or_has_lost_it_is_unsaved() {
     let ours = fs::read_to_string(&file).unwrap();
     let theirs = ours.replace("noise/simplex", "noise/white");
     fs::write(&file, &theirs).unwrap();
-    assert_eq!(session.check_file(), FileState::Another);
+    assert_eq!(session.graph_file.check(), FileState::Another);
     assert!(!session.is_dirty(), "nothing was said of it yet");
-    session.keep_document();
+    session.graph_file.keep_document();
     assert!(session.is_dirty());
     session.save().unwrap();
     assert!(!session.is_dirty());
     fs::remove_file(&file).unwrap();
-    assert_eq!(session.check_file(), FileState::Gone);
+    assert_eq!(session.graph_file.check(), FileState::Gone);
     assert!(session.is_dirty());
     fs::write(&file, &ours).unwrap();
-    assert_eq!(session.check_file(), FileState::Same);
+    assert_eq!(session.graph_file.check(), FileState::Same);
     assert!(!session.is_dirty(), "it is back");
 }
 

@@ -1,6 +1,6 @@
 //! Members of `Material` and the channels that they belong to.
 
-use super::needs::{Writes, always};
+use super::writes::{Writes, always};
 use crate::kind::Channel;
 
 /// Members of `Material` and their channels, by name.

@@ -4,9 +4,11 @@ use std::collections::BTreeSet;
 
 use naga::{BinaryOperator, Expression, Function, Handle, LocalVariable, MathFunction, Type, UnaryOperator};
 
+use super::frame::Frame;
 use super::members::Members;
-use super::needs::{Needs, Write, Writes, always, both, either, join};
-use crate::analysis::walk::{Calls, Store, calls, is_zero, returns, stores};
+use super::needs::Needs;
+use super::writes::{Write, Writes, always, both, either, join};
+use crate::analysis::walk::{Store, calls, is_zero, returns, stores};
 
 /// Maximum number of expressions visited.
 const VISITS: u32 = 1 << 16;
@@ -38,17 +40,6 @@ impl TraceFuel {
         self.visits = self.visits.saturating_sub(1);
         self.visits > 0 && self.scans > 0
     }
-}
-
-/// State of a function during one call of it.
-pub(super) struct Frame<'m> {
-    pub(super) function: &'m Function,
-    /// Writes for each argument; used only for arguments that are materials.
-    arguments: Vec<Writes>,
-    pub(super) stores: Vec<Store>,
-    calls: Calls,
-    /// Variables that are being analyzed.
-    open: Vec<Handle<LocalVariable>>,
 }
 
 /// Traces the members of a material back to their origins, through calls and local variables.
