@@ -158,7 +158,7 @@ pub use sabi_nodes::arithmetic;
 /// Strokes of a brush.
 pub use sabi_paint as paint;
 pub use sabi_surface::atlas::Udim;
-pub use sabi_surface::load::{ENDINGS as MODEL_ENDINGS, PartChoice, Up};
+pub use sabi_surface::load::{MODEL_ENDINGS, PartChoice, Up};
 pub use sabi_surface::model::FilePart;
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

@@ -45,7 +45,7 @@ use serde::{Deserialize, Serialize};
 
 use self::beside::FilesBeside;
 pub use self::error::{Fault, LoadError};
-pub use self::format::ENDINGS;
+pub use self::format::MODEL_ENDINGS;
 use self::format::{Format, format_of, refused_format};
 pub use self::gltf::{UnpackedVertices, gltf_json};
 pub use self::listed::listed;
