@@ -33,13 +33,17 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 20] = [
         &["basisu", "exr", "image", "png", "ruzstd"],
     ),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
-    ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
+    ("sabi_view", &["sabi_nodes", "sabi_surface", "sabi_gpu"], &[]),
     (
         "sabi_paint",
-        &["sabi_color", "sabi_curve", "sabi_files", "sabi_image", "sabi_surface"],
+        &["sabi_color", "sabi_curve", "sabi_files", "sabi_surface", "sabi_image"],
         &[],
     ),
-    ("sabi_export", &["sabi_files", "sabi_image", "sabi_surface"], &[]),
+    (
+        "sabi_export",
+        &["sabi_color", "sabi_files", "sabi_surface", "sabi_image"],
+        &[],
+    ),
     (
         "sabi_engine",
         &[
@@ -71,10 +75,26 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 20] = [
         ],
         &["glob"],
     ),
-    ("sabi_editing", &["sabi_graph", "sabi_engine"], &[]),
+    (
+        "sabi_editing",
+        &["sabi_files", "sabi_graph", "sabi_nodes", "sabi_paint", "sabi_engine"],
+        &[],
+    ),
     (
         "sabi_editor",
-        &["sabi_graph", "sabi_gpu", "sabi_view", "sabi_engine", "sabi_editing"],
+        &[
+            "sabi_curve",
+            "sabi_files",
+            "sabi_graph",
+            "sabi_nodes",
+            "sabi_surface",
+            "sabi_gpu",
+            "sabi_view",
+            "sabi_paint",
+            "sabi_export",
+            "sabi_engine",
+            "sabi_editing",
+        ],
         &[
             "eframe",
             "egui",
@@ -90,7 +110,17 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 20] = [
     ),
     (
         "sabi",
-        &["sabi_engine", "sabi_batch", "sabi_editor"],
+        &[
+            "sabi_files",
+            "sabi_graph",
+            "sabi_surface",
+            "sabi_gpu",
+            "sabi_view",
+            "sabi_export",
+            "sabi_engine",
+            "sabi_batch",
+            "sabi_editor",
+        ],
         &["clap", "indicatif"],
     ),
     ("xtask", &[], &[]),
