@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use half::f16;
-use sabi_engine::{ModelOptions, NoProgress, Seams};
+use sabi_engine::baking::Seams;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::phases::NoProgress;
 use sabi_export::{BorderRule, ChartBorders, STEEPER};
 use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported, ResultCache};
 use sabi_plan::Mode as Plans;
@@ -49,7 +51,7 @@ fn a_picture_shows_what_the_exported_maps_hold_up_to_the_border_where_the_data_j
     let mut pictured = Pictured::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
     // A code of 8 bits may be lost in the file, which is dithered, and a half float's step in the picture.
     let color = map(&baked, "base_color.png", true);
-    let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
+    let apart = difference(&pictured, &color, Mode::BaseColor, sabi_color::srgb_from_linear);
     assert!(apart < 5e-3, "colors are {apart} apart");
     let roughness = map(&baked, "roughness.png", false);
     let apart = difference(&pictured, &roughness, Mode::Roughness, |value| value);
@@ -59,7 +61,7 @@ fn a_picture_shows_what_the_exported_maps_hold_up_to_the_border_where_the_data_j
     assert!(apart < 5e-3, "normals are {apart} apart");
     pictured.show_node("vertex.color");
     let vertex = map(&baked, "vertex.png", true);
-    let apart = difference(&pictured, &vertex, Mode::Node, sabi_image::srgb_from_linear);
+    let apart = difference(&pictured, &vertex, Mode::Node, sabi_color::srgb_from_linear);
     assert!(apart < 5e-3, "vertex colors are {apart} apart");
     pictured.show_node("second.mask");
     let second = map(&baked, "second.png", false);

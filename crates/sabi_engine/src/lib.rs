@@ -24,7 +24,7 @@
 //! let graph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/examples/army-paint.sabi");
 //! let report = check(&graph)?;
 //! assert_eq!((report.errors, report.warnings), (Vec::<String>::new(), Vec::<String>::new()));
-//! # Ok::<(), sabi_engine::EngineError>(())
+//! # Ok::<(), crate::EngineError>(())
 //! ```
 
 pub mod baking;

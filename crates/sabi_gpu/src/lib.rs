@@ -13,7 +13,7 @@
 //!
 //! let gpu = Gpu::open(&AdapterChoice::Auto)?;
 //! println!("{} ({})", gpu.summary().name, gpu.summary().driver);
-//! # Ok::<(), sabi_gpu::GpuError>(())
+//! # Ok::<(), crate::GpuError>(())
 //! ```
 
 mod adapter;

@@ -16,7 +16,7 @@
 //! let options = PngOptions { channels: 3, bits: 8, srgb_chunk: true };
 //! let file = encode_png(1, 1, PngData::U8(&codes), options)?;
 //! assert_eq!(decode("pixel.png", &file)?.pixels, Pixels::U8(vec![0, 124, 255]));
-//! # Ok::<(), sabi_image::ImageError>(())
+//! # Ok::<(), crate::ImageError>(())
 //! ```
 
 mod blue_noise;

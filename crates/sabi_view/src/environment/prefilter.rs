@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use glam::{Vec3, Vec4, vec3};
 use sabi_gpu::Gpu;
-use sabi_gpu::wgsl_struct;
+use sabi_nodes::wgsl_struct;
 
 use super::panorama::Panorama;
 use crate::error::ViewError;

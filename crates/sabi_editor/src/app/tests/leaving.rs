@@ -249,14 +249,14 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
 #[test]
 fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_place_of_one_that_is_not() {
     let mut window = Window::opened(CLOUDS);
-    let draft = |text: &str| sabi_engine::NodeDraft {
+    let draft = |text: &str| sabi_engine::catalog::node_file::NodeDraft {
         folder: window.path("nodes"),
         id: "noise/mine".to_owned(),
         text: text.to_owned(),
         known: None,
     };
     let (first, second) = (draft("//! First"), draft("//! Second"));
-    first.save(&sabi_engine::Disk::default()).expect("a file");
+    first.save(&sabi_files::Disk::default()).expect("a file");
     let Editor { views, documents, .. } = window.harness.state_mut();
     let (page, document) = (&mut views.page, &documents.document);
     page.recover(vec![first.clone()], document);
@@ -342,13 +342,13 @@ fn what_was_kept_can_be_let_go_and_a_window_that_uses_it_keeps_it() {
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();
     let unsaved = window.path("unsaved");
-    assert!(sabi_engine::recoveries(&unsaved).is_empty(), "it is in use");
+    assert!(sabi_engine::session::recoveries(&unsaved).is_empty(), "it is in use");
     let mut window = window.after_a_crash();
     assert!(window.says("graph.sabi"));
     window.press("Discard");
     window.press("Discard permanently");
     assert!(!window.says("The program ended before this was saved"));
-    assert!(sabi_engine::recoveries(&unsaved).is_empty());
+    assert!(sabi_engine::session::recoveries(&unsaved).is_empty());
 }
 
 #[test]

@@ -334,7 +334,7 @@ fn an_end_that_nobody_asked_for_keeps_what_is_not_saved() {
     // Discarded changes are not kept.
     window.harness.state_mut().may_close = true;
     eframe::App::on_exit(window.harness.state_mut());
-    assert!(sabi_engine::recoveries(&window.path("unsaved")).is_empty());
+    assert!(sabi_engine::session::recoveries(&window.path("unsaved")).is_empty());
 }
 
 #[test]

@@ -149,7 +149,7 @@ fn a_model_of_several_files_that_the_command_line_named_is_shown_again_once_the_
     let file = kept.path().join("graph.sabi");
     let editor = window.harness.state_mut();
     // As at the start with a model; this is not kept.
-    editor.documents.trust(&sabi_engine::TrustedPaths::of_file(&hero));
+    editor.documents.trust(&sabi_files::TrustedPaths::of_file(&hero));
     editor.take_model(&hero);
     window.until("the model", |editor| {
         editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.gltf")
