@@ -49,7 +49,6 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 20] = [
         &[
             "sabi_cancel",
             "sabi_color",
-            "sabi_curve",
             "sabi_files",
             "sabi_graph",
             "sabi_nodes",

@@ -13,7 +13,7 @@
 //!
 //! let gpu = Gpu::open(&AdapterChoice::Auto)?;
 //! println!("{} ({})", gpu.summary().name, gpu.summary().driver);
-//! # Ok::<(), crate::GpuError>(())
+//! # Ok::<(), sabi_gpu::GpuError>(())
 //! ```
 
 mod adapter;
@@ -83,8 +83,6 @@ pub use readback::bands::BandData;
 pub use result_key::ResultKey;
 pub use run_options::{DEFAULT_KEEPS_FROM, DEFAULT_WRITES_OVER_FROM, RunOptions};
 pub use run_result::{Run, RunReport, StepTime};
-pub use sabi_nodes::link::{Given, LinkedModule, Mirror, MirrorValue, MirrorsWgsl, ModuleSpec};
-pub use sabi_nodes::wgsl_struct;
 pub use shaders::fixed_modules;
 pub use shares::{Mean, Shares};
 pub use shown_maps::Exported;
