@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_engine::{OpenGraph, Overrides, describe_graph};
+use sabi_engine::OpenGraph;
+use sabi_engine::graph_info::describe_graph;
+use sabi_graph::Overrides;
 
 use crate::graph::plan;
 use crate::parts::files;

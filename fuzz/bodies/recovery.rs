@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use sabi_engine::recoveries;
+use sabi_engine::session::recoveries;
 
 pub fn survives(bytes: &[u8]) {
     let folder = tempfile::tempdir().expect("a temporary folder");

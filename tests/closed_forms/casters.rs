@@ -1,7 +1,8 @@
 //! The two casters, which follow the same rays on the processor and in a kernel, compared with each other.
 
-use sabi_engine::{CasterChoice, Hits, Kinds, ModelOptions};
-use sabi_gpu::ResultCache;
+use sabi_engine::Kinds;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_gpu::{CasterChoice, Hits, ResultCache};
 use sabi_plan::Mode;
 use sabi_tests::{Asked, MeshFile, OnMesh, Quad, project};
 

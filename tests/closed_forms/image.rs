@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use sabi_image::{PngData, PngOptions, encode_exr, encode_png, linear_from_srgb};
+use sabi_color::linear_from_srgb;
+use sabi_image::{PngData, PngOptions, encode_exr, encode_png};
 use sabi_tests::{MadeTexture, MeshFile, OnMesh, Quad, project};
 use serde_json::{Value, json};
 use tempfile::TempDir;

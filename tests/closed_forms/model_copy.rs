@@ -6,11 +6,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{
-    BakeRequest, CasterChoice, CopyOptions, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions,
-    NoProgress, Overlap, Overrides, Seams, bake,
-};
-use sabi_export::{Cover, layouts, set_names};
+use sabi_engine::baking::{BakeRequest, Seams, bake};
+use sabi_engine::evaluating::EvaluatorOptions;
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions, Overlap};
+use sabi_engine::phases::NoProgress;
+use sabi_export::{CopyOptions, Cover, layouts, set_names};
+use sabi_files::Disk;
+use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::Overrides;
 use sabi_image::{Pixels, decode};
 use sabi_surface::model::Model;
 use sabi_tests::{MeshFile, Quad, adapter, device, project, report_file};

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_engine::{LinkedModel, ModelOptions, NoProgress};
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions};
+use sabi_engine::phases::NoProgress;
 use sabi_export::{Cover, NONE, Padding, PaddingMap, SetLayout, layouts};
 use sabi_surface::atlas::GHOST_BIT;
 use serde_json::Value as Json;

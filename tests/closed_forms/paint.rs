@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
-use sabi_engine::Strokes;
-use sabi_engine::paint::{Action, Brush, CopyOf, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
+use sabi_engine::source::Strokes;
+use sabi_paint::{Action, Brush, CopyOf, PaintSurface, Step, Stroke, StrokePoint, SurfaceIndex};
 use sabi_surface::load::{LoadOptions, load};
+use sabi_surface::patch::Site;
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
 use serde_json::json;
 

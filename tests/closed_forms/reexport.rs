@@ -1,6 +1,7 @@
 //! `source/model → output/material` gives back the maps that the model came with.
 
-use sabi_image::{PngData, PngOptions, encode_png, srgb8_from_linear};
+use sabi_color::srgb8_from_linear;
+use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_tests::{MadeMesh, MadeTexture, MeshFile, OnMesh, Quad};
 use serde_json::{Value, json};
 
@@ -215,7 +216,7 @@ type Expected<'a> = &'a dyn Fn(u8) -> f64;
 #[test]
 fn every_map_of_a_model_comes_back_however_it_wraps_and_is_transformed() {
     let plain = |code: u8| f64::from(code) / 255.0;
-    let srgb = |code: u8| f64::from(sabi_image::linear_from_srgb(f32::from(code) / 255.0));
+    let srgb = |code: u8| f64::from(sabi_color::linear_from_srgb(f32::from(code) / 255.0));
     for placing in placings() {
         let made = mapped(&placing);
         let mut on_mesh = OnMesh::new(GRAPH, made.path(), SIZE);

@@ -1,7 +1,7 @@
 //! Whole bakes: the values that a renderer reads on both sides of the seams of a map, with and without seam erasure.
 
 use glam::{DVec2, DVec3};
-use sabi_engine::Seams;
+use sabi_engine::baking::Seams;
 use sabi_image::{Pixels, decode};
 use sabi_tests::{Baked, OnMesh, Seam, project};
 

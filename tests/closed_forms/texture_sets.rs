@@ -1,7 +1,9 @@
 //! Every texture is read with its own texture coordinates, whatever layout the maps have.
 
-use sabi_engine::{Kinds, ModelOptions, Overlap};
-use sabi_image::{PngData, PngOptions, encode_png, srgb8_from_linear};
+use sabi_color::srgb8_from_linear;
+use sabi_engine::Kinds;
+use sabi_engine::opening::linked_model::{ModelOptions, Overlap};
+use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
 
 const SIZE: u32 = 64;

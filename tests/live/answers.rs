@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{Gpu, LiveEvent, LiveOptions, Precedence, ViewSubject};
+use sabi_engine::live::{LiveEvent, LiveOptions, Precedence, ViewSubject};
+use sabi_gpu::Gpu;
 use sabi_tests::{adapter, device};
 
 use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, request};
@@ -30,14 +31,14 @@ fn a_request_is_answered_coarse_first_and_then_at_full_size() {
     assert_eq!(models.count(), 2, "each size of the model is told once");
     assert!(told.times().latency.is_some());
     assert!(!window.live.is_busy());
-    let can_pick = |model: &sabi_engine::LiveModel| model.linked.bvh.get().is_some();
+    let can_pick = |model: &sabi_engine::live::LiveModel| model.linked.bvh.get().is_some();
     assert!(told.shown().iter().all(|(_, _, model, _)| can_pick(model)));
 }
 
 #[test]
 fn a_size_that_is_no_larger_than_the_coarse_one_is_shown_at_once() {
     let window = Window::new();
-    let small = sabi_engine::LiveRequest {
+    let small = sabi_engine::live::LiveRequest {
         coarse_size: FULL,
         ..request(1, graph(&rusty(0.5)))
     };
@@ -90,8 +91,8 @@ fn an_edited_graph_gives_the_same_bytes_as_one_opened_with_the_edit() {
     let last = |told: &crate::window::Told| told.shown().last().map(|(.., looks)| bytes(looks));
     let window = Window::new();
     window.answer(request(1, graph(&rusty(0.5))));
-    let edits: sabi_engine::GraphUpdate = vec![set(0.7)].into();
-    let edited = sabi_engine::LiveRequest {
+    let edits: sabi_engine::live::GraphUpdate = vec![set(0.7)].into();
+    let edited = sabi_engine::live::LiveRequest {
         graph: edits.followed_by(vec![set(0.25)].into()),
         ..request(2, graph(&rusty(0.5)))
     };
@@ -99,7 +100,7 @@ fn an_edited_graph_gives_the_same_bytes_as_one_opened_with_the_edit() {
     let whole = last(&Window::new().answer(request(1, graph(&rusty(0.25)))));
     assert!(edited.is_some() && edited == whole);
     // An edit that gives no valid graph is reported as a fault, and the next graph is evaluated.
-    let stray = sabi_engine::LiveRequest {
+    let stray = sabi_engine::live::LiveRequest {
         graph: vec![sabi_graph::Edit::SetMuted {
             body: sabi_graph::Body::Main,
             node: "gone".parse().expect("an id"),
@@ -129,7 +130,7 @@ fn an_edit_that_changes_no_shown_result_is_not_shown_again() {
 #[test]
 fn a_node_is_shown_instead_of_the_outputs_or_beside_them() {
     let window = Window::new();
-    let both = sabi_engine::LiveRequest {
+    let both = sabi_engine::live::LiveRequest {
         subjects: vec![
             ViewSubject::Outputs,
             ViewSubject::Node(node("cut")),
@@ -159,7 +160,7 @@ fn many_fast_requests_end_with_the_last_one_and_its_bytes() {
     let last = 40;
     let at = |revision: u64| 0.3 + 0.01 * revision as f32;
     for revision in 0..last {
-        let moving = sabi_engine::LiveRequest {
+        let moving = sabi_engine::live::LiveRequest {
             is_moving: true,
             ..request(revision, graph(&rusty(at(revision))))
         };
@@ -216,7 +217,7 @@ fn a_newer_request_ends_the_older_one() {
 #[test]
 fn the_exact_values_of_a_node_are_reported_once() {
     let window = Window::new();
-    let looking = |revision: u64, at: f32| sabi_engine::LiveRequest {
+    let looking = |revision: u64, at: f32| sabi_engine::live::LiveRequest {
         inspected: vec![node("cut")],
         ..request(revision, graph(&rusty(at)))
     };
@@ -241,13 +242,13 @@ fn another_fit_is_reported_with_a_model_of_its_lengths() {
     let window = Window::new();
     window.answer(request(1, graph(&rusty(0.5))));
     let mut longer = graph(&rusty(0.5));
-    longer.document.fit = sabi_engine::Fit::Length(2.0);
+    longer.document.fit = sabi_graph::Fit::Length(2.0);
     let told = window.answer(request(2, longer));
     assert_eq!(told.coarse_and_full(), [true, false]);
     assert!(
         told.shown()
             .iter()
-            .all(|(_, _, model, _)| model.fit == sabi_engine::Fit::Length(2.0))
+            .all(|(_, _, model, _)| model.fit == sabi_graph::Fit::Length(2.0))
     );
 }
 
@@ -300,7 +301,7 @@ fn results_that_do_not_fit_are_reported_and_a_smaller_graph_is_evaluated() {
         );
     }
     let mask = r#""clouds": { "kind": "noise/simplex" }"#;
-    let small = sabi_engine::LiveRequest {
+    let small = sabi_engine::live::LiveRequest {
         subjects: vec![ViewSubject::Node(node("clouds"))],
         ..request(2, graph(mask))
     };

@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-use sabi_engine::{BlockedNode, Faults, Live, LiveEvent, LiveRequest, ModelOptions, NodeFault, OpenGraph};
+use sabi_engine::live::{BlockedNode, Faults, LiveEvent, LiveRequest, NodeFault};
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::{Live, OpenGraph};
 use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_tests::{MeshFile, Quad, device};
 
@@ -98,7 +100,7 @@ fn a_missing_group_file_is_reported_and_the_rest_is_evaluated() {
     assert!(fault.node == "i" && fault.sentence.starts_with(begins), "{fault:?}");
     assert_eq!(faults.blocked, [blocked("after", "i")]);
     assert_eq!(told.pictured(), ["clouds"]);
-    let is_model = |event: &&sabi_engine::LiveEvent| matches!(event, sabi_engine::LiveEvent::Model { .. });
+    let is_model = |event: &&sabi_engine::live::LiveEvent| matches!(event, sabi_engine::live::LiveEvent::Model { .. });
     assert_eq!(told.all.iter().filter(is_model).count(), 2);
 }
 
@@ -198,7 +200,7 @@ fn the_files_that_a_graph_depends_on_are_reported_when_they_change() {
         graph.path = folder.path().join("graph.sabi");
         let told = window.answer(request(revision, graph));
         let named = told.all.iter().find_map(|event| match event {
-            sabi_engine::LiveEvent::Files { files, .. } => Some(files.clone()),
+            sabi_engine::live::LiveEvent::Files { files, .. } => Some(files.clone()),
             _ => None,
         });
         let names = |files: std::collections::BTreeSet<std::path::PathBuf>| {

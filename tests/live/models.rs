@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{LiveEvent, LiveRequest, ModelOptions};
+use sabi_engine::live::{LiveEvent, LiveRequest};
+use sabi_engine::opening::linked_model::ModelOptions;
 use sabi_tests::{NodeFolder, project};
 
 use crate::window::{FULL, Window, graph, request};
@@ -76,7 +77,7 @@ fn node_kinds_that_were_read_again_are_used() {
     let wished = |revision: u64, kinds_revision: u64| LiveRequest {
         kinds: Arc::new(folder.kinds()),
         kinds_revision,
-        subjects: vec![sabi_engine::ViewSubject::Node(crate::window::node("level"))],
+        subjects: vec![sabi_engine::live::ViewSubject::Node(crate::window::node("level"))],
         ..request(revision, graph(r#""level": { "kind": "own/level" }"#))
     };
     let window = Window::new();

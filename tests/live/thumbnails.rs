@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{LiveEvent, LiveRequest, ModelOptions, SetKey, TextureSet};
+use sabi_engine::evaluating::TextureSet;
+use sabi_engine::live::{LiveEvent, LiveRequest};
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_export::SetKey;
 use sabi_tests::project;
 
 use crate::window::{FULL, Told, Window, document, graph, node, request};

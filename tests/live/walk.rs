@@ -6,7 +6,8 @@ mod edits;
 use std::sync::Arc;
 
 use edits::{FIRST, Step, Walk};
-use sabi_engine::{Faults, LiveRequest, ModelLooks};
+use sabi_engine::evaluating::ModelLooks;
+use sabi_engine::live::{Faults, LiveRequest};
 use sabi_graph::History;
 
 use crate::window::{Told, Window, bytes, document, request};

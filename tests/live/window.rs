@@ -6,11 +6,14 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use sabi_engine::{
-    Faults, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks, ModelOptions,
-    NodeRef, OpenGraph, Pictures, Strokes, TrustedPaths, ViewSubject,
-};
-use sabi_graph::Document;
+use sabi_engine::evaluating::ModelLooks;
+use sabi_engine::live::{Faults, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ViewSubject};
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::source::{Pictures, Strokes};
+use sabi_engine::{Kinds, Live, OpenGraph};
+use sabi_files::TrustedPaths;
+use sabi_gpu::Gpu;
+use sabi_graph::{Document, NodeRef};
 use sabi_tests::{device, project};
 use sabi_view::Pixels;
 

@@ -6,9 +6,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::{env, fs};
 
+use sabi_color::srgb8_from_linear;
 use sabi_export::{Cover, SetLayout, set_keys};
 use sabi_graph::PortType;
-use sabi_image::{PngData, PngOptions, decode, encode_png, quantize_u8, srgb8_from_linear};
+use sabi_image::{PngData, PngOptions, decode, encode_png, quantize_u8};
 use sabi_tests::{Evaluated, OnMesh, project};
 
 use crate::specimens::{Specimen, for_each, on_own_mesh, specimens};

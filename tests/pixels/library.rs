@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::effect_library;
+use sabi_engine::effect_library::effect_library;
 use sabi_gpu::ResultCache;
 use sabi_plan::Mode;
 use sabi_tests::{Asked, Evaluated, OnMesh, project};

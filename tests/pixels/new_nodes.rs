@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use sabi_engine::{Kinds, Watched, Watcher};
+use sabi_engine::Kinds;
+use sabi_engine::session::watch::{Watched, Watcher};
 use sabi_tests::{NodeFolder, OnMesh, project};
 
 /// The example of the design, under a name of its own.

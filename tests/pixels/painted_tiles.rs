@@ -4,16 +4,18 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use sabi_engine::paint::{Action, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
-use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress, Strokes};
+use sabi_engine::phases::NoProgress;
+use sabi_engine::source::Strokes;
 use sabi_gpu::{
-    Exported, MaterialSlots, ResultCache, RunOptions, Shares, ShownMaps, TextureBudget, read_slot, read_texels,
-    result_extents,
+    DEFAULT_BUDGET_BYTES, Exported, MaterialSlots, ResultCache, RunOptions, Shares, ShownMaps, TextureBudget,
+    read_slot, read_texels, result_extents,
 };
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
+use sabi_paint::{Action, Brush, PaintSurface, Step, Stroke, StrokePoint, SurfaceIndex};
 use sabi_plan::{Mode, PlannedResult, SlotRef};
 use sabi_surface::load::{LoadOptions, load};
+use sabi_surface::patch::Site;
 use sabi_tests::{OnMesh, project};
 use serde_json::json;
 

@@ -1,6 +1,6 @@
 //! Nodes of users that compute nonsense: they end, and later nodes are still evaluated.
 
-use sabi_engine::CasterChoice;
+use sabi_gpu::CasterChoice;
 use sabi_tests::{NodeFolder, OnMesh, project};
 
 /// A node that shoots one ray a place, whose mask is whether it hit.

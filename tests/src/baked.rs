@@ -3,10 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{
-    BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, ModelOptions, NoProgress,
-    Overrides, Seams, bake,
-};
+use sabi_engine::baking::{BakeReport, BakeRequest, Seams, bake};
+use sabi_engine::evaluating::EvaluatorOptions;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::phases::NoProgress;
+use sabi_files::Disk;
+use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::Overrides;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

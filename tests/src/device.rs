@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::thread::available_parallelism;
 
-use sabi_engine::{AdapterChoice, Gpu};
+use sabi_gpu::{AdapterChoice, Gpu};
 
 /// Returns the adapter of all tests: the software adapter, on which goldens are made and which every machine can have, or
 /// the one that `SABI_ADAPTER` names, as `cargo xtask gpu` does for each.

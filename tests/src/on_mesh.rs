@@ -3,12 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use sabi_engine::{
-    CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
-    OpenGraph, Overrides, Pictures, Strokes, TrustedPaths,
+use sabi_engine::evaluating::EvaluatorOptions;
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions};
+use sabi_engine::phases::NoProgress;
+use sabi_engine::source::{Pictures, Strokes};
+use sabi_engine::{Evaluator, Kinds, OpenGraph};
+use sabi_files::TrustedPaths;
+use sabi_gpu::{
+    CasterChoice, DEFAULT_BUDGET_BYTES, Normals, PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables,
+    TextureBudget, read_slot,
 };
-use sabi_gpu::{Normals, PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables, TextureBudget, read_slot};
-use sabi_graph::{Document, FlatGraph, PortType};
+use sabi_graph::{Document, FlatGraph, Overrides, PortType};
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Mode, Plan, Target};

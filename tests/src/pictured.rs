@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use sabi_engine::{ModelLooks, NoProgress, evaluate_looks};
+use sabi_engine::evaluating::{ModelLooks, evaluate_looks};
+use sabi_engine::phases::NoProgress;
 use sabi_view::{
     Camera, Environment, Light, MaterialLook, Panorama, Pixels, Placement, Renderer, Scene, Shot, Target, ViewModel,
     Viewpoint,

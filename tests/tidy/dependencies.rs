@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_tidy::{assert_none, text_of};
+use sabi_tidy::{assert_none, ending, files_below, text_of};
 
 use crate::crate_folders;
 use crate::rules::*;
@@ -52,6 +52,37 @@ fn dependencies_point_down() {
                 faults.push(format!(
                     "{name} names {dependency}, which is not its to name (it may name {ours:?} and owns {outside:?}): \
                      ask the crate that owns it for what is needed, or change ARCHITECTURE.md and this table first."
+                ));
+            }
+        }
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn every_arrow_of_the_table_is_one_of_a_manifest() {
+    let mut faults = Vec::new();
+    for (name, ours, _) in MAY_NAME {
+        let dependencies = dependencies_of(&manifest_of(&format!("crates/{name}/Cargo.toml")));
+        for absent in ours.iter().filter(|named| !dependencies.contains(**named)) {
+            faults.push(format!(
+                "{name} does not depend on {absent}: take it out of its row in tests/tidy/rules.rs."
+            ));
+        }
+    }
+    assert_none(faults);
+}
+
+#[test]
+fn no_crate_exports_names_of_another() {
+    let mut faults = Vec::new();
+    let sources = files_below("crates").into_iter().filter(|path| ending(path) == "rs");
+    for path in sources {
+        for (number, line) in text_of(&path).lines().enumerate() {
+            if line.trim_start().starts_with("pub use sabi_") {
+                faults.push(format!(
+                    "{path}:{}: this hides an arrow: let the crates that use these names depend on the crate that has them.",
+                    number + 1
                 ));
             }
         }

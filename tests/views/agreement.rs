@@ -119,7 +119,7 @@ fn channels_have_the_codes_that_are_exported() {
         let linear = between(&color, &pictured.on_mesh, &picked);
         let codes = base_color.rgba[4 * pixel..].iter();
         for (value, shown) in linear.into_iter().zip(codes).take(3) {
-            let expected = i32::from(sabi_image::srgb8_from_linear(value));
+            let expected = i32::from(sabi_color::srgb8_from_linear(value));
             let shown = i32::from(*shown);
             assert!(
                 (shown - expected).abs() <= 1,

@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use half::f16;
-use sabi_engine::{ModelOptions, NoProgress, Seams};
+use sabi_engine::baking::Seams;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::phases::NoProgress;
 use sabi_export::{BorderRule, ChartBorders, STEEPER};
 use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported, ResultCache, ShownMaps, read_layer, read_slot};
 use sabi_plan::Mode as Plans;
@@ -49,7 +51,7 @@ fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps()
     let mut pictured = Pictured::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
     // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the picture.
     let color = map(&baked, "base_color.png", true);
-    let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
+    let apart = difference(&pictured, &color, Mode::BaseColor, sabi_color::srgb_from_linear);
     assert!(apart < 5e-3, "colors are {apart} apart");
     let roughness = map(&baked, "roughness.png", false);
     let apart = difference(&pictured, &roughness, Mode::Roughness, |value| value);
@@ -59,7 +61,7 @@ fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps()
     assert!(apart < 5e-3, "normals are {apart} apart");
     pictured.show_node("vertex.color");
     let vertex = map(&baked, "vertex.png", true);
-    let apart = difference(&pictured, &vertex, Mode::Node, sabi_image::srgb_from_linear);
+    let apart = difference(&pictured, &vertex, Mode::Node, sabi_color::srgb_from_linear);
     assert!(apart < 5e-3, "vertex colors are {apart} apart");
     pictured.show_node("second.mask");
     let second = map(&baked, "second.png", false);

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::time::Duration;
 
-use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress};
-use sabi_gpu::{RunOptions, TextureBudget, ValueExtent, read_slot, texture_extents};
+use sabi_engine::phases::NoProgress;
+use sabi_gpu::{DEFAULT_BUDGET_BYTES, RunOptions, TextureBudget, ValueExtent, read_slot, texture_extents};
 use sabi_plan::Mode;
 use sabi_surface::atlas::GHOST_BIT;
 use sabi_tests::{OnMesh, extent, project};

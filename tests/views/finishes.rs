@@ -123,7 +123,7 @@ fn rare_channels_are_shown_as_they_are_exported() {
         for (pixel, picked) in seen(&pictured, &camera, SIZE).filter(|(_, picked)| is_inside(picked)) {
             let value = between(&plane, &pictured.on_mesh, &picked)[at];
             let expected = match is_color {
-                true => i32::from(sabi_image::srgb8_from_linear(value)),
+                true => i32::from(sabi_color::srgb8_from_linear(value)),
                 false => (value.clamp(0.0, 1.0) * 255.0).round() as i32,
             };
             let code = i32::from(shown.rgba[4 * pixel]);

@@ -3,7 +3,10 @@
 use std::time::Duration;
 
 use glam::Vec2;
-use sabi_engine::{Kinds, LinkedModel, ModelOptions, NoProgress, Overlap, Seams};
+use sabi_engine::Kinds;
+use sabi_engine::baking::Seams;
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions, Overlap};
+use sabi_engine::phases::NoProgress;
 use sabi_export::{NONE, SetLayout, layouts};
 use sabi_gpu::{Exported, Shares, ShownMaps, read_layer, read_slot};
 use sabi_image::{LinearPicture, decode};
@@ -105,7 +108,7 @@ fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
         // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the
         // picture.
         let color = map(&baked, "base_color.png", true);
-        let apart = difference(&pictured, &color, Mode::BaseColor, sabi_image::srgb_from_linear);
+        let apart = difference(&pictured, &color, Mode::BaseColor, sabi_color::srgb_from_linear);
         assert!(apart < 5e-3, "{overlap:?}: colors are {apart} apart");
         let roughness = map(&baked, "roughness.png", false);
         let apart = difference(&pictured, &roughness, Mode::Roughness, |value| value);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::Vec3;
-use sabi_engine::{AdapterKind, Gpu};
+use sabi_gpu::{AdapterKind, Gpu};
 use sabi_tests::{Pictured, device, even_light, project};
 use sabi_view::{Mode, Quality, Renderer, SceneRevision, Shot, Viewpoint, Viewport};
 

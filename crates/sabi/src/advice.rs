@@ -1,7 +1,8 @@
 //! Remedies in the words of the command line: each with the flag that applies it.
 
 use clap::{Arg, Command, CommandFactory};
-use sabi_engine::{Remedy, advised};
+use sabi_engine::Remedy;
+use sabi_engine::remedy::advised;
 
 use crate::arguments::Arguments;
 

@@ -14,7 +14,8 @@ mod render;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use sabi_engine::{MODEL_ENDINGS, TrustedPaths};
+use sabi_files::TrustedPaths;
+use sabi_surface::load::MODEL_ENDINGS;
 
 pub(crate) use bake::BakeArguments;
 pub(crate) use batch::{PlanArguments, PlanFormat, RunArguments};

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{
-    BakeReport, BakeRequest, Disk, FinishedBake, Kinds, OpenGraph, RecordedBake, TrustedPaths, bake, bake_graph,
-    default_preset_folder, finished_bake,
-};
+use sabi_engine::baking::presets::default_preset_folder;
+use sabi_engine::baking::recorded::{FinishedBake, RecordedBake, finished_bake};
+use sabi_engine::baking::{BakeReport, BakeRequest, bake, bake_graph};
+use sabi_engine::{Kinds, OpenGraph};
+use sabi_files::{Disk, TrustedPaths};
 
 use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};

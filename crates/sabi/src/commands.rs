@@ -18,7 +18,7 @@ mod unpack;
 mod value_text;
 mod verify;
 
-use sabi_engine::TrustedPaths;
+use sabi_files::TrustedPaths;
 
 use crate::arguments::Command;
 use crate::exit::{Exit, Failure};

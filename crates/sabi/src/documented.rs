@@ -6,7 +6,8 @@ pub(crate) mod keys;
 use std::path::Path;
 
 use keys::{documented, written};
-use sabi_engine::{Phase, Remedy};
+use sabi_engine::Remedy;
+use sabi_engine::phases::Phase;
 
 use crate::event::Event;
 use crate::exit::{Exit, Failure};

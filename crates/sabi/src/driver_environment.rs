@@ -51,7 +51,7 @@ fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
     if of_user.is_some_and(|folder| can_be_written(&folder.join("mesa_shader_cache"))) {
         return None;
     }
-    let own = sabi_engine::default_cache_dir().map(|folder| folder.join("kernels"));
+    let own = sabi_engine::opening::default_cache_dir().map(|folder| folder.join("kernels"));
     let own = own.filter(|folder| can_be_written(folder));
     own.or_else(temporary_folder).map(|folder| (FOLDER, folder.into()))
 }

@@ -1,6 +1,6 @@
 //! Progress as lines of JSON; docs/report.md lists the keys.
 
-use sabi_engine::Phase;
+use sabi_engine::phases::Phase;
 use serde::Serialize;
 
 use crate::exit::Exit;

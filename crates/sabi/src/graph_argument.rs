@@ -5,7 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use sabi_engine::{Kinds, OpenGraph, TrustedPaths};
+use sabi_engine::{Kinds, OpenGraph};
+use sabi_files::TrustedPaths;
 
 use crate::exit::{Exit, Failure};
 

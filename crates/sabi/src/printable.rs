@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::fmt::{self, Write as _};
 use std::io;
 
-use sabi_engine::is_invisible;
+use sabi_files::is_invisible;
 
 /// Starts of the lines that follow the sentence of a fault in a node file.
 const CONTINUATIONS: [&str; 2] = ["   | ", "   = "];

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use sabi_engine::{Phase, Progress};
+use sabi_engine::phases::{Phase, Progress};
 
 use pace::Pace;
 

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use sabi_engine::{FileError, PathBase, Unread, WholeFile, absolute, io_reason, read_plain, sweep};
+use sabi_files::{FileError, PathBase, Unread, WholeFile, absolute, io_reason, read_plain, sweep};
 use serde::Serialize;
 use serde_json::Value as Json;
 

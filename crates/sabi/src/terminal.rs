@@ -3,7 +3,8 @@
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
 
-use sabi_engine::{Warning, io_reason};
+use sabi_engine::Warning;
+use sabi_files::io_reason;
 use serde::Serialize;
 
 use crate::advice::with_flags;

@@ -5,7 +5,8 @@ use std::io::{self, Write as _};
 use std::path::Path;
 
 use clap::error::ErrorKind;
-use sabi_engine::{is_invisible, nearest};
+use sabi_files::is_invisible;
+use sabi_graph::nearest;
 
 use crate::arguments::command_names;
 use crate::exit::{Exit, Failure};

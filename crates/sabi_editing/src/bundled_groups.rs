@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, canonical};
+use sabi_engine::OpenGraph;
+use sabi_files::canonical;
 use sabi_graph::{Document, GROUP_KIND, GroupDef};
 
 use crate::names::free_name;

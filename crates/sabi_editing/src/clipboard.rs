@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_engine::{canonical, path_from_stored, stored_path};
+use sabi_files::{canonical, path_from_stored, stored_path};
 use sabi_graph::{Body, Document, Edit, Node, NodeId, Value};
 
 use crate::duplication::frames_around;

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use sabi_engine::paint::{Step, Stroke};
 use sabi_graph::{Fit, NodeId, OutputRef, SavedView, SlotRef};
+use sabi_paint::{Step, Stroke};
 
 pub use exposing_commands::{ExposedCommand, PortCommand, VariantCommand};
 pub use node_commands::{ArrangeCommand, GroupCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource};

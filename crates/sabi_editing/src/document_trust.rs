@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{Kinds, TrustedPaths};
+use sabi_engine::Kinds;
+use sabi_files::TrustedPaths;
 
 /// Trust that belongs to the open document, not to its session.
 #[derive(Default)]

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::{Interface, KnobRole};
+use sabi_engine::catalog::Interface;
 use sabi_graph::{Body, Document, Edit, NodeId, OutputRef, PortType, SlotRef, Value};
+use sabi_nodes::kind::Role;
 
 use crate::node_size::NODE_WIDTH;
 use crate::open_document::OpenDocument;
@@ -162,7 +163,7 @@ fn add_normal_map(document: &mut OpenDocument, end: &StackEnd) -> Option<NodeId>
     let layer = layers::add(document, end, 0, LAYER)?;
     let interface = document.interface(&layer).cloned()?;
     let body = document.body();
-    let switches = interface.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Toggle);
+    let switches = interface.knobs.iter().filter(|knob| knob.ty.role == Role::Toggle);
     let mut edits: Vec<Edit> = switches
         .map(|knob| Edit::SetParam {
             body: body.clone(),

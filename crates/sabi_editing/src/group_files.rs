@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
-use sabi_engine::{OpenGraph, PathBase, TrustedPaths, Unread};
+use sabi_engine::OpenGraph;
+use sabi_files::{PathBase, TrustedPaths, Unread};
 use sabi_graph::Document;
 
 /// Length and modification time of a file; `None` if it does not exist.

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, free_graph_file, relocate_paths};
+use sabi_engine::OpenGraph;
+use sabi_engine::session::{free_graph_file, relocate_paths};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
 use crate::bundled_groups::{as_group, bundled, group_name};

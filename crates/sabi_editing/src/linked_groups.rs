@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, PathBase, TrustedPaths, Unread, group_digest};
+use sabi_engine::OpenGraph;
+use sabi_engine::effect_library::group_digest;
+use sabi_files::{PathBase, TrustedPaths, Unread};
 use sabi_graph::{Body, Document, Edit, GroupDef, INSTANCE_KNOBS, LibrarySource, Node, NodeId};
 
 use crate::bundled_groups::{as_group, bundled};

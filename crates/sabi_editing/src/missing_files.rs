@@ -4,7 +4,8 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{Unread, document_with_paths};
+use sabi_engine::session::document_with_paths;
+use sabi_files::Unread;
 use sabi_graph::Edit;
 
 use crate::open_document::OpenDocument;

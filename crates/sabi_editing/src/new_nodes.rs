@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::KnobRole;
 use sabi_graph::{Edit, Node, NodeId, Value};
+use sabi_nodes::kind::Role;
 
 use crate::open_document::OpenDocument;
 
@@ -15,7 +15,7 @@ pub(crate) fn of_kind(document: &mut OpenDocument, kind: &str, pos: [f32; 2]) ->
     let seeds = entry
         .iter()
         .flat_map(|entry| &entry.knobs)
-        .filter(|knob| knob.ty.role == KnobRole::Seed);
+        .filter(|knob| knob.ty.role == Role::Seed);
     for knob in seeds {
         let seed = Value::Number(f64::from(document.ids.seed()));
         node.params.insert(knob.name.clone(), seed);

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_engine::catalog::{Interface, Knob, KnobRole, Port};
+use sabi_engine::catalog::{Interface, Knob, Port};
 use sabi_graph::{Edit, Node, NodeId, OutputRef, SlotRef, Value};
+use sabi_nodes::kind::Role;
 
 use crate::connections::port_in_wire;
 use crate::open_document::OpenDocument;
@@ -78,7 +79,7 @@ fn accepts(knob: &Knob, value: &Value) -> bool {
     let one = std::slice::from_ref(value);
     let numbers = || value.as_list().unwrap_or(one).iter().filter_map(Value::as_number);
     match (&knob.ty.role, knob.ty.range) {
-        (KnobRole::Stops | KnobRole::Curve, _) | (_, None) => true,
+        (Role::Stops | Role::Curve, _) | (_, None) => true,
         (_, Some([low, high])) => numbers().all(|number| (low..=high).contains(&number)),
     }
 }

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::{Interface, Knob, KnobRole};
+use sabi_engine::catalog::{Interface, Knob};
 use sabi_graph::{Graph, NodeId, NodeRows, REROUTE_KIND};
+use sabi_nodes::kind::Role;
 
 use crate::open_document::OpenDocument;
 
@@ -27,14 +28,14 @@ pub const GRID: f32 = 10.0;
 /// Returns the knobs that are shown on a node: the first ones that fit into a row and do not belong to an input, since
 /// inputs have rows anyway.
 pub fn own_knobs(entry: &Interface) -> impl Iterator<Item = &Knob> {
-    let fits_row = |role: &KnobRole| {
+    let fits_row = |role: &Role| {
         matches!(
             role,
-            KnobRole::Plain | KnobRole::Length | KnobRole::Angle | KnobRole::Choice(_) | KnobRole::Toggle
+            Role::Plain | Role::Length | Role::Angle | Role::Choice(_) | Role::Toggle
         )
     };
     let is_small =
-        move |knob: &&Knob| knob.ty.role == KnobRole::Color || knob.ty.components() == 1 && fits_row(&knob.ty.role);
+        move |knob: &&Knob| knob.ty.role == Role::Color || knob.ty.components() == 1 && fits_row(&knob.ty.role);
     let own = entry.knobs.iter().filter(|knob| !knob.is_of_input);
     own.filter(is_small).take(MOST_KNOBS)
 }

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Catalog, Interface, Interfaces};
-use sabi_engine::{EngineError, Kinds, PathBase, Session};
+use sabi_engine::{EngineError, Kinds, Session};
+use sabi_files::PathBase;
 use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 
 use crate::current_interfaces::CurrentInterfaces;

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use sabi_engine::paint::{Step, Stroke, StrokeList};
 use sabi_graph::{Edit, NodeId, OutputRef, PortType, Value};
+use sabi_paint::{Step, Stroke, StrokeList};
 
 use crate::new_nodes;
 use crate::node_size::size_of;

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use sabi_engine::catalog::{Port, label_of};
+use sabi_engine::catalog::Port;
 use sabi_graph::{Edit, GroupInput, NodeId, OutputRef, PortType, SlotRef};
+use sabi_nodes::label_of;
 
 use crate::connections::PendingWire;
 use crate::names::free_name;

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_engine::catalog::{Knob, KnobRole, Memory};
+use sabi_engine::catalog::Knob;
 use sabi_graph::{Body, Edit, GROUP_KIND, INSTANCE_KNOBS, NodeId, Value};
+use sabi_nodes::kind::{Memory, Role};
 
 use crate::open_document::OpenDocument;
 use crate::{document_settings, exposed_knobs, exposed_values};
@@ -78,7 +79,7 @@ pub fn randomize_exposed(document: &mut OpenDocument, kept: &BTreeSet<String>) -
     }
     for known in knobs.into_iter().filter(|known| !kept.contains(&known.name)) {
         let value = match known.knob.ty.role {
-            KnobRole::Seed => Some(Value::from(document.ids.seed())),
+            Role::Seed => Some(Value::from(document.ids.seed())),
             // A knob that was exposed since the graph was opened has no other value than its current one.
             _ => near(&known.knob, home_of(&known), &known.value, || signed(document)),
         };
@@ -117,7 +118,7 @@ fn signed(document: &mut OpenDocument) -> f64 {
 /// Returns a random value near the current one and near `home`; `None` for knobs whose values cannot be varied.
 fn near(knob: &Knob, home: &Value, now: &Value, mut signed: impl FnMut() -> f64) -> Option<Value> {
     match knob.ty.role {
-        KnobRole::Color => {
+        Role::Color => {
             let (home, now) = (channels(home)?, channels(now)?);
             // All channels change in the same direction, with small differences.
             let shared = signed();
@@ -130,13 +131,13 @@ fn near(knob: &Knob, home: &Value, now: &Value, mut signed: impl FnMut() -> f64)
             let code: String = moved.iter().map(|channel| format!("{channel:02x}")).collect();
             Some(Value::from(format!("#{code}").as_str()))
         }
-        KnobRole::Choice(_) | KnobRole::Toggle | KnobRole::Seed | KnobRole::Text => None,
+        Role::Choice(_) | Role::Toggle | Role::Seed | Role::Text => None,
         // Whole numbers are choices or counts, which have no values in between.
         _ if knob.ty.memory != Memory::F32 => None,
         _ => {
             let range = knob.ty.range?;
             let (home, now) = (home.as_number()?, now.as_number()?);
-            let is_length = knob.ty.role == KnobRole::Length;
+            let is_length = knob.ty.role == Role::Length;
             Some(Value::Number(near_number(is_length, range, home, now, signed())))
         }
     }

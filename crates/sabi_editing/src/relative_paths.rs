@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{NotText, PathBase, canonical, path_text, relocate_paths, with_absolute_paths};
+use sabi_engine::session::{relocate_paths, with_absolute_paths};
+use sabi_files::{NotText, PathBase, canonical, path_text};
 use sabi_graph::Document;
 
 use crate::open_document::OpenDocument;

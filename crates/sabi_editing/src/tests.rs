@@ -31,8 +31,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
 use sabi_engine::catalog::Catalog;
-use sabi_engine::{Kinds, Overrides, Session};
-use sabi_graph::{Document, FlatGraph, NodeId, OutputRef, SlotRef, Value};
+use sabi_engine::{Kinds, Session};
+use sabi_graph::{Document, FlatGraph, NodeId, OutputRef, Overrides, SlotRef, Value};
 
 use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use sabi_engine::{PicturePart, PresetPicture, preset_pictures};
+use sabi_engine::baking::preset_pictures::{PicturePart, PresetPicture, preset_pictures};
 
 /// Material channel that is read from an image.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,8 +5,8 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::catalog::label_of;
 use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
+use sabi_nodes::label_of;
 
 use crate::node_size::{NODE_WIDTH, size_of};
 use crate::open_document::OpenDocument;

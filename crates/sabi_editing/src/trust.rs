@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{Kinds, TrustedPaths};
+use sabi_engine::Kinds;
+use sabi_files::TrustedPaths;
 
 use crate::open_document::OpenDocument;
 

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use sabi_editor::Offscreen;
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 use walk::{FIRST, Step, Walk};
 
 const EDITS: usize = 10_000;

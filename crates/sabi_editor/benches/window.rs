@@ -21,7 +21,7 @@ mod table;
 use std::path::{Path, PathBuf};
 
 use sabi_editor::Offscreen;
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 const SIZE: [f32; 2] = [1600.0, 900.0];
 

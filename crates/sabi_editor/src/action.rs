@@ -8,10 +8,11 @@ use egui::Pos2;
 use sabi_editing::command::{EditCommand, NodeSource, PaintCommand};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_engine::catalog::Interface;
-use sabi_engine::paint::{Stroke, Version};
-use sabi_engine::view::Mode;
-use sabi_engine::{NodeDraft, SetKey};
+use sabi_engine::catalog::node_file::NodeDraft;
+use sabi_export::SetKey;
 use sabi_graph::{NodeId, NodeRef, Value};
+use sabi_paint::{Stroke, Version};
+use sabi_view::Mode;
 
 use crate::brush_shelf::KeptBrush;
 use crate::command::{Command, InputPreset};

@@ -1,6 +1,6 @@
 //! Progress of long work in words.
 
-use sabi_engine::Activity;
+use sabi_engine::phases::Activity;
 
 /// Phase of the work with the number of its steps that are done; a single step with the time of the whole work so far.
 pub(crate) fn activity_text(activity: &Activity) -> String {
@@ -18,7 +18,7 @@ pub(crate) fn activity_text(activity: &Activity) -> String {
 mod tests {
     use std::time::{Duration, Instant};
 
-    use sabi_engine::Phase;
+    use sabi_engine::phases::Phase;
 
     use super::*;
 

@@ -17,7 +17,7 @@ use std::time::Instant;
 use eframe::egui_wgpu::RenderState;
 use egui::{Context, RawInput, Ui, ViewportCommand};
 use sabi_editing::node_paths;
-use sabi_engine::Gpu;
+use sabi_gpu::Gpu;
 
 use crate::action::Action;
 use crate::bars;

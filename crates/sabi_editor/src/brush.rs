@@ -16,9 +16,10 @@ mod under;
 use std::sync::Arc;
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Response, TouchPhase, Ui};
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Eye, Site, StrokePoint};
+use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
+use sabi_paint::{Action as BrushAction, Eye, StrokePoint};
+use sabi_surface::patch::Site;
 
 use crate::action::{Action, PaintAction};
 use crate::pen::{PenPlace, PenState};

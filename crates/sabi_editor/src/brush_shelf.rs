@@ -5,8 +5,9 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::paint::{PictureName, Tip};
-use sabi_engine::{Strokes, write_whole};
+use sabi_engine::source::Strokes;
+use sabi_files::write_whole;
+use sabi_paint::{PictureName, Tip};
 
 use crate::settings::brush::BrushChoices;
 
@@ -195,7 +196,7 @@ pub(crate) fn opened(file: &Path, strokes: &Strokes) -> Result<BrushChoices, Str
 
 fn read_brush(file: &Path) -> Result<ReadBrush, String> {
     let shown = file.display();
-    let bytes = sabi_engine::read_plain(file, LIMIT_BYTES).map_err(|_| format!("{shown} cannot be read as a brush"))?;
+    let bytes = sabi_files::read_plain(file, LIMIT_BYTES).map_err(|_| format!("{shown} cannot be read as a brush"))?;
     let none = || format!("{shown} is no brush of Sabi, or of a newer version");
     let (title, rest) = line(&bytes).ok_or_else(none)?;
     let (json, rest) = line(rest).ok_or_else(none)?;
@@ -234,7 +235,7 @@ fn write_brush(file: &Path, brush: &BrushChoices, strokes: &Strokes) -> Result<(
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::paint::{PicturePart, PictureTip};
+    use sabi_paint::{PicturePart, PictureTip};
 
     use super::*;
 

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{Refusal, Session, Unread};
+use sabi_engine::Session;
+use sabi_files::{Refusal, Unread};
 
 use crate::paths::canonical_if_present;
 

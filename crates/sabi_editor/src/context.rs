@@ -8,7 +8,8 @@ use std::time::Duration;
 use eframe::egui_wgpu::RenderState;
 use egui::{TextureHandle, TextureId, Ui};
 use sabi_editing::{OpenDocument, node_paths};
-use sabi_engine::{Recovery, Warning};
+use sabi_engine::Warning;
+use sabi_engine::session::Recovery;
 use sabi_graph::{LibrarySource, NodeId, NodeRef};
 
 use crate::action::Action;

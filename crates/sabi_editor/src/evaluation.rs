@@ -12,10 +12,12 @@ use std::time::Duration;
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::{
-    Activity, DEFAULT_BUDGET_BYTES, EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, Precedence, Refusal,
-    SetKey, ViewSubject,
-};
+use sabi_engine::live::{LiveEvent, LiveOptions, LiveRequest, Precedence, ViewSubject};
+use sabi_engine::phases::Activity;
+use sabi_engine::{EngineError, Live};
+use sabi_export::SetKey;
+use sabi_files::Refusal;
+use sabi_gpu::{DEFAULT_BUDGET_BYTES, Gpu};
 use sabi_graph::NodeRef;
 
 use crate::import_options::ImportOptions;
@@ -279,7 +281,7 @@ impl Evaluation {
     /// Texels along a side of full-resolution results, as the document names them or as the device allows.
     fn wanted_size(&self, document: &OpenDocument) -> u32 {
         let usual = match self.gpu.summary().kind {
-            sabi_engine::AdapterKind::Cpu => FULL[0],
+            sabi_gpu::AdapterKind::Cpu => FULL[0],
             _ => FULL[1],
         };
         let named = document.contents().preview.as_ref().and_then(|preview| preview.size);

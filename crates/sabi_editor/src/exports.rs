@@ -7,10 +7,13 @@ use std::path::{Path, PathBuf};
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::{
-    AdapterChoice, BakeReport, BakeRequest, CasterChoice, ConstantRecord, DEFAULT_BUDGET_BYTES, EngineError, ErrorKind,
-    EvaluatorOptions, Overrides, Seams, Warning, bake_graph, default_preset_folder, needs_force,
-};
+use sabi_engine::baking::presets::default_preset_folder;
+use sabi_engine::baking::{BakeReport, BakeRequest, Seams, bake_graph, needs_force};
+use sabi_engine::evaluating::EvaluatorOptions;
+use sabi_engine::{EngineError, ErrorKind, Warning};
+use sabi_export::ConstantRecord;
+use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::Overrides;
 
 use crate::evaluation::Evaluation;
 use crate::paths::{canonical_if_present, file_name};

@@ -14,7 +14,8 @@ use egui::{
     Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::{Inspected, SetKey};
+use sabi_engine::live::Inspected;
+use sabi_export::SetKey;
 use sabi_graph::NodeRef;
 
 use crate::action::{Action, ClickedColor, LookAction};

@@ -7,8 +7,9 @@ use egui::{
     TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, WidgetType,
 };
 use sabi_editing::knob_target::KnobTarget;
-use sabi_engine::catalog::{Written, WrittenStop};
-use sabi_engine::{PickedPicture, Pictures};
+use sabi_engine::picked_gradient::PickedPicture;
+use sabi_engine::source::Pictures;
+use sabi_nodes::kind::{Written, WrittenStop};
 
 use crate::action::Action;
 use crate::context::{View, ViewContext};

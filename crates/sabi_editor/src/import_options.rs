@@ -4,7 +4,11 @@
 use std::ops::{Not, RangeInclusive};
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{ModelOptions, Overlap, PartChoice, SavedReading, TrustedPaths, Udim, Up, default_memory_bytes};
+use sabi_engine::opening::default_memory_bytes;
+use sabi_engine::opening::linked_model::{ModelOptions, Overlap, SavedReading};
+use sabi_files::TrustedPaths;
+use sabi_surface::atlas::Udim;
+use sabi_surface::load::{PartChoice, Up};
 use serde::{Deserialize, Serialize};
 
 /// Limits of the factor of lengths.

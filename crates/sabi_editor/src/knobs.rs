@@ -28,8 +28,9 @@ mod text_painting;
 mod values;
 
 use egui::{RichText, Ui};
-use sabi_engine::catalog::{Knob, KnobRole};
+use sabi_engine::catalog::Knob;
 use sabi_graph::Value;
+use sabi_nodes::kind::Role;
 
 pub(crate) use self::free_curve::{CurveMemory, curve_ui};
 pub(crate) use self::inline::{is_inline_menu_asked, knob_inline};
@@ -85,7 +86,7 @@ impl KnobRow<'_> {
 
     /// Returns whether the value differs from the default. A new node has a random seed, which nobody has changed.
     fn is_changed(&self) -> bool {
-        self.differs || self.knob.ty.role != KnobRole::Seed && *self.current() != self.knob.ty.default
+        self.differs || self.knob.ty.role != Role::Seed && *self.current() != self.knob.ty.default
     }
 }
 

@@ -8,8 +8,10 @@ use std::sync::Arc;
 use sabi_editing::OpenDocument;
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_editing::linked_groups::file_of;
+use sabi_engine::OpenGraph;
 use sabi_engine::catalog::{Catalog, Interfaces};
-use sabi_engine::{OpenGraph, TrustedPaths, group_digest};
+use sabi_engine::effect_library::group_digest;
+use sabi_files::TrustedPaths;
 
 use sabi_graph::LibrarySource;
 

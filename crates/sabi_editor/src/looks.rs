@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{OpenDocument, node_paths, painting};
-use sabi_engine::ViewSubject;
 use sabi_engine::catalog::Port;
-use sabi_engine::paint::Version;
+use sabi_engine::live::ViewSubject;
 use sabi_graph::{GROUP_KIND, NodeId, NodeRef, PortType};
+use sabi_paint::Version;
 
 use crate::action::LookAction;
 use crate::settings::Settings;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::ViewSubject;
+use sabi_engine::live::ViewSubject;
 
 use crate::evaluation::{Evaluation, ModelOutcome, Wanted};
 use crate::import_options::ImportOptions;

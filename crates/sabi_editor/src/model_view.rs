@@ -22,8 +22,9 @@ mod subject;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
-use sabi_engine::view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
-use sabi_engine::{SetKey, ViewSubject};
+use sabi_engine::live::ViewSubject;
+use sabi_export::SetKey;
+use sabi_view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
 
 use crate::action::Action;
 use crate::activity_text::activity_text;

@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::{AdapterChoice, Gpu, Kinds, NodeRef, StampSquare, stamp_square};
+use sabi_engine::Kinds;
+use sabi_engine::rendering::{StampSquare, stamp_square};
+use sabi_gpu::{AdapterChoice, Gpu};
+use sabi_graph::NodeRef;
 
 use crate::task::Task;
 

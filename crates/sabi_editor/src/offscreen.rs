@@ -11,7 +11,10 @@ use std::time::{Duration, Instant};
 use eframe::egui_wgpu::{RenderState, WgpuSetup};
 use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, TextureId, Vec2};
 use sabi_editing::nodes;
-use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, TrustedPaths, default_cache_dir};
+use sabi_engine::opening::default_cache_dir;
+use sabi_engine::{EngineError, Session};
+use sabi_files::TrustedPaths;
+use sabi_gpu::{AdapterChoice, Gpu};
 use sabi_graph::{Document, Edit, NodeId, Value};
 
 use crate::app::{Editor, Folders, InitialState};
@@ -233,7 +236,7 @@ impl Offscreen {
             .editor
             .evaluation
             .results
-            .picture(&sabi_engine::ViewSubject::Outputs);
+            .picture(&sabi_engine::live::ViewSubject::Outputs);
         (
             self.editor.views.model.pictures.drawn,
             picture.map_or(0, |picture| picture.model.size),

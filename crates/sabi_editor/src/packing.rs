@@ -5,7 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use egui::Context;
-use sabi_engine::{PackReport, PackRequest, Phase, Progress, pack_graph};
+use sabi_engine::packing::{PackReport, PackRequest, pack_graph};
+use sabi_engine::phases::{Phase, Progress};
 
 use crate::task::Task;
 

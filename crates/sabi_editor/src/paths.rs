@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use sabi_editing::library::GRAPH_EXTENSION;
-use sabi_engine::canonical;
+use sabi_files::canonical;
 
 /// Endings of font files.
 pub(crate) const FONTS: [&str; 3] = ["ttf", "otf", "ttc"];

@@ -2,7 +2,11 @@
 
 use egui::{Color32, Label, RichText, Ui};
 use sabi_editing::command::DocumentCommand;
-use sabi_engine::{Overlap, PartChoice, Remedy, Udim, advised};
+use sabi_engine::Remedy;
+use sabi_engine::opening::linked_model::Overlap;
+use sabi_engine::remedy::advised;
+use sabi_surface::atlas::Udim;
+use sabi_surface::load::PartChoice;
 
 use crate::action::{Action, ExportAction, ModelAction};
 use crate::bars::WORKING_SIZES;

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
-use sabi_engine::view::Pixels;
-use sabi_engine::{load_thumbnail, store_thumbnail, stored_path, thumbnail_of};
+use sabi_engine::evaluating::{load_thumbnail, store_thumbnail, thumbnail_of};
+use sabi_files::stored_path;
+use sabi_view::Pixels;
 
 /// Name of the picture of a group in a library file.
 pub(crate) const OF_GROUP: &str = "group";

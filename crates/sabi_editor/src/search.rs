@@ -7,7 +7,8 @@ use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 use sabi_editing::command::NodeSource;
 use sabi_engine::OpenGraph;
-use sabi_engine::catalog::{Catalog, Interface, Interfaces, label_of};
+use sabi_engine::catalog::{Catalog, Interface, Interfaces};
+use sabi_nodes::label_of;
 
 use crate::action::LibraryKind;
 
@@ -249,7 +250,8 @@ fn matched(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Ca
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::{Kinds, effect_library};
+    use sabi_engine::Kinds;
+    use sabi_engine::effect_library::effect_library;
 
     use super::*;
     use crate::library::Library;

@@ -12,7 +12,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{BACKUPS, stored, write_whole};
+use sabi_engine::session::BACKUPS;
+use sabi_files::{stored, write_whole};
 use serde_json::Value as Json;
 
 use crate::command::InputPreset;

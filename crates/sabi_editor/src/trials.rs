@@ -11,11 +11,13 @@ use std::time::{Duration, Instant};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use sabi_editing::OpenDocument;
-use sabi_engine::view::Pixels;
-use sabi_engine::{
-    AdapterKind, Live, LiveEvent, LiveRequest, THUMBNAIL_VERSION, load_thumbnail, store_thumbnail, stored_path,
-};
+use sabi_engine::Live;
+use sabi_engine::evaluating::{load_thumbnail, store_thumbnail};
+use sabi_engine::live::{LiveEvent, LiveRequest, THUMBNAIL_VERSION};
+use sabi_files::stored_path;
+use sabi_gpu::AdapterKind;
 use sabi_graph::{LibrarySource, NodeId};
+use sabi_view::Pixels;
 
 use crate::evaluation::Evaluation;
 use crate::library::Library;

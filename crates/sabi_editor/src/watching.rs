@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::Context;
-use sabi_engine::{Changes, EngineError, Watched, Watcher};
+use sabi_engine::EngineError;
+use sabi_engine::session::watch::{Changes, Watched, Watcher};
 
 /// Files that the window depends on.
 #[derive(Clone, PartialEq)]

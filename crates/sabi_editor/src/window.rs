@@ -5,10 +5,11 @@ use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use sabi_engine::{
-    AdapterChoice, EngineError, ErrorKind, Gpu, Remedy, Session, TrustedPaths, choose_adapter, default_cache_dir,
-    device_descriptor, effect_library,
-};
+use sabi_engine::effect_library::effect_library;
+use sabi_engine::opening::default_cache_dir;
+use sabi_engine::{EngineError, ErrorKind, Remedy, Session};
+use sabi_files::TrustedPaths;
+use sabi_gpu::{AdapterChoice, Gpu, choose_adapter, device_descriptor};
 
 use crate::app::{Editor, Folders, Handover, InitialState};
 use crate::builtin_models::model_of;

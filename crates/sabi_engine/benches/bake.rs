@@ -18,7 +18,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use bakes::{graph, request};
-use sabi_engine::{BakeRequest, LinkedModel, ModelOptions, NoProgress, bake};
+use sabi_engine::baking::{BakeRequest, bake};
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions};
+use sabi_engine::phases::NoProgress;
 use serde_json::{Value as Json, json};
 use setup::{adapter, peer_model, root};
 
@@ -208,7 +210,7 @@ fn bench_planning(folder: &Path) {
     let graph = graph(folder, "ladder.sabi", &nodes);
     let check = || {
         let started = Instant::now();
-        assert!(sabi_engine::check(&graph).unwrap().errors.is_empty());
+        assert!(sabi_engine::catalog::check::check(&graph).unwrap().errors.is_empty());
         started.elapsed()
     };
     row("reading, checking and planning 4 000 nodes", seconds(check), "s", "");

@@ -16,7 +16,8 @@ use bvh2::Bvh2;
 use glam::Vec3;
 use kernel::{Kernel, Machine};
 use rayon::prelude::*;
-use sabi_engine::{LinkedModel, ModelOptions, NoProgress};
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions};
+use sabi_engine::phases::NoProgress;
 use sabi_surface::bvh::Bvh;
 use setup::peer_model;
 

@@ -8,13 +8,15 @@ mod setup;
 
 use std::time::Instant;
 
-use sabi_engine::view::{
+use sabi_engine::evaluating::{EvaluatorOptions, ModelLooks, evaluate_looks};
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::phases::NoProgress;
+use sabi_engine::{Evaluator, Kinds, OpenGraph};
+use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::Overrides;
+use sabi_view::{
     Background, Camera, Environment, Light, LightPlace, Lines, Mode, Panorama, Placement, Renderer,
     STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Scene, Shot, Target, ViewModel, Viewpoint,
-};
-use sabi_engine::{
-    CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, ModelLooks, ModelOptions, NoProgress,
-    OpenGraph, Overrides, evaluate_looks,
 };
 use setup::{adapter, peer_model, root};
 

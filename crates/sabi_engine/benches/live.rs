@@ -11,13 +11,15 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use sabi_engine::view::{
-    Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint,
-};
-use sabi_engine::{
-    Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, ModelLooks, ModelOptions, NodeRef, OpenGraph,
-    ViewSubject, default_cache_dir, load_environment,
-};
+use sabi_engine::evaluating::ModelLooks;
+use sabi_engine::live::{LiveEvent, LiveModel, LiveOptions, LiveRequest, ViewSubject};
+use sabi_engine::opening::default_cache_dir;
+use sabi_engine::opening::environment::load_environment;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::{Kinds, Live, OpenGraph};
+use sabi_gpu::Gpu;
+use sabi_graph::NodeRef;
+use sabi_view::{Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint};
 use setup::{adapter, peer_model};
 
 const MOVES: usize = 15;

@@ -21,7 +21,9 @@ use std::time::Instant;
 use adapter::adapter;
 use bakes::{graph, request};
 use models::Counts;
-use sabi_engine::{ModelOptions, NoProgress, bake};
+use sabi_engine::baking::bake;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::phases::NoProgress;
 
 const PLAIN: Counts = Counts {
     triangles: 20_000,

@@ -15,15 +15,13 @@ use std::sync::Arc;
 
 use sabi_graph::{GROUP_KIND, PortType, REROUTE_KIND, Value};
 use sabi_nodes::kind::{Input, InputDefault, Kind, Output, Param, Role, Shape};
+use sabi_nodes::label_of;
 use sabi_plan::{SourceKind, SourcePort};
 
 pub use interfaces::{Interfaces, ReadGroup};
 pub use knob::Knob;
 pub(crate) use picture::first_square;
 pub use picture::{has_picture, picture_of, small_picture};
-pub use sabi_nodes::kind::Role as KnobRole;
-pub use sabi_nodes::kind::{Memory, ParamType, Written, WrittenStop};
-pub use sabi_nodes::{color_code, label_of, typed_color};
 
 use crate::opening::kinds::Kinds;
 

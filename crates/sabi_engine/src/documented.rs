@@ -10,15 +10,16 @@ use keys::{documented, written};
 use sabi_export::preset::Document;
 use sabi_export::{Channel, ConstantRecord, DocumentRecord, DocumentedMaterial, EngineFormat, OutputRecord};
 
+use crate::baking::preset_description::{PresetDescription, PresetDocument, PresetFile};
 use crate::catalog::check::{CheckReport, CheckedGraph};
+use crate::catalog::description::{InputDescription, NodeDescription, OutputDescription, ParamDescription};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
+use crate::graph_info::{
+    FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription,
+};
 use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport, SetReport};
-use crate::{
-    FileDescription, GraphDescription, GraphOutput, GroupDescription, InputDescription, KnobDescription,
-    NodeDescription, OutputDescription, PackReport, PackedFile, ParamDescription, PresetDescription, PresetDocument,
-    PresetFile, UnpackReport, VariantDescription,
-};
+use crate::packing::{PackReport, PackedFile, UnpackReport};
 
 fn text() -> String {
     "text".to_owned()

@@ -10,7 +10,7 @@ use crate::catalog::first_square;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 #[cfg(library_included)]
-use crate::write_whole;
+use sabi_files::write_whole;
 
 #[cfg(library_included)]
 include!(concat!(env!("OUT_DIR"), "/library.rs"));

@@ -10,7 +10,7 @@ pub(crate) mod texture_sets;
 pub(crate) mod texture_space;
 pub(crate) mod thumbnail;
 
-pub use evaluator::{Evaluator, EvaluatorOptions, RaySettings};
+pub use evaluator::{EvaluatorOptions, RaySettings};
 pub use looks::{LooksIdentity, ModelLooks, evaluate_looks};
 pub use texture_sets::TextureSet;
 pub use texture_space::{PlaneKind, ResultPlane};

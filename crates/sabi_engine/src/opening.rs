@@ -23,8 +23,6 @@ pub mod toml_file;
 pub mod unread;
 
 pub use cache_dir::default_cache_dir;
-pub use document::OpenGraph;
-pub use kinds::Kinds;
 pub use memory::default_memory_bytes;
 pub use set_file::{SetFile, add_values};
 pub use setting::read_setting;

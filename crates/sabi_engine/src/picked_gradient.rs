@@ -7,7 +7,7 @@ use sabi_image::{DeclaredColorSpace, Pixels as Samples};
 use sabi_nodes::kind::WrittenStop;
 use sabi_view::Pixels;
 
-use crate::Pictures;
+use crate::source::Pictures;
 use crate::source::mip_chain::Reading;
 
 /// Number of points along a line at which its color is measured.

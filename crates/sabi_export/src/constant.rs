@@ -3,7 +3,7 @@
 use std::fmt;
 
 use rayon::prelude::*;
-use sabi_image::srgb_from_linear;
+use sabi_color::srgb_from_linear;
 use serde::Serialize;
 
 use crate::layout::{Cover, SetLayout};

@@ -1,6 +1,6 @@
 //! Files and constant channels of a texture set, as the report of a bake lists them; docs/report.md lists the keys.
 
-use sabi_image::srgb8_from_linear;
+use sabi_color::srgb8_from_linear;
 use serde::Serialize;
 
 use crate::preset::Document;

@@ -90,8 +90,6 @@ pub use result_key::ResultKey;
 pub use run::run_plan;
 pub use run_options::{DEFAULT_KEEPS_FROM, DEFAULT_WRITES_OVER_FROM, RunOptions};
 pub use run_result::{Run, RunReport, StepTime};
-pub use sabi_nodes::link::{Given, LinkedModule, Mirror, MirrorValue, MirrorsWgsl, ModuleSpec};
-pub use sabi_nodes::wgsl_struct;
 pub use shaders::fixed_modules;
 pub use shares::{Mean, Shares};
 pub use shown_maps::{Exported, ShownMaps};

@@ -10,7 +10,8 @@
 //! * On the CPU, sRGB is decoded and encoded only here.
 //!
 //! ```
-//! use sabi_image::{Pixels, PngData, PngOptions, decode, encode_png, srgb8_from_linear};
+//! use sabi_color::srgb8_from_linear;
+//! use sabi_image::{Pixels, PngData, PngOptions, decode, encode_png};
 //!
 //! let codes = [0.0, 0.2, 1.0].map(srgb8_from_linear);
 //! let options = PngOptions { channels: 3, bits: 8, srgb_chunk: true };
@@ -43,5 +44,3 @@ pub use error::{ImageError, listed_layers};
 pub use picture::{DeclaredColorSpace, LinearPicture, Picture, Pixels};
 pub use quantize::{DitheredRow, level, quantize_u8, quantize_u16, rounded};
 pub use size_limits::{DecodedSize, MAX_DECODED_BYTES, MAX_SIDE};
-
-pub use sabi_color::{linear_from_srgb, srgb_from_linear, srgb8_from_linear};

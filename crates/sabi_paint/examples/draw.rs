@@ -13,12 +13,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::DVec3;
-use sabi_paint::{
-    Action, Brush, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version, file,
-};
+use sabi_paint::{Action, Brush, PaintSurface, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version, file};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::load::{LoadOptions, load};
 use sabi_surface::model::Mesh;
+use sabi_surface::patch::Site;
 use serde::Deserialize;
 
 /// Number of points of a way along one side of the model's box.

@@ -18,12 +18,13 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use sabi_paint::{
-    Action, Brush, Canvases, Layers, PaintSurface, Site, StampPictures, Step, Stroke, StrokeBook, StrokeList,
-    StrokePoint, Supplies, SurfaceIndex, Tip, Version, file,
+    Action, Brush, Canvases, Layers, PaintSurface, StampPictures, Step, Stroke, StrokeBook, StrokeList, StrokePoint,
+    Supplies, SurfaceIndex, Tip, Version, file,
 };
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::load::{LoadOptions, load};
+use sabi_surface::patch::Site;
 
 /// Number of strokes that are drawn.
 const STROKES: usize = 256;

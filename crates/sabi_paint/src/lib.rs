@@ -63,5 +63,3 @@ pub use surface::{PaintSurface, Stop, rightward};
 pub use swatch::{stamp_swatch, swatch};
 pub use tips::Tip;
 pub use version::Version;
-
-pub use sabi_surface::patch::Site;

@@ -44,7 +44,7 @@ use sabi_files::{PathBase, TrustedPaths, Unread, Uri, find_beside};
 use serde::{Deserialize, Serialize};
 
 pub use self::error::{LoadError, ModelFault};
-pub use self::format::ENDINGS;
+pub use self::format::MODEL_ENDINGS;
 use self::format::{ModelFormat, format_of, refused_format};
 pub use self::gltf::{UnpackedVertices, gltf_json};
 pub use self::name_lists::listed;

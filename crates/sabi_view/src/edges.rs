@@ -1,7 +1,7 @@
 //! Lines over the model: its wires and the seams of its maps.
 
 use rayon::prelude::*;
-use sabi_gpu::wgsl_struct;
+use sabi_nodes::wgsl_struct;
 use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::DisplacedMesh;
 use sabi_surface::model::Mesh;

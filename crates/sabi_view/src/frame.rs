@@ -2,7 +2,7 @@
 
 use bytemuck::Zeroable;
 use glam::{Mat4, Vec3};
-use sabi_gpu::wgsl_struct;
+use sabi_nodes::wgsl_struct;
 
 use crate::camera::Lens;
 use crate::lights::lights_of_sample;

@@ -1,6 +1,6 @@
 //! Everything in this crate that is also declared in WGSL files.
 
-use sabi_gpu::{Mirror, MirrorsWgsl};
+use sabi_nodes::link::{Mirror, MirrorsWgsl};
 
 use crate::edges::Line;
 use crate::environment::prefilter::{CubePass, GROUP};

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use sabi_gpu::wgsl_struct;
 use sabi_gpu::{Gpu, GpuSurface};
+use sabi_nodes::wgsl_struct;
 use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::DisplacedMesh;
 use sabi_surface::ground::Ground as ModelGround;

@@ -12,7 +12,7 @@ use bytemuck::Pod;
 pub(crate) use passes::Part;
 use passes::{draw_light, draw_raster, for_parts, part_attachment};
 use sabi_gpu::Gpu;
-use sabi_gpu::wgsl_struct;
+use sabi_nodes::wgsl_struct;
 
 use crate::dfg::dfg_texture;
 use crate::error::ViewError;

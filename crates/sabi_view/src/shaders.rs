@@ -1,6 +1,6 @@
 //! Shader modules of the viewport: the files that each is linked from.
 
-use sabi_gpu::{Given, ModuleSpec};
+use sabi_nodes::link::{Given, ModuleSpec};
 
 /// Bind group of the surface, which follows those of the viewport; see `lib/atlas.wgsl`.
 const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 3);

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sabi_engine::{CopyOptions, Seams, default_padding};
+use sabi_engine::baking::{Seams, default_padding};
+use sabi_export::CopyOptions;
 
 use super::{EvaluationArguments, MapArguments, model_file};
 use crate::graph_argument::GraphArgument;

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sabi_batch::ItemMachine;
-use sabi_engine::{TrustedPaths, default_cache_dir, default_memory_bytes};
+use sabi_engine::opening::{default_cache_dir, default_memory_bytes};
+use sabi_files::TrustedPaths;
 
 use super::evaluation::MachineArguments;
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 use super::model_file;
 use crate::graph_argument::GraphArgument;

@@ -4,11 +4,15 @@ use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides,
-    PartChoice, SavedReading, SetFile, TrustedPaths, Udim, Up, absolute, default_cache_dir, default_memory_bytes,
-    read_setting, without_paint,
-};
+use sabi_engine::evaluating::EvaluatorOptions;
+use sabi_engine::opening::linked_model::{ModelOptions, Overlap, SavedReading};
+use sabi_engine::opening::{SetFile, default_cache_dir, default_memory_bytes, read_setting};
+use sabi_engine::source::without_paint;
+use sabi_files::{TrustedPaths, absolute};
+use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::{Fit, Overrides};
+use sabi_surface::atlas::Udim;
+use sabi_surface::load::{PartChoice, Up};
 
 use super::model_file;
 use crate::exit::{Exit, Failure};
@@ -338,7 +342,7 @@ fn adapter(text: &str) -> Result<AdapterChoice, Infallible> {
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::Fit;
+    use sabi_graph::Fit;
 
     use super::{above_zero, fit, smoothing_angle};
 

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sabi_engine::Turns;
-use sabi_engine::view::{
+use sabi_engine::rendering::Turns;
+use sabi_view::{
     Background, Light, LightPlace, Lines, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, USUAL_BLOOM, ViewTransform,
     Viewpoint,
 };

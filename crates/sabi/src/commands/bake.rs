@@ -2,7 +2,9 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakeReport, FinishedBake, RecordedBake, TrustedPaths};
+use sabi_engine::baking::BakeReport;
+use sabi_engine::baking::recorded::{FinishedBake, RecordedBake};
+use sabi_files::TrustedPaths;
 
 use crate::arguments::BakeArguments;
 use crate::asked_bake::{AskedBake, Baked};

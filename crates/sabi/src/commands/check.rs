@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use sabi_engine::{CheckReport, CheckedGraph, TrustedPaths, check_graph};
+use sabi_engine::catalog::check::{CheckReport, CheckedGraph, check_graph};
+use sabi_files::TrustedPaths;
 
 use crate::arguments::CheckArguments;
 use crate::exit::{Exit, Failure};

@@ -1,6 +1,6 @@
 //! `sabi doctor`: checks whether this machine can run Sabi.
 
-use sabi_engine::{Diagnosis, diagnose};
+use sabi_engine::catalog::diagnosis::{Diagnosis, diagnose};
 
 use crate::arguments::DoctorArguments;
 use crate::exit::{Exit, Failure};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_engine::TrustedPaths;
+use sabi_files::TrustedPaths;
 
 use crate::arguments::EditArguments;
 use crate::exit::{Exit, Failure};

@@ -1,9 +1,10 @@
 //! `sabi info`: the parameters of a graph that can be set, its outputs, and the files that it reads.
 
-use sabi_engine::{
-    FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, TrustedPaths,
-    VariantDescription, describe_graph,
+use sabi_engine::graph_info::{
+    FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription,
+    describe_graph,
 };
+use sabi_files::TrustedPaths;
 
 use super::value_text::{accepted_values, value_text};
 use crate::arguments::InfoArguments;

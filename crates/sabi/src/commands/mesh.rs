@@ -1,6 +1,9 @@
 //! `sabi mesh`: a model and its atlas.
 
-use sabi_engine::{LinkedModel, MeshReport, SetReport, SharedPairs, TrustedPaths, describe_mesh};
+use sabi_engine::opening::linked_model::LinkedModel;
+use sabi_engine::opening::mesh_report::{MeshReport, describe_mesh};
+use sabi_engine::opening::overlap::{SetReport, SharedPairs};
+use sabi_files::TrustedPaths;
 use serde::Serialize;
 
 use crate::arguments::MeshArguments;

@@ -1,6 +1,9 @@
 //! `sabi nodes`: the kinds of nodes.
 
-use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, TrustedPaths, describe_nodes, nearest};
+use sabi_engine::Kinds;
+use sabi_engine::catalog::description::{InputDescription, NodeDescription, ParamDescription, describe_nodes};
+use sabi_files::TrustedPaths;
+use sabi_graph::nearest;
 
 use super::value_text::{accepted_values, value_text};
 use crate::arguments::NodesArguments;

@@ -1,6 +1,7 @@
 //! `sabi pack`: a graph with all files that its bake reads, in one archive.
 
-use sabi_engine::{PackReport, PackRequest, PackedModel, TrustedPaths, pack_graph};
+use sabi_engine::packing::{PackReport, PackRequest, PackedModel, pack_graph};
+use sabi_files::TrustedPaths;
 
 use crate::arguments::PackArguments;
 use crate::exit::{Exit, Failure};

@@ -1,8 +1,8 @@
 //! `sabi paint`: files of strokes.
 
-use sabi_engine::{
-    FlattenReport, ReprojectReport, StrokeReport, TrustedPaths, describe_strokes, flatten_strokes, reproject_strokes,
-};
+use sabi_engine::opening::stroke_report::{StrokeReport, describe_strokes};
+use sabi_engine::stroke_chores::{FlattenReport, ReprojectReport, flatten_strokes, reproject_strokes};
+use sabi_files::TrustedPaths;
 
 use crate::arguments::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,

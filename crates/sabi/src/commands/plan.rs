@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use sabi_batch::schedulers::{RunFlags, command_lines, job_template, slurm_script};
 use sabi_batch::{BakePlan, PlannedBakes, plan_bakes};
-use sabi_engine::{TrustedPaths, default_preset_folder};
+use sabi_engine::baking::presets::default_preset_folder;
+use sabi_files::TrustedPaths;
 
 use crate::arguments::{PlanArguments, PlanFormat};
 use crate::exit::{Exit, Failure};

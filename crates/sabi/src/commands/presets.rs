@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use sabi_engine::{
-    ListedPreset, PresetDescription, PresetDocument, PresetFile, default_preset_folder, describe_preset,
-    export_presets, find_preset, preset_text,
-};
+use sabi_engine::baking::preset_description::{PresetDescription, PresetDocument, PresetFile, describe_preset};
+use sabi_engine::baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
 use serde::Serialize;
 
 use crate::arguments::{PresetsArguments, PresetsCommand};

@@ -1,6 +1,7 @@
 //! `sabi preview`: any node's result.
 
-use sabi_engine::{PreviewRequest, TrustedPaths, preview, preview_graph};
+use sabi_engine::rendering::{PreviewRequest, preview, preview_graph};
+use sabi_files::TrustedPaths;
 
 use crate::arguments::PreviewArguments;
 use crate::exit::{Exit, Failure};

@@ -1,6 +1,7 @@
 //! `sabi render`: a lit picture of the model.
 
-use sabi_engine::{RenderRequest, Triangles, TrustedPaths, render, render_graph};
+use sabi_engine::rendering::{RenderRequest, Triangles, render, render_graph};
+use sabi_files::TrustedPaths;
 
 use crate::arguments::RenderArguments;
 use crate::exit::{Exit, Failure};

@@ -10,7 +10,8 @@ use std::io::{self, Write as _};
 
 use sabi_batch::running::{ItemEvent, ItemStatus, Queue};
 use sabi_batch::{BakeItem, BakePlan, InputHashes};
-use sabi_engine::{PathBase, TrustedPaths, advised};
+use sabi_engine::remedy::advised;
+use sabi_files::{PathBase, TrustedPaths};
 
 use crate::arguments::{ProgressChoice, RunArguments};
 use crate::exit::{Exit, Failure};

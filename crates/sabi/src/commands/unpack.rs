@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use sabi_batch::shell_word::shell_word;
-use sabi_engine::{UnpackReport, unpack_graph};
+use sabi_engine::packing::{UnpackReport, unpack_graph};
 
 use crate::arguments::UnpackArguments;
 use crate::exit::{Exit, Failure};

@@ -1,6 +1,6 @@
 //! Values of parameters, and descriptions of their allowed values, in words.
 
-use sabi_engine::Value;
+use sabi_graph::Value;
 
 /// Describes the values that a parameter accepts, in words.
 pub(super) fn accepted_values(takes: &str, choices: Option<&[String]>, range: Option<&[Value; 2]>) -> String {

@@ -1,6 +1,6 @@
 //! `sabi verify`: compares folders of maps with the records of their bakes.
 
-use sabi_engine::{Verification, verify_folder};
+use sabi_engine::baking::recorded::{Verification, verify_folder};
 
 use crate::arguments::VerifyArguments;
 use crate::exit::{Exit, Failure};

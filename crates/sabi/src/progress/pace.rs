@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use sabi_engine::Phase;
+use sabi_engine::phases::Phase;
 
 /// Selects the steps that are printed. The first step of a phase always is.
 #[derive(Clone, Debug)]
@@ -80,7 +80,7 @@ impl Pace {
 mod tests {
     use std::time::Duration;
 
-    use sabi_engine::Phase;
+    use sabi_engine::phases::Phase;
 
     use super::Pace;
 

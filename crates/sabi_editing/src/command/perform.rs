@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use sabi_engine::catalog::label_of;
 use sabi_graph::{GROUP_KIND, NodeId, Value};
+use sabi_nodes::label_of;
 
 use super::{
     ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, ExposedCommand, FrameCommand, GroupCommand,

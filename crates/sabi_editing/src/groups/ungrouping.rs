@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_engine::catalog::KnobRole;
 use sabi_graph::{
     Body, Edit, Fit, GROUP_KIND, GroupDef, INSTANCE_KNOBS, KnobCurve, Node, NodeId, OutputRef, SlotRef, Value,
 };
+use sabi_nodes::kind::Role;
 
 use crate::names::separate_file_notice;
 use crate::open_document::OpenDocument;
@@ -148,7 +148,7 @@ fn scale_lengths(
             node.params.insert("scale".to_owned(), Value::Number(own * scale));
             continue;
         }
-        for knob in interface.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Length) {
+        for knob in interface.knobs.iter().filter(|knob| knob.ty.role == Role::Length) {
             let value = node.params.get(&knob.name).unwrap_or(&knob.ty.default);
             let value = scaled(value, scale);
             node.params.insert(knob.name.clone(), value);

@@ -320,7 +320,7 @@ fn in_folder(folder: &std::path::Path, name: &str) -> OpenDocument {
 #[test]
 fn copied_paint_nodes_take_their_strokes_to_another_graph() {
     use crate::painting;
-    use sabi_engine::paint::{Brush, Stroke};
+    use sabi_paint::{Brush, Stroke};
     let [here, there] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let mut document = in_folder(here.path(), "worn.sabi");
     let stroke = std::sync::Arc::new(Stroke::new(Brush::default(), Vec::new()));

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, Session, TrustedPaths, effect_library};
+use sabi_engine::effect_library::effect_library;
+use sabi_engine::{OpenGraph, Session};
+use sabi_files::TrustedPaths;
 use sabi_graph::{Document, Fit, GROUP_KIND, PortType};
 
 use super::{arrangement, document_with};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_engine::catalog::KnobRole;
+use sabi_nodes::kind::Role;
 
 use super::effect_library::all_files;
 use super::*;
@@ -109,7 +109,7 @@ fn random_values_of_all_effects_stay_in_range_and_away_from_the_ends_of_scales()
                 };
                 let told = format!("{}: {} {drawn}", file.display(), knob.name);
                 assert!((low..=high).contains(&drawn), "{told}");
-                if knob.ty.role == KnobRole::Length || low > 0.0 && high >= 8.0 * low {
+                if knob.ty.role == Role::Length || low > 0.0 && high >= 8.0 * low {
                     scales += 1;
                     at_an_end += usize::from(drawn == low || drawn == high);
                 }

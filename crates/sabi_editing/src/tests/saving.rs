@@ -1,6 +1,6 @@
 //! Saving the open document.
 
-use sabi_engine::Disk;
+use sabi_files::Disk;
 
 use super::*;
 

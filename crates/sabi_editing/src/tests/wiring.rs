@@ -189,7 +189,7 @@ fn a_second_mask_is_blended_with_the_first_one() {
         assert_eq!(wire(&document, &format!("{blend}.above")), "b");
         assert_eq!(param(&document, &blend, "mode"), Some(Value::from(mode)));
         let interface = document.interface(&id(&blend)).expect("an interface").clone();
-        let sabi_engine::catalog::KnobRole::Choice(words) = &interface.knob("mode").expect("a mode").ty.role else {
+        let sabi_nodes::kind::Role::Choice(words) = &interface.knob("mode").expect("a mode").ty.role else {
             panic!("a mode is a choice");
         };
         assert!(words.iter().any(|word| word == mode), "{mode}");

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Event, MouseWheelUnit, Pos2, TouchPhase, vec2};
 use sabi_editor::{FrameTime, Offscreen};
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 use crate::table::{ms, row, spread};
 use crate::{asset, opened};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 use crate::table::{ms, row};
 use crate::{asset, opened};

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use egui::{Event, Modifiers, PointerButton, vec2};
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 use crate::table::{ms, rate, row};
 use crate::{busy_model, opened};

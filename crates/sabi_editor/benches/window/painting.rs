@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Event, Modifiers, PointerButton, Pos2, vec2};
 use sabi_editor::Offscreen;
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 use crate::table::{ms, row};
 use crate::{busy_model, opened};

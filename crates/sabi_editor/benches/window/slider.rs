@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Event, PointerButton, vec2};
 use sabi_editor::Offscreen;
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 use crate::frames::graph;
 use crate::table::{ms, rate, row};

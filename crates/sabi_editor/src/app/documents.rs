@@ -11,9 +11,11 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{
-    EngineError, ErrorKind, FileState, Keeping, NodeDraft, Refusal, Remedy, SavedReading, Session, TrustedPaths,
-};
+use sabi_engine::catalog::node_file::NodeDraft;
+use sabi_engine::opening::linked_model::SavedReading;
+use sabi_engine::session::{FileState, Keeping};
+use sabi_engine::{EngineError, ErrorKind, Remedy, Session};
+use sabi_files::{Refusal, TrustedPaths};
 use sabi_graph::Preview;
 
 use super::recoveries::Recoveries;

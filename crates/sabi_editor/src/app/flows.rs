@@ -11,7 +11,9 @@ use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::{library, node_paths, nodes};
-use sabi_engine::{ErrorKind, NodeDraft, Session, io_reason};
+use sabi_engine::catalog::node_file::NodeDraft;
+use sabi_engine::{ErrorKind, Session};
+use sabi_files::io_reason;
 
 use super::Editor;
 use crate::action::{LibraryKind, Next};

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::relative_paths;
-use sabi_engine::{NotText, SavedReading};
+use sabi_engine::opening::linked_model::SavedReading;
+use sabi_files::NotText;
 
 use super::documents::Documents;
 use crate::import_options::ImportOptions;

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex};
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::{Session, TrustedPaths};
+use sabi_engine::Session;
+use sabi_files::TrustedPaths;
 
 use super::documents::{Documents, Folders};
 use crate::builtin_models::model_of;

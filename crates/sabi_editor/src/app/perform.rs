@@ -16,8 +16,8 @@ use sabi_editing::command::{
 };
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{knob_target, navigation, nodes, variants};
-use sabi_engine::catalog::KnobRole;
 use sabi_graph::{NodeId, SlotRef, Value};
+use sabi_nodes::kind::Role;
 
 use super::Editor;
 use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, ModelAction};
@@ -206,7 +206,7 @@ impl Editor {
         let Some((interface, node)) = document.interface(id).zip(document.node(id)) else {
             return;
         };
-        let mut files = interface.knobs.iter().filter(|knob| knob.ty.role == KnobRole::File);
+        let mut files = interface.knobs.iter().filter(|knob| knob.ty.role == Role::File);
         if let Some(knob) = files.find(|knob| !node.params.contains_key(&knob.name)) {
             self.browse(KnobTarget::of_node(id, knob.name.clone()));
         }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use sabi_engine::{Recovery, recoveries, recoveries_in_use};
+use sabi_engine::session::{Recovery, recoveries, recoveries_in_use};
 
 use crate::paths::canonical_if_present;
 

@@ -58,7 +58,9 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use sabi_editing::{OpenDocument, node_paths};
-use sabi_engine::{AdapterChoice, Gpu, Session, TrustedPaths};
+use sabi_engine::Session;
+use sabi_files::TrustedPaths;
+use sabi_gpu::{AdapterChoice, Gpu};
 
 use super::{Editor, Folders, Handover, InitialState};
 use crate::dock::Workspace;

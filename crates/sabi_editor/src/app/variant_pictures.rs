@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use egui::Context;
 use sabi_editing::variants;
-use sabi_engine::ViewSubject;
+use sabi_engine::live::ViewSubject;
 
 use super::Editor;
 use crate::dock::Panel;

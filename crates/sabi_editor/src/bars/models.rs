@@ -8,7 +8,10 @@ use egui::containers::menu::MenuButton;
 use egui::emath::Numeric;
 use egui::{Button, Checkbox, DragValue, Margin, RichText, ScrollArea, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_engine::{FilePart, Overlap, PartChoice, Udim, Up};
+use sabi_engine::opening::linked_model::Overlap;
+use sabi_surface::atlas::Udim;
+use sabi_surface::load::{PartChoice, Up};
+use sabi_surface::model::FilePart;
 
 use super::{bar, stay_open};
 use crate::action::{Action, ModelAction};

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use egui::{Margin, RichText, Ui};
 use egui_phosphor::regular as icon;
-use sabi_engine::{EngineError, Refusal};
+use sabi_engine::EngineError;
+use sabi_files::Refusal;
 
 use super::bar;
 use crate::action::{Action, TrustAction};

@@ -3,8 +3,9 @@
 
 use egui::{Pos2, Vec2};
 use glam::DVec3;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Brush, Site, StrokePoint, rightward};
+use sabi_engine::live::LiveModel;
+use sabi_paint::{Brush, StrokePoint, rightward};
+use sabi_surface::patch::Site;
 
 use super::Canvas;
 use crate::settings::brush::BrushChoices;

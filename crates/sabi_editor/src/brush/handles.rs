@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use egui::{Pos2, Vec2};
 use sabi_editing::command::PaintCommand;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Brush, Step, Stroke, carried};
+use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
+use sabi_paint::{Brush, Step, Stroke, carried};
 
 use super::decal::{axes_on_screen, turn_of, wrapped};
 use super::under::{on_surface, point_at};

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use egui::{Color32, Painter, Pos2, Vec2, vec2};
 use glam::DVec3;
 use sabi_editing::command::PaintCommand;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Brush, Step, Stroke, StrokePoint, carried};
+use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
+use sabi_paint::{Brush, Step, Stroke, StrokePoint, carried};
 
 use super::decal::wrapped;
 use super::under::{on_surface, point_at};

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use egui::Pos2;
 use sabi_editing::command::PaintCommand;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Area, Eye, Stencil, Stroke, StrokePoint};
+use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
+use sabi_paint::{Action as BrushAction, Area, Eye, Stencil, Stroke, StrokePoint};
 
 use super::decal::{Decal, sized};
 use super::under::touched_at;

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use egui::{Modifiers, Pos2, Vec2};
 use glam::DVec3;
 use sabi_editing::command::PaintCommand;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Bend, Knot, PaintSurface, Path, Step, Stroke, StrokePoint, relocate};
+use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
+use sabi_paint::{Bend, Knot, PaintSurface, Path, Step, Stroke, StrokePoint, relocate};
 
 use super::shown_path::{Part, ShownPath};
 use super::under::{on_surface, point_at, touched_at};

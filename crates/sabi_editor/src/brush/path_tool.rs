@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers, Pos2, Ui};
 use sabi_editing::command::PaintCommand;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Area, Path, Step, Stroke, Version};
+use sabi_engine::live::LiveModel;
+use sabi_paint::{Action as BrushAction, Area, Path, Step, Stroke, Version};
 
 use super::decal::sized;
 use super::path::{HeldKnot, Press, PressKind, press};

@@ -2,8 +2,8 @@
 
 use egui::{Color32, Painter, Pos2, Rect, StrokeKind, Vec2};
 use glam::DVec3;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Bend, Path, Stroke, StrokePoint, relocate};
+use sabi_engine::live::LiveModel;
+use sabi_paint::{Bend, Path, Stroke, StrokePoint, relocate};
 
 use super::Canvas;
 use super::under::on_surface;

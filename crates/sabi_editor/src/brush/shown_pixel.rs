@@ -1,7 +1,7 @@
 //! Pixels of strokes and stamps as colors of the window.
 
 use egui::{Color32, Rgba};
-use sabi_engine::paint::SwatchPixel;
+use sabi_paint::SwatchPixel;
 
 /// A pixel in its own color, or in that of paint.
 pub(crate) fn shown_pixel(pixel: &SwatchPixel, paint: Color32) -> Color32 {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Stroke, TextureId, Vec2, pos2, vec2};
-use sabi_engine::paint::StampPicture;
+use sabi_paint::StampPicture;
 
 use super::decal::wrapped;
 use crate::action::{Action, PaintAction};
@@ -137,8 +137,7 @@ impl HeldStencil {
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::paint::PicturePart;
-    use sabi_engine::paint::{PictureName, PictureTip};
+    use sabi_paint::{PictureName, PicturePart, PictureTip};
 
     use super::*;
 
@@ -155,7 +154,7 @@ mod tests {
             picture: PictureName::of(b"wide", "png").expect("a name"),
             part: PicturePart::Alpha,
         };
-        let wide = sabi_engine::paint::StampPicture::of_alpha([8, 4], &[255; 32]);
+        let wide = sabi_paint::StampPicture::of_alpha([8, 4], &[255; 32]);
         let stencil = ShownStencil {
             choices: StencilChoices::with_picture(picture),
             picture: Arc::new(wide),

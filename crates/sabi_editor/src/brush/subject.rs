@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use sabi_editing::OpenDocument;
 use sabi_editing::painting::{painted_layer, strokes_of, strokes_on};
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Stencil, Stroke};
+use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
+use sabi_paint::{Stencil, Stroke};
 
 use super::Canvas;
 use super::stencil::ShownStencil;

@@ -2,8 +2,8 @@
 
 use egui::{Pos2, Vec2, vec2};
 use glam::DVec3;
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{PaintSurface, Shaft, StrokePoint, SurfaceIndex, Touch, rightward};
+use sabi_engine::live::LiveModel;
+use sabi_paint::{PaintSurface, Shaft, StrokePoint, SurfaceIndex, Touch, rightward};
 
 use super::Canvas;
 use super::decal::{axes_on_screen, turn_of};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_engine::Faults;
+use sabi_engine::live::Faults;
 
 /// Errors of the last evaluation, by node.
 #[derive(Default)]

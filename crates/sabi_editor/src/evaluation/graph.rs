@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_editing::OpenDocument;
-use sabi_engine::GraphUpdate;
+use sabi_engine::live::GraphUpdate;
 use sabi_graph::Edit;
 
 /// Largest number of edits that wait to be sent, as moves of nodes do; beyond it the whole graph is sent.

@@ -3,7 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_engine::{EngineError, FilePart, LiveModel, ModelOptions, TrustedPaths, Warning};
+use sabi_engine::live::LiveModel;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_engine::{EngineError, Warning};
+use sabi_files::TrustedPaths;
+use sabi_surface::model::FilePart;
 
 use crate::import_options::ImportOptions;
 

@@ -7,9 +7,10 @@ use std::time::Duration;
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use glam::{DVec3, Vec3};
 use sabi_editing::{OpenDocument, node_paths};
-use sabi_engine::view::Pixels;
-use sabi_engine::{Inspected, LiveModel, LiveTimes, ModelLooks, ViewSubject};
+use sabi_engine::evaluating::ModelLooks;
+use sabi_engine::live::{Inspected, LiveModel, LiveTimes, ViewSubject};
 use sabi_graph::NodeRef;
+use sabi_view::Pixels;
 
 use super::Wanted;
 

@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use egui::Context;
-use sabi_engine::{Activity, BakeReport, EngineError, Phase, Progress, SharedActivity};
+use sabi_engine::EngineError;
+use sabi_engine::baking::BakeReport;
+use sabi_engine::phases::{Activity, Phase, Progress, SharedActivity};
 
 use crate::notices::with_capital;
 use crate::task::{Failed, Task};

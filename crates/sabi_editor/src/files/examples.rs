@@ -5,7 +5,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{effect_library, free_graph_file, write_whole};
+use sabi_engine::effect_library::effect_library;
+use sabi_engine::session::free_graph_file;
+use sabi_files::write_whole;
 
 use crate::builtin_models::{MESHES, MODELS};
 

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use egui::{Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
-use sabi_engine::Recovery;
-use sabi_engine::catalog::{Catalog, label_of};
+use sabi_engine::catalog::Catalog;
+use sabi_engine::session::Recovery;
 use sabi_graph::{Document, Node};
+use sabi_nodes::label_of;
 
 use crate::action::{Action, FileAction, Next};
 use crate::context::ViewContext;

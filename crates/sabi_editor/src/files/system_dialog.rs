@@ -10,7 +10,7 @@ use egui::Context;
 use rfd::{AsyncFileDialog, FileHandle};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::library::GRAPH_EXTENSION;
-use sabi_engine::MODEL_ENDINGS;
+use sabi_surface::load::MODEL_ENDINGS;
 
 use crate::brush_shelf;
 use crate::paths::{FONTS, IMAGES, lowercase_ending};

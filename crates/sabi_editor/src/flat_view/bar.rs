@@ -2,7 +2,7 @@
 
 use egui::{Align, Label, Layout, RichText, Ui, UiBuilder, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::{Inspected, LiveModel};
+use sabi_engine::live::{Inspected, LiveModel};
 
 use super::{FlatView, Subject};
 use crate::evaluation::Evaluation;

@@ -4,8 +4,11 @@ use std::sync::{Arc, OnceLock, Weak};
 
 use egui::{Pos2, Rect};
 use glam::{DVec2, DVec3};
-use sabi_engine::paint::{Eye, Site};
-use sabi_engine::{LinkedModel, LiveModel, SetKey};
+use sabi_engine::live::LiveModel;
+use sabi_engine::opening::linked_model::LinkedModel;
+use sabi_export::SetKey;
+use sabi_paint::Eye;
+use sabi_surface::patch::Site;
 
 use super::triangle_grid::TriangleGrid;
 use crate::brush::{Canvas, ShownStencil};

@@ -2,7 +2,7 @@
 
 use egui::ecolor::gamma_u8_from_linear_f32;
 use egui::{CursorIcon, Rect, Response};
-use sabi_engine::Inspected;
+use sabi_engine::live::Inspected;
 use sabi_graph::PortType;
 
 use super::FlatView;

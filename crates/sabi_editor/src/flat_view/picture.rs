@@ -1,7 +1,8 @@
 //! Pictures and histograms of values.
 
 use egui::{Color32, ColorImage, Painter, Rect, Stroke, ecolor::gamma_u8_from_linear_f32, pos2, vec2};
-use sabi_engine::{Inspected, PlaneKind, ResultPlane};
+use sabi_engine::evaluating::{PlaneKind, ResultPlane};
+use sabi_engine::live::Inspected;
 
 use crate::theme::{Theme, space};
 
@@ -147,7 +148,8 @@ impl Histogram {
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::{SetKey, TextureSet};
+    use sabi_engine::evaluating::TextureSet;
+    use sabi_export::SetKey;
     use sabi_graph::PortType;
 
     use super::*;

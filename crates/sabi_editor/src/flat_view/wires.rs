@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use egui::{Color32, ColorImage, Context, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, pos2, vec2};
-use sabi_engine::{LinkedModel, LiveModel, SetKey};
+use sabi_engine::live::LiveModel;
+use sabi_engine::opening::linked_model::LinkedModel;
+use sabi_export::SetKey;
 
 use crate::task::Task;
 use crate::theme::Theme;

@@ -2,8 +2,8 @@
 
 use egui::{Align2, Id, Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_engine::catalog::label_of;
 use sabi_graph::Value;
+use sabi_nodes::label_of;
 
 use super::KnobRow;
 use super::boxes::share_of;

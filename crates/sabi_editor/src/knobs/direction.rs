@@ -2,7 +2,8 @@
 
 use egui::{Id, Pos2, Rect, Response, Sense, Shape, Ui, Vec2, WidgetInfo, WidgetType, accesskit};
 use glam::{DQuat, DVec3};
-use sabi_engine::catalog::{Knob, KnobRole};
+use sabi_engine::catalog::Knob;
+use sabi_nodes::kind::Role;
 
 use super::KnobRow;
 use super::boxes::share_of;
@@ -30,7 +31,7 @@ const WAYS: [(&str, DVec3); 6] = [
 /// Returns whether a parameter is a direction: a plain vector of three components with a name such as `direction`.
 pub(super) fn is_one(knob: &Knob) -> bool {
     knob.ty.components() == 3
-        && knob.ty.role == KnobRole::Plain
+        && knob.ty.role == Role::Plain
         && matches!(knob.name.as_str(), "toward" | "direction" | "along" | "axis")
 }
 

@@ -2,7 +2,8 @@
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontFamily, FontId, Ui};
-use sabi_engine::catalog::{Knob, KnobRole};
+use sabi_engine::catalog::Knob;
+use sabi_nodes::kind::Role;
 
 use super::KnobRow;
 use crate::theme::{Theme, type_size};
@@ -48,7 +49,7 @@ fn limits(knob: &Knob) -> String {
         .ty
         .range
         .map_or(String::new(), |[low, high]| format!(", {low} to {high}"));
-    let is_short = !matches!(knob.ty.role, KnobRole::Stops | KnobRole::Curve | KnobRole::Seed);
+    let is_short = !matches!(knob.ty.role, Role::Stops | Role::Curve | Role::Seed);
     match is_short {
         true => format!("{range}, default {}", knob.ty.default.to_json()),
         false => range,

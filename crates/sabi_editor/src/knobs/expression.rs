@@ -5,7 +5,7 @@ mod tests;
 
 use std::f64::consts;
 
-use sabi_engine::arithmetic::{DEPTH_LIMIT, Expression, Operator, Syntax, SyntaxErrorKind, Word};
+use sabi_nodes::arithmetic::{DEPTH_LIMIT, Expression, Operator, Syntax, SyntaxErrorKind, Word};
 
 /// Units that may stand behind a number, and the measure of angles.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,9 @@
 //! A curve that is no parameter of a node.
 
 use egui::Ui;
-use sabi_engine::catalog::{Knob, KnobRole, Memory, ParamType, Written};
+use sabi_engine::catalog::Knob;
 use sabi_graph::Value;
+use sabi_nodes::kind::{Memory, ParamType, Role, Written};
 
 use super::boxes::strip;
 use super::knob_ui::KnobUi;
@@ -78,7 +79,7 @@ fn knob_of(label: &str, room: usize) -> Knob {
         label: label.to_owned(),
         doc: String::new(),
         ty: ParamType {
-            role: KnobRole::Curve,
+            role: Role::Curve,
             memory: Memory::Points(room as u32),
             range: Some([0.0, 1.0]),
             soft: Some([0.0, 1.0]),

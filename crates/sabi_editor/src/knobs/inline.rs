@@ -2,8 +2,8 @@
 
 use egui::{Align2, Color32, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType};
 use sabi_editing::node_size::ROW_HEIGHT;
-use sabi_engine::catalog::KnobRole;
 use sabi_graph::Value;
+use sabi_nodes::kind::Role;
 
 use super::bar::Bar;
 use super::curve::View;
@@ -79,7 +79,7 @@ fn widget(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect
             let whole = numbers::bar_of(knob_ui, row, id, rect, held[0]);
             let bar = Bar {
                 inside: &row.knob.label,
-                is_filled: *role != KnobRole::Seed,
+                is_filled: *role != Role::Seed,
                 ..whole
             };
             numbers::one(ui, knob_ui, &bar);
@@ -97,7 +97,7 @@ fn widget(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect
             label(ui, knob_ui, row, inside.with_max_x(place.left()));
             choice::switch(ui, knob_ui, row, id, place, is_on);
         }
-        (Some(KnobValue::Text(word)), KnobRole::Choice(words)) => {
+        (Some(KnobValue::Text(word)), Role::Choice(words)) => {
             let response = ui.interact(rect, id.with("list"), Sense::click());
             let fill = if response.hovered() {
                 knob_ui.theme.hovered

@@ -1,6 +1,6 @@
 //! Lengths of a graph on the shown model.
 
-use sabi_engine::LiveModel;
+use sabi_engine::live::LiveModel;
 
 use super::expression::Units;
 use super::values::text_of;

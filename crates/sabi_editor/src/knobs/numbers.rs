@@ -5,7 +5,8 @@ use std::hash::{BuildHasher, RandomState};
 
 use egui::{Id, Rect, Sense, Ui, Vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::catalog::{Knob, KnobRole};
+use sabi_engine::catalog::Knob;
+use sabi_nodes::kind::Role;
 
 use super::bar::Bar;
 use super::boxes::{cut_square, share_of};
@@ -26,8 +27,8 @@ const SNAP_DEGREES: f64 = 15.0;
 
 pub(super) fn show(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, numbers: [f64; 4]) {
     match (&row.knob.ty.role, row.knob.ty.components()) {
-        (KnobRole::Seed, _) => seed(ui, knob_ui, row, id, rect, numbers[0]),
-        (KnobRole::Angle, 1) => angle(ui, knob_ui, row, id, rect, numbers[0]),
+        (Role::Seed, _) => seed(ui, knob_ui, row, id, rect, numbers[0]),
+        (Role::Angle, 1) => angle(ui, knob_ui, row, id, rect, numbers[0]),
         (_, 1) => {
             let bar = bar_of(knob_ui, row, id, rect, numbers[0]);
             one(ui, knob_ui, &bar);
@@ -50,8 +51,8 @@ pub(super) fn bar_of<'a>(knob_ui: &KnobUi<'_>, row: &'a KnobRow<'a>, row_id: Id,
         range: row.knob.ty.limits(),
         is_whole: row.knob.ty.is_whole(),
         measure: match row.knob.ty.role {
-            KnobRole::Angle => Quantity::Degrees,
-            KnobRole::Length => Quantity::Length(knob_ui.lengths),
+            Role::Angle => Quantity::Degrees,
+            Role::Length => Quantity::Length(knob_ui.lengths),
             _ => Quantity::Plain,
         },
         is_filled: true,
@@ -78,7 +79,7 @@ fn number(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, bar: &Bar<'_>) -> Option<f64> {
 /// Values at both ends of the bar.
 fn ends(knob: &Knob) -> [f64; 2] {
     match (knob.ty.soft.or(knob.ty.range), &knob.ty.role) {
-        (None, KnobRole::Angle) => [-180.0, 180.0],
+        (None, Role::Angle) => [-180.0, 180.0],
         (None, _) if direction::is_one(knob) => [-1.0, 1.0],
         _ => knob.ty.slider(),
     }

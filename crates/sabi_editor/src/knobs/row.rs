@@ -5,8 +5,8 @@ use egui::{
     WidgetInfo, WidgetType,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::catalog::KnobRole;
 use sabi_graph::Value;
+use sabi_nodes::kind::Role;
 
 use super::boxes::DOTS;
 use super::knob_ui::KnobUi;
@@ -67,10 +67,8 @@ fn widget(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect
     match (held, &row.knob.ty.role) {
         (Some(KnobValue::Numbers(held)), _) => numbers::show(ui, knob_ui, row, id, rect, held),
         (Some(KnobValue::On(is_on)), _) => choice::toggle(ui, knob_ui, row, id, rect, is_on),
-        (Some(KnobValue::Text(word)), KnobRole::Choice(words)) => {
-            choice::choice(ui, knob_ui, row, id, rect, words, word)
-        }
-        (Some(KnobValue::Text(path)), KnobRole::File) => text::file(ui, knob_ui, row, id, rect, path),
+        (Some(KnobValue::Text(word)), Role::Choice(words)) => choice::choice(ui, knob_ui, row, id, rect, words, word),
+        (Some(KnobValue::Text(path)), Role::File) => text::file(ui, knob_ui, row, id, rect, path),
         (Some(KnobValue::Text(held)), _) => text::text(ui, knob_ui, row, id, rect, held),
         (Some(KnobValue::Color(held)), _) => color::show(ui, knob_ui, row, id, rect, held),
         (Some(KnobValue::Stops(held)), _) => stops::show(ui, knob_ui, row, id, rect, held),

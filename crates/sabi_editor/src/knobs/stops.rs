@@ -7,7 +7,7 @@ use egui::{
     WidgetInfo,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::catalog::WrittenStop;
+use sabi_nodes::kind::WrittenStop;
 
 use super::bar::Bar;
 use super::boxes::{cut_square, strip};

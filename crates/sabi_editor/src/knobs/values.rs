@@ -1,8 +1,10 @@
-//! Values of knobs as the widgets show them. [`ParamType`](sabi_engine::catalog::ParamType) defines their meaning.
+//! Values of knobs as the widgets show them. [`ParamType`](sabi_nodes::kind::ParamType) defines their meaning.
 
 use egui::Color32;
-use sabi_engine::catalog::{Knob, Written, WrittenStop, color_code, typed_color};
+use sabi_engine::catalog::Knob;
 use sabi_graph::{Value, canonical_number};
+use sabi_nodes::kind::{Written, WrittenStop};
+use sabi_nodes::{color_code, typed_color};
 
 /// A knob's value, with colors as egui has them.
 #[derive(Debug, PartialEq)]

@@ -2,9 +2,10 @@
 
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Stroke, Ui, vec2};
 use glam::{DMat4, DVec3, Vec3};
-use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Eye, Site, SymmetryCopy};
-use sabi_engine::view::{Camera, Lens, Picked};
+use sabi_engine::live::LiveModel;
+use sabi_paint::{Action as BrushAction, Eye, SymmetryCopy};
+use sabi_surface::patch::Site;
+use sabi_view::{Camera, Lens, Picked};
 
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};

@@ -1,6 +1,6 @@
 //! Channels and modes that the model can be shown in.
 
-use sabi_engine::view::Mode;
+use sabi_view::Mode;
 
 /// Channels of a material with their titles: first all of them in their light, then one by one.
 pub(crate) const CHANNELS: [(&str, Mode); 17] = [

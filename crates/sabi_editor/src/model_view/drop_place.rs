@@ -5,7 +5,7 @@ use sabi_editing::dropped_layers::DroppedOn;
 use sabi_editing::stack::{self, StackEnd};
 use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::catalog::Interface;
-use sabi_engine::{LiveModel, ViewSubject};
+use sabi_engine::live::{LiveModel, ViewSubject};
 use sabi_graph::PortType;
 
 use super::ModelView;

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use egui::Context;
-use sabi_engine::view::Environment;
-use sabi_engine::{EngineError, built_in_environments, load_environment};
+use sabi_engine::EngineError;
+use sabi_engine::opening::environment::{built_in_environments, load_environment};
+use sabi_view::Environment;
 
 use crate::evaluation::Evaluation;
 use crate::task::{Failed, Task};

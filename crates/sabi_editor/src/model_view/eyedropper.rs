@@ -1,7 +1,7 @@
 //! Colors taken from the model: the exact base color under the pointer, without light.
 
 use egui::{CursorIcon, Pos2, Rect, Response};
-use sabi_engine::view::{Background, Mode, NodeType, Shot};
+use sabi_view::{Background, Mode, NodeType, Shot};
 
 use super::painting::shot_of;
 use super::pictures::{Lighting, PictureRequest};

@@ -2,7 +2,7 @@
 
 use egui::{Button, DragValue, Ui};
 use egui_phosphor::regular as icon;
-use sabi_engine::view::{Light, LightPlace, MOST_LIGHTS};
+use sabi_view::{Light, LightPlace, MOST_LIGHTS};
 
 use crate::settings::viewport::{LIGHT_HEIGHT_DEGREES, LIGHT_SIZE_DEGREES, LIGHT_STRENGTH, LightSetting, TURN_DEGREES};
 

@@ -3,8 +3,8 @@
 use egui::containers::menu::MenuButton;
 use egui::{Rect, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::built_in_environments;
-use sabi_engine::view::{Camera, Lines};
+use sabi_engine::opening::environment::built_in_environments;
+use sabi_view::{Camera, Lines};
 
 use super::channels::{CHANNELS, MODEL_MODES};
 use super::saved_picture::{LARGEST, SIZES};
@@ -155,7 +155,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
     for (_, name, background) in BACKGROUNDS {
         ui.selectable_value(&mut view.shot.background, background, name);
     }
-    let quality = sabi_engine::view::Quality::of(evaluation.gpu().summary().kind);
+    let quality = sabi_view::Quality::of(evaluation.gpu().summary().kind);
     if let Some(remark) = quality.remark() {
         ui.separator();
         ui.set_max_width(260.0);

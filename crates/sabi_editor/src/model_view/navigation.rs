@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use egui::{Pos2, Rect, Response, Ui};
 use glam::Vec2;
-use sabi_engine::LiveModel;
-use sabi_engine::view::{Camera, Picked, Viewpoint, aspect_of, pick};
+use sabi_engine::live::LiveModel;
+use sabi_view::{Camera, Picked, Viewpoint, aspect_of, pick};
 
 use crate::mouse::DragAction;
 

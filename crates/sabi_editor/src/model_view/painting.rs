@@ -2,7 +2,7 @@
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Align2, Color32, FontId, Rect, Stroke, Ui, pos2, vec2};
-use sabi_engine::view::{Background, Mode, Shot};
+use sabi_view::{Background, Mode, Shot};
 
 use super::navigation::REST;
 use super::pictures::{Lighting, PictureRequest};
@@ -80,7 +80,7 @@ pub(super) fn unlit_mode(subject: &Subject<'_>) -> Mode {
 }
 
 /// Shot of a result from a camera, with the settings of the view. Results that are not lit have the mode `unlit`.
-pub(super) fn shot_of(camera: sabi_engine::view::Camera, shot: &Shot, picture: &Picture, unlit: Mode) -> Shot {
+pub(super) fn shot_of(camera: sabi_view::Camera, shot: &Shot, picture: &Picture, unlit: Mode) -> Shot {
     Shot {
         camera,
         mode: if picture.looks.is_lit { shot.mode } else { unlit },

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Context, Rect, TextureId, Ui};
-use sabi_engine::view::{Environment, Light, Pixels, Scene, SceneRevision, Shot, ViewError, Viewport};
-use sabi_engine::{EngineError, Gpu};
+use sabi_engine::EngineError;
+use sabi_gpu::Gpu;
+use sabi_view::{Environment, Light, Pixels, Scene, SceneRevision, Shot, ViewError, Viewport};
 
 use super::environment_loader::EnvironmentLoader;
 use super::lights::Lights;

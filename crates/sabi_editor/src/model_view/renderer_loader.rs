@@ -4,8 +4,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use sabi_engine::view::{MissingPipelines, Renderer};
-use sabi_engine::{EngineError, Gpu};
+use sabi_engine::EngineError;
+use sabi_gpu::Gpu;
+use sabi_view::{MissingPipelines, Renderer};
 
 use crate::task::{Failed, Task};
 

@@ -9,8 +9,8 @@ use eframe::egui_wgpu::RenderState;
 use egui::{Align2, Color32, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, WidgetInfo, WidgetType, pos2, vec2};
 use egui_phosphor::regular as icon;
 use glam::Vec3;
-use sabi_engine::LiveModel;
-use sabi_engine::view::{Camera, Viewpoint};
+use sabi_engine::live::LiveModel;
+use sabi_view::{Camera, Viewpoint};
 
 use super::navigation::{SAME_ASPECT, aspect};
 use super::painting::{self, shot_of, unlit_mode};

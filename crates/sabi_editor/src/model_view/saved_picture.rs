@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use sabi_engine::view::{Background, Mode, Pixels, Viewport};
-use sabi_engine::{Gpu, encode_picture, write_whole};
+use sabi_engine::rendering::encode_picture;
+use sabi_files::write_whole;
+use sabi_gpu::Gpu;
+use sabi_view::{Background, Mode, Pixels, Viewport};
 
 use super::ModelView;
 use super::painting::shot_of;
@@ -67,7 +69,7 @@ impl ModelView {
         }
         let mut drawn = self.saved_picture.drawn.take()?;
         let shot = shot_of(self.navigation.camera, &self.shot, picture, Mode::Node);
-        let shot = sabi_engine::view::Shot {
+        let shot = sabi_view::Shot {
             samples: SAMPLES,
             ..shot
         };

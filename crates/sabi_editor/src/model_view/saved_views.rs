@@ -6,8 +6,8 @@ use egui::{Button, TextEdit, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use glam::Vec3;
 use sabi_editing::command::DocumentCommand;
-use sabi_engine::view::{Camera, Lens};
 use sabi_graph::SavedView;
+use sabi_view::{Camera, Lens};
 
 use super::{ModelView, Subject};
 use crate::action::Action;

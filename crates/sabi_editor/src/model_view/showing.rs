@@ -3,7 +3,7 @@
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align, Align2, FontId, Pos2, Rect, Sense, Ui, Vec2, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::Action as BrushAction;
+use sabi_paint::Action as BrushAction;
 
 use super::{ModelView, Subject};
 use crate::action::{Action, LookAction};

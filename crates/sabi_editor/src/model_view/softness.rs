@@ -4,8 +4,9 @@ use std::sync::{Arc, Weak};
 
 use egui::{Align2, CursorIcon, FontId, Rect, Response, Sense, Stroke, Ui, WidgetInfo, WidgetType, vec2};
 use sabi_editing::command::DocumentCommand;
-use sabi_engine::view::Camera;
-use sabi_engine::{LiveModel, Softness};
+use sabi_engine::live::LiveModel;
+use sabi_engine::rendering::Softness;
+use sabi_view::Camera;
 
 use super::{ModelView, Subject, showing};
 use crate::action::Action;

@@ -1,7 +1,7 @@
 //! The picture of a stencil as a texture of the window.
 
 use egui::{ColorImage, TextureHandle, TextureId, TextureOptions, Ui};
-use sabi_engine::paint::PictureTip;
+use sabi_paint::PictureTip;
 
 use crate::brush::{ShownStencil, shown_pixel};
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use egui::Ui;
-use sabi_engine::ViewSubject;
+use sabi_engine::live::ViewSubject;
 use sabi_graph::{NodeRef, SavedView};
 
 use super::ModelView;

@@ -1,7 +1,8 @@
 //! Sections of a node's parameters: a toggle `X_on` begins a section of `X` and of all parameters whose names begin with `X_`,
 //! as the channels of a layer do. While the toggle is off, the rows below it are hidden.
 
-use sabi_engine::catalog::{Knob, KnobRole};
+use sabi_engine::catalog::Knob;
+use sabi_nodes::kind::Role;
 
 use crate::knobs::{KnobRow, KnobSection};
 
@@ -14,7 +15,7 @@ pub(super) fn switches(knobs: &[Knob]) -> Vec<(String, Knob)> {
         let stem = knob
             .name
             .strip_suffix(SWITCH)
-            .filter(|_| knob.ty.role == KnobRole::Toggle)?;
+            .filter(|_| knob.ty.role == Role::Toggle)?;
         // In capitals, as other titles of sections, and unlike the parameter of the same name.
         let label = knobs.iter().find(|known| known.name == stem)?.label.to_uppercase();
         let relabeled = Knob { label, ..knob.clone() };

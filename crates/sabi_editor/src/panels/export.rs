@@ -5,7 +5,9 @@ mod preset_menu;
 use std::time::Duration;
 
 use egui::{Button, Grid, Label, OpenUrl, ProgressBar, RichText, ScrollArea, TextEdit, Ui};
-use sabi_engine::{Remedy, export_channels, name_pattern_fault, path_text};
+use sabi_engine::Remedy;
+use sabi_engine::baking::{export_channels, name_pattern_fault};
+use sabi_files::path_text;
 
 use self::preset_menu::PresetMenu;
 use crate::action::{Action, ExportAction};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Sense, Stroke, Ui, WidgetInfo, WidgetType, pos2, vec2};
 use sabi_editing::{OpenDocument, connections};
-use sabi_engine::Inspected;
+use sabi_engine::live::Inspected;
 use sabi_graph::{NodeId, NodeRef, SlotRef};
 
 use crate::context::ViewContext;

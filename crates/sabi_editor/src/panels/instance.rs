@@ -5,8 +5,10 @@ use egui_phosphor::regular as icon;
 use sabi_editing::OpenDocument;
 use sabi_editing::command::GroupCommand;
 use sabi_editing::random_knobs::SEED;
-use sabi_engine::catalog::{Interface, KnobRole, label_of};
+use sabi_engine::catalog::Interface;
 use sabi_graph::{GROUP_KIND, INSTANCE_KNOBS, LibrarySource, NodeId};
+use sabi_nodes::kind::Role;
+use sabi_nodes::label_of;
 
 use super::card::{Card, CardSize};
 use super::random::{self, Kept};
@@ -86,7 +88,7 @@ fn variants(
     size: &mut CardSize,
 ) -> Option<GroupCommand> {
     let knob = interface.knobs.iter().find(|knob| knob.name == VARIANT)?;
-    let KnobRole::Choice(words) = &knob.ty.role else {
+    let Role::Choice(words) = &knob.ty.role else {
         return None;
     };
     let document = context.document;

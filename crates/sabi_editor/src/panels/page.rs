@@ -8,7 +8,7 @@ use egui::{ColorImage, RichText, TextureHandle, TextureOptions, Ui, WidgetInfo, 
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use egui_phosphor::regular as icon;
 use sabi_editing::OpenDocument;
-use sabi_engine::NodeDraft;
+use sabi_engine::catalog::node_file::NodeDraft;
 use sabi_engine::catalog::{Interface, Port, picture_of};
 
 use crate::action::Action;

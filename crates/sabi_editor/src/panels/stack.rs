@@ -8,8 +8,10 @@ use sabi_editing::command::{KnobCommand, LayerCommand, PaintCommand};
 use sabi_editing::hand_layers::HandLayer;
 use sabi_editing::stack::{Layer, Stack, StackEnd};
 use sabi_editing::{OpenDocument, connections, layers, stack};
-use sabi_engine::catalog::{Interface, KnobRole, label_of};
+use sabi_engine::catalog::Interface;
 use sabi_graph::{NodeId, NodeRef, Value};
+use sabi_nodes::kind::Role;
+use sabi_nodes::label_of;
 
 use super::reordering;
 use crate::action::{Action, PaintAction};
@@ -172,7 +174,7 @@ fn modes(ui: &mut Ui, document: &OpenDocument, layer: &Layer, actions: &mut Vec<
         return;
     };
     let modes = interface.knobs.iter().filter_map(|knob| match &knob.ty.role {
-        KnobRole::Choice(words) if knob.name.ends_with("mode") => Some((knob, words)),
+        Role::Choice(words) if knob.name.ends_with("mode") => Some((knob, words)),
         _ => None,
     });
     for (knob, words) in modes {

@@ -5,7 +5,7 @@ use egui::{Key, RichText, TextureId, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::VariantCommand;
 use sabi_editing::{OpenDocument, exposed_knobs, shown_variant, variants};
-use sabi_engine::catalog::label_of;
+use sabi_nodes::label_of;
 
 use super::card::{Card, CardSize};
 use crate::action::Action;

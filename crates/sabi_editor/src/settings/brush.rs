@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use sabi_engine::paint::{
+use sabi_paint::{
     Action, Area, Brush, CopyOf, EdgeKind, Fade, Jitter, Limits, PenEffects, PictureTip, Stroke, Symmetry, Tip, Turn,
 };
 use serde::{Deserialize, Serialize};

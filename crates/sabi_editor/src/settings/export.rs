@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{CopyOptions, DEFAULT_PRESET, default_padding, export_channels};
+use sabi_engine::baking::{DEFAULT_PRESET, default_padding, export_channels};
+use sabi_export::CopyOptions;
 
 /// Sizes that the panel offers.
 pub(crate) const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -126,7 +127,7 @@ pub(crate) struct ExportPlace {
     /// True if the base and every variant are exported, each to a folder of its own in the folder.
     pub(crate) variants: bool,
     /// Model that the textures in the folder were exported for.
-    #[serde(with = "sabi_engine::stored::optional")]
+    #[serde(with = "sabi_files::stored::optional")]
     pub(crate) model: Option<PathBuf>,
 }
 

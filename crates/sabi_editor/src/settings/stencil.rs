@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use sabi_engine::paint::PictureTip;
+use sabi_paint::PictureTip;
 use serde::{Deserialize, Serialize};
 
 /// Limits of the size of a stencil: half of its longer side, in halves of the height of the view.

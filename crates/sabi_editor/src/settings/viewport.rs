@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use sabi_engine::view::{
+use sabi_view::{
     Background, Light, LightPlace, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Shot, USUAL_BLOOM, ViewTransform,
 };
 
@@ -210,7 +210,7 @@ pub(crate) fn within(number: f32, limits: &RangeInclusive<f32>, usual: f32) -> f
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::view::Camera;
+    use sabi_view::Camera;
 
     use super::*;
 

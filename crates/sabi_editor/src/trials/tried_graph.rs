@@ -1,8 +1,8 @@
 //! Graphs that are tried.
 
 use sabi_editing::{OpenDocument, linked_groups, variants};
-use sabi_engine::{NodeRef, OpenGraph};
-use sabi_graph::{Graph, Node};
+use sabi_engine::OpenGraph;
+use sabi_graph::{Graph, Node, NodeRef};
 
 use super::{Trial, TrialSource};
 use crate::looks::material_port;

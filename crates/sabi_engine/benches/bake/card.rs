@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use sabi_engine::{Gpu, LinkedModel, ModelOptions, NoProgress};
-use sabi_gpu::AdapterKind;
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions};
+use sabi_engine::phases::NoProgress;
+use sabi_gpu::{AdapterKind, Gpu};
 
 use super::setup::{adapter, root};
 use super::{bake_once, graph, row};

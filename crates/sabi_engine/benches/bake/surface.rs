@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use sabi_engine::{
-    CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
-    OpenGraph, Overrides,
-};
-use sabi_gpu::StepTime;
-use sabi_graph::{Document, Fit};
+use sabi_engine::evaluating::EvaluatorOptions;
+use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions};
+use sabi_engine::phases::NoProgress;
+use sabi_engine::{Evaluator, Kinds, OpenGraph};
+use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES, StepTime};
+use sabi_graph::{Document, Fit, Overrides};
 use sabi_plan::{Mode, Target};
 use sabi_surface::bvh::Bvh;
 

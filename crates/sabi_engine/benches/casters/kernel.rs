@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use sabi_engine::choose_adapter;
-use sabi_gpu::{Given, ModuleSpec};
+use sabi_gpu::choose_adapter;
+use sabi_nodes::link::{Given, ModuleSpec};
 use sabi_surface::bvh::Bvh;
 use wgpu::util::DeviceExt as _;
 

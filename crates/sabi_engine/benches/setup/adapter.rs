@@ -2,7 +2,7 @@
 
 use std::env;
 
-use sabi_engine::AdapterChoice;
+use sabi_gpu::AdapterChoice;
 
 /// Returns the adapter that `SABI_ADAPTER` names in the form of `--adapter`, otherwise the one that a user gets.
 pub(crate) fn adapter() -> AdapterChoice {

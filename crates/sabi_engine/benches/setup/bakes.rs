@@ -3,10 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{
-    AdapterChoice, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, ModelOptions, Overrides,
-    Seams,
-};
+use sabi_engine::baking::{BakeRequest, Seams};
+use sabi_engine::evaluating::EvaluatorOptions;
+use sabi_engine::opening::linked_model::ModelOptions;
+use sabi_files::Disk;
+use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::Overrides;
 
 /// Writes a graph of some nodes.
 pub(crate) fn graph(folder: &Path, name: &str, nodes: &str) -> PathBuf {

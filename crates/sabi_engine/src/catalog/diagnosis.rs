@@ -53,7 +53,7 @@ pub fn diagnose() -> Diagnosis {
         adapters,
         usable: opened.is_ok(),
         problem: opened.err().map(|error| error.to_string()),
-        cache: crate::default_cache_dir().map(|folder| folder.display().to_string()),
+        cache: crate::opening::default_cache_dir().map(|folder| folder.display().to_string()),
         nodes: kinds.library.kinds().count() + kinds.sources.len() + kinds.sinks.len(),
         faults: kinds.faults.iter().map(ToString::to_string).collect(),
     }

@@ -9,8 +9,9 @@ use sabi_graph::{
     REROUTE_KIND, SlotRef,
 };
 use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
+use sabi_nodes::label_of;
 
-use super::{Catalog, Interface, Knob, Port, label_of, placeholder};
+use super::{Catalog, Interface, Knob, Port, placeholder};
 
 /// Maximum nesting of group files. Deeper ones are shown as missing.
 const DEEPEST_FILE: usize = 16;

@@ -7,9 +7,9 @@ use sabi_files::{Disk, FileError, absolute, path_from_stored, read_plain, stored
 use sabi_nodes::{SourceFile, read_kind};
 use serde_json::{Value, json};
 
-use crate::catalog::label_of;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
+use sabi_nodes::label_of;
 
 /// Maximum size in bytes of a file that replaces a node's file; larger than any node.
 const MOST_BYTES: u64 = 1 << 20;

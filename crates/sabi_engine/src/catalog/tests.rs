@@ -1,6 +1,6 @@
 use sabi_graph::{Body, Document, PortType, Value};
 
-use super::{Catalog, Interfaces, KnobRole};
+use super::{Catalog, Interfaces};
 use crate::opening::kinds::Kinds;
 
 fn catalog() -> Catalog {
@@ -37,7 +37,7 @@ fn a_knob_holds_its_default_as_a_file_would() {
         entry.knob(name).expect("a documented parameter").clone()
     };
     assert_eq!(knob("noise/simplex", "size").ty.default, Value::Number(0.25));
-    assert_eq!(knob("noise/simplex", "size").ty.role, KnobRole::Length);
+    assert_eq!(knob("noise/simplex", "size").ty.role, sabi_nodes::kind::Role::Length);
     assert_eq!(knob("noise/simplex", "mode").ty.default, Value::Text("fbm".to_owned()));
     assert_eq!(knob("effect/layer", "color_on").ty.default, Value::Bool(true));
     assert_eq!(

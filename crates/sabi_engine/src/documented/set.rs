@@ -8,10 +8,17 @@ use sabi_graph::Value;
 
 use super::keys::{documented, written};
 use super::{constant, decoded_uvs, document, output, overlap, text, unwrapped};
-use crate::{
-    BakeAdapter, BakeReport, BakedMesh, Build, Conventions, CopiedFileReport, CopyOptions, Finding, FindingKind, Fit,
-    InputRecord, ModelCopyReport, ModelRecipe, Overlap, PhaseTimes, Recipe, Seams, SetRecipe, Udim, Up, Verification,
-};
+use crate::baking::made_of::{InputRecord, ModelRecipe, Recipe, SetRecipe};
+use crate::baking::recorded::{Finding, FindingKind, Verification};
+use crate::baking::report::{BakeAdapter, BakedMesh, Conventions, CopiedFileReport, ModelCopyReport};
+use crate::baking::{BakeReport, Seams};
+use crate::opening::linked_model::Overlap;
+use crate::phases::PhaseTimes;
+use crate::program::Build;
+use sabi_export::CopyOptions;
+use sabi_graph::Fit;
+use sabi_surface::atlas::Udim;
+use sabi_surface::load::Up;
 
 fn build() -> Build {
     Build {

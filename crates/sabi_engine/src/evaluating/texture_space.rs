@@ -1,9 +1,10 @@
 //! Results in texture space: values laid out like the maps of a texture set.
 
+use sabi_color::srgb8_from_linear;
 use sabi_export::{BorderRule, Channel, ChartBorders, Cover, NONE, Padding, PaddingMap, SetKey, SetLayout};
 use sabi_gpu::{BorderKind, Run, read_slot};
 use sabi_graph::PortType;
-use sabi_image::{quantize_u8, srgb8_from_linear};
+use sabi_image::quantize_u8;
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult};

@@ -6,11 +6,13 @@ use sabi_graph::{Body, Document, Exposed, Fit, FlatGraph, Overrides, SlotRef, Va
 use serde::Serialize;
 
 use super::graph_files::{FileDescription, GraphFiles};
-use crate::catalog::{Catalog, Interfaces, KnobRole, label_of};
+use crate::catalog::{Catalog, Interfaces};
 use crate::evaluating::outputs::{missing_output, outputs};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::source::map_output;
+use sabi_nodes::kind::Role;
+use sabi_nodes::label_of;
 
 /// A graph.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -231,10 +233,10 @@ fn default_of_param(interfaces: &Interfaces, slot: &SlotRef) -> Option<Value> {
     Some(entry.knob(&slot.name)?.ty.default.clone())
 }
 
-fn unit(role: &KnobRole) -> Option<&'static str> {
+fn unit(role: &Role) -> Option<&'static str> {
     match role {
-        KnobRole::Angle => Some("degrees"),
-        KnobRole::Length => Some("fit"),
+        Role::Angle => Some("degrees"),
+        Role::Length => Some("fit"),
         _ => None,
     }
 }

@@ -12,7 +12,6 @@ use sabi_plan::{Mode, Plan, Step, Target};
 use super::evaluation_error::EvaluationError;
 use super::event::LiveModel;
 use super::request::{LiveOptions, LiveRequest};
-use crate::AdapterChoice;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluated_graph::model_source_node;
 use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
@@ -25,6 +24,7 @@ use crate::opening::solidity;
 use crate::phases::Progress;
 use crate::source::paint::is_plainly_painted_on;
 use crate::warning::Warning;
+use sabi_gpu::AdapterChoice;
 
 /// Rays per texel of a coarse picture while a knob is dragged.
 const FEW_RAYS: u32 = 8;

@@ -7,8 +7,8 @@ use sabi_graph::nearest;
 use sabi_image::{DeclaredColorSpace, Pixels};
 use sabi_view::{Environment, Panorama};
 
-use crate::Gpu;
 use crate::error::{EngineError, ErrorKind};
+use sabi_gpu::Gpu;
 
 /// Name of the environment that is shown by default.
 pub(crate) const DEFAULT_ENVIRONMENT: &str = "studio";

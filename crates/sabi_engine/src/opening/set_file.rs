@@ -18,7 +18,7 @@ pub struct SetFile {
     /// Seed in place of the graph's.
     pub seed: Option<u32>,
     /// Values by exposed knob or `node.param`, in the order of the file. A text is parsed by the type of the parameter, as
-    /// by [`read_setting`](crate::read_setting).
+    /// by [`read_setting`](crate::opening::read_setting).
     pub set: Vec<(String, Value)>,
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sabi_files::read_plain;
-use sabi_surface::load::ENDINGS;
+use sabi_surface::load::MODEL_ENDINGS;
 
 use super::manifest;
 
@@ -63,7 +63,7 @@ pub(super) fn is_picture(name: &str, bytes: &[u8]) -> bool {
 }
 
 fn is_known(ending: &str) -> bool {
-    OWN_ENDINGS.contains(&ending) || ENDINGS.contains(&ending) || is_usual_ending(ending)
+    OWN_ENDINGS.contains(&ending) || MODEL_ENDINGS.contains(&ending) || is_usual_ending(ending)
 }
 
 /// Returns the extension of the last part of a name in lower case.

@@ -20,7 +20,7 @@ use crate::opening::graph_faults::refuse_faults;
 use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::phases::NoProgress;
-use crate::{CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
 
 /// Name of the square, for nodes that know models by their names.
 const NAME: &str = "square";

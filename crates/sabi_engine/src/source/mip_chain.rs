@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sabi_image::{Picture, Pixels, linear_from_srgb};
+use sabi_color::linear_from_srgb;
+use sabi_image::{Picture, Pixels};
 
 /// Options for reading the values of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

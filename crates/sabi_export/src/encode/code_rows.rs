@@ -6,7 +6,8 @@
 use std::mem;
 use std::ops::Range;
 
-use sabi_image::{DitherPattern, DitheredRow, level, rounded, srgb_from_linear, srgb8_from_linear};
+use sabi_color::{srgb_from_linear, srgb8_from_linear};
+use sabi_image::{DitherPattern, DitheredRow, level, rounded};
 
 use super::plane::Plane;
 

@@ -148,7 +148,7 @@ fn colors_may_be_dithered_after_their_curve() {
     let pixels = ChannelPixels {
         components: 1,
         data: (0..size * size)
-            .map(|at| sabi_image::linear_from_srgb(0.4 + at as f32 * 1e-6))
+            .map(|at| sabi_color::linear_from_srgb(0.4 + at as f32 * 1e-6))
             .collect(),
     };
     let plane = Plane::Channel {

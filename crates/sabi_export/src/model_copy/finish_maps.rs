@@ -162,7 +162,7 @@ impl CodedChannel {
     fn triple_code(&self, pixel: usize) -> [u8; 3] {
         match self {
             CodedChannel::Codes(codes) => std::array::from_fn(|at| codes[3 * pixel + at]),
-            CodedChannel::Constant(Value::Triple(values)) => values.map(sabi_image::srgb8_from_linear),
+            CodedChannel::Constant(Value::Triple(values)) => values.map(sabi_color::srgb8_from_linear),
             CodedChannel::Constant(Value::Number(_)) => [0; 3],
         }
     }

@@ -1,7 +1,8 @@
 //! The pixels of a picture at one size.
 
 use glam::DVec2;
-use sabi_image::{Picture, srgb_from_linear};
+use sabi_color::srgb_from_linear;
+use sabi_image::Picture;
 
 use super::{Ends, PicturePart};
 

@@ -4,7 +4,7 @@ use super::error::ModelFault;
 use super::{dae, ending, fbx, ply, stl};
 
 /// Extensions of supported files, most common first.
-pub const ENDINGS: [&str; 8] = ["glb", "gltf", "vrm", "fbx", "obj", "dae", "ply", "stl"];
+pub const MODEL_ENDINGS: [&str; 8] = ["glb", "gltf", "vrm", "fbx", "obj", "dae", "ply", "stl"];
 
 /// Number of bytes at the start of a file in which the root element of XML is searched.
 const ROOT_WITHIN: usize = 4096;
@@ -40,7 +40,7 @@ pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<ModelFormat, ModelFa
         _ if stl::is_likely(bytes) => Ok(ModelFormat::Stl),
         _ => Err(ModelFault::Format(format!(
             "this is not a model that is read here: give a {} file",
-            listed(&ENDINGS.map(|ending| format!(".{ending}")), "or")
+            listed(&MODEL_ENDINGS.map(|ending| format!(".{ending}")), "or")
         ))),
     }
 }

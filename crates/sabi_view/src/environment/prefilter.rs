@@ -3,7 +3,8 @@
 use std::f32::consts::PI;
 
 use glam::{Vec3, Vec4, vec3};
-use sabi_gpu::{Gpu, shader_module, wgsl_struct};
+use sabi_gpu::{Gpu, shader_module};
+use sabi_nodes::wgsl_struct;
 
 use super::panorama::Panorama;
 use crate::error::ViewError;

@@ -103,7 +103,7 @@ pub(super) fn vertex_buffer<T>(
 
 #[cfg(test)]
 mod tests {
-    use sabi_gpu::{MirrorValue, MirrorsWgsl};
+    use sabi_nodes::link::{MirrorValue, MirrorsWgsl};
 
     use super::{LINE_ATTRIBUTES, POSITION_ATTRIBUTE, VERTEX_ATTRIBUTES};
     use crate::edges::Line;

@@ -4,7 +4,7 @@
 //! The levels depend on the picture's size, so that pictures of all sizes look alike.
 
 use sabi_gpu::Gpu;
-use sabi_gpu::wgsl_struct;
+use sabi_nodes::wgsl_struct;
 
 use super::Renderer;
 use super::passes::color_attachment;

@@ -1,7 +1,7 @@
 //! Bind groups and pipelines of a scene.
 
 use sabi_gpu::Gpu;
-use sabi_gpu::wgsl_struct;
+use sabi_nodes::wgsl_struct;
 
 use super::{Renderer, choice};
 use crate::error::ViewError;

@@ -1,6 +1,7 @@
 //! The passes of a picture.
 
-use sabi_gpu::{Gpu, wgsl_struct};
+use sabi_gpu::Gpu;
+use sabi_nodes::wgsl_struct;
 
 use super::Renderer;
 use super::bound::Bound;

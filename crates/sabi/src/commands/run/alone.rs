@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use sabi_batch::BakePlan;
-use sabi_engine::{TrustedPaths, bake};
+use sabi_engine::baking::bake;
+use sabi_files::TrustedPaths;
 
 use super::item_process::BakedItem;
 use crate::advice::with_flags;

@@ -4,7 +4,8 @@ use std::process::Command;
 use std::{env, io};
 
 use sabi_batch::running::ProcessEnd;
-use sabi_engine::{Phase, TrustedPaths};
+use sabi_engine::phases::Phase;
+use sabi_files::TrustedPaths;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 

@@ -1,7 +1,7 @@
 //! Progress of a run for programs: events, or lines of Open Job Description.
 
 use sabi_batch::running::{ItemStatus, RunShare};
-use sabi_engine::Phase;
+use sabi_engine::phases::Phase;
 
 use crate::arguments::ProgressChoice;
 use crate::event::Event;

@@ -3,7 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{Disk, Fault, Remedy, recoveries};
+use sabi_engine::Remedy;
+use sabi_engine::session::recoveries;
+use sabi_files::{Disk, Fault};
 
 use super::super::*;
 use super::actions::Hands;

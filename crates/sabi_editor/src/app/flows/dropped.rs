@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use egui::Ui;
 use sabi_editing::command::NodeCommand;
-use sabi_engine::{MODEL_ENDINGS, io_reason, path_text};
+use sabi_files::{io_reason, path_text};
+use sabi_surface::load::MODEL_ENDINGS;
 
 use super::super::Editor;
 use crate::action::Next;

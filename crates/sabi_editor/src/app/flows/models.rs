@@ -4,10 +4,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use egui::Context;
-use sabi_engine::SavedReading;
+use sabi_engine::opening::linked_model::SavedReading;
 
 use super::super::Editor;
-use sabi_engine::io_reason;
+use sabi_files::io_reason;
 
 use crate::evaluation::ModelOutcome;
 use crate::files::examples;

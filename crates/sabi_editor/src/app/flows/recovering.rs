@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use egui::Context;
-use sabi_engine::is_open_in_a_window;
+use sabi_engine::session::is_open_in_a_window;
 
 use super::super::Editor;
 use crate::files::Question;

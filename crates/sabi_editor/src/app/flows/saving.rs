@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{EngineError, Remedy, is_open_in_a_window};
+use sabi_engine::session::is_open_in_a_window;
+use sabi_engine::{EngineError, Remedy};
 
 use super::super::Editor;
 use crate::exports::ExportSource;

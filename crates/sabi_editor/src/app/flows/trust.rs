@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{knob_target, missing_files, relative_paths};
-use sabi_engine::{PathBase, TrustedPaths, Value};
+use sabi_files::{PathBase, TrustedPaths};
+use sabi_graph::Value;
 
 use super::super::Editor;
 use crate::action::TrustAction;

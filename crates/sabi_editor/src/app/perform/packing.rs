@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_engine::{PackRequest, PackedModel};
+use sabi_engine::packing::{PackRequest, PackedModel};
 
 use crate::app::Editor;
 

@@ -5,9 +5,11 @@ use std::path::Path;
 use egui::Ui;
 use sabi_editing::command::{Outcome, PaintCommand, perform};
 use sabi_editing::painting;
-use sabi_engine::paint::{Action as BrushAction, CopyOf, PictureName, PicturePart, PictureTip};
-use sabi_engine::{SetKey, Strokes, ViewSubject};
+use sabi_engine::live::ViewSubject;
+use sabi_engine::source::Strokes;
+use sabi_export::SetKey;
 use sabi_graph::NodeId;
+use sabi_paint::{Action as BrushAction, CopyOf, PictureName, PicturePart, PictureTip};
 
 use crate::action::PaintAction;
 use crate::app::Editor;

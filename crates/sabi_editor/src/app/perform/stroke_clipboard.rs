@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::Ui;
 use sabi_editing::command::PaintCommand;
 use sabi_editing::painting::{strokes_of, strokes_on};
-use sabi_engine::paint::{Step, Stroke, StrokeGroup, strokes_as_text, strokes_from_text};
+use sabi_paint::{Step, Stroke, StrokeGroup, strokes_as_text, strokes_from_text};
 
 use crate::app::Editor;
 

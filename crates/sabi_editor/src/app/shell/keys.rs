@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Context, Event, EventFilter, FocusDirection, Key, Memory, Modifiers, Popup, Response, Ui, ViewportCommand};
 use sabi_editing::command::ClipboardCommand;
-use sabi_engine::paint::is_text_of_strokes;
+use sabi_paint::is_text_of_strokes;
 
 use super::Shell;
 use crate::action::{Action, ArrowKey, PaintAction};

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use egui::TextureId;
-use sabi_engine::{BakeRequest, ViewSubject};
+use sabi_engine::baking::BakeRequest;
+use sabi_engine::live::ViewSubject;
 use sabi_graph::{NodeId, NodeRef};
 
 use super::{Editor, Folders};

@@ -3,7 +3,7 @@
 use egui::accesskit::Role;
 use egui_kittest::Node;
 use egui_kittest::kittest::Queryable;
-use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, PicturePart};
+use sabi_paint::{Action as BrushAction, Area, CopyOf, PicturePart};
 
 use super::Window;
 use super::painting::painting_on;

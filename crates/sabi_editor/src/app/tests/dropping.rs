@@ -91,7 +91,10 @@ impl Window {
     fn show_squares(&mut self, squares: &Path) {
         self.harness.state_mut().take_model(squares);
         self.until("the squares", |editor| {
-            let picture = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
+            let picture = editor
+                .evaluation
+                .results
+                .picture(&sabi_engine::live::ViewSubject::Outputs);
             let is_of_squares = picture.is_some_and(|picture| picture.model.linked.model.materials.len() == 2);
             is_of_squares && editor.evaluation.model.file().ends_with("squares.gltf") && !editor.evaluation.is_busy()
         });
@@ -146,7 +149,7 @@ fn a_layer_dropped_on_a_model_beside_the_main_one_is_added_to_its_material() {
     window.harness.state_mut().show_beside(&squares);
     window.until("the squares", |editor| {
         let beside = editor.row.beside().first();
-        let picture = beside.and_then(|model| model.results.picture(&sabi_engine::ViewSubject::Outputs));
+        let picture = beside.and_then(|model| model.results.picture(&sabi_engine::live::ViewSubject::Outputs));
         picture.is_some() && editor.views.model.has_picture_beside(0) && !beside.is_some_and(|model| model.is_busy())
     });
     let file = window.editor().row.files().remove(0);

@@ -224,8 +224,8 @@ fn the_window_exports_the_same_bytes_as_a_bake_without_a_window() {
     window.until("the maps", |editor| editor.exports.running.is_none());
     let mut alone = window.editor().bake_request(window.path("alone"), false);
     alone.graph = window.path("graph.sabi");
-    alone.evaluator.adapter = sabi_engine::AdapterChoice::Cpu;
-    let report = sabi_engine::bake(&alone, &sabi_engine::NoProgress).expect("a bake");
+    alone.evaluator.adapter = sabi_gpu::AdapterChoice::Cpu;
+    let report = sabi_engine::baking::bake(&alone, &sabi_engine::phases::NoProgress).expect("a bake");
     assert!(!report.files.is_empty());
     for name in report.files.iter().filter(|name| name.ends_with("png")) {
         let read = |folder: &str| fs::read(window.path(folder).join(name)).expect("a map");

@@ -249,14 +249,14 @@ fn an_unsaved_node_file_is_recovered_whether_or_not_the_graph_was_changed() {
 #[test]
 fn a_recovered_node_file_is_kept_beside_another_unsaved_version_of_it() {
     let mut window = Window::opened(CLOUDS);
-    let draft = |text: &str| sabi_engine::NodeDraft {
+    let draft = |text: &str| sabi_engine::catalog::node_file::NodeDraft {
         folder: window.path("nodes"),
         id: "noise/mine".to_owned(),
         text: text.to_owned(),
         known: None,
     };
     let (first, second) = (draft("//! First"), draft("//! Second"));
-    first.save(&sabi_engine::Disk::default()).expect("a file");
+    first.save(&sabi_files::Disk::default()).expect("a file");
     let Editor { views, documents, .. } = window.harness.state_mut();
     let (page, document) = (&mut views.page, &documents.document);
     page.recover(vec![first.clone()], document);
@@ -342,13 +342,13 @@ fn a_recovery_file_can_be_discarded_once_no_window_uses_it() {
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.mute();
     let unsaved = window.path("unsaved");
-    assert!(sabi_engine::recoveries(&unsaved).is_empty(), "it is in use");
+    assert!(sabi_engine::session::recoveries(&unsaved).is_empty(), "it is in use");
     let mut window = window.after_a_crash();
     assert!(window.says("graph.sabi"));
     window.press("Discard");
     window.press("Discard permanently");
     assert!(!window.says("The program ended before this was saved"));
-    assert!(sabi_engine::recoveries(&unsaved).is_empty());
+    assert!(sabi_engine::session::recoveries(&unsaved).is_empty());
 }
 
 #[test]

@@ -105,7 +105,7 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
     let file = window.path("library").join("wear.sabi");
     assert!(file.is_file());
     let cache = window.editor().folders().cache.clone().expect("a cache");
-    assert!(sabi_engine::load_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
+    assert!(sabi_engine::evaluating::load_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
     window.settle();
     assert_eq!(sections_of(&window, "Wear"), ["project library"], "it is listed once");
     // Adding it from the library gives the group that the graph has already.

@@ -1,7 +1,9 @@
 //! Settings of the whole graph: texture size while editing, unit of length, and options for reading the model.
 
-use sabi_engine::{Overlap, Session, Up};
+use sabi_engine::Session;
+use sabi_engine::opening::linked_model::Overlap;
 use sabi_graph::Fit;
+use sabi_surface::load::Up;
 
 use super::{Window, beside};
 

@@ -6,8 +6,8 @@ use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers, PointerButton, Rect, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use sabi_editing::stack;
-use sabi_engine::ViewSubject;
-use sabi_engine::paint::Action as BrushAction;
+use sabi_engine::live::ViewSubject;
+use sabi_paint::Action as BrushAction;
 
 use super::Window;
 use super::hands::id;

@@ -1,7 +1,7 @@
 //! Paths that are drawn knot by knot on the model, and along its edges.
 
 use egui::{Key, Modifiers, PointerButton, Pos2, vec2};
-use sabi_engine::paint::{Area, Bend, Path, Stroke};
+use sabi_paint::{Area, Bend, Path, Stroke};
 
 use egui_kittest::kittest::Queryable;
 
@@ -156,7 +156,7 @@ fn a_click_on_a_knot_makes_no_undo_step_and_leaves_the_path_unchanged() {
 #[test]
 fn a_path_that_clones_asks_for_its_source_first() {
     let mut window = drawing(Hand::Path);
-    window.harness.state_mut().shell.settings.brush.action = sabi_engine::paint::Action::Clone;
+    window.harness.state_mut().shell.settings.brush.action = sabi_paint::Action::Clone;
     let [first, second, _] = window.corners();
     window.click_at(first);
     assert!(window.list("mask").is_none(), "nothing is drawn without a source");

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers, PointerButton, Pos2, vec2};
 use sabi_editing::painting::{strokes_of, strokes_on};
-use sabi_engine::paint::{Action as BrushAction, Area, StrokeList};
+use sabi_paint::{Action as BrushAction, Area, StrokeList};
 
 use egui_kittest::kittest::Queryable;
 
@@ -28,7 +28,10 @@ const GRAPH: &str = r#"{
 pub(super) fn painting_on(node: &str) -> Window {
     let mut window = Window::of(GRAPH);
     window.until("the model", |editor| {
-        let picture = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
+        let picture = editor
+            .evaluation
+            .results
+            .picture(&sabi_engine::live::ViewSubject::Outputs);
         picture.is_some() && !editor.evaluation.is_busy()
     });
     window.harness.state_mut().documents.document.select([id(node)]);

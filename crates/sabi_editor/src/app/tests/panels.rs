@@ -218,7 +218,7 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
     let what = variants::as_text(&window.editor().documents.document, &variants["as bought"]);
     let file = window.path("worn.sabi");
     let cache = window.editor().evaluation.cache_dir().expect("a cache");
-    let kept = sabi_engine::load_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
+    let kept = sabi_engine::evaluating::load_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
     assert_eq!(kept.size, [128, 128]);
     window.choose("As bought", "Rename");
     window.fill("New name of the variant", "new");

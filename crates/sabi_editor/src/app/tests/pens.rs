@@ -3,7 +3,7 @@
 use egui::{PointerButton, RawInput};
 use egui_kittest::kittest::Queryable;
 use glam::DVec3;
-use sabi_engine::paint::{Action as BrushAction, Fade, StrokePoint};
+use sabi_paint::{Action as BrushAction, Fade, StrokePoint};
 
 use super::Window;
 use super::painting::painting_on;

@@ -334,7 +334,7 @@ fn unsaved_work_is_kept_when_the_system_ends_the_program() {
     // Discarded changes are not kept.
     window.harness.state_mut().may_close = true;
     eframe::App::on_exit(window.harness.state_mut());
-    assert!(sabi_engine::recoveries(&window.path("unsaved")).is_empty());
+    assert!(sabi_engine::session::recoveries(&window.path("unsaved")).is_empty());
 }
 
 #[test]

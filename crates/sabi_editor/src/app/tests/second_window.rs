@@ -87,17 +87,17 @@ fn a_file_that_is_open_in_another_window_is_not_replaced_without_a_question() {
 fn the_same_graph_opens_in_its_own_window_again_without_a_question() {
     let mut window = Window::opened(CLOUDS);
     let file = window.path("graph.sabi");
-    assert!(sabi_engine::is_open_in_a_window(&file));
+    assert!(sabi_engine::session::is_open_in_a_window(&file));
     window.harness.state_mut().open_file(&file);
     window.settle();
     assert!(!window.says("This graph is open already"));
     // The first file of a new graph is claimed, too.
     window.keys(Modifiers::COMMAND, Key::N);
-    assert!(!sabi_engine::is_open_in_a_window(&file));
+    assert!(!sabi_engine::session::is_open_in_a_window(&file));
     window.add([0.3, 0.3], "clouds");
     window.saves();
     window.answer_path(&window.path("first.sabi"));
-    assert!(sabi_engine::is_open_in_a_window(&window.path("first.sabi")));
+    assert!(sabi_engine::session::is_open_in_a_window(&window.path("first.sabi")));
 }
 
 #[test]

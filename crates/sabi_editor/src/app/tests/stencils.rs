@@ -2,8 +2,8 @@
 
 use egui::{Modifiers, PointerButton, Pos2, Rect, vec2};
 use glam::{DVec2, DVec4};
-use sabi_engine::paint::PicturePart;
-use sabi_engine::view::Lens;
+use sabi_paint::PicturePart;
+use sabi_view::Lens;
 
 use super::Window;
 use super::painting::painting_on;
@@ -14,7 +14,7 @@ fn stenciled() -> Window {
     let mut window = painting_on("mask");
     let strokes = window.document().session.graph().strokes.clone();
     let picture = strokes.keep_shapes([8, 4], &[255; 32]).expect("a picture");
-    let tip = sabi_engine::paint::PictureTip {
+    let tip = sabi_paint::PictureTip {
         picture,
         part: PicturePart::Alpha,
     };

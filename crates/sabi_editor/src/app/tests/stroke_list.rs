@@ -1,7 +1,7 @@
 //! The list of strokes: groups, paths from strokes, copies, and strokes that are moved on the model.
 
 use egui::{Event, Modifiers, PointerButton, vec2};
-use sabi_engine::paint::{Area, strokes_as_text};
+use sabi_paint::{Area, strokes_as_text};
 
 use egui_kittest::kittest::Queryable;
 
@@ -110,7 +110,7 @@ fn the_handles_of_marked_strokes_move_and_turn_them_on_the_model() {
     let turn = middle + vec2(40.0, -24.0);
     window.drag(turn, turn + vec2(-30.0, -20.0), PointerButton::Primary, Modifiers::NONE);
     let turned = window.list("mask").expect("strokes").strokes[0].clone();
-    let rise = |stroke: &sabi_engine::paint::Stroke| {
+    let rise = |stroke: &sabi_paint::Stroke| {
         let [first, last] = [stroke.points.first(), stroke.points.last()];
         last.expect("a place").site.position.y - first.expect("a place").site.position.y
     };

@@ -181,7 +181,7 @@ fn a_hovered_entry_is_explained_beside_the_list() {
 fn pictures_of_nodes_and_variants_have_the_shade_of_the_view() {
     let column = include_bytes!("../../../../../assets/meshes/bench.glb");
     let paint: NodeId = "paint".parse().expect("an id");
-    let brightness = |pixels: &sabi_engine::view::Pixels| {
+    let brightness = |pixels: &sabi_view::Pixels| {
         let covered: Vec<&[u8]> = pixels.rgba.chunks_exact(4).filter(|pixel| pixel[3] == 255).collect();
         covered.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / covered.len() as f64
     };

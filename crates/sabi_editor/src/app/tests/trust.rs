@@ -150,7 +150,7 @@ fn a_saved_graph_opens_a_model_of_several_files_that_the_command_line_named() {
     let file = kept.path().join("graph.sabi");
     let editor = window.harness.state_mut();
     // Starts with the trust that a model on the command line gets; it is not stored.
-    editor.documents.trust(&sabi_engine::TrustedPaths::of_file(&hero));
+    editor.documents.trust(&sabi_files::TrustedPaths::of_file(&hero));
     editor.take_model(&hero);
     window.until("the model", |editor| {
         editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.gltf")

@@ -2,7 +2,7 @@
 
 use egui::epaint::{CubicBezierShape, PathStroke};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke};
-use sabi_engine::curve::{value_at, with_slopes};
+use sabi_curve::{value_at, with_slopes};
 
 /// Distance of points below which they make a step.
 const STEP_WIDTH: f64 = 1e-6;

@@ -6,7 +6,7 @@ use egui::{
     Align2, Id, Popup, PopupCloseBehavior, Rect, Response, ScrollArea, Sense, Ui, Vec2, WidgetInfo, WidgetType,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::catalog::typed_color;
+use sabi_nodes::typed_color;
 use serde::Deserialize;
 
 use super::paint_ramp;

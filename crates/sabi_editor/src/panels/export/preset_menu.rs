@@ -1,9 +1,8 @@
 //! Choice of the preset, and the files that it writes.
 
 use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
-use sabi_engine::{
-    ListedPreset, PresetDescription, PresetFile, default_preset_folder, describe_preset, export_presets,
-};
+use sabi_engine::baking::preset_description::{PresetDescription, PresetFile, describe_preset};
+use sabi_engine::baking::presets::{ListedPreset, default_preset_folder, export_presets};
 
 use crate::theme::{Theme, space};
 

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use sabi_engine::catalog::picture_of;
-use sabi_engine::group_picture;
+use sabi_engine::effect_library::group_picture;
 
 use crate::task::Task;
 

@@ -5,7 +5,9 @@ use std::path::Path;
 use egui::{RichText, TextEdit, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::OpenDocument;
-use sabi_engine::{NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node};
+use sabi_engine::catalog::node_file::{
+    NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node,
+};
 
 use super::code;
 use crate::action::Action;

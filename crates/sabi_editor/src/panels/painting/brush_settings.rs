@@ -3,7 +3,7 @@
 use egui::epaint::Hsva;
 use egui::{Button, Color32, Popup, PopupCloseBehavior, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, Fade, FadeCurve, PicturePart, Turn};
+use sabi_paint::{Action as BrushAction, Area, CopyOf, Fade, FadeCurve, PicturePart, Turn};
 
 use super::swatches::Swatches;
 use super::{choice, pen, stencil, tips};

@@ -1,7 +1,7 @@
 //! Settings of the pen: the effects of its pressure and its tilt.
 
 use egui::{Sense, Slider, Ui, vec2};
-use sabi_engine::paint::PenEffects;
+use sabi_paint::PenEffects;
 
 use crate::context::ViewContext;
 use crate::settings::brush::BrushChoices;

@@ -2,7 +2,7 @@
 
 use egui::{Slider, Ui};
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::PicturePart;
+use sabi_paint::PicturePart;
 
 use super::choice;
 use crate::action::{Action, PaintAction};

@@ -10,8 +10,8 @@ use egui::{Button, Image, Key, Rect, Response, ScrollArea, Sense, TextEdit, Ui, 
 use egui_phosphor::regular as icon;
 use sabi_editing::command::PaintCommand;
 use sabi_editing::painting::{strokes_of, strokes_on};
-use sabi_engine::paint::{Action as BrushAction, Area, Brush, Step, Stroke, StrokeGroup, StrokeList, Version};
 use sabi_graph::NodeId;
+use sabi_paint::{Action as BrushAction, Area, Brush, Step, Stroke, StrokeGroup, StrokeList, Version};
 
 use order::{Row, rows_of};
 use tools::{Tools, tool};

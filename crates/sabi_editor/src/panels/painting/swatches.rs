@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use egui::{ColorImage, TextureHandle, TextureId, TextureOptions, Ui};
-use sabi_engine::paint::{Brush, StampPictures, swatch};
+use sabi_paint::{Brush, StampPictures, swatch};
 
 use crate::brush::shown_pixel;
 use crate::context::ViewContext;

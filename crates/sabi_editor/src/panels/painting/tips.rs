@@ -5,7 +5,7 @@ use egui::{
     WidgetInfo, WidgetType, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::Tip;
+use sabi_paint::Tip;
 
 use super::swatches::{SWATCH, Swatches};
 use crate::action::{Action, PaintAction};

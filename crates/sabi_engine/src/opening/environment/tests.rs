@@ -8,7 +8,8 @@ use sabi_image::{PngData, PngOptions, encode_exr, encode_png};
 use sabi_view::Panorama;
 
 use super::{BUILT_IN, load_environment, read_panorama};
-use crate::{AdapterChoice, ErrorKind, Gpu};
+use crate::ErrorKind;
+use sabi_gpu::{AdapterChoice, Gpu};
 
 /// Returns a file in a folder of its own, and its path as text.
 fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, String) {

@@ -107,7 +107,7 @@ fn what_is_no_picture_is_refused_with_its_name() {
     let desk = desk();
     let file = desk.path().join("note.png");
     fs::write(&file, b"no picture").unwrap();
-    let strokes = crate::Strokes::default();
+    let strokes = crate::source::Strokes::default();
     let refused = strokes.take_picture(&file).unwrap_err();
     assert!(refused.contains("note.png"), "{refused}");
     let gone = strokes.take_picture(&desk.path().join("gone.png")).unwrap_err();

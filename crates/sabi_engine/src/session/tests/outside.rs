@@ -121,7 +121,7 @@ fn a_link_stays_one_and_who_may_read_a_file_stays_too() {
     assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
     assert!(desk.path().join("real/a.sabi.bak").is_file());
     // All other files that are kept are written in the same way.
-    crate::write_whole(&link, b"whole").unwrap();
+    sabi_files::write_whole(&link, b"whole").unwrap();
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(fs::read(&file).unwrap(), b"whole");
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use sabi_paint::{Brush, Site, Stroke, StrokePoint};
+use sabi_paint::{Brush, Stroke, StrokePoint};
+use sabi_surface::patch::Site;
 
 use super::*;
 
@@ -228,9 +229,9 @@ fn flattened_strokes_keep_what_is_there_and_lose_what_was_taken_away() {
             .len()
     };
     let before = size();
-    let trial = crate::flatten_strokes(&file, true).unwrap();
+    let trial = crate::stroke_chores::flatten_strokes(&file, true).unwrap();
     assert_eq!(size(), before);
-    let report = crate::flatten_strokes(&file, false).unwrap();
+    let report = crate::stroke_chores::flatten_strokes(&file, false).unwrap();
     assert_eq!(report, trial);
     let written = &report.files[0];
     assert_eq!(
@@ -250,7 +251,7 @@ fn flattened_strokes_keep_what_is_there_and_lose_what_was_taken_away() {
 fn models_whose_names_differ_by_case_alone_have_files_that_every_disk_tells_apart() {
     let desk = desk();
     let graph = desk.path().join("a.sabi");
-    let strokes = crate::Strokes::default();
+    let strokes = crate::source::Strokes::default();
     let first = strokes.after(&graph, "crate", "", &stroke());
     strokes.settle();
     let both = strokes.after(&graph, "Crate", &first, &pressed(0.5));
@@ -262,7 +263,7 @@ fn models_whose_names_differ_by_case_alone_have_files_that_every_disk_tells_apar
             .collect()
     };
     assert_eq!(names().len(), 2, "{:?}", names());
-    let again = crate::Strokes::default();
+    let again = crate::source::Strokes::default();
     for model in ["crate", "Crate"] {
         let list = again.on_model(&graph, model, &both).unwrap();
         assert_eq!(list.strokes.len(), 1, "{model}");
@@ -271,6 +272,6 @@ fn models_whose_names_differ_by_case_alone_have_files_that_every_disk_tells_apar
     let more = again.after(&graph, "Crate", &both, &pressed(0.25));
     again.store(&graph, &more).unwrap();
     assert_eq!(names().len(), 2, "{:?}", names());
-    let list = crate::Strokes::default().on_model(&graph, "Crate", &more);
+    let list = crate::source::Strokes::default().on_model(&graph, "Crate", &more);
     assert_eq!(list.unwrap().strokes.len(), 2);
 }

@@ -34,7 +34,7 @@ fn emission_above_one_is_divided_by_its_highest_value_where_an_engine_has_a_stre
         let (channels, codes) = codes(folder.path(), &record.path);
         assert_eq!(channels, 3);
         for (code, value) in codes.iter().zip(&emission.data) {
-            assert_eq!(*code, sabi_image::srgb8_from_linear(value / 4.0), "{name}: {value}");
+            assert_eq!(*code, sabi_color::srgb8_from_linear(value / 4.0), "{name}: {value}");
         }
         let dim = pixels(&Channel::Emission, wavy);
         let record = output(folder.path(), &preset(name), Channel::Emission, &dim);

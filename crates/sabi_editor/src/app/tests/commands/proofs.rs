@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use sabi_editing::node_size;
-use sabi_engine::ViewSubject;
+use sabi_engine::live::ViewSubject;
 use sabi_graph::NodeId;
 
 use super::super::Window;

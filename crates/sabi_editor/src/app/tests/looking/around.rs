@@ -4,7 +4,7 @@ use egui::accesskit::Role;
 use egui::{Key, PointerButton, Pos2, pos2};
 use egui_kittest::kittest::Queryable;
 use egui_phosphor::regular as icon;
-use sabi_engine::view::{Mode, ViewTransform};
+use sabi_view::{Mode, ViewTransform};
 
 use super::super::Window;
 use super::super::hands::id;
@@ -128,7 +128,7 @@ fn menus_choose_the_mode_the_environment_and_the_light() {
     assert_eq!(window.editor().views.model.shot.mode, Mode::Roughness);
     window.key(Key::Escape);
     window.open_menu(icon::SUN, "Light");
-    let other = sabi_engine::built_in_environments()
+    let other = sabi_engine::opening::environment::built_in_environments()
         .find(|name| *name != window.editor().shell.settings.environment)
         .expect("another environment");
     window.press(&other.replace('_', " "));
@@ -146,7 +146,7 @@ fn menus_choose_the_mode_the_environment_and_the_light() {
     window.press("Plain");
     assert!(matches!(
         window.editor().views.model.shot.background,
-        sabi_engine::view::Background::Plain(_)
+        sabi_view::Background::Plain(_)
     ));
 }
 

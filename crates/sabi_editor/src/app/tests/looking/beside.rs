@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::PointerButton;
 use egui_kittest::kittest::Queryable;
-use sabi_engine::ViewSubject;
+use sabi_engine::live::ViewSubject;
 use sabi_graph::Value;
 
 use super::super::Window;

@@ -1,7 +1,8 @@
 //! Colors taken from the model and the 2D view.
 
 use egui::{CursorIcon, Key};
-use sabi_engine::{Session, ViewSubject};
+use sabi_engine::Session;
+use sabi_engine::live::ViewSubject;
 use sabi_graph::NodeId;
 
 use super::super::Window;

@@ -3,7 +3,7 @@
 use egui::Modifiers;
 use sabi_editing::nodes;
 use sabi_engine::Session;
-use sabi_engine::view::{Background, ViewTransform};
+use sabi_view::{Background, ViewTransform};
 
 use super::super::Window;
 use super::super::hands::id;

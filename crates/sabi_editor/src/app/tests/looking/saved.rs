@@ -3,7 +3,7 @@
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable;
 use egui_phosphor::regular as icon;
-use sabi_engine::view::Mode;
+use sabi_view::Mode;
 
 use super::super::Window;
 use super::super::hands::id;

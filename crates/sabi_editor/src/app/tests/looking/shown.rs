@@ -3,7 +3,7 @@
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_phosphor::regular as icon;
-use sabi_engine::ViewSubject;
+use sabi_engine::live::ViewSubject;
 use sabi_graph::NodeRef;
 
 use super::super::Window;
@@ -223,7 +223,10 @@ fn a_soft_view_says_so_and_offers_a_size_that_is_sharp() {
         .expect("a size");
     assert!(size >= 256 && offer == format!("Work at {size} texels"), "{offer}");
     window.until("the sharp picture", |editor| {
-        let shown = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
+        let shown = editor
+            .evaluation
+            .results
+            .picture(&sabi_engine::live::ViewSubject::Outputs);
         shown.is_some_and(|picture| picture.model.size == size) && !editor.evaluation.is_busy()
     });
     assert!(!window.says("Soft"));

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use sabi_engine::paint::{Step, Stroke, StrokeGroup, StrokeList, Version};
+use sabi_paint::{Step, Stroke, StrokeGroup, StrokeList, Version};
 
 /// A row of the list, the topmost first.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,7 +134,7 @@ pub(super) fn changed(list: &StrokeList, group: StrokeGroup) -> Step {
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::paint::{Brush, StrokeBook};
+    use sabi_paint::{Brush, StrokeBook};
 
     use super::*;
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use egui::{Label, RichText, Slider, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::{Brush, Path, Step, Stroke, StrokeGroup, StrokeList};
+use sabi_paint::{Brush, Path, Step, Stroke, StrokeGroup, StrokeList};
 
 use super::{Asked, order};
 use crate::action::{Action, PaintAction};
