@@ -35,6 +35,7 @@ pub(super) fn add_node(session: &mut Session) {
             body: Body::Main,
             id: "p".parse().unwrap(),
             node: Node::new("source/paint"),
+            inputs: BTreeMap::new(),
         };
         session.edit("Add", edit).unwrap();
     }
