@@ -108,7 +108,7 @@ const MESH_PRESET: &str = "mesh";
 
 /// Lists the names of all maps of the model itself.
 pub fn mesh_map_names() -> Vec<&'static str> {
-    MeshMap::ALL.map(MeshMap::name).to_vec()
+    MeshMap::ALL.iter().map(|map| map.name()).collect()
 }
 
 /// Lists the names of all channels of a bake, and those of the kinds of outputs.
