@@ -87,7 +87,7 @@ pub use live::{
 // Baking texture sets.
 pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
-    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
+    BakeRequest, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
 };
 pub use baking::preset_description::{PresetDescription, PresetDocument, PresetFile, describe_preset};
 pub use baking::preset_pictures::{PicturePart, PresetPicture, preset_pictures};

@@ -17,9 +17,6 @@ use crate::evaluating::evaluator::EvaluatorOptions;
 use crate::faults::Faults;
 use crate::opening::linked_model::ModelOptions;
 
-/// Default pattern of map names.
-pub const DEFAULT_NAMES: &str = NamePattern::DEFAULT;
-
 /// Name of the default preset.
 pub const DEFAULT_PRESET: &str = BUILTIN_NAMES[0];
 
