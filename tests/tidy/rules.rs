@@ -131,8 +131,13 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 20] = [
 pub(crate) const FRONT_ENDS: [&str; 4] = ["sabi_editor", "sabi", "xtask", "sabi_assets"];
 
 /// Outside crates that a crate may name although another crate owns them: sabi_assets writes pictures of its own, and the
-/// viewport draws with the device that kernels run on, which is the window's.
-pub(crate) const ALSO: [(&str, &str); 3] = [("sabi_assets", "png"), ("sabi_view", "wgpu"), ("sabi_editor", "wgpu")];
+/// viewport draws with the device that kernels run on, which is the window's. Nodes of the canvas are laid out by what they read.
+pub(crate) const ALSO: [(&str, &str); 4] = [
+    ("sabi_assets", "png"),
+    ("sabi_view", "wgpu"),
+    ("sabi_editor", "wgpu"),
+    ("sabi_editing", "petgraph"),
+];
 
 /// Outside crates with one owner. Anything else is free to use.
 pub(crate) fn owned() -> impl Iterator<Item = &'static str> {

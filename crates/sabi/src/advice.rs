@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn every_flag_of_a_remedy_is_one_of_some_command() {
-        for remedy in Remedy::ALL {
+        for &remedy in Remedy::ALL {
             for phrase in phrases(remedy) {
                 let is_known = command_names().iter().any(|command| has_flag(command, phrase));
                 assert!(is_known, "{remedy:?}: {phrase}");

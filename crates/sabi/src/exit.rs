@@ -1,11 +1,12 @@
 //! Exit codes, and failures that lead to them.
 
 use sabi_engine::{EngineError, ErrorKind, Remedy};
+use strum::VariantArray;
 
 use crate::failed_bake::FailedBake;
 
 /// Exit code of the process.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, VariantArray)]
 #[repr(u8)]
 pub(crate) enum Exit {
     /// The command succeeded.
@@ -34,19 +35,7 @@ pub(crate) enum Exit {
 
 impl Exit {
     /// All exit codes.
-    pub(crate) const ALL: [Exit; 11] = [
-        Exit::Done,
-        Exit::SomeFailed,
-        Exit::Usage,
-        Exit::Mismatch,
-        Exit::NoAdapter,
-        Exit::BadInput,
-        Exit::MissingInput,
-        Exit::Defect,
-        Exit::CannotWrite,
-        Exit::Interrupted,
-        Exit::Terminated,
-    ];
+    pub(crate) const ALL: &'static [Exit] = Exit::VARIANTS;
 
     /// Returns the word for the exit code in JSON.
     pub(crate) fn kind(self) -> &'static str {
@@ -140,7 +129,7 @@ mod tests {
             ErrorKind::CannotWrite => 73,
             ErrorKind::Interrupted => 130,
         };
-        for kind in ErrorKind::ALL {
+        for &kind in ErrorKind::ALL {
             assert_eq!(Exit::from(kind) as u8, code(kind), "{kind:?}");
         }
         assert_eq!(Exit::Done as u8, 0);

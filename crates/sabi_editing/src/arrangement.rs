@@ -125,14 +125,14 @@ pub fn distribute(document: &mut OpenDocument, along: Axis) -> bool {
 pub fn straighten(document: &mut OpenDocument) -> bool {
     let mut places = selected_positions(document);
     for id in document.graph().topological_order() {
-        let Some(node) = document.node(&id).filter(|_| places.contains_key(&id)) else {
+        if !places.contains_key(&id) {
             continue;
-        };
+        }
         let Some(interface) = document.interface(&id) else {
             continue;
         };
         let wired = interface.inputs.iter().enumerate().find_map(|(row, port)| {
-            let from = node.inputs.get(&port.name)?;
+            let from = document.graph().link_into(id.as_str(), &port.name)?;
             places.contains_key(&from.node).then_some((row, from.clone()))
         });
         let Some((row, from)) = wired else { continue };

@@ -9,7 +9,7 @@ use crate::duplication::frames_around;
 use crate::group_import::ImportedGroups;
 use crate::open_document::OpenDocument;
 use crate::painting::{PAINT, STROKES as STROKES_OF_NODE};
-use crate::{duplication, group_import, nodes, relative_paths};
+use crate::{connections, duplication, group_import, nodes, relative_paths};
 
 /// Key for the folder to which the relative paths of a copy refer.
 const FROM: &str = "folder";
@@ -40,12 +40,11 @@ pub fn copy(document: &OpenDocument) -> Option<String> {
     }
     let ids = document.graph().topological_order();
     for id in ids.iter().filter(|id| document.selection().contains(*id)) {
-        let mut node = document.node(id)?.clone();
-        node.inputs.retain(|_, from| document.selection().contains(&from.node));
         let add = Edit::AddNode {
             body: Body::Main,
             id: id.clone(),
-            node,
+            node: document.node(id)?.clone(),
+            inputs: connections::wires_from(document.graph(), id, |from| document.selection().contains(from)),
         };
         copy.apply(add).ok()?;
     }
@@ -117,7 +116,8 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
     });
     let offset = [0, 1].map(|axis| (pos[axis] - corner[axis]).round());
     let frames = frames_around(&copied.graph, |_| true);
-    let copies = duplication::copies(document, &nodes, frames, false, offset);
+    let wires = duplication::wires_between(&copied.graph, &nodes, false);
+    let copies = duplication::copies(document, &nodes, wires, frames, offset);
     let is_added = duplication::add_all(document, "Paste", imported.edits, copies);
     let place = copied
         .extra

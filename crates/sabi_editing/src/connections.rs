@@ -1,9 +1,9 @@
 //! Connections of the shown graph, and the edits that connect and disconnect inputs.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_engine::catalog::{Interface, Port};
-use sabi_graph::{Body, Edit, GROUP_KIND, GroupInput, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
+use sabi_graph::{Body, Edit, GROUP_KIND, Graph, GroupInput, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
 
 use crate::instances;
 use crate::open_document::OpenDocument;
@@ -33,14 +33,10 @@ pub(crate) fn feeder<'d>(document: &'d OpenDocument, body: &Body, slot: &SlotRef
         .map(|(name, _)| name.as_str())
 }
 
-/// Nodes that a node reads (`is_upstream`), or those that read it.
-pub fn neighbors(document: &OpenDocument, id: &NodeId, is_upstream: bool) -> Vec<NodeId> {
-    let graph = document.graph();
-    if !is_upstream {
-        return graph.readers(id.as_str()).into_iter().map(|slot| slot.node).collect();
-    }
-    let inputs = graph.node(id.as_str()).map(|node| node.inputs.values());
-    inputs.into_iter().flatten().map(|from| from.node.clone()).collect()
+/// Nodes that a node reads, once for each of its inputs.
+pub(crate) fn sources(document: &OpenDocument, id: &NodeId) -> Vec<NodeId> {
+    let inputs = document.graph().inputs(id.as_str());
+    inputs.into_values().map(|from| from.node.clone()).collect()
 }
 
 /// Checks that both ends of a wire exist and that the input accepts the type of the result. The error is the reason why not.
@@ -138,7 +134,18 @@ pub(crate) fn canonical(document: &OpenDocument, from: &OutputRef) -> OutputRef 
 
 /// Returns the output that an input is connected to, if any.
 pub fn wire_into<'d>(document: &'d OpenDocument, slot: &SlotRef) -> Option<&'d OutputRef> {
-    document.node(&slot.node)?.inputs.get(&slot.name)
+    document.graph().link_into(slot.node.as_str(), &slot.name)
+}
+
+/// Wires into a node of a graph from chosen nodes, by input.
+pub(crate) fn wires_from(
+    graph: &Graph,
+    id: &NodeId,
+    is_chosen: impl Fn(&NodeId) -> bool,
+) -> BTreeMap<String, OutputRef> {
+    let inputs = graph.inputs(id.as_str()).into_iter();
+    let chosen = inputs.filter(|(_, from)| is_chosen(&from.node));
+    chosen.map(|(input, from)| (input.to_owned(), from.clone())).collect()
 }
 
 /// Edit that disconnects an input.
@@ -174,8 +181,7 @@ pub(crate) fn connecting_pending(
     id: &NodeId,
     interface: &Interface,
 ) -> Option<Edit> {
-    let own = document.node(id).map(|node| &node.inputs);
-    let is_free = |port: &Port| own.is_none_or(|inputs| !inputs.contains_key(&port.name));
+    let is_free = |port: &Port| document.graph().link_into(id.as_str(), &port.name).is_none();
     match pending {
         PendingWire::From(from) => {
             document.interface(&from.node)?.output(from.port.as_deref())?;
@@ -211,19 +217,7 @@ pub(crate) fn connecting_pending(
 
 /// Returns whether a node is `source`, or depends on it directly or through other nodes.
 pub(crate) fn depends_on(document: &OpenDocument, id: &NodeId, source: &NodeId) -> bool {
-    let mut seen = BTreeSet::from([id.clone()]);
-    let mut next = vec![id.clone()];
-    while let Some(id) = next.pop() {
-        if id == *source {
-            return true;
-        }
-        next.extend(
-            neighbors(document, &id, true)
-                .into_iter()
-                .filter(|id| seen.insert(id.clone())),
-        );
-    }
-    false
+    document.graph().upstream([id]).contains(source)
 }
 
 /// Returns the port name in a wire from an output: none for the first output of a node kind, always a name for groups.

@@ -9,7 +9,7 @@ use sabi_nodes::kind::Role;
 use crate::node_size::NODE_WIDTH;
 use crate::open_document::OpenDocument;
 use crate::stack::{StackEnd, main_input};
-use crate::{connections, layers, nodes, stack, wires};
+use crate::{layers, nodes, stack, wires};
 
 /// Kinds of an output, of the model's own material, and of the layer that adds its normal map.
 const OUTPUT: &str = "output/material";
@@ -124,18 +124,10 @@ fn place_of_output(document: &OpenDocument) -> [f32; 2] {
 
 /// Returns whether the result of a node depends on the model's own material, which includes its normal map.
 fn has_own_material(document: &OpenDocument, id: &NodeId) -> bool {
-    let mut seen = BTreeSet::from([id.clone()]);
-    let mut next = vec![id.clone()];
-    while let Some(id) = next.pop() {
-        let Some(node) = document.node(&id) else { continue };
-        let is_in_group = |group: &String| is_in_group(document.contents(), group);
-        if node.kind == OWN_MATERIAL || node.group.as_ref().is_some_and(is_in_group) {
-            return true;
-        }
-        let above = connections::neighbors(document, &id, true).into_iter();
-        next.extend(above.filter(|id| seen.insert(id.clone())));
-    }
-    false
+    let upstream = document.graph().upstream([id]);
+    let mut nodes = upstream.iter().filter_map(|id| document.node(id));
+    let is_in_group = |group: &String| is_in_group(document.contents(), group);
+    nodes.any(|node| node.kind == OWN_MATERIAL || node.group.as_ref().is_some_and(is_in_group))
 }
 
 /// Returns whether a group, or a group inside it, contains a node with the model's own material.

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_graph::{Edit, Frame, Graph, Node, NodeId, SlotRef};
+use sabi_graph::{Edit, Frame, Graph, Node, NodeId, OutputRef, SlotRef};
 
 use crate::open_document::OpenDocument;
-use crate::{frames, new_nodes, ports};
+use crate::{connections, frames, new_nodes, ports};
 
 /// Offset of a copy from its original, canvas points.
 const COPY_OFFSET: [f32; 2] = [40.0, 40.0];
@@ -13,6 +13,7 @@ const COPY_OFFSET: [f32; 2] = [40.0, 40.0];
 /// Copied nodes before they are added, with the frames around them.
 pub(crate) struct Copies {
     pub(crate) nodes: Vec<(NodeId, Node)>,
+    wires: Vec<(SlotRef, OutputRef)>,
     /// Id of each copy, by the id of the original.
     pub(crate) new_id: BTreeMap<NodeId, NodeId>,
     frames: Vec<(String, Frame)>,
@@ -47,7 +48,8 @@ pub fn duplicate(document: &mut OpenDocument, keeps_inputs: bool) -> bool {
         .filter_map(|id| Some((id.clone(), document.node(id)?.clone())));
     let chosen: BTreeMap<NodeId, Node> = chosen.collect();
     let frames = frames_around(document.graph(), |id| chosen.contains_key(id));
-    let copies = copies(document, &chosen, frames, keeps_inputs, COPY_OFFSET);
+    let wires = wires_between(document.graph(), &chosen, keeps_inputs);
+    let copies = copies(document, &chosen, wires, frames, COPY_OFFSET);
     let mut fed = Vec::new();
     if keeps_inputs {
         for (slot, by) in ports::fed_by_group(document, |id| copies.new_id.contains_key(id)) {
@@ -61,12 +63,35 @@ pub fn duplicate(document: &mut OpenDocument, keeps_inputs: bool) -> bool {
     document.edit_and_select("Duplicate", edits, ids)
 }
 
-/// Copies nodes under new ids. A copy keeps its seed, so that it looks like the original.
+/// Wires between some nodes of a graph. If `keeps_inputs` is true, those from other nodes are listed, too.
+pub(crate) fn wires_between(
+    graph: &Graph,
+    nodes: &BTreeMap<NodeId, Node>,
+    keeps_inputs: bool,
+) -> Vec<(SlotRef, OutputRef)> {
+    let is_kept = |from: &NodeId| keeps_inputs || nodes.contains_key(from);
+    let wires = nodes.keys().flat_map(|id| {
+        let wires = connections::wires_from(graph, id, is_kept).into_iter();
+        let node = id.clone();
+        wires.map(move |(name, from)| {
+            (
+                SlotRef {
+                    node: node.clone(),
+                    name,
+                },
+                from,
+            )
+        })
+    });
+    wires.collect()
+}
+
+/// Copies nodes under new ids, with wires into them. A copy keeps its seed, so that it looks like the original.
 pub(crate) fn copies(
     document: &mut OpenDocument,
     nodes: &BTreeMap<NodeId, Node>,
+    mut wires: Vec<(SlotRef, OutputRef)>,
     frames: BTreeMap<String, Frame>,
-    keeps_inputs: bool,
     offset: [f32; 2],
 ) -> Copies {
     let mut taken = BTreeSet::new();
@@ -78,19 +103,24 @@ pub(crate) fn copies(
     }
     let copy = |(id, node): (&NodeId, &Node)| {
         let mut copy = node.clone();
-        copy.inputs
-            .retain(|_, from| keeps_inputs || nodes.contains_key(&from.node));
-        for from in copy.inputs.values_mut() {
-            if let Some(new) = new_id.get(&from.node) {
-                from.node = new.clone();
-            }
-        }
         copy.pos = [0, 1].map(|axis| node.pos[axis] + offset[axis]);
         (new_id[id].clone(), copy)
     };
     let nodes = nodes.iter().map(copy).collect();
+    for (to, from) in &mut wires {
+        for id in [&mut to.node, &mut from.node] {
+            if let Some(new) = new_id.get(id) {
+                *id = new.clone();
+            }
+        }
+    }
     let frames = copied_frames(document, frames, &new_id);
-    Copies { nodes, new_id, frames }
+    Copies {
+        nodes,
+        wires,
+        new_id,
+        frames,
+    }
 }
 
 fn copied_frames(
@@ -119,20 +149,16 @@ pub(crate) fn add_all(document: &mut OpenDocument, step: &str, mut edits: Vec<Ed
 /// Edits that add copies: all nodes first, since they may read each other, then their wires and frames.
 pub(crate) fn additions(document: &OpenDocument, copies: Copies) -> Vec<Edit> {
     let body = document.body();
-    let mut wires = Vec::new();
-    let mut edits: Vec<Edit> = Vec::new();
-    for (id, mut node) in copies.nodes {
-        for (input, from) in std::mem::take(&mut node.inputs) {
-            wires.push(Edit::Connect {
-                body: body.clone(),
-                node: id.clone(),
-                input,
-                from,
-            });
-        }
-        edits.push(new_nodes::addition(document, &id, node));
-    }
-    edits.extend(wires);
+    let nodes = copies.nodes.into_iter();
+    let mut edits: Vec<Edit> = nodes
+        .map(|(id, node)| new_nodes::addition(document, &id, node, BTreeMap::new()))
+        .collect();
+    edits.extend(copies.wires.into_iter().map(|(to, from)| Edit::Connect {
+        body: body.clone(),
+        node: to.node,
+        input: to.name,
+        from,
+    }));
     edits.extend(copies.frames.into_iter().map(|(id, frame)| Edit::AddFrame {
         body: body.clone(),
         id,

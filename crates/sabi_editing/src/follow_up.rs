@@ -192,11 +192,12 @@ struct Instance<'a> {
 
 impl Instance<'_> {
     fn inputs(&self, change: &Change<'_>, edits: &mut Vec<Edit>) {
-        let gone = self.node.inputs.keys().filter(|name| change.lost_input(name));
+        let inputs = self.graph.inputs(self.id.as_str()).into_keys();
+        let gone = inputs.filter(|name| change.lost_input(name));
         edits.extend(gone.map(|name| Edit::Disconnect {
             body: self.body.clone(),
             node: self.id.clone(),
-            input: name.clone(),
+            input: name.to_owned(),
         }));
     }
 
@@ -216,8 +217,7 @@ impl Instance<'_> {
 
     fn readers(&self, change: &Change<'_>, edits: &mut Vec<Edit>) {
         for slot in self.graph.readers(self.id.as_str()) {
-            let reader = self.graph.node(slot.node.as_str());
-            let Some(from) = reader.and_then(|node| node.inputs.get(&slot.name)) else {
+            let Some(from) = self.graph.link_into(slot.node.as_str(), &slot.name) else {
                 continue;
             };
             let Some(now) = change.output(from) else {

@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{Body, Document, Edit, Frame, GROUP_KIND, GroupDef, Node, NodeId};
 
+use crate::connections;
+
 /// Edits that import groups of another document, and the names of these groups in this document.
 pub(crate) struct ImportedGroups {
     pub(crate) edits: Vec<Edit>,
@@ -131,8 +133,12 @@ fn group_edits(name: &str, group: &GroupDef, imported: &ImportedGroups) -> Vec<E
             continue;
         };
         imported.rename(&mut node);
-        let body = body.clone();
-        edits.push(Edit::AddNode { body, id, node });
+        edits.push(Edit::AddNode {
+            body: body.clone(),
+            inputs: connections::wires_from(&group.graph, &id, |_| true),
+            id,
+            node,
+        });
     }
     edits.extend(exposing(&body, group));
     edits

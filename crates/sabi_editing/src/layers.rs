@@ -1,6 +1,6 @@
 //! Moving, adding and removing layers of a stack: the chain of layers is reconnected, and all other wires stay.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sabi_engine::catalog::Interface;
@@ -193,15 +193,14 @@ fn add_entry(
     let (pos, moves) = place_of_layer(document, link, node_size::size_of(entry));
     let (id, mut node) = new_nodes::of_kind(document, &entry.id, pos);
     node.group = group.map(str::to_owned);
-    if let (Some(port), Some(from)) = (main_input(entry), &link.from) {
-        node.inputs
-            .insert(port.name.clone(), connections::canonical(document, from));
-    }
+    let below = main_input(entry).zip(link.from.as_ref());
+    let below = below.map(|(port, from)| (port.name.clone(), connections::canonical(document, from)));
+    let inputs = below.into_iter().collect();
     let given = OutputRef {
         node: id.clone(),
         port: port_in_wire(entry, output),
     };
-    let mut edits = vec![new_nodes::addition(document, &id, node)];
+    let mut edits = vec![new_nodes::addition(document, &id, node, inputs)];
     edits.extend(link_edit(document, end, link.slot.as_ref(), Some(&given)));
     edits.extend(moves);
     let is_made = document.edit(&format!("Add layer {}", entry.label), edits);
@@ -247,12 +246,12 @@ pub(crate) fn add_over(document: &mut OpenDocument, id: &NodeId, kind: &str, gro
     let (pos, moves) = place_of_layer(document, &link, node_size::size_of(&entry));
     let (new, mut node) = new_nodes::of_kind(document, &entry.id, pos);
     node.group = group.map(str::to_owned);
-    node.inputs.insert(input.name.clone(), from);
+    let inputs = BTreeMap::from([(input.name.clone(), from)]);
     let layer = OutputRef {
         node: new.clone(),
         port: output,
     };
-    let mut edits = vec![new_nodes::addition(document, &new, node)];
+    let mut edits = vec![new_nodes::addition(document, &new, node, inputs)];
     let connected = |slot: &SlotRef| Edit::Connect {
         body: document.body(),
         node: slot.node.clone(),

@@ -13,7 +13,7 @@ use crate::connections::PendingWire;
 use crate::linked_groups::link_to;
 use crate::names::free_name;
 use crate::open_document::OpenDocument;
-use crate::{group_import, new_nodes, nodes};
+use crate::{connections, group_import, new_nodes, nodes};
 
 /// File extension of graph files.
 pub const GRAPH_EXTENSION: &str = "sabi";
@@ -92,6 +92,7 @@ fn group_document(document: &OpenDocument, name: &str, group: &GroupDef) -> Resu
         if let Some(node) = group.graph.node(id.as_str()).cloned() {
             let add = Edit::AddNode {
                 body: Body::Main,
+                inputs: connections::wires_from(&group.graph, &id, |_| true),
                 id,
                 node,
             };

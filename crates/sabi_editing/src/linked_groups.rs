@@ -121,7 +121,19 @@ fn updating(document: &OpenDocument, contents: &Document, group: &str) -> Result
     let mut lost = Vec::new();
     let mut edits = imported.edits;
     for (body, id, node) in instances::of_body(contents, &Body::Group(group.to_owned())) {
-        edits.extend(adapting(&body, &id, &node, &made, &mut lost));
+        edits.extend(resetting(&body, &id, &node, &made, &mut lost));
+        let graph = contents.body(&body).ok();
+        let inputs = graph
+            .into_iter()
+            .flat_map(|graph| graph.inputs(id.as_str()).into_keys());
+        for input in inputs.filter(|input| !made.inputs.contains_key(*input)) {
+            lost.push(input.to_owned());
+            edits.push(Edit::Disconnect {
+                body: body.clone(),
+                node: id.clone(),
+                input: input.to_owned(),
+            });
+        }
     }
     edits.extend(cut_readers(contents, group, &made, &mut lost));
     edits.push(Edit::SetGroup {
@@ -133,8 +145,8 @@ fn updating(document: &OpenDocument, contents: &Document, group: &str) -> Result
     Ok((edits, lost))
 }
 
-/// Returns edits that reset the knobs of an instance, and remove its wires, that a new definition does not have.
-fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
+/// Returns edits that reset the knobs of an instance that a new definition does not have.
+fn resetting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
     let fits = |(name, value): &(&String, &sabi_graph::Value)| {
         if name.as_str() == "variant" {
             return value
@@ -156,14 +168,6 @@ fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut V
             value: None,
         });
     }
-    for input in node.inputs.keys().filter(|input| !made.inputs.contains_key(*input)) {
-        lost.push(input.clone());
-        edits.push(Edit::Disconnect {
-            body: body.clone(),
-            node: id.clone(),
-            input: input.clone(),
-        });
-    }
     edits
 }
 
@@ -173,9 +177,7 @@ fn cut_readers(contents: &Document, group: &str, made: &GroupDef, lost: &mut Vec
     for (body, graph) in instances::bodies(contents) {
         for (id, _) in instances::instances(graph, group) {
             for reader in graph.readers(id.as_str()) {
-                let from = graph
-                    .node(reader.node.as_str())
-                    .and_then(|node| node.inputs.get(&reader.name));
+                let from = graph.link_into(reader.node.as_str(), &reader.name);
                 let port = from.and_then(|from| from.port.clone());
                 if let Some(port) = port.filter(|port| !made.outputs.contains_key(port)) {
                     lost.push(port);

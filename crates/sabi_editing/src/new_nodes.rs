@@ -1,8 +1,8 @@
 //! New nodes, before they are added to a graph.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_graph::{Edit, Node, NodeId, Value};
+use sabi_graph::{Edit, Node, NodeId, OutputRef, Value};
 use sabi_nodes::kind::Role;
 
 use crate::open_document::OpenDocument;
@@ -25,11 +25,12 @@ pub(crate) fn of_kind(document: &mut OpenDocument, kind: &str, pos: [f32; 2]) ->
     (id, node)
 }
 
-/// Edit that adds a node to the shown graph.
-pub(crate) fn addition(document: &OpenDocument, id: &NodeId, node: Node) -> Edit {
+/// Edit that adds a node to the shown graph and connects its inputs.
+pub(crate) fn addition(document: &OpenDocument, id: &NodeId, node: Node, inputs: BTreeMap<String, OutputRef>) -> Edit {
     Edit::AddNode {
         body: document.body(),
         id: id.clone(),
         node,
+        inputs,
     }
 }

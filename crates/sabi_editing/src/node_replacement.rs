@@ -113,13 +113,11 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
     let replacement = ReplacementNode {
         id: &new_id,
         interfaces: [&interface, entry],
-        inputs: paired_inputs(document, id, &old, &interface, entry),
+        inputs: paired_inputs(document, id, &interface, entry),
     };
-    for (name, from) in &old.inputs {
-        if let Some(input) = replacement.inputs.get(name) {
-            node.inputs.insert(input.clone(), from.clone());
-        }
-    }
+    let wires = document.graph().inputs(id.as_str()).into_iter();
+    let wires = wires.filter_map(|(name, from)| Some((replacement.inputs.get(name)?.clone(), from.clone())));
+    let wires = wires.collect();
     for (name, value) in &old.params {
         let slot = SlotRef {
             node: id.clone(),
@@ -130,7 +128,7 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
         node.params.extend(accepting.map(|slot| (slot.name, value.clone())));
     }
     let readers = document.graph().readers(id.as_str());
-    let mut edits = vec![new_nodes::addition(document, &new_id, node)];
+    let mut edits = vec![new_nodes::addition(document, &new_id, node, wires)];
     edits.extend(
         readers
             .iter()
@@ -153,7 +151,6 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
 fn paired_inputs(
     document: &OpenDocument,
     id: &NodeId,
-    old: &Node,
     interface: &Interface,
     entry: &Interface,
 ) -> BTreeMap<String, String> {
@@ -161,14 +158,15 @@ fn paired_inputs(
     let mut paired = BTreeMap::new();
     // Inputs are paired in the order of the rows of the node. Inputs that the kind does not have come last.
     let known = interface.inputs.iter().map(|port| &port.name);
-    let unknown = old.inputs.keys().filter(|name| interface.input(name).is_none());
+    let wires = connections::wires_from(document.graph(), id, |_| true);
+    let unknown = wires.keys().filter(|name| interface.input(name).is_none());
     let is_param_mask = |name: &String| interface.param_mask(name).is_some();
     let (param_masks, names): (Vec<&String>, Vec<&String>) = known.chain(unknown).partition(|name| is_param_mask(name));
     let kept = param_masks.into_iter().filter(|name| entry.param_mask(name).is_some());
     paired.extend(kept.map(|name| (name.clone(), name.clone())));
     for is_named in [true, false] {
         for name in &names {
-            let carried = match old.inputs.get(*name) {
+            let carried = match wires.get(*name) {
                 Some(from) => connections::carried(document, from),
                 None => interface.input(name).and_then(|port| port.ty),
             };
@@ -176,8 +174,7 @@ fn paired_inputs(
                 node: id.clone(),
                 name: (*name).clone(),
             };
-            let is_used =
-                old.inputs.contains_key(*name) || connections::feeder(document, document.shown(), &slot).is_some();
+            let is_used = wires.contains_key(*name) || connections::feeder(document, document.shown(), &slot).is_some();
             if paired.contains_key(*name) || !is_used {
                 continue;
             }

@@ -100,7 +100,7 @@ impl ShownRows {
         match node.display.rows {
             NodeRows::All => all,
             NodeRows::Wired => {
-                let is_wired = |row: &usize| node.inputs.contains_key(&entry.inputs[*row].name);
+                let is_wired = |row: &usize| graph.link_into(id.as_str(), &entry.inputs[*row].name).is_some();
                 ShownRows {
                     inputs: Shown::Some((0..entry.inputs.len()).filter(is_wired).collect()),
                     outputs: Shown::Some(read_outputs(graph, id, entry)),
@@ -193,7 +193,7 @@ fn read_outputs(graph: &Graph, id: &NodeId, entry: &Interface) -> Vec<usize> {
     let read: BTreeSet<&str> = graph
         .readers(id.as_str())
         .iter()
-        .filter_map(|slot| graph.node(slot.node.as_str())?.inputs.get(&slot.name))
+        .filter_map(|slot| graph.link_into(slot.node.as_str(), &slot.name))
         .filter_map(|from| from.port.as_deref().or(first))
         .collect();
     let is_read = |row: &usize| read.contains(entry.outputs[*row].name.as_str());

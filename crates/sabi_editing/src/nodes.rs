@@ -1,6 +1,6 @@
 //! Nodes: adding, removing, copying, changing.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Interface, Interfaces};
@@ -116,7 +116,7 @@ fn place_new(
     pending: Option<&PendingWire>,
 ) -> Option<NodeId> {
     node.pos = free_position(document, node.pos);
-    let mut edits = vec![new_nodes::addition(document, &id, node)];
+    let mut edits = vec![new_nodes::addition(document, &id, node, BTreeMap::new())];
     let connected = pending.and_then(|pending| connections::connecting_pending(document, pending, &id, entry));
     let reader = match pending {
         Some(PendingWire::Into(to)) => document.interface(&to.node).map(|interface| &**interface),

@@ -1,15 +1,15 @@
 //! Painting: strokes of paint nodes, and paint nodes on top of masks.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sabi_graph::{Edit, NodeId, OutputRef, PortType, Value};
 use sabi_paint::{Step, Stroke, StrokeList};
 
-use crate::new_nodes;
 use crate::node_size::size_of;
 use crate::open_document::OpenDocument;
 use crate::stack::{self, Layer};
+use crate::{connections, new_nodes};
 
 /// Kind of the nodes that are painted on.
 pub const PAINT: &str = "source/paint";
@@ -50,8 +50,7 @@ pub fn painted_layer(document: &OpenDocument, node: &NodeId) -> Option<PaintedLa
     let mut layers = stacks.iter().flat_map(|stack| &stack.layers);
     let is_mask = |layer: &&Layer| layer.mask.as_ref().is_some_and(|mask| mask.node == *node);
     let layer = layers.find(is_mask)?;
-    let inputs = &document.node(&layer.node)?.inputs;
-    let colors = inputs.get("color_map");
+    let colors = document.graph().link_into(layer.node.as_str(), "color_map");
     Some(PaintedLayer {
         title: layer.title.clone(),
         is_mask_alone: colors.is_none_or(|from| from.node != *node),
@@ -60,8 +59,7 @@ pub fn painted_layer(document: &OpenDocument, node: &NodeId) -> Option<PaintedLa
 
 /// Returns whether any node reads a result of this one.
 pub fn is_read(document: &OpenDocument, node: &NodeId) -> bool {
-    let mut nodes = document.graph().nodes();
-    nodes.any(|(_, reader)| reader.inputs.values().any(|from| from.node == *node))
+    !document.graph().readers(node.as_str()).is_empty()
 }
 
 /// Replaces the strokes of a paint node on a model by the strokes `before` plus one stroke on top. While the brush moves,
@@ -111,28 +109,23 @@ pub fn paint_over(document: &mut OpenDocument, node: &NodeId) -> Option<NodeId> 
     };
     let own = document.node(node)?;
     let place = [own.pos[0] + size_of(&interface)[0] + GAP, own.pos[1]];
-    let (id, mut paint) = new_nodes::of_kind(document, PAINT, place);
+    let (id, paint) = new_nodes::of_kind(document, PAINT, place);
     let from = OutputRef {
         node: node.clone(),
         port: Some(port.clone()),
     };
-    paint.inputs = BTreeMap::from([("base".to_owned(), from)]);
-    let mut edits = vec![new_nodes::addition(document, &id, paint)];
+    let inputs = BTreeMap::from([("base".to_owned(), from)]);
+    let mut edits = vec![new_nodes::addition(document, &id, paint, inputs)];
     // A wire that names no port reads the first one.
     let is_first = interface.outputs.first().is_some_and(|first| first.name == port);
-    let readers: BTreeSet<(NodeId, String)> = document
-        .graph()
-        .nodes()
-        .flat_map(|(reader, own)| own.inputs.iter().map(move |(slot, from)| (reader, slot, from)))
-        .filter(|(_, _, from)| from.node == *node && from.port.as_ref().map_or(is_first, |read| *read == port))
-        .map(|(reader, slot, _)| (reader.clone(), slot.clone()))
-        .collect();
-    for (reader, slot) in readers {
+    let reads_port = |from: &OutputRef| from.port.as_ref().map_or(is_first, |read| *read == port);
+    let readers = document.graph().readers(node.as_str()).into_iter();
+    for slot in readers.filter(|slot| connections::wire_into(document, slot).is_some_and(reads_port)) {
         let behind = OutputRef {
             node: id.clone(),
             port: Some("mask".to_owned()),
         };
-        edits.push(Edit::link(document.body(), reader, slot, Some(behind)));
+        edits.push(Edit::link(document.body(), slot.node, slot.name, Some(behind)));
     }
     document
         .edit_and_select("Paint over", edits, [id.clone()])

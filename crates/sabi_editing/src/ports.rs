@@ -235,11 +235,12 @@ pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
         setting_input(document, name, None),
         setting_input(document, to, Some(input)),
     ];
-    for (body, id, node) in instances::of_body(document.contents(), document.shown()) {
-        let Some(from) = node.inputs.get(name).cloned() else {
+    for (body, node, _) in instances::of_body(document.contents(), document.shown()) {
+        let graph = document.graph_of(&body);
+        let Some(from) = graph.and_then(|graph| graph.link_into(node.as_str(), name)).cloned() else {
             continue;
         };
-        let (node, input) = (id.clone(), name.to_owned());
+        let input = name.to_owned();
         edits.push(Edit::Disconnect {
             body: body.clone(),
             node: node.clone(),
@@ -325,9 +326,7 @@ pub fn rename_output(document: &mut OpenDocument, name: &str, to: &str) -> bool 
         };
         let is_meant = |from: &&OutputRef| from.node == id && from.port.as_deref() == Some(name);
         for slot in graph.readers(id.as_str()) {
-            let tied = graph
-                .node(slot.node.as_str())
-                .and_then(|node| node.inputs.get(&slot.name));
+            let tied = graph.link_into(slot.node.as_str(), &slot.name);
             edits.extend(tied.filter(is_meant).map(|_| Edit::Connect {
                 body: body.clone(),
                 node: slot.node,

@@ -122,8 +122,8 @@ impl<'d> SourceSearch<'d> {
     }
 
     fn sources(&self, body: &Body, id: &NodeId, name: String) -> Sources {
-        let node = self.document.graph_of(body).and_then(|graph| graph.node(id.as_str()));
-        let wire = node.and_then(|node| node.inputs.get(&name).cloned());
+        let graph = self.document.graph_of(body);
+        let wire = graph.and_then(|graph| graph.link_into(id.as_str(), &name).cloned());
         let slot = SlotRef { node: id.clone(), name };
         (connections::feeder(self.document, body, &slot).map(str::to_owned), wire)
     }

@@ -2,7 +2,6 @@
 
 use sabi_graph::NodeId;
 
-use crate::connections;
 use crate::open_document::OpenDocument;
 
 /// Adds a node to the selection, or removes it.
@@ -32,14 +31,10 @@ pub fn select_muted(document: &mut OpenDocument) {
 
 /// Adds all nodes that the selected ones depend on (`is_upstream`), or all that depend on them.
 pub fn select_connected(document: &mut OpenDocument, is_upstream: bool) {
-    let mut found = document.selection().clone();
-    let mut next: Vec<NodeId> = found.iter().cloned().collect();
-    while let Some(id) = next.pop() {
-        for neighbor in connections::neighbors(document, &id, is_upstream) {
-            if found.insert(neighbor.clone()) {
-                next.push(neighbor);
-            }
-        }
-    }
+    let graph = document.graph();
+    let found = match is_upstream {
+        true => graph.upstream(document.selection()),
+        false => graph.downstream(document.selection()),
+    };
     document.select(found);
 }

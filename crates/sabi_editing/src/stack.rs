@@ -124,11 +124,11 @@ fn link(document: &OpenDocument, slot: Option<SlotRef>, from: Option<OutputRef>)
         is_shared: false,
     };
     while let Some(reroute) = link.from.as_ref().map(|from| from.node.clone()) {
-        let Some(node) = document.node(&reroute).filter(|node| node.kind == REROUTE_KIND) else {
+        if document.node(&reroute).is_none_or(|node| node.kind != REROUTE_KIND) {
             break;
-        };
+        }
         link.is_shared |= document.graph().readers(reroute.as_str()).len() + output_count(document, &reroute) > 1;
-        link.from = node.inputs.get("source").cloned();
+        link.from = document.graph().link_into(reroute.as_str(), "source").cloned();
         link.slot = Some(SlotRef {
             node: reroute,
             name: "source".to_owned(),
@@ -176,7 +176,7 @@ fn layer(document: &OpenDocument, at: &OutputRef, above: &Link, below: &Link) ->
         title: document.title(id),
         is_muted: node.is_some_and(|node| node.muted),
         opacity,
-        mask: node.and_then(|node| node.inputs.get("mask").cloned()),
+        mask: document.graph().link_into(id.as_str(), "mask").cloned(),
         shared: shared_reason(document, id, &also_read_by, given > 0),
         also_read_by,
         is_lowest: lowest_reason(document, id, below),

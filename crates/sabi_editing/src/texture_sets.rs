@@ -107,9 +107,8 @@ impl SetBuilder<'_> {
         }
         let mut material = Node::new(COMBINE);
         material.label = Some(label_of(name)).filter(|label| !label.is_empty());
-        material.inputs = inputs;
         let middle = ((y + below - self.height(COMBINE)) / 2.0).max(y);
-        let id = self.add_node("material", material, [x + 2.0 * step, middle]);
+        let id = self.add_node("material", material, inputs, [x + 2.0 * step, middle]);
         (id, below.max(middle + self.height(COMBINE)))
     }
 
@@ -143,14 +142,13 @@ impl SetBuilder<'_> {
                 .params
                 .insert("normal_y".to_owned(), Value::Text("down".to_owned()));
         }
-        self.add_node(&stem, image, pos)
+        self.add_node(&stem, image, BTreeMap::new(), pos)
     }
 
     /// Adds a node that computes 1 minus a mask, for example the roughness from a smoothness.
     fn add_inverted(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
-        let mut invert = Node::new(INVERT);
-        invert.inputs.insert("source".to_owned(), from);
-        let node = self.add_node("inverted", invert, pos);
+        let source = BTreeMap::from([("source".to_owned(), from)]);
+        let node = self.add_node("inverted", Node::new(INVERT), source, pos);
         OutputRef { node, port: None }
     }
 
@@ -158,19 +156,19 @@ impl SetBuilder<'_> {
     /// the model's surface.
     fn add_relief(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
         let mut remap = Node::new(REMAP);
-        remap.inputs.insert("source".to_owned(), from);
         for (param, value) in [("to_low", -RELIEF / 2.0), ("to_high", RELIEF / 2.0)] {
             remap.params.insert(param.to_owned(), Value::Number(value));
         }
-        let node = self.add_node("relief", remap, pos);
+        let source = BTreeMap::from([("source".to_owned(), from)]);
+        let node = self.add_node("relief", remap, source, pos);
         OutputRef { node, port: None }
     }
 
-    fn add_node(&mut self, stem: &str, mut node: Node, pos: [f32; 2]) -> NodeId {
+    fn add_node(&mut self, stem: &str, mut node: Node, inputs: BTreeMap<String, OutputRef>, pos: [f32; 2]) -> NodeId {
         node.pos = pos.map(f32::round);
         let id = self.document.new_id(stem, &self.taken);
         self.taken.insert(id.clone());
-        self.edits.push(new_nodes::addition(self.document, &id, node));
+        self.edits.push(new_nodes::addition(self.document, &id, node, inputs));
         id
     }
 

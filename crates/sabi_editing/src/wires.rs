@@ -2,6 +2,8 @@
 
 mod insertion;
 
+use std::collections::BTreeMap;
+
 use sabi_engine::catalog::Port;
 use sabi_graph::{Edit, NodeId, OutputRef, REROUTE_KIND, SlotRef, Value};
 
@@ -131,16 +133,15 @@ pub fn merge(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef, how: M
     };
     let pos = [reader.pos[0] - 2.0 * BESIDE - NODE_WIDTH, reader.pos[1]];
     let (id, mut node) = new_nodes::of_kind(document, "blend/mask", pos);
-    node.inputs.insert("below".to_owned(), first);
-    node.inputs
-        .insert("above".to_owned(), connections::canonical(document, from));
+    let above = connections::canonical(document, from);
+    let inputs = BTreeMap::from([("below".to_owned(), first), ("above".to_owned(), above)]);
     node.params.insert("mode".to_owned(), Value::Text(mode.to_owned()));
     let blended = OutputRef {
         node: id.clone(),
         port: None,
     };
     let edits = vec![
-        new_nodes::addition(document, &id, node),
+        new_nodes::addition(document, &id, node, inputs),
         connections::connecting(document, &blended, to),
     ];
     document.edit_and_select("Blend masks", edits, [id])
@@ -152,14 +153,14 @@ pub fn reroute(document: &mut OpenDocument, to: &SlotRef, pos: [f32; 2]) -> bool
         return false;
     };
     let corner = [pos[0] - REROUTE_SIZE[0] / 2.0, pos[1] - REROUTE_SIZE[1] / 2.0];
-    let (id, mut node) = new_nodes::of_kind(document, REROUTE_KIND, corner);
-    node.inputs.insert("source".to_owned(), from);
+    let (id, node) = new_nodes::of_kind(document, REROUTE_KIND, corner);
+    let inputs = BTreeMap::from([("source".to_owned(), from)]);
     let rerouted = OutputRef {
         node: id.clone(),
         port: None,
     };
     let edits = vec![
-        new_nodes::addition(document, &id, node),
+        new_nodes::addition(document, &id, node, inputs),
         connections::connecting(document, &rerouted, to),
     ];
     document.edit("Add reroute", edits)
@@ -176,17 +177,9 @@ pub fn detach_selected(document: &mut OpenDocument) -> bool {
         fed.into_iter().map(|(slot, _)| (slot, None)).collect(),
     );
     for id in &ids {
-        let Some(node) = document.node(id) else { continue };
-        let outside = node.inputs.iter().filter(|(_, from)| !ids.contains(&from.node));
-        edits.extend(outside.map(|(input, _)| {
-            connections::disconnecting(
-                document,
-                &SlotRef {
-                    node: id.clone(),
-                    name: input.clone(),
-                },
-            )
-        }));
+        let outside = connections::wires_from(document.graph(), id, |from| !ids.contains(from));
+        let slots = outside.into_keys().map(|name| SlotRef { node: id.clone(), name });
+        edits.extend(slots.map(|slot| connections::disconnecting(document, &slot)));
     }
     document.edit("Detach and reconnect its neighbors", edits)
 }
@@ -208,13 +201,14 @@ pub fn swap_inputs(document: &mut OpenDocument) -> bool {
             rest.filter(|other| other.ty == one.ty).map(move |other| (one, other))
         });
         let feeder = |port: &Port| connections::feeder(document, document.shown(), &slot(port)).map(str::to_owned);
-        let is_connected = |port: &Port| node.inputs.contains_key(&port.name) || feeder(port).is_some();
+        let wire = |port: &Port| document.graph().link_into(id.as_str(), &port.name);
+        let is_connected = |port: &Port| wire(port).is_some() || feeder(port).is_some();
         let Some((one, other)) = pairs.find(|(one, other)| is_connected(one) || is_connected(other)) else {
             continue;
         };
         for (to, from) in [(one, other), (other, one)] {
             fed.push((slot(to), feeder(from)));
-            edits.push(match node.inputs.get(&from.name) {
+            edits.push(match wire(from) {
                 Some(from) => connections::connecting(document, from, &slot(to)),
                 None => connections::disconnecting(document, &slot(to)),
             });

@@ -2,6 +2,8 @@
 
 mod table;
 
+use strum::VariantArray;
+
 /// Place that the pointer or the keyboard focus must be in for the key of a command to have its effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scope {
@@ -257,7 +259,7 @@ pub(crate) enum TextureCommand {
 }
 
 /// Place in the list of favorites that a key adds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, VariantArray)]
 pub(crate) enum Favorite {
     First,
     Second,
@@ -272,17 +274,7 @@ pub(crate) enum Favorite {
 
 impl Favorite {
     /// All places, in order.
-    pub(crate) const ALL: [Favorite; 9] = [
-        Favorite::First,
-        Favorite::Second,
-        Favorite::Third,
-        Favorite::Fourth,
-        Favorite::Fifth,
-        Favorite::Sixth,
-        Favorite::Seventh,
-        Favorite::Eighth,
-        Favorite::Ninth,
-    ];
+    pub(crate) const ALL: &'static [Favorite] = Favorite::VARIANTS;
 
     /// Index in the list of favorites, from 0.
     pub(crate) fn index(self) -> usize {

@@ -171,7 +171,7 @@ mod tests {
     fn nine_favorites_have_a_key_each_in_every_preset() {
         for (preset, name) in InputPreset::ALL {
             let (keys, _) = KeyMap::new(preset, &BTreeMap::new());
-            for favorite in Favorite::ALL {
+            for &favorite in Favorite::ALL {
                 let number = (favorite.index() + 1).to_string();
                 assert_eq!(keys.shown(Command::Favorite(favorite)), number, "{name}");
             }

@@ -76,7 +76,7 @@ impl Looks {
         let Some(strokes) = painting::strokes_of(document, &id) else {
             return false;
         };
-        let has_base = || document.node(&id).is_some_and(|node| node.inputs.contains_key("base"));
+        let has_base = || document.graph().link_into(id.as_str(), "base").is_some();
         self.is_painting && painting::is_read(document, &id) || strokes.is_empty() && !has_base()
     }
 

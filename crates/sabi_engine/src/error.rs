@@ -13,11 +13,12 @@ use sabi_image::ImageError;
 use sabi_surface::atlas::AtlasError;
 use sabi_surface::load::{LoadError, ModelFault, listed};
 use sabi_view::ViewError;
+use strum::VariantArray;
 
 use crate::remedy::{Remedy, advised};
 
 /// Kind of failure. The command line has an exit code for each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
 pub enum ErrorKind {
     /// The request is not valid: a wrong name, type or range.
     Usage,
@@ -39,16 +40,7 @@ pub enum ErrorKind {
 
 impl ErrorKind {
     /// All kinds.
-    pub const ALL: [ErrorKind; 8] = [
-        ErrorKind::Usage,
-        ErrorKind::NoAdapter,
-        ErrorKind::BadInput,
-        ErrorKind::MissingInput,
-        ErrorKind::OutOfMemory,
-        ErrorKind::CannotWrite,
-        ErrorKind::Interrupted,
-        ErrorKind::Defect,
-    ];
+    pub const ALL: &'static [ErrorKind] = ErrorKind::VARIANTS;
 }
 
 /// Most sentences of an error.

@@ -8,11 +8,12 @@ use std::time::{Duration, Instant};
 
 use sabi_cancel::{Cancel, Canceled, cancelable};
 use serde::{Serialize, Serializer};
+use strum::VariantArray;
 
 use crate::error::{EngineError, ErrorKind};
 
 /// Phase of a bake or a rendering.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
 pub enum Phase {
     /// Reading the graph and the model.
     Load,
@@ -30,14 +31,7 @@ pub enum Phase {
 
 impl Phase {
     /// All phases.
-    pub const ALL: [Phase; 6] = [
-        Phase::Load,
-        Phase::Atlas,
-        Phase::Upload,
-        Phase::Run,
-        Phase::Encode,
-        Phase::Draw,
-    ];
+    pub const ALL: &'static [Phase] = Phase::VARIANTS;
 
     /// Name in events for programs.
     pub fn name(self) -> &'static str {

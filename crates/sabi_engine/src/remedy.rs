@@ -2,10 +2,12 @@
 
 use std::fmt;
 
+use strum::VariantArray;
+
 /// Change to a request, a file or the machine after which what failed can succeed, or a warning no longer applies.
 ///
 /// Its text is plain English without flags and buttons, such as `choose a smaller size`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, VariantArray)]
 pub enum Remedy {
     /// Another adapter in place of the chosen one.
     OtherAdapter,
@@ -85,45 +87,7 @@ pub enum Remedy {
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 37] = [
-        Remedy::OtherAdapter,
-        Remedy::AnyAdapter,
-        Remedy::SoftwareAdapter,
-        Remedy::CloseOtherPrograms,
-        Remedy::UpdateDriver,
-        Remedy::RaiseBudget,
-        Remedy::SmallerSize,
-        Remedy::LargerSize,
-        Remedy::WithoutFusion,
-        Remedy::ProcessorRays,
-        Remedy::ReduceTriangles,
-        Remedy::OtherFolder,
-        Remedy::IntoThisFolderAnyway,
-        Remedy::FreeSpace,
-        Remedy::TryAgain,
-        Remedy::AllowWriting,
-        Remedy::SaveUnderOtherName,
-        Remedy::SaveInOtherFolder,
-        Remedy::UnwrapModel,
-        Remedy::KeepOwnUvs,
-        Remedy::TilesAsUdim,
-        Remedy::TilesRepeat,
-        Remedy::AllParts,
-        Remedy::TurnFaces,
-        Remedy::TextureFolder,
-        Remedy::MergeOverlaps,
-        Remedy::EditUvs,
-        Remedy::WithoutModelCopy,
-        Remedy::SaveModelAsGltf,
-        Remedy::OtherMaterial,
-        Remedy::NameModel,
-        Remedy::ReplaceStrokes,
-        Remedy::ReplaceFile,
-        Remedy::WithoutMissingFiles,
-        Remedy::WithoutModel,
-        Remedy::TrustFile,
-        Remedy::RaiseMemory,
-    ];
+    pub const ALL: &'static [Remedy] = Remedy::VARIANTS;
 }
 
 impl fmt::Display for Remedy {
@@ -203,7 +167,7 @@ mod tests {
 
     #[test]
     fn each_remedy_is_listed_once_and_has_words_of_its_own() {
-        let listed: BTreeSet<Remedy> = Remedy::ALL.into_iter().collect();
+        let listed: BTreeSet<Remedy> = Remedy::ALL.iter().copied().collect();
         let words: BTreeSet<String> = Remedy::ALL.iter().map(ToString::to_string).collect();
         assert_eq!((listed.len(), words.len()), (Remedy::ALL.len(), Remedy::ALL.len()));
     }

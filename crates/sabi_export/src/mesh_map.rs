@@ -1,7 +1,9 @@
 //! Maps of the model itself, which need no node in the graph.
 
+use strum::VariantArray;
+
 /// Map of the model itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, VariantArray)]
 pub enum MeshMap {
     /// A color for each part, to select parts by.
     Id,
@@ -23,16 +25,7 @@ pub enum MeshMap {
 
 impl MeshMap {
     /// All maps, in the order in which they are written.
-    pub const ALL: [MeshMap; 8] = [
-        MeshMap::Id,
-        MeshMap::MaterialId,
-        MeshMap::WorldNormal,
-        MeshMap::Position,
-        MeshMap::BentNormal,
-        MeshMap::AmbientOcclusion,
-        MeshMap::Thickness,
-        MeshMap::Curvature,
-    ];
+    pub const ALL: &'static [MeshMap] = MeshMap::VARIANTS;
 
     /// Name in preset files, in reports and in file names.
     pub fn name(self) -> &'static str {
@@ -50,9 +43,9 @@ impl MeshMap {
 
     /// Returns the map of a name; an error lists all.
     pub fn of_name(name: &str) -> Result<MeshMap, String> {
-        let found = MeshMap::ALL.into_iter().find(|map| map.name() == name);
+        let found = MeshMap::ALL.iter().copied().find(|map| map.name() == name);
         found.ok_or_else(|| {
-            let known = MeshMap::ALL.map(MeshMap::name).join(", ");
+            let known = MeshMap::ALL.iter().map(|map| map.name()).collect::<Vec<_>>().join(", ");
             format!("there is no map `{name}` of the model; there is: {known}")
         })
     }
@@ -80,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_map_is_known_by_its_name() {
-        for map in MeshMap::ALL {
+        for &map in MeshMap::ALL {
             assert_eq!(MeshMap::of_name(map.name()), Ok(map));
         }
         let told = MeshMap::of_name("ao").unwrap_err();

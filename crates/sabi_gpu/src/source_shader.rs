@@ -1,6 +1,7 @@
 //! Kernels of sources.
 
 use sabi_nodes::link::{Format, Given};
+use strum::VariantArray;
 
 use crate::bindings::{storage_entry, table_entry, texture_entry, uniform_entry};
 
@@ -10,7 +11,7 @@ pub const TEXTURES: usize = 4;
 const STORAGES: [&str; TEXTURES] = ["STORAGE_0", "STORAGE_1", "STORAGE_2", "STORAGE_3"];
 
 /// Storage of the pixels of a picture, see `shaders/source/picture.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, VariantArray)]
 pub enum PictureStorage {
     /// Four codes of 8 bits.
     Codes8,
@@ -26,13 +27,7 @@ pub enum PictureStorage {
 
 impl PictureStorage {
     /// All of them.
-    pub(crate) const ALL: [PictureStorage; 5] = [
-        PictureStorage::Codes8,
-        PictureStorage::Codes16,
-        PictureStorage::Halves,
-        PictureStorage::Floats,
-        PictureStorage::None,
-    ];
+    pub(crate) const ALL: &'static [PictureStorage] = PictureStorage::VARIANTS;
 
     /// Number in the shader.
     pub(crate) fn number(self) -> u32 {
@@ -136,12 +131,16 @@ impl SourceShader {
                     is_random: !is,
                 }));
             }
-            kinds.extend(PictureStorage::ALL.map(|storage| SourceShader::Directions {
+            kinds.extend(PictureStorage::ALL.iter().map(|&storage| SourceShader::Directions {
                 storage,
                 shows_slope: is,
             }));
         }
-        kinds.extend(PictureStorage::ALL.map(|storage| SourceShader::Textures([storage; TEXTURES])));
+        kinds.extend(
+            PictureStorage::ALL
+                .iter()
+                .map(|&storage| SourceShader::Textures([storage; TEXTURES])),
+        );
         kinds
     }
 

@@ -26,7 +26,7 @@ impl Document {
     /// The change was refused; the document is as it was.
     pub fn apply(&mut self, edit: Edit) -> Result<Edit, EditError> {
         match edit {
-            Edit::AddNode { body, id, node } => self.add_node(body, id, node),
+            Edit::AddNode { body, id, node, inputs } => self.add_node(body, id, node, inputs),
             Edit::RemoveNode { body, id } => self.remove_node(body, id),
             Edit::SetParam {
                 body,

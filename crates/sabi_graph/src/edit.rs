@@ -21,8 +21,13 @@ pub enum Body {
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the sentence of each edit says what its fields are")]
 pub enum Edit {
-    /// Adds a node with its parameters and links.
-    AddNode { body: Body, id: NodeId, node: Node },
+    /// Adds a node with its parameters, and links its inputs.
+    AddNode {
+        body: Body,
+        id: NodeId,
+        node: Node,
+        inputs: BTreeMap<String, OutputRef>,
+    },
     /// Removes a node with all links from it and all its exposed parameters and ports.
     RemoveNode { body: Body, id: NodeId },
     /// Sets a parameter, or resets it (`None`).

@@ -12,8 +12,9 @@ use std::collections::BTreeMap;
 pub use error::FlattenError;
 pub use instance_values::takes_values;
 pub use knobs::INSTANCE_KNOBS;
+use petgraph::stable_graph::NodeIndex;
 
-use crate::{Document, Fit, Value};
+use crate::{Document, Fit, Value, order};
 
 /// A graph for the planner, without groups and reroutes: every link leads from node to node.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -173,15 +174,18 @@ pub fn flatten_and_find(
 
 /// Sorts nodes so that each comes after the nodes that it reads, and adjusts their links. Also returns the new index of each node.
 fn in_order(nodes: Vec<FlatNode>) -> Result<(Vec<FlatNode>, Vec<usize>), FlattenError> {
-    let ids: Vec<&str> = nodes.iter().map(|node| node.id.as_str()).collect();
-    let reads: Vec<Vec<usize>> = nodes
-        .iter()
-        .map(|node| node.inputs.values().map(|source| source.node).collect())
-        .collect();
-    // Neither a graph nor the nesting of groups contains a circle, so the flat graph cannot contain one either.
-    let order = crate::order::topological(&ids, &reads).map_err(|circle| FlattenError::Circle {
-        nodes: crate::problem::listed(circle.into_iter().map(|index| ids[index])),
-    })?;
+    let links = nodes.iter().enumerate();
+    let links = links.flat_map(|(reader, node)| node.inputs.values().map(move |source| [source.node, reader]));
+    let net = order::net(nodes.len(), links);
+    let id = |at: NodeIndex| nodes[at.index()].id.as_str();
+    let Some(order) = order::topological(&net, id) else {
+        // Neither a graph nor the nesting of groups contains a circle, so the flat graph cannot contain one either.
+        let circle = order::cycle(&net, id).unwrap_or_default();
+        return Err(FlattenError::Circle {
+            nodes: crate::problem::listed(circle.into_iter().map(id)),
+        });
+    };
+    let order: Vec<usize> = order.into_iter().map(NodeIndex::index).collect();
     let mut place = vec![0; nodes.len()];
     for (new, &old) in order.iter().enumerate() {
         place[old] = new;

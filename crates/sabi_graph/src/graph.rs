@@ -1,12 +1,12 @@
 //! Nodes and links of a document or a group, on petgraph's stable graph.
 
-use std::collections::BTreeMap;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, BTreeSet};
 
 use petgraph::Direction;
-use petgraph::stable_graph::{NodeIndex, StableDiGraph};
-use petgraph::visit::EdgeRef;
+use petgraph::stable_graph::{EdgeIndex, NodeIndex, StableDiGraph};
+use petgraph::visit::{Dfs, EdgeRef, IntoNeighbors, Reversed, Visitable};
 
+use crate::order;
 use crate::problem::{Problem, hint, quoted};
 use crate::{KnobCurve, NodeDisplay, NodeId, Note, OutputRef, SlotRef, Value};
 
@@ -68,15 +68,13 @@ pub struct Frame {
     pub extra: BTreeMap<String, Value>,
 }
 
-/// A node as stored in the file.
+/// A node as stored in the file, without its links, which belong to the graph.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Node {
     /// Its kind, such as `noise/simplex` or `noise/simplex@2`.
     pub kind: String,
     /// Parameters that were set.
     pub params: BTreeMap<String, Value>,
-    /// Links, by input port.
-    pub inputs: BTreeMap<String, OutputRef>,
     /// Position on the canvas, in canvas points.
     pub pos: [f32; 2],
     /// True if the node is muted: it passes its main input through.
@@ -92,7 +90,7 @@ pub struct Node {
 }
 
 impl Node {
-    /// Creates a node without parameters and links.
+    /// Creates a node without parameters.
     pub fn new(kind: impl Into<String>) -> Self {
         Node {
             kind: kind.into(),
@@ -101,12 +99,24 @@ impl Node {
     }
 }
 
+/// Link into a node: the weight of an edge from the node that is read to the one that reads it.
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    /// Input of the reader.
+    input: String,
+    /// Output that is read. It repeats the id of its node, which never changes, so that links can be borrowed.
+    from: OutputRef,
+}
+
 /// Nodes and links of a document or a group, with its frames, knobs and variants. Every link starts at an existing node,
 /// and links form no circle. Only [`Document::apply`](crate::Document::apply) changes a graph.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    /// Nodes and links. An edge from A to B has as its weight the name of the input of B that reads A.
-    pub(crate) net: StableDiGraph<(NodeId, Node), String>,
+    /// Nodes and links.
+    ///
+    /// Not wrapped in `petgraph::acyclic::Acyclic`: that is not `Sync`, while documents are shared between threads, its error
+    /// names one node instead of the cycle, and a new edge may take it a time in proportion to the size of the graph.
+    pub(crate) net: StableDiGraph<(NodeId, Node), Link>,
     index: BTreeMap<NodeId, NodeIndex>,
     pub(crate) frames: BTreeMap<String, Frame>,
     pub(crate) notes: BTreeMap<String, Note>,
@@ -117,6 +127,9 @@ pub struct Graph {
 impl PartialEq for Graph {
     fn eq(&self, other: &Self) -> bool {
         self.nodes().eq(other.nodes())
+            && self
+                .ids()
+                .all(|id| self.inputs(id.as_str()) == other.inputs(id.as_str()))
             && self.frames == other.frames
             && self.notes == other.notes
             && self.exposed == other.exposed
@@ -150,6 +163,24 @@ impl Graph {
         self.index.get(id).map(|&index| &self.net[index].1)
     }
 
+    /// Links into a node, by input.
+    pub fn inputs(&self, id: &str) -> BTreeMap<&str, &OutputRef> {
+        let links = self.index.get(id).into_iter().flat_map(|&index| self.links_into(index));
+        links.map(|(_, link)| (link.input.as_str(), &link.from)).collect()
+    }
+
+    /// The output that an input of a node is linked to. For all inputs of a node, [`Graph::inputs`] is faster.
+    pub fn link_into(&self, id: &str, input: &str) -> Option<&OutputRef> {
+        let mut links = self.links_into(*self.index.get(id)?);
+        links.find(|(_, link)| link.input == input).map(|(_, link)| &link.from)
+    }
+
+    /// Links into a node with their edges, in no particular order.
+    fn links_into(&self, index: NodeIndex) -> impl Iterator<Item = (EdgeIndex, &Link)> {
+        let edges = self.net.edges_directed(index, Direction::Incoming);
+        edges.map(|edge| (edge.id(), edge.weight()))
+    }
+
     /// Inputs that are linked to a node, sorted.
     pub fn readers(&self, id: &str) -> Vec<SlotRef> {
         let Some(&index) = self.index.get(id) else {
@@ -160,17 +191,43 @@ impl Graph {
             .edges_directed(index, Direction::Outgoing)
             .map(|edge| SlotRef {
                 node: self.net[edge.target()].0.clone(),
-                name: edge.weight().clone(),
+                name: edge.weight().input.clone(),
             })
             .collect();
         readers.sort();
         readers
     }
 
+    /// These nodes and all nodes that they depend on. Nodes that do not exist are left out.
+    pub fn upstream<'i>(&self, of: impl IntoIterator<Item = &'i NodeId>) -> BTreeSet<NodeId> {
+        self.reached(Reversed(&self.net), of)
+    }
+
+    /// These nodes and all nodes that depend on them. Nodes that do not exist are left out.
+    pub fn downstream<'i>(&self, of: impl IntoIterator<Item = &'i NodeId>) -> BTreeSet<NodeId> {
+        self.reached(&self.net, of)
+    }
+
+    fn reached<'i, G>(&self, net: G, from: impl IntoIterator<Item = &'i NodeId>) -> BTreeSet<NodeId>
+    where
+        G: IntoNeighbors<NodeId = NodeIndex> + Visitable<NodeId = NodeIndex>,
+    {
+        let mut walk = Dfs::empty(net);
+        let mut reached = BTreeSet::new();
+        for &start in from.into_iter().filter_map(|id| self.index.get(id)) {
+            walk.move_to(start);
+            while let Some(at) = walk.next(net) {
+                reached.insert(self.net[at].0.clone());
+            }
+        }
+        reached
+    }
+
     /// Returns all ids, each after the ids of the nodes that it reads. Ties are broken by the smallest id.
     pub fn topological_order(&self) -> Vec<NodeId> {
-        self.ordered()
-            .unwrap_or_else(|problem| unreachable!("links that close a circle are refused: {problem}"))
+        let order = order::topological(&self.net, |at| &self.net[at].0);
+        let order = order.unwrap_or_else(|| unreachable!("links that close a circle are refused"));
+        self.named(order)
     }
 
     /// Titled boxes, by id.
@@ -219,25 +276,8 @@ impl Graph {
         defaults.chain(of_variant.map(|(name, value)| (name.as_str(), value)))
     }
 
-    /// Returns the topological order, or an error with the circle.
-    fn ordered(&self) -> Result<Vec<NodeId>, Problem> {
-        let ids: Vec<&NodeId> = self.index.keys().collect();
-        let place: BTreeMap<NodeIndex, usize> = self.index.values().copied().zip(0..).collect();
-        let reads: Vec<Vec<usize>> = self
-            .index
-            .values()
-            .map(|&index| {
-                self.net
-                    .neighbors_directed(index, Direction::Incoming)
-                    .map(|source| place[&source])
-                    .collect()
-            })
-            .collect();
-        let named = |indices: Vec<usize>| indices.into_iter().map(|i| ids[i].clone()).collect();
-        match crate::order::topological(&ids, &reads) {
-            Ok(order) => Ok(named(order)),
-            Err(circle) => Err(Problem::Cycle { nodes: named(circle) }),
-        }
+    fn named(&self, nodes: Vec<NodeIndex>) -> Vec<NodeId> {
+        nodes.into_iter().map(|at| self.net[at].0.clone()).collect()
     }
 
     /// petgraph index of a node, or the error that it does not exist.
@@ -253,18 +293,17 @@ impl Graph {
         }
     }
 
-    /// Returns the node with this id. The caller must not change its links.
+    /// Returns the node with this id.
     pub(crate) fn node_mut(&mut self, id: &NodeId) -> Result<&mut Node, Problem> {
         let index = self.find(id.as_str())?;
         Ok(&mut self.net[index].1)
     }
 
-    /// Adds a node without links. The caller connects them.
-    pub(crate) fn insert(&mut self, id: NodeId, mut node: Node) -> Result<(), Problem> {
+    /// Adds a node without links.
+    pub(crate) fn insert(&mut self, id: NodeId, node: Node) -> Result<(), Problem> {
         if self.index.contains_key(&id) {
             return Err(Problem::NodeExists { id });
         }
-        node.inputs.clear();
         let index = self.net.add_node((id.clone(), node));
         self.index.insert(id, index);
         Ok(())
@@ -279,67 +318,43 @@ impl Graph {
         Ok(node)
     }
 
-    /// Links an input without checking for circles. Returns the replaced link.
-    pub(crate) fn link(&mut self, reader: &NodeId, input: &str, from: OutputRef) -> Result<Option<OutputRef>, Problem> {
+    /// Links an input that has no link yet, without checking for circles.
+    pub(crate) fn link(&mut self, reader: &NodeId, input: String, from: OutputRef) -> Result<(), Problem> {
         let target = self.find(reader.as_str())?;
         let source = self.find(from.node.as_str())?;
         if source == target {
             return Err(Problem::SelfLink { id: reader.clone() });
         }
-        let replaced = self.unlink(reader, input)?;
-        self.net.add_edge(source, target, input.to_owned());
-        self.net[target].1.inputs.insert(input.to_owned(), from);
-        Ok(replaced)
+        self.net.add_edge(source, target, Link { input, from });
+        Ok(())
     }
 
     /// Unlinks an input; gives the removed link.
     pub(crate) fn unlink(&mut self, reader: &NodeId, input: &str) -> Result<Option<OutputRef>, Problem> {
         let target = self.find(reader.as_str())?;
-        let removed = self.net[target].1.inputs.remove(input);
-        if removed.is_none() {
-            return Ok(None);
-        }
-        let edge = self
-            .net
-            .edges_directed(target, Direction::Incoming)
-            .find(|edge| edge.weight() == input)
-            .map(|edge| edge.id());
-        if let Some(edge) = edge {
-            self.net.remove_edge(edge);
-        }
-        Ok(removed)
+        let link = self.links_into(target).find(|(_, link)| link.input == input);
+        let edge = link.map(|(edge, _)| edge);
+        Ok(edge.and_then(|edge| self.net.remove_edge(edge)).map(|link| link.from))
     }
 
     /// Refuses a link from `from` to `reader` that would close a circle.
     pub(crate) fn circle_closed_by(&self, from: &NodeId, reader: &NodeId) -> Result<(), Problem> {
         let (source, target) = (self.find(from.as_str())?, self.find(reader.as_str())?);
-        let mut came_from: BTreeMap<NodeIndex, NodeIndex> = BTreeMap::new();
-        let mut queue = VecDeque::from([target]);
-        while let Some(at) = queue.pop_front() {
-            if at == source {
-                let mut nodes = vec![self.net[at].0.clone()];
-                let mut step = at;
-                while let Some(&before) = came_from.get(&step) {
-                    step = before;
-                    nodes.push(self.net[step].0.clone());
-                }
-                nodes.reverse();
-                return Err(Problem::Cycle { nodes });
-            }
-            let mut next: Vec<NodeIndex> = self.net.neighbors_directed(at, Direction::Outgoing).collect();
-            next.sort_by_key(|&index| &self.net[index].0);
-            for reader in next {
-                if reader != target && !came_from.contains_key(&reader) {
-                    came_from.insert(reader, at);
-                    queue.push_back(reader);
-                }
-            }
+        match order::shortest_path(&self.net, |at| &self.net[at].0, [target, source]) {
+            Some(nodes) => Err(Problem::Cycle {
+                nodes: self.named(nodes),
+            }),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// Refuses links that lead in a circle.
     pub(crate) fn check_order(&self) -> Result<(), Problem> {
-        self.ordered().map(|_| ())
+        match order::cycle(&self.net, |at| &self.net[at].0) {
+            Some(nodes) => Err(Problem::Cycle {
+                nodes: self.named(nodes),
+            }),
+            None => Ok(()),
+        }
     }
 }

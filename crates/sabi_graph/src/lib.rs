@@ -1,10 +1,17 @@
 //! The document: nodes, links, edits with inverses, groups and the file format.
 //!
 //! ```
+//! use std::collections::BTreeMap;
+//!
 //! use sabi_graph::{Body, Document, Edit, Node, Overrides, flatten};
 //!
 //! let mut document = Document::new("Dust");
-//! let add = Edit::AddNode { body: Body::Main, id: "grain".parse()?, node: Node::new("noise/simplex") };
+//! let add = Edit::AddNode {
+//!     body: Body::Main,
+//!     id: "grain".parse()?,
+//!     node: Node::new("noise/simplex"),
+//!     inputs: BTreeMap::new(),
+//! };
 //! let undo = document.apply(add)?;
 //! let flat = flatten(&document, &Overrides::default(), &mut |_| Err("no files here".to_owned()))?;
 //! assert_eq!(flat.nodes[0].kind, "noise/simplex");

@@ -82,17 +82,17 @@ fn put_ports(object: &mut OrderedObject, inputs: &BTreeMap<String, GroupInput>, 
 fn put_nodes(object: &mut OrderedObject, graph: &Graph) {
     let mut nodes = OrderedObject::default();
     for (id, node) in graph.nodes() {
-        nodes.push(id.to_string(), node_item(node));
+        nodes.push(id.to_string(), node_item(node, &graph.inputs(id.as_str())));
     }
     object.put_object("nodes", nodes);
 }
 
-fn node_item(node: &Node) -> Item {
+fn node_item(node: &Node, inputs: &BTreeMap<&str, &OutputRef>) -> Item {
     let mut object = OrderedObject::default();
     object.put("kind", node.kind.as_str());
     object.put_some("group", node.group.as_deref());
     object.put_some("label", node.label.as_deref());
-    object.put_map("inputs", &node.inputs, reference_item);
+    object.put_map("inputs", inputs, |from| reference_item(from));
     object.put_map("params", &node.params, |value| Item::Value(value.clone()));
     object.put("pos", node.pos.map(f64::from).to_vec());
     object.put_some("muted", node.muted.then_some(true));

@@ -106,7 +106,9 @@ impl StepBuilder<'_, '_> {
         let mut seen = BTreeSet::new();
         let mut order = Vec::new();
         for value in wanted {
-            // An explicit stack is used, since graphs may be deeper than the stack of a thread allows.
+            // An explicit stack is used, since graphs may be deeper than the stack of a thread allows. It is not petgraph's
+            // `DfsPostOrder`: a petgraph graph does not say in which order it lists the edges of a node, and that order decides
+            // here how much memory is in use.
             let mut stack = vec![(self.producer[value], false)];
             while let Some((group, inputs_done)) = stack.pop() {
                 if inputs_done {

@@ -25,7 +25,8 @@ impl Planner<'_> {
                 node: target.node,
                 port: target.port.clone(),
             };
-            // An explicit stack is used, since graphs may be deeper than the stack of a thread allows.
+            // An explicit stack is used, since graphs may be deeper than the stack of a thread allows. It is not petgraph's
+            // `DfsPostOrder`: links are followed through muted nodes, which are listed on the way.
             let mut stack = Vec::new();
             self.follow(&from, &mut seen, &mut order, &mut stack);
             while let Some((node, inputs_done)) = stack.pop() {

@@ -1,12 +1,13 @@
 //! Shader modules of the viewport: the files that each is linked from.
 
 use sabi_nodes::link::{Given, ModuleSpec};
+use strum::VariantArray;
 
 /// Bind group of the surface, which follows those of the viewport; see `lib/atlas.wgsl`.
 const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 3);
 
 /// A module with the entry points of one kind of pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, VariantArray)]
 pub(crate) enum ViewShader {
     Raster,
     Paint,
@@ -21,18 +22,7 @@ pub(crate) enum ViewShader {
 }
 
 impl ViewShader {
-    pub(crate) const ALL: [ViewShader; 10] = [
-        ViewShader::Raster,
-        ViewShader::Paint,
-        ViewShader::Background,
-        ViewShader::Lines,
-        ViewShader::CastShadow,
-        ViewShader::Bloom,
-        ViewShader::Display,
-        ViewShader::PanoramaToCube,
-        ViewShader::HalveCube,
-        ViewShader::Prefilter,
-    ];
+    pub(crate) const ALL: &'static [ViewShader] = ViewShader::VARIANTS;
 
     /// Returns the file to link, and the values that it receives.
     pub(crate) fn spec(self) -> ModuleSpec {
@@ -59,5 +49,5 @@ impl ViewShader {
 
 /// Returns everything from which modules of the viewport are linked, for tests.
 pub fn view_modules() -> Vec<ModuleSpec> {
-    ViewShader::ALL.map(ViewShader::spec).to_vec()
+    ViewShader::ALL.iter().map(|shader| shader.spec()).collect()
 }

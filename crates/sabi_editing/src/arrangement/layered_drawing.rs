@@ -1,6 +1,9 @@
 //! Layered graph drawing: columns by the longest path to an end, rows by the mean position of the neighbors (Sugiyama,
 //! Tagawa and Toda, 1981).
 
+use petgraph::algo::toposort;
+use petgraph::graph::{DiGraph, NodeIndex};
+
 /// Space between columns, canvas points.
 const COLUMN_GAP: f32 = 80.0;
 /// Space between boxes of a column, canvas points.
@@ -15,6 +18,12 @@ pub(crate) struct LayoutBox {
     pub(crate) height: f32,
     /// Boxes that it reads, by index, without cycles.
     pub(crate) reads: Vec<usize>,
+}
+
+impl AsRef<[usize]> for LayoutBox {
+    fn as_ref(&self) -> &[usize] {
+        &self.reads
+    }
 }
 
 /// Computes the upper left corners of the boxes, relative to that of their bounding box.
@@ -80,20 +89,27 @@ fn readers_of(boxes: &[LayoutBox]) -> Vec<Vec<usize>> {
     readers
 }
 
+/// Lists boxes so that each comes after those that it reads; `None` if they read each other in a cycle.
+pub(crate) fn order_of(reads: &[impl AsRef<[usize]>]) -> Option<Vec<usize>> {
+    let mut net = DiGraph::<(), ()>::with_capacity(reads.len(), 0);
+    for _ in reads {
+        net.add_node(());
+    }
+    for (at, sources) in reads.iter().enumerate() {
+        for source in sources.as_ref() {
+            net.add_edge(NodeIndex::new(*source), NodeIndex::new(at), ());
+        }
+    }
+    let order = toposort(&net, None).ok()?;
+    Some(order.into_iter().map(NodeIndex::index).collect())
+}
+
 /// Column of each box, counted from the left: every box is as far right as its readers allow.
 fn columns_of(boxes: &[LayoutBox], readers: &[Vec<usize>]) -> Vec<usize> {
-    let mut to_end = vec![0usize; boxes.len()];
-    // Each round fixes at least one more box of the longest path.
-    for _ in 0..boxes.len() {
-        let mut has_changed = false;
-        for at in 0..boxes.len() {
-            let steps = readers[at].iter().map(|reader| to_end[*reader] + 1).max().unwrap_or(0);
-            has_changed |= steps != to_end[at];
-            to_end[at] = steps;
-        }
-        if !has_changed {
-            break;
-        }
+    let order = order_of(boxes).unwrap_or_else(|| unreachable!("boxes read each other without cycles"));
+    let mut to_end = vec![0_usize; boxes.len()];
+    for at in order.into_iter().rev() {
+        to_end[at] = readers[at].iter().map(|reader| to_end[*reader] + 1).max().unwrap_or(0);
     }
     let longest = to_end.iter().copied().max().unwrap_or(0);
     to_end.into_iter().map(|steps| longest - steps).collect()

@@ -32,9 +32,9 @@ pub fn lay_out(document: &mut OpenDocument) -> bool {
     let clusters = clusters(document, &ids);
     let reads = reads_of(document, &clusters);
     // Frames that read each other cannot be ordered. In that case every node is a cluster of its own.
-    let (clusters, reads) = match is_ordered(&reads) {
-        true => (clusters, reads),
-        false => {
+    let (clusters, reads) = match layered_drawing::order_of(&reads) {
+        Some(_) => (clusters, reads),
+        None => {
             let single: Vec<Cluster> = ids
                 .iter()
                 .map(|id| cluster(document, vec![id.clone()], false))
@@ -83,7 +83,7 @@ fn cluster(document: &OpenDocument, ids: Vec<NodeId>, is_framed: bool) -> Cluste
         .iter()
         .map(|id| {
             let [width, height] = node_size::of(document, id);
-            let sources = connections::neighbors(document, id, true);
+            let sources = connections::sources(document, id);
             let reads = sources.iter().filter_map(|from| ids.binary_search(from).ok());
             LayoutBox {
                 width,
@@ -118,10 +118,7 @@ fn reads_of(document: &OpenDocument, clusters: &[Cluster]) -> Vec<Vec<usize>> {
         .flat_map(|(at, cluster)| cluster.ids.iter().map(move |id| (id, at)));
     let owner_of: BTreeMap<&NodeId, usize> = owners.collect();
     let reads = clusters.iter().enumerate().map(|(at, cluster)| {
-        let sources = cluster
-            .ids
-            .iter()
-            .flat_map(|id| connections::neighbors(document, id, true));
+        let sources = cluster.ids.iter().flat_map(|id| connections::sources(document, id));
         let mut reads: Vec<usize> = sources.filter_map(|from| owner_of.get(&from).copied()).collect();
         reads.retain(|from| *from != at);
         reads.sort_unstable();
@@ -129,17 +126,4 @@ fn reads_of(document: &OpenDocument, clusters: &[Cluster]) -> Vec<Vec<usize>> {
         reads
     });
     reads.collect()
-}
-
-/// Returns whether the reads between clusters contain no cycle.
-fn is_ordered(reads: &[Vec<usize>]) -> bool {
-    let mut is_placed = vec![false; reads.len()];
-    for _ in 0..reads.len() {
-        let ready = (0..reads.len()).find(|at| !is_placed[*at] && reads[*at].iter().all(|from| is_placed[*from]));
-        match ready {
-            Some(at) => is_placed[at] = true,
-            None => return is_placed.into_iter().all(|is_placed| is_placed),
-        }
-    }
-    true
 }

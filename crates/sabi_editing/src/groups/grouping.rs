@@ -38,19 +38,7 @@ pub fn make(document: &mut OpenDocument) -> bool {
 /// Returns the first node outside that depends on a node inside while another node inside depends on it: the group would
 /// form a cycle with this node.
 fn first_between(document: &OpenDocument, ids: &BTreeSet<NodeId>) -> Option<NodeId> {
-    let reached = |is_upstream: bool| {
-        let mut seen = BTreeSet::new();
-        let mut next: Vec<NodeId> = ids.iter().cloned().collect();
-        while let Some(id) = next.pop() {
-            for neighbor in connections::neighbors(document, &id, is_upstream) {
-                if seen.insert(neighbor.clone()) {
-                    next.push(neighbor);
-                }
-            }
-        }
-        seen
-    };
-    let (above, below) = (reached(true), reached(false));
+    let (above, below) = (document.graph().upstream(ids), document.graph().downstream(ids));
     above.intersection(&below).find(|id| !ids.contains(*id)).cloned()
 }
 
@@ -72,11 +60,15 @@ fn definition(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, bound
     }];
     let order = document.graph().topological_order();
     for id in order.into_iter().filter(|id| ids.contains(id)) {
-        let Some(mut node) = document.node(&id).cloned() else {
+        let Some(node) = document.node(&id).cloned() else {
             continue;
         };
-        node.inputs.retain(|_, from| ids.contains(&from.node));
-        edits.push(Edit::AddNode { body: body(), id, node });
+        edits.push(Edit::AddNode {
+            body: body(),
+            inputs: connections::wires_from(document.graph(), &id, |from| ids.contains(from)),
+            id,
+            node,
+        });
     }
     edits.extend(boundary.inputs.iter().map(|(name, input)| Edit::SetInput {
         body: body(),
@@ -114,8 +106,7 @@ fn instance_edits(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, b
     node.pos = sum.map(|sum| (sum / ids.len() as f32).round());
     let wired = boundary.inputs.iter();
     let wired = wired.filter_map(|(name, input)| Some((name.clone(), input.from.clone()?)));
-    node.inputs = wired.collect();
-    let mut edits = vec![new_nodes::addition(document, &boundary.instance, node)];
+    let mut edits = vec![new_nodes::addition(document, &boundary.instance, node, wired.collect())];
     for id in ids {
         let readers = document.graph().readers(id.as_str()).into_iter();
         for slot in readers.filter(|slot| !ids.contains(&slot.node)) {
@@ -199,12 +190,8 @@ impl Boundary {
         let fed = inputs.values().flat_map(|input| &input.to);
         let mut slots: BTreeSet<SlotRef> = fed.filter(|slot| ids.contains(&slot.node)).cloned().collect();
         for id in ids {
-            let tied = document.node(id).into_iter().flat_map(|node| &node.inputs);
-            let outside = tied.filter(|(_, from)| !ids.contains(&from.node));
-            slots.extend(outside.map(|(name, _)| SlotRef {
-                node: id.clone(),
-                name: name.clone(),
-            }));
+            let outside = connections::wires_from(document.graph(), id, |from| !ids.contains(from));
+            slots.extend(outside.into_keys().map(|name| SlotRef { node: id.clone(), name }));
         }
         for slot in slots {
             let from = connections::wire_into(document, &slot)

@@ -64,7 +64,8 @@ fn dissolve(
         true => [0.0; 2],
         false => [0, 1].map(|axis| instance.pos[axis] - corner[axis]),
     };
-    let mut copies = duplication::copies(document, &inner, group.graph.frames().clone(), false, offset);
+    let wires = duplication::wires_between(&group.graph, &inner, false);
+    let mut copies = duplication::copies(document, &inner, wires, group.graph.frames().clone(), offset);
     let dissolved = DissolvedGroup {
         group,
         new_id: copies.new_id.clone(),
@@ -76,7 +77,7 @@ fn dissolve(
     scale_lengths(document, instance, name, &dissolved, &mut copies.nodes);
     let ids = copies.ids();
     let mut edits = duplication::additions(document, copies);
-    edits.extend(rewired(document, id, instance, &dissolved));
+    edits.extend(rewired(document, id, &dissolved));
     edits.extend(references::redirecting(
         document,
         &BTreeSet::from([id.clone()]),
@@ -96,12 +97,12 @@ fn dissolve(
 }
 
 /// Returns edits that move the wires of an instance to the nodes that replace it.
-fn rewired(document: &OpenDocument, id: &NodeId, instance: &Node, dissolved: &DissolvedGroup<'_>) -> Vec<Edit> {
+fn rewired(document: &OpenDocument, id: &NodeId, dissolved: &DissolvedGroup<'_>) -> Vec<Edit> {
     let mut edits = Vec::new();
-    for (name, from) in &instance.inputs {
+    for (name, from) in document.graph().inputs(id.as_str()) {
         let slot = SlotRef {
             node: id.clone(),
-            name: name.clone(),
+            name: name.to_owned(),
         };
         edits.extend(dissolved.inputs(&slot).into_iter().map(|slot| Edit::Connect {
             body: document.body(),

@@ -108,8 +108,7 @@ fn a_layout_has_no_overlaps_and_repeating_it_changes_nothing() {
     step(&mut document, arrangement::lay_out);
     let ids: Vec<NodeId> = document.graph().ids().cloned().collect();
     for one in &ids {
-        let node = document.node(one).expect("a node");
-        for from in node.inputs.values() {
+        for from in document.graph().inputs(one.as_str()).into_values() {
             let [reader, source] = [one, &from.node].map(|id| pos(&document, id.as_str())[0]);
             assert!(source + NODE_WIDTH < reader, "{one} reads {}", from.node);
         }

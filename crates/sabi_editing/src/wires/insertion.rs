@@ -1,7 +1,5 @@
 //! Insertion of nodes into wires, and making space for them.
 
-use std::collections::BTreeSet;
-
 use sabi_engine::catalog::Interface;
 use sabi_graph::{Edit, NodeId, SlotRef};
 
@@ -83,7 +81,7 @@ pub(crate) fn room_between(
     if let Some(right) = source.and_then(|source| right_of(document, source, place, size)) {
         place[0] = right;
     }
-    let downstream = downstream(document, reader);
+    let downstream = document.graph().downstream([reader]);
     let end = place[0] + size[0] + ROOM;
     let lefts = downstream.iter().filter_map(|other| {
         let is_over = right_of(document, other, place, size).is_some();
@@ -117,15 +115,4 @@ fn right_of(document: &OpenDocument, other: &NodeId, place: [f32; 2], size: [f32
     };
     let right = pos[0] + other_size[0] + ROOM;
     (!is_apart(0, ROOM) && !is_apart(1, 0.0)).then_some((right / GRID).ceil() * GRID)
-}
-
-/// A node and all nodes that depend on it.
-fn downstream(document: &OpenDocument, id: &NodeId) -> BTreeSet<NodeId> {
-    let mut found = BTreeSet::from([id.clone()]);
-    let mut next = vec![id.clone()];
-    while let Some(id) = next.pop() {
-        let readers = connections::neighbors(document, &id, false).into_iter();
-        next.extend(readers.filter(|id| found.insert(id.clone())));
-    }
-    found
 }

@@ -1,6 +1,8 @@
 //! Edits at random, the same ones for the same seed: knobs are changed, nodes added and removed, wires connected and
 //! cut, and now and then steps are undone.
 
+use std::collections::BTreeMap;
+
 use sabi_graph::{Body, Document, Edit, Node, NodeId, OutputRef, Value};
 
 /// A kind of node, one knob of it with its range, its inputs, and whether it gives a material.
@@ -129,17 +131,18 @@ impl Walk {
             return Some(Edit::RemoveNode { body: Body::Main, id });
         }
         let (kind, _, _, inputs, _) = self.one_of(&KINDS)?;
-        let mut node = Node::new(kind);
+        let mut links = BTreeMap::new();
         for input in inputs {
             if let Some(from) = self.fitting(document, ids, input) {
-                node.inputs.insert((*input).to_owned(), from);
+                links.insert((*input).to_owned(), from);
             }
         }
         self.count += 1;
         Some(Edit::AddNode {
             body: Body::Main,
             id: format!("node_{}", self.count).parse().ok()?,
-            node,
+            node: Node::new(kind),
+            inputs: links,
         })
     }
 

@@ -287,12 +287,12 @@ impl Snapshot {
         for input in connected {
             self.graph.remove_connection(input);
         }
-        for (id, node) in document.graph().nodes() {
-            for (name, from) in &node.inputs {
+        for id in document.graph().ids() {
+            for (name, from) in document.graph().inputs(id.as_str()) {
                 let ends = self.keys.get(id).zip(self.keys.get(&from.node));
                 let Some((reader, source)) = ends else { continue };
                 let [reads, gives] = [reader, source].map(|key| &self.graph[*key].user_data);
-                let input = reads.interface.inputs.iter().position(|port| port.name == *name);
+                let input = reads.interface.inputs.iter().position(|port| port.name == name);
                 let outputs = &gives.interface.outputs;
                 let output = match &from.port {
                     Some(port) => outputs.iter().position(|known| known.name == *port),

@@ -76,15 +76,12 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
 fn tags(document: &OpenDocument) -> Vec<Tag> {
     let mut sources = BTreeSet::new();
     let mut tags = Vec::new();
-    for (id, node) in document.graph().nodes() {
-        for (name, from) in node
-            .inputs
-            .iter()
-            .filter(|(_, from)| wires::is_named(document, &from.node))
-        {
+    for id in document.graph().ids() {
+        let inputs = document.graph().inputs(id.as_str()).into_iter();
+        for (name, from) in inputs.filter(|(_, from)| wires::is_named(document, &from.node)) {
             let to = SlotRef {
                 node: id.clone(),
-                name: name.clone(),
+                name: name.to_owned(),
             };
             sources.insert(from.clone());
             if let Some(port) = wires::end_of(document, &to) {

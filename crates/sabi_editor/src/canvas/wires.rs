@@ -65,14 +65,14 @@ pub(super) fn is_named(document: &OpenDocument, node: &NodeId) -> bool {
 /// Wires that may be in the panel; those that are drawn as names are not among them.
 pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<Wire> {
     let mut wires = Vec::new();
-    for (id, node) in document.graph().nodes() {
-        for (name, from) in &node.inputs {
+    for id in document.graph().ids() {
+        for (name, from) in document.graph().inputs(id.as_str()) {
             if is_named(document, &from.node) {
                 continue;
             }
             let to = SlotRef {
                 node: id.clone(),
-                name: name.clone(),
+                name: name.to_owned(),
             };
             let ends = start_of(document, from).zip(end_of(document, &to));
             let Some((start, end)) = ends else { continue };

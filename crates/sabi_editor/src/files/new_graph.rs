@@ -46,7 +46,7 @@ mod tests {
         assert!(
             graph
                 .nodes()
-                .any(|(_, node)| node.kind == "output/material" && !node.inputs.is_empty())
+                .any(|(id, node)| node.kind == "output/material" && !graph.inputs(id.as_str()).is_empty())
         );
     }
 }

@@ -132,8 +132,9 @@ impl Drawing {
         let nodes: Vec<_> = graph.graph.nodes().collect();
         let places: BTreeMap<&str, usize> = (0..).zip(&nodes).map(|(at, (id, _))| (id.as_str(), at)).collect();
         let mut wires = Vec::new();
-        for (into, (_, node)) in nodes.iter().enumerate() {
-            let from = node.inputs.values().filter_map(|from| places.get(from.node.as_str()));
+        for (into, (id, _)) in nodes.iter().enumerate() {
+            let inputs = graph.graph.inputs(id.as_str());
+            let from = inputs.into_values().filter_map(|from| places.get(from.node.as_str()));
             wires.extend(from.map(|from| [*from, into]));
         }
         let names = nodes.iter().map(|(_, node)| title_of(node, catalog));

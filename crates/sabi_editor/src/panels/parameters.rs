@@ -5,7 +5,7 @@ use sabi_editing::connections::PendingWire;
 use sabi_editing::painting::{PAINT, STROKES};
 use sabi_editing::{OpenDocument, connections, exposed_knobs, ports as document_ports};
 use sabi_engine::catalog::{Interface, Knob};
-use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
+use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
 use super::input_histogram::InputHistogram;
 use super::instance::InstanceState;
@@ -168,7 +168,7 @@ struct KnobLinks<'d> {
 
 impl<'d> KnobLinks<'d> {
     fn of(document: &'d OpenDocument, id: &NodeId, knob: &Knob) -> KnobLinks<'d> {
-        let wire = document.node(id).and_then(|node| feeder(node, knob));
+        let wire = feeder(document, id, knob);
         KnobLinks {
             wired: wire.map(|from| document.title(&from.node)),
             mask: mask_of(document, id, &knob.name),
@@ -178,9 +178,10 @@ impl<'d> KnobLinks<'d> {
 }
 
 /// Wire that gives a parameter its value. A parameter of a source may have the name of an input without being its value.
-fn feeder<'n>(node: &'n Node, knob: &Knob) -> Option<&'n OutputRef> {
-    let is_fed = knob.is_of_input || node.group.is_some();
-    node.inputs.get(&knob.name).filter(|_| is_fed)
+fn feeder<'d>(document: &'d OpenDocument, id: &NodeId, knob: &Knob) -> Option<&'d OutputRef> {
+    let is_fed = knob.is_of_input || document.node(id)?.group.is_some();
+    let wire = document.graph().link_into(id.as_str(), &knob.name);
+    wire.filter(|_| is_fed)
 }
 
 /// Name of the mask that multiplies a parameter: the title of its node, or the input of the group that it comes from.

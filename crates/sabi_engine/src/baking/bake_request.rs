@@ -17,9 +17,6 @@ use crate::evaluating::evaluator::EvaluatorOptions;
 use crate::faults::FaultList;
 use crate::opening::linked_model::ModelOptions;
 
-/// Default pattern of map names.
-pub const DEFAULT_NAMES: &str = NamePattern::DEFAULT;
-
 /// Name of the default preset.
 pub const DEFAULT_PRESET: &str = BUILTIN_NAMES[0];
 
@@ -108,7 +105,7 @@ const MESH_PRESET: &str = "mesh";
 
 /// Lists the names of all maps of the model itself.
 pub fn mesh_map_names() -> Vec<&'static str> {
-    MeshMap::ALL.map(MeshMap::name).to_vec()
+    MeshMap::ALL.iter().map(|map| map.name()).collect()
 }
 
 /// Lists the names of all channels of a bake, and those of the kinds of outputs.

@@ -23,7 +23,7 @@ pub(super) fn append_mesh_maps(evaluator: &mut Evaluator, options: &SetOptions) 
         presets.any(|named| named.preset.maps_of(&channel).next().is_some())
     };
     let mut targets = Vec::new();
-    for map in MeshMap::ALL.into_iter().filter(is_wanted) {
+    for map in MeshMap::ALL.iter().copied().filter(is_wanted) {
         let (nodes, port) = nodes_of(map, evaluator.graph().nodes.len());
         evaluator.append_nodes(nodes);
         let node = evaluator.graph().nodes.len() - 1;

@@ -116,7 +116,7 @@ impl InterfacesBuilder<'_, '_> {
             let Some(node) = graph.node(id.as_str()) else {
                 continue;
             };
-            let interface = self.interface(body, node, |name| {
+            let interface = self.interface(body, node, &graph.inputs(id.as_str()), |name| {
                 let (node, name) = (id.clone(), name.to_owned());
                 fed.contains(&SlotRef { node, name })
             });
@@ -128,8 +128,14 @@ impl InterfacesBuilder<'_, '_> {
         }
     }
 
-    /// Builds the entry for a node. `is_fed` returns true if an input of the group leads to that input of the node.
-    fn interface(&mut self, body: &Body, node: &Node, is_fed: impl Fn(&str) -> bool) -> Arc<Interface> {
+    /// Builds the entry for a node with links. `is_fed` returns true if an input of the group leads to that input of the node.
+    fn interface(
+        &mut self,
+        body: &Body,
+        node: &Node,
+        links: &BTreeMap<&str, &OutputRef>,
+        is_fed: impl Fn(&str) -> bool,
+    ) -> Arc<Interface> {
         let catalog = self.catalog;
         let kind = node.kind.as_str();
         if kind == GROUP_KIND {
@@ -140,12 +146,10 @@ impl InterfacesBuilder<'_, '_> {
             return Arc::new(placeholder(kind));
         };
         if kind != REROUTE_KIND {
-            return with_param_masks(entry, |name| node.inputs.contains_key(name) || is_fed(name));
+            return with_param_masks(entry, |name| links.contains_key(name) || is_fed(name));
         }
-        let carried = node
-            .inputs
-            .get("source")
-            .and_then(|from| self.interfaces.carried(body, from));
+        let source = links.get("source");
+        let carried = source.and_then(|from| self.interfaces.carried(body, from));
         let mut reroute = Interface::clone(entry);
         for port in reroute.inputs.iter_mut().chain(&mut reroute.outputs) {
             port.ty = carried;

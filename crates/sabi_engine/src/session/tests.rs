@@ -9,6 +9,7 @@ mod outside;
 mod stroke_links;
 mod strokes;
 
+use std::collections::BTreeMap;
 use std::fs;
 
 use sabi_graph::{Body, Node, Value};
@@ -22,6 +23,7 @@ fn add(id: &str) -> Edit {
         body: Body::Main,
         id: id.parse().unwrap(),
         node: Node::new("noise/simplex"),
+        inputs: BTreeMap::new(),
     }
 }
 
@@ -277,6 +279,7 @@ fn image(id: &str, file: &str) -> Edit {
         body: Body::Main,
         id: id.parse().unwrap(),
         node,
+        inputs: BTreeMap::new(),
     }
 }
 

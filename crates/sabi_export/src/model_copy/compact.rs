@@ -4,13 +4,14 @@
 use std::collections::BTreeSet;
 
 use serde_json::{Map, Value as Json};
+use strum::VariantArray;
 
 use super::container::PACKED;
 use super::edit::remove;
 use super::extensions;
 
 /// A list whose entries are referred to by number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
 enum List {
     Textures,
     Images,
@@ -22,14 +23,7 @@ enum List {
 
 impl List {
     /// All lists. An entry refers only to entries of later lists.
-    const ALL: [List; 6] = [
-        List::Textures,
-        List::Images,
-        List::Samplers,
-        List::Accessors,
-        List::Views,
-        List::Buffers,
-    ];
+    const ALL: &'static [List] = List::VARIANTS;
 
     fn name(self) -> &'static str {
         match self {
@@ -67,7 +61,7 @@ const KNOWN: [&str; 17] = [
 /// Entries of each list that were in use.
 #[derive(Debug)]
 pub(super) struct Uses {
-    used: [BTreeSet<usize>; List::ALL.len()],
+    used: Vec<BTreeSet<usize>>,
 }
 
 impl Uses {
@@ -84,14 +78,14 @@ impl Uses {
             return None;
         }
         Some(Uses {
-            used: List::ALL.map(|list| used(document, list)),
+            used: List::ALL.iter().map(|&list| used(document, list)).collect(),
         })
     }
 
     /// Removes the entries that were in use and no longer are. The first buffer stays if it is the binary chunk.
     pub(super) fn compact(&self, document: &mut Json, has_chunk: bool) -> Removed {
         let mut removed = Removed::default();
-        for (list, before) in List::ALL.into_iter().zip(&self.used) {
+        for (&list, before) in List::ALL.iter().zip(&self.used) {
             let now = used(document, list);
             let mut dead: Vec<usize> = before.difference(&now).copied().collect();
             dead.retain(|place| !(has_chunk && list == List::Buffers && *place == 0));

@@ -55,6 +55,7 @@ impl Document {
 
     fn node_is_unchanged_by(&self, edit: &Edit) -> bool {
         let node = |body, id: &crate::NodeId| self.body(body).ok()?.node(id.as_str());
+        let link = |body, id: &crate::NodeId, input: &str| self.body(body).ok()?.link_into(id.as_str(), input);
         match edit {
             Edit::SetParam {
                 body,
@@ -74,10 +75,8 @@ impl Document {
                 node: id,
                 input,
                 from,
-            } => node(body, id).is_some_and(|node| node.inputs.get(input) == Some(from)),
-            Edit::Disconnect { body, node: id, input } => {
-                node(body, id).is_some_and(|node| !node.inputs.contains_key(input))
-            }
+            } => link(body, id, input) == Some(from),
+            Edit::Disconnect { body, node: id, input } => node(body, id).is_some() && link(body, id, input).is_none(),
             Edit::Move { body, node: id, pos } => node(body, id).is_some_and(|node| node.pos == *pos),
             Edit::SetMuted { body, node: id, muted } => node(body, id).is_some_and(|node| node.muted == *muted),
             Edit::SetDisplay {

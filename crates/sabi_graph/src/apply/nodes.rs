@@ -1,5 +1,7 @@
 //! Edits of nodes and links.
 
+use std::collections::BTreeMap;
+
 use super::{canonical, make_canonical};
 use crate::id_text::check_port_name;
 use crate::problem::Problem;
@@ -7,7 +9,13 @@ use crate::validate;
 use crate::{Body, Document, Edit, EditError, Node, NodeDisplay, NodeId, OutputRef, Value};
 
 impl Document {
-    pub(super) fn add_node(&mut self, body: Body, id: NodeId, mut node: Node) -> Result<Edit, EditError> {
+    pub(super) fn add_node(
+        &mut self,
+        body: Body,
+        id: NodeId,
+        mut node: Node,
+        inputs: BTreeMap<String, OutputRef>,
+    ) -> Result<Edit, EditError> {
         let graph = self.body(&body)?;
         if graph.node(id.as_str()).is_some() {
             return Err(Problem::NodeExists { id }.into());
@@ -17,7 +25,7 @@ impl Document {
         make_canonical(&mut node.params)?;
         make_canonical(&mut node.extra)?;
         check_position(node.pos)?;
-        for (input, from) in &node.inputs {
+        for (input, from) in &inputs {
             check_port_name(input)?;
             check_output(from)?;
             if from.node == id {
@@ -25,12 +33,11 @@ impl Document {
             }
             graph.find(from.node.as_str())?;
         }
-        let inputs = std::mem::take(&mut node.inputs);
         let graph = self.body_mut(&body)?;
         graph.insert(id.clone(), node)?;
         // No node reads the new node yet, so its links cannot close a circle.
         for (input, from) in inputs {
-            graph.link(&id, &input, from)?;
+            graph.link(&id, input, from)?;
         }
         // A frame may name the node already, as after a merge of two branches; removing the node must not change that.
         let naming = graph.frames().iter().filter(|(_, frame)| frame.nodes.contains(&id));
@@ -53,8 +60,11 @@ impl Document {
         self.body(&body)?.find(id.as_str())?;
         let unlinking = self.edits_that_unlink(&body, &id)?;
         let mut inverse = self.apply_all(unlinking)?;
-        let node = self.body_mut(&body)?.remove(&id)?;
-        inverse.insert(0, Edit::AddNode { body, id, node });
+        let graph = self.body_mut(&body)?;
+        let inputs = graph.inputs(id.as_str()).into_iter();
+        let inputs = inputs.map(|(input, from)| (input.to_owned(), from.clone())).collect();
+        let node = graph.remove(&id)?;
+        inverse.insert(0, Edit::AddNode { body, id, node, inputs });
         Ok(Edit::Batch(inverse))
     }
 
@@ -150,7 +160,8 @@ impl Document {
             return Err(Problem::SelfLink { id: node }.into());
         }
         graph.circle_closed_by(&from.node, &node)?;
-        let before = graph.link(&node, &input, from)?;
+        let before = graph.unlink(&node, &input)?;
+        graph.link(&node, input.clone(), from)?;
         Ok(Edit::link(body, node, input, before))
     }
 

@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use petgraph::stable_graph::NodeIndex;
+
 use super::FlattenError;
 use crate::document::{Document, Fit, GroupInput};
+use crate::order;
 use crate::problem::{hint, quoted};
 use crate::validate::is_group_file;
 use crate::{GROUP_KIND, Graph, NodeId, OutputRef};
@@ -188,13 +191,14 @@ impl<'a> Definitions<'a> {
     }
 
     fn refuse_recursion(&self, uses: &[Vec<usize>]) -> Result<(), FlattenError> {
+        let uses = uses.iter().enumerate();
+        let uses = uses.flat_map(|(user, used)| used.iter().map(move |used| [user, *used]));
         let names: Vec<String> = (0..self.len()).map(|number| self.name(number)).collect();
-        let Err(mut circle) = crate::order::topological(&names, uses) else {
+        let name = |at: NodeIndex| names[at.index()].as_str();
+        let Some(circle) = order::cycle(&order::net(self.len(), uses), name) else {
             return Ok(());
         };
-        // Sort the groups from the outermost inward: each contains an instance of the next.
-        circle[1..].reverse();
-        let mut chain: Vec<&str> = circle.iter().map(|&number| names[number].as_str()).collect();
+        let mut chain: Vec<&str> = circle.into_iter().map(name).collect();
         chain.push(chain[0]);
         Err(FlattenError::Recursion {
             chain: chain.join(" → "),

@@ -6,7 +6,7 @@ use super::definitions::Definitions;
 use super::knobs::{self, Settings};
 use super::{FlatNode, FlattenError, NodeRef, Overrides};
 use crate::problem::{hint, listed, quoted};
-use crate::{Fit, GROUP_KIND, Node, NodeId, OutputRef, REROUTE_KIND, Value};
+use crate::{Fit, GROUP_KIND, Graph, Node, NodeId, OutputRef, REROUTE_KIND, Value};
 
 /// Maximum depth of instances inside instances.
 const DEPTH_LIMIT: usize = 256;
@@ -113,7 +113,7 @@ impl Expansion {
             self.check_size(&path, &params)?;
             let expanded = match node.kind.as_str() {
                 REROUTE_KIND => {
-                    check_inputs(&path, node, ["source"])?;
+                    check_inputs(&path, definition.graph, id, ["source"])?;
                     Expanded::Reroute
                 }
                 GROUP_KIND => self.add_instance(all, number, id, node, path, &params)?,
@@ -156,7 +156,8 @@ impl Expansion {
             return Err(FlattenError::TooDeep { limit: DEPTH_LIMIT });
         }
         let group = all.get(definition);
-        check_inputs(&path, node, group.inputs.keys().map(String::as_str))?;
+        let graph = all.get(outer.definition).graph;
+        check_inputs(&path, graph, id, group.inputs.keys().map(String::as_str))?;
         let knobs = knobs::of_instance(group.graph, &path, params)?;
         let length_scale = outer.length_scale * knobs.scale;
         if !(length_scale.is_finite() && length_scale > 0.0) {
@@ -214,9 +215,18 @@ impl Expansion {
 }
 
 /// Refuses links into inputs that an instance or reroute does not have.
-fn check_inputs<'a>(path: &str, node: &Node, known: impl IntoIterator<Item = &'a str>) -> Result<(), FlattenError> {
+fn check_inputs<'a>(
+    path: &str,
+    graph: &Graph,
+    id: &NodeId,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Result<(), FlattenError> {
     let known: Vec<&str> = known.into_iter().collect();
-    match node.inputs.keys().find(|input| !known.contains(&input.as_str())) {
+    match graph
+        .inputs(id.as_str())
+        .into_keys()
+        .find(|input| !known.contains(input))
+    {
         None => Ok(()),
         Some(input) => Err(FlattenError::NoSuchInput {
             node: quoted(path),

@@ -1,6 +1,6 @@
 //! Follows links through reroutes and the borders of groups to nodes of the flat graph.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::definitions::{Definition, Definitions};
 use super::expand::{Expanded, Expansion};
@@ -39,22 +39,17 @@ impl<'a> Tracer<'a> {
         id: &'a NodeId,
     ) -> Result<BTreeMap<String, FlatRef>, FlattenError> {
         let number = self.expansion.instances[instance].definition;
-        let own = self.definitions[number]
-            .graph
-            .node(id.as_str())
-            .map(|node| &node.inputs);
-        let own = own.into_iter().flat_map(BTreeMap::keys).map(String::as_str);
+        let own = self.definitions[number].graph.inputs(id.as_str());
         let fed = self.fed[number]
             .get(id.as_str())
             .into_iter()
             .flat_map(BTreeMap::keys)
             .copied();
-        let mut names: Vec<&str> = own.chain(fed).collect();
-        names.sort_unstable();
-        names.dedup();
+        let names: BTreeSet<&str> = own.keys().copied().chain(fed).collect();
         let mut inputs = BTreeMap::new();
         for name in names {
-            if let Some((inside, from)) = self.link(instance, id, name)
+            let own = own.get(name).map(|from| (instance, *from));
+            if let Some((inside, from)) = self.link_from_outside(instance, id, name).or(own)
                 && let Some(found) = self.trace(inside, from)?
             {
                 inputs.insert(name.to_owned(), found);
@@ -66,19 +61,19 @@ impl<'a> Tracer<'a> {
     /// Returns the link of an input and the instance that contains the link: the link from outside the group if there is
     /// one, otherwise the input's own link.
     fn link(&self, instance: usize, id: &NodeId, input: &str) -> Option<(usize, &'a OutputRef)> {
-        let inner = &self.expansion.instances[instance];
-        let feeding = self.fed[inner.definition]
-            .get(id.as_str())
-            .and_then(|inputs| inputs.get(input));
-        let outside = match (&inner.parent, feeding) {
-            // This recursion is as deep as the instances are nested.
-            (Some((outer, node)), Some(group_input)) => self.link(*outer, node, group_input),
-            _ => None,
-        };
-        outside.or_else(|| {
-            let node = self.definitions[inner.definition].graph.node(id.as_str())?;
-            Some((instance, node.inputs.get(input)?))
+        self.link_from_outside(instance, id, input).or_else(|| {
+            let graph = self.definitions[self.expansion.instances[instance].definition].graph;
+            Some((instance, graph.link_into(id.as_str(), input)?))
         })
+    }
+
+    /// Returns the link into the input of the group that feeds an input, and the instance that contains the link.
+    fn link_from_outside(&self, instance: usize, id: &NodeId, input: &str) -> Option<(usize, &'a OutputRef)> {
+        let inner = &self.expansion.instances[instance];
+        let (outer, node) = inner.parent.as_ref()?;
+        let fed = self.fed[inner.definition].get(id.as_str())?;
+        // This recursion is as deep as the instances are nested.
+        self.link(*outer, node, fed.get(input)?)
     }
 
     /// Returns the node of the flat graph at the start of a link; `None` for an unconnected reroute.

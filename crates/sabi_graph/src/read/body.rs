@@ -72,7 +72,7 @@ fn read_nodes(graph: &mut Graph, fields: &mut Fields, group_names: &BTreeSet<Str
     }
     for link in &links {
         graph
-            .link(&link.reader, &link.input, link.from.clone())
+            .link(&link.reader, link.input.clone(), link.from.clone())
             .map_err(|problem| link_error(link, problem))?;
     }
     graph.check_order().map_err(|problem| {
@@ -109,7 +109,6 @@ fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec
     let node = Node {
         kind,
         params: read_params(fields.map("params")?)?,
-        inputs: BTreeMap::new(),
         pos: pos.map(|x| x as f32),
         muted: fields.flag("muted")?,
         display: read_display(&mut fields)?,

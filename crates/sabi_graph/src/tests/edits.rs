@@ -1,5 +1,7 @@
 //! Edits and their inverses.
 
+use std::collections::BTreeMap;
+
 use proptest::prelude::*;
 
 use super::random::{a_document, an_edit};
@@ -137,6 +139,7 @@ fn references_to_missing_things_are_refused() {
             group: group.map(str::to_owned),
             ..Node::new(crate::GROUP_KIND)
         },
+        inputs: BTreeMap::new(),
     };
     for (edit, text) in [
         (
@@ -193,6 +196,7 @@ fn a_group_in_use_cannot_be_removed() {
             body: MAIN,
             id: id("i"),
             node: node.clone(),
+            inputs: BTreeMap::new(),
         })
         .unwrap();
     let group = Box::new(GroupDef::default());
@@ -207,6 +211,7 @@ fn a_group_in_use_cannot_be_removed() {
             body: Body::Group("h".to_owned()),
             id: id("j"),
             node,
+            inputs: BTreeMap::new(),
         })
         .unwrap();
     let error = document.apply(Edit::RemoveGroup { name: "g".to_owned() }).unwrap_err();

@@ -1,5 +1,7 @@
 //! Documents that are saved in another folder.
 
+use std::collections::BTreeMap;
+
 use super::document;
 use crate::{Body, Document, Edit, History, Node, Relocation, Value};
 
@@ -62,6 +64,7 @@ fn undo_after_a_move_restores_the_document_with_paths_of_the_new_folder() {
             body: Body::Main,
             id,
             node: image,
+            inputs: BTreeMap::new(),
         },
         Edit::SetParam {
             body: Body::Main,

@@ -79,28 +79,23 @@ fn a_node() -> impl Strategy<Value = Node> {
         GROUP_KIND,
     ]);
     let named = (kind, prop::option::of(any::<String>()), prop::option::of(a_name()));
-    let links = prop::collection::btree_map(a_port(), an_output(), 0..3);
     (
         named,
         values(),
-        links,
         any::<[i16; 2]>(),
         (any::<bool>(), a_display()),
         values(),
     )
-        .prop_map(
-            |((kind, label, group), params, inputs, pos, (muted, display), extra)| Node {
-                kind: kind.to_owned(),
-                params,
-                inputs,
-                pos: pos.map(|x| f32::from(x) / 10.0),
-                muted,
-                display,
-                label,
-                group,
-                extra,
-            },
-        )
+        .prop_map(|((kind, label, group), params, pos, (muted, display), extra)| Node {
+            kind: kind.to_owned(),
+            params,
+            pos: pos.map(|x| f32::from(x) / 10.0),
+            muted,
+            display,
+            label,
+            group,
+            extra,
+        })
 }
 
 fn a_display() -> impl Strategy<Value = NodeDisplay> {
@@ -232,8 +227,10 @@ fn a_group() -> impl Strategy<Value = GroupDef> {
 /// One of the edits of nodes and links.
 fn a_node_edit() -> impl Strategy<Value = Edit> {
     let place = || (a_body(), a_node_id());
+    let links = || prop::collection::btree_map(a_port(), an_output(), 0..3);
     prop_oneof![
-        6 => (place(), a_node()).prop_map(|((body, id), node)| Edit::AddNode { body, id, node }),
+        6 => (place(), a_node(), links())
+            .prop_map(|((body, id), node, inputs)| Edit::AddNode { body, id, node, inputs }),
         2 => place().prop_map(|(body, id)| Edit::RemoveNode { body, id }),
         2 => (place(), a_port(), prop::option::of(a_value()))
             .prop_map(|((body, node), param, value)| Edit::SetParam { body, node, param, value }),

@@ -28,12 +28,9 @@ fn layout_and_order_of_the_text_do_not_matter() {
 #[test]
 fn version_0_is_migrated_to_the_newest_version() {
     let document = Document::from_json(include_str!("../../tests_data/version_0.sabi")).unwrap();
-    let link = |node: Option<&crate::Node>| node.and_then(|node| node.inputs.get("source").map(OutputRef::to_string));
-    assert_eq!(link(document.graph.node("levels_1")).as_deref(), Some("grain_1.mask"));
-    assert_eq!(
-        link(document.groups["grain"].graph.node("flip")).as_deref(),
-        Some("noise")
-    );
+    let link = |graph: &crate::Graph, id| graph.link_into(id, "source").map(OutputRef::to_string);
+    assert_eq!(link(&document.graph, "levels_1").as_deref(), Some("grain_1.mask"));
+    assert_eq!(link(&document.groups["grain"].graph, "flip").as_deref(), Some("noise"));
     assert_eq!(
         document.graph.node("levels_1").unwrap().params["gamma"],
         Value::Number(2.5)

@@ -41,9 +41,8 @@ const TESTS: [Target; 6] = [
     ("sabi_tests", "test", "memory"),
     ("sabi_gpu", "test", "device"),
 ];
-const BENCHES: [Target; 4] = [
+const BENCHES: [Target; 3] = [
     ("sabi_engine", "bench", "bake"),
-    ("sabi_engine", "bench", "casters"),
     ("sabi_engine", "bench", "frames"),
     ("sabi_engine", "bench", "live"),
 ];

@@ -72,7 +72,7 @@ pub(super) fn is_event(line: &str) -> bool {
 pub(super) fn step_of(line: &str) -> Option<(Phase, usize, usize)> {
     let event: Json = is_event(line).then(|| serde_json::from_str(line).ok()).flatten()?;
     let phase = event.get("phase")?.as_str()?;
-    let phase = Phase::ALL.into_iter().find(|known| known.name() == phase)?;
+    let phase = *Phase::ALL.iter().find(|known| known.name() == phase)?;
     let number = |key: &str| usize::try_from(event.get(key)?.as_u64()?).ok();
     Some((phase, number("done")?, number("of")?))
 }
@@ -104,7 +104,7 @@ fn failure(json: &Json) -> Option<Failure> {
             .map(|texts| texts.iter().filter_map(text).collect::<Vec<_>>())
     };
     let code = error.get("exit")?.as_u64()?;
-    let exit = Exit::ALL.into_iter().find(|exit| *exit as u64 == code)?;
+    let exit = *Exit::ALL.iter().find(|exit| **exit as u64 == code)?;
     let mut failure = Failure::new(exit, text(error.get("message")?)?);
     if let Some(messages) = error.get("messages").and_then(texts) {
         failure.messages = messages;

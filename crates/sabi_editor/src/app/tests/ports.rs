@@ -85,8 +85,8 @@ fn inputs_and_outputs_of_the_group_that_is_open_are_changed_in_a_list() {
         Some("Where it is worn")
     );
     assert_eq!(ports::outputs(document)["worn"].to_string(), "n.id");
-    let instance = document.contents().graph.node("g").expect("the instance");
-    assert!(instance.inputs.contains_key("place"), "instances follow");
+    let place = document.contents().graph.link_into("g", "place");
+    assert!(place.is_some(), "instances follow");
     window.fill("Name of the group", "Wear and tear");
     assert_eq!(
         window.editor().documents.document.body(),

@@ -274,5 +274,5 @@ fn a_wire_dropped_on_a_node_takes_a_free_port_of_its_type_before_all_others() {
     );
     window.drag_from(window.port(&dots, "mask"), window.rect(&all).center());
     assert_eq!(window.reads(&all, "base_color"), "", "a mask is no color");
-    assert_eq!(window.document().node(&all).expect("a node").inputs.len(), 1);
+    assert_eq!(window.document().graph().inputs(all.as_str()).len(), 1);
 }

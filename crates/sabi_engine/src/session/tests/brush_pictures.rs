@@ -40,6 +40,7 @@ pub(super) fn painted(file: &Path) -> (Session, PictureName) {
         body: Body::Main,
         id: "p".parse().unwrap(),
         node,
+        inputs: BTreeMap::new(),
     };
     session.edit("Add", edit).unwrap();
     session.save().unwrap();

@@ -36,6 +36,7 @@ pub(super) fn add_node(session: &mut Session) {
             body: Body::Main,
             id: "p".parse().unwrap(),
             node: Node::new("source/paint"),
+            inputs: BTreeMap::new(),
         };
         session.edit("Add", edit).unwrap();
     }
