@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::Context;
-use sabi_editing::OpenDocument;
+use sabi_editing::{NodeKinds, OpenDocument};
 use sabi_engine::{
     Activity, DEFAULT_BUDGET_BYTES, EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, Precedence, Refusal,
     SetKey, ViewSubject,
@@ -232,11 +232,11 @@ impl Evaluation {
     pub(crate) fn request(&mut self, document: &OpenDocument, wanted: Wanted) {
         self.model.set_size(self.wanted_size(document));
         self.model.set_trusted(&document.session.graph().trusted);
-        let (kinds, kinds_revision) = document.kinds();
+        let NodeKinds { kinds, revision, .. } = document.node_kinds();
         self.graph.follow(document);
         let revisions = Revisions {
             document: self.graph.number,
-            kinds: kinds_revision,
+            kinds: *revision,
             model: self.model.revision,
             files: document.files_revision(),
             has_shade: self.has_shade(),
@@ -259,7 +259,7 @@ impl Evaluation {
             revision: self.requests,
             graph: self.graph.take_unsent(),
             kinds: kinds.clone(),
-            kinds_revision,
+            kinds_revision: *revision,
             model: self.model.options.clone(),
             model_revision: self.model.revision,
             coarse_size: COARSE,

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
-use sabi_editing::OpenDocument;
+use sabi_editing::{NodeKinds, OpenDocument};
 use sabi_engine::view::Pixels;
 use sabi_engine::{
     AdapterKind, Live, LiveEvent, LiveRequest, THUMBNAIL_VERSION, load_thumbnail, store_thumbnail, stored_path,
@@ -232,7 +232,7 @@ impl Trials {
         let evaluation = source.evaluation;
         let live = self.live.get_or_insert_with(|| evaluation.start_trials(SIDE, context));
         let texels = texels_of(&trial, evaluation);
-        let (kinds, kinds_revision) = source.document.kinds();
+        let NodeKinds { kinds, revision, .. } = source.document.node_kinds();
         self.requests += 1;
         // Pictures that were sent are sent again: two trials may look the same.
         live.mark_dropped(Vec::new(), node.iter().cloned().collect());
@@ -240,7 +240,7 @@ impl Trials {
             revision: self.requests,
             graph: Arc::new(graph).into(),
             kinds: kinds.clone(),
-            kinds_revision,
+            kinds_revision: *revision,
             model: Arc::new(evaluation.model.options_of_size(texels)),
             model_revision: 2 * self.model + u64::from(texels == FEW_TEXELS),
             coarse_size: texels,
