@@ -97,7 +97,8 @@ pub(crate) fn copies(
     let mut taken = BTreeSet::new();
     let mut new_id = BTreeMap::new();
     for id in nodes.keys() {
-        let copy = document.new_id_like(id, &taken);
+        let stem = id.as_str().rsplit_once('_').map_or(id.as_str(), |(stem, _)| stem);
+        let copy = document.new_id(stem, &taken);
         taken.insert(copy.clone());
         new_id.insert(id.clone(), copy);
     }

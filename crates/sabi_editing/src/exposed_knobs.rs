@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use sabi_engine::catalog::Knob;
 use sabi_graph::{Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
 
+use crate::instances::interface_of;
 use crate::names::{free_name, knob_label};
 use crate::open_document::OpenDocument;
 use crate::{instances, shown_variant};
@@ -29,7 +30,7 @@ pub struct ExposedKnob {
 /// Returns the exposed knobs in the order in which they are shown. A knob that controls only unknown knobs is left out.
 pub fn knobs(document: &OpenDocument) -> Vec<ExposedKnob> {
     let interface = document.own_interface();
-    let opened = document.own_interface_when_opened();
+    let opened = interface_of(&document.opened, document.shown());
     let variant = shown_variant::values(document).map(|(_, values)| values);
     let set: BTreeMap<&str, &Value> = document.graph().knob_values(variant).collect();
     let knobs = document

@@ -26,7 +26,7 @@
 //! into: None,
 //! };
 //! let outcome = perform(&mut document, add.into());
-//! assert!(matches!(outcome, Outcome::Added(node) if document.is_selected(&node)));
+//! assert!(matches!(outcome, Outcome::Added(node) if document.selection().contains(&node)));
 //!
 //! assert_eq!(perform(&mut document, HistoryCommand::Undo.into()), Outcome::Done);
 //! assert!(document.graph().is_empty());
@@ -51,6 +51,7 @@ mod group_files;
 mod group_import;
 pub mod groups;
 pub mod hand_layers;
+pub mod history;
 pub mod instance_variants;
 mod instances;
 pub mod knob_target;
@@ -63,6 +64,7 @@ mod names;
 pub mod navigation;
 mod new_ids;
 mod new_nodes;
+mod node_kinds;
 pub mod node_paths;
 pub mod node_replacement;
 pub mod node_size;
@@ -70,6 +72,7 @@ pub mod nodes;
 pub mod notes;
 mod open_document;
 pub mod painting;
+mod place;
 pub mod ports;
 pub mod random_knobs;
 mod reconnection;
@@ -82,8 +85,9 @@ pub mod stack;
 mod tests;
 mod texture_map_names;
 pub mod texture_sets;
-mod trust;
+pub mod trust;
 pub mod variants;
 pub mod wires;
 
+pub use node_kinds::NodeKinds;
 pub use open_document::OpenDocument;

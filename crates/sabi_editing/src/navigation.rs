@@ -7,9 +7,9 @@ use crate::open_document::OpenDocument;
 
 /// Entered instances with their titles, outermost first, as a breadcrumb shows them.
 pub fn breadcrumb(document: &OpenDocument) -> Vec<(NodeId, String)> {
-    let entered = document.entered_graphs();
+    let entered = document.place().entered_graphs(document.contents());
     let around = std::iter::once(&Body::Main).chain(&entered);
-    let steps = document.instance_path().iter().zip(around);
+    let steps = document.place().instance_path().iter().zip(around);
     let title = |(id, body): (&NodeId, &Body)| {
         let node = document.graph_of(body).and_then(|graph| graph.node(id.as_str()));
         let label = node.and_then(|node| node.label.clone().or_else(|| node.group.clone()));
@@ -28,17 +28,21 @@ pub fn enter(document: &mut OpenDocument, id: &NodeId) -> bool {
         return document.refuse(separate_file_notice(&group));
     }
     // A file may have a group that contains itself. Such a group can be entered only once, since it has no end.
-    if document.entered_graphs().contains(&Body::Group(group.clone())) {
+    if document
+        .place()
+        .entered_graphs(document.contents())
+        .contains(&Body::Group(group.clone()))
+    {
         return document.refuse(format!("'{group}' contains itself; delete this node"));
     }
-    let path = document.instance_path().iter().chain([id]).cloned().collect();
+    let path = document.place().instance_path().iter().chain([id]).cloned().collect();
     document.show_graph_at(path);
     true
 }
 
 /// Leaves groups until `depth` instances are entered, and selects the instance that was left. Returns whether any was left.
 pub fn leave_to(document: &mut OpenDocument, depth: usize) -> bool {
-    let Some((stays, [left, ..])) = document.instance_path().split_at_checked(depth) else {
+    let Some((stays, [left, ..])) = document.place().instance_path().split_at_checked(depth) else {
         return false;
     };
     let (path, left) = (stays.to_vec(), left.clone());
@@ -49,7 +53,7 @@ pub fn leave_to(document: &mut OpenDocument, depth: usize) -> bool {
 
 /// Leaves the group that was entered last; returns whether there was one.
 pub fn leave(document: &mut OpenDocument) -> bool {
-    match document.instance_path().len() {
+    match document.place().instance_path().len() {
         0 => false,
         depth => leave_to(document, depth - 1),
     }
@@ -73,8 +77,8 @@ pub fn go_to(document: &mut OpenDocument, full_id: &str) -> Option<NodeId> {
 
 /// The entered instance of the shown group, and the graph that it is in; `None` in the main graph.
 pub(crate) fn entered_instance(document: &OpenDocument) -> Option<(Body, NodeId)> {
-    let mut entered = document.entered_graphs();
+    let mut entered = document.place().entered_graphs(document.contents());
     entered.pop()?;
-    let id = document.instance_path().get(entered.len())?.clone();
+    let id = document.place().instance_path().get(entered.len())?.clone();
     Some((entered.pop().unwrap_or(Body::Main), id)) // Without an enclosing instance, this is the main graph.
 }

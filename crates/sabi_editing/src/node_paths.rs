@@ -7,6 +7,13 @@ use sabi_graph::{Body, NodeId};
 
 use crate::open_document::OpenDocument;
 
+/// Returns the id of a node of the shown graph in the evaluation: the ids of the entered instances and its own id,
+/// separated by slashes.
+pub fn full_id(document: &OpenDocument, id: &NodeId) -> String {
+    let path = document.place().instance_path().iter().chain([id]).map(NodeId::as_str);
+    path.collect::<Vec<_>>().join("/")
+}
+
 /// Returns whether a node with this full id exists. A node inside a group file counts as existing if its instance exists.
 pub fn exists(document: &OpenDocument, full_id: &str) -> bool {
     let mut body = Body::Main;
@@ -44,7 +51,7 @@ pub fn title(document: &OpenDocument, full_id: &str) -> String {
 /// Node with this full id, if it is in the shown graph.
 pub fn in_shown_graph(document: &OpenDocument, full_id: &str) -> Option<NodeId> {
     let own = full_id.rsplit('/').next()?.parse::<NodeId>().ok()?;
-    (document.full_id(&own) == full_id).then_some(own)
+    (self::full_id(document, &own) == full_id).then_some(own)
 }
 
 /// Words after which an error contains the full id of a node in quotation marks.

@@ -80,7 +80,7 @@ fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Interface
     let base = document.session.graph().base();
     let contents = document.read_group_file(&base, group)?;
     let base = base.base_of(group);
-    let catalog = document.catalog().clone();
+    let catalog = document.node_kinds().catalog.clone();
     let mut read = |name: &str| document.read_group_file(&base, name);
     Interfaces::new(&catalog, &contents, &mut read).of_whole().cloned()
 }

@@ -1,7 +1,5 @@
 //! The open document: the state that every edit needs. All edits are applied here.
 
-mod node_kinds;
-
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,7 +7,7 @@ use std::sync::Arc;
 use sabi_engine::catalog::{Catalog, Interface, Interfaces};
 use sabi_engine::{EngineError, Kinds, Session};
 use sabi_files::PathBase;
-use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
+use sabi_graph::{Body, Document, Edit, Graph, Node, NodeId};
 
 use crate::current_interfaces::CurrentInterfaces;
 use crate::document_trust::Trust;
@@ -17,6 +15,8 @@ use crate::group_files::GroupFiles;
 use crate::instances::interface_of;
 use crate::library_folder::LibraryFolder;
 use crate::new_ids::IdGenerator;
+use crate::node_kinds::NodeKinds;
+use crate::place::Place;
 use crate::{evaluability, follow_up};
 
 /// Document that is open in the editor, with the state of editing that is not saved with it.
@@ -25,18 +25,13 @@ use crate::{evaluability, follow_up};
 pub struct OpenDocument {
     /// The document with its file, undo history and recovery file.
     pub session: Session,
-    kinds: Arc<Kinds>,
-    kinds_revision: u64,
-    catalog: Arc<Catalog>,
+    node_kinds: NodeKinds,
     files_revision: u64,
     interfaces: CurrentInterfaces,
     /// Ports and knobs of the nodes when the document was opened.
-    opened: Interfaces,
+    pub(crate) opened: Interfaces,
     group_files: GroupFiles,
-    /// Entered group instances, outermost first.
-    instance_path: Vec<NodeId>,
-    /// Graph that is shown: the graph of the innermost entered instance, or the main graph.
-    shown: Body,
+    place: Place,
     selection: BTreeSet<NodeId>,
     pub(crate) ids: IdGenerator,
     notices: Vec<String>,
@@ -45,33 +40,32 @@ pub struct OpenDocument {
     pub(crate) trust: Trust,
 }
 
-/// The nodes that are shown, before a step of the history.
-struct ShownNodes {
-    /// Number of instances that are entered.
-    entered_instances: usize,
-    ids: BTreeSet<NodeId>,
-}
-
 impl OpenDocument {
-    pub(crate) fn with_kinds(
-        session: Session,
-        ids: IdGenerator,
-        kinds: Arc<Kinds>,
-        catalog: Arc<Catalog>,
-    ) -> OpenDocument {
+    /// Opens the document of a session, with the node kinds beside its file.
+    pub fn new(session: Session) -> OpenDocument {
+        let kinds = Kinds::beside(session.file(), &session.graph().trusted);
+        OpenDocument::with_kinds(session, IdGenerator::random(), NodeKinds::new(kinds, 0))
+    }
+
+    /// Opens the document of a session with the built-in node kinds only. The kinds of its folders are read later.
+    pub fn before_kinds(session: Session) -> OpenDocument {
+        OpenDocument::with_kinds(session, IdGenerator::random(), NodeKinds::new(Kinds::builtin(), 0))
+    }
+
+    pub(crate) fn with_kinds(session: Session, ids: IdGenerator, node_kinds: NodeKinds) -> OpenDocument {
         // Revisions of a session are unique in the process, so numbers that continue from its first revision are, too.
         let first = session.revision();
         let mut document = OpenDocument {
             session,
-            catalog,
-            kinds,
-            kinds_revision: first,
+            node_kinds: NodeKinds {
+                revision: first,
+                ..node_kinds
+            },
             files_revision: first,
             interfaces: CurrentInterfaces::default(),
             opened: Interfaces::default(),
             group_files: GroupFiles::default(),
-            instance_path: Vec::new(),
-            shown: Body::Main,
+            place: Place::default(),
             selection: BTreeSet::new(),
             ids,
             notices: Vec::new(),
@@ -81,6 +75,28 @@ impl OpenDocument {
         document.refresh();
         document.opened = document.interfaces().clone();
         document
+    }
+
+    /// Sets the node kinds of the document's folders for the first time since the document was opened.
+    pub fn first_kinds(&mut self, kinds: Kinds) {
+        self.replace_kinds(kinds);
+        self.opened = self.interfaces().clone();
+    }
+
+    /// Replaces the node kinds after their files changed.
+    pub fn replace_kinds(&mut self, kinds: Kinds) {
+        self.node_kinds = NodeKinds::new(kinds, self.node_kinds.revision + 1);
+        self.refresh();
+    }
+
+    /// The node kinds.
+    pub fn node_kinds(&self) -> &NodeKinds {
+        &self.node_kinds
+    }
+
+    /// Descriptions of all node kinds.
+    pub fn catalog(&self) -> &Catalog {
+        &self.node_kinds.catalog
     }
 
     /// Returns a number that increases each time a file that the graph refers to was written. The numbers of different open
@@ -96,47 +112,32 @@ impl OpenDocument {
 
     /// Name of the shown graph within the document: the main graph, or the group that was entered.
     pub fn shown(&self) -> &Body {
-        &self.shown
+        self.place.shown()
     }
 
     /// Copy of [`OpenDocument::shown`], which edits take by value.
     pub fn body(&self) -> Body {
-        self.shown.clone()
+        self.shown().clone()
     }
 
     /// The shown graph.
     pub fn graph(&self) -> &Graph {
         // `shown` always names an existing graph: `refresh` leaves groups that were removed.
-        self.graph_of(&self.shown).unwrap_or(&self.contents().graph)
+        self.graph_of(self.shown()).unwrap_or(&self.contents().graph)
     }
 
     pub(crate) fn graph_of(&self, body: &Body) -> Option<&Graph> {
         self.contents().body(body).ok()
     }
 
-    /// Returns the graphs of the entered instances that exist, outermost first, without the main graph.
-    pub(crate) fn entered_graphs(&self) -> Vec<Body> {
-        let mut entered: Vec<Body> = Vec::new();
-        for id in &self.instance_path {
-            let graph = self.graph_of(entered.last().unwrap_or(&Body::Main));
-            let group = graph.and_then(|graph| graph.node(id.as_str())?.group.clone());
-            let Some(name) = group.filter(|name| self.contents().groups.contains_key(name)) else {
-                break;
-            };
-            entered.push(Body::Group(name));
-        }
-        entered
-    }
-
-    /// Entered group instances, outermost first.
-    pub(crate) fn instance_path(&self) -> &[NodeId] {
-        &self.instance_path
+    /// The shown graph and the entered instances.
+    pub(crate) fn place(&self) -> &Place {
+        &self.place
     }
 
     /// Shows the graph of these nested group instances, and clears the selection.
     pub(crate) fn show_graph_at(&mut self, instance_path: Vec<NodeId>) {
-        self.instance_path = instance_path;
-        self.shown = self.entered_graphs().pop().unwrap_or(Body::Main);
+        self.place.enter(self.session.document(), instance_path);
         self.selection.clear();
     }
 
@@ -147,7 +148,7 @@ impl OpenDocument {
 
     /// Ports and knobs of a node of the shown graph.
     pub fn interface(&self, id: &NodeId) -> Option<&Arc<Interface>> {
-        self.interfaces().of(&self.shown, id.as_str())
+        self.interfaces().of(self.shown(), id.as_str())
     }
 
     /// Ports and knobs of the nodes of all graphs of the document.
@@ -163,12 +164,7 @@ impl OpenDocument {
 
     /// Returns the ports and knobs of instances of the shown graph.
     pub fn own_interface(&self) -> Option<&Arc<Interface>> {
-        interface_of(self.interfaces(), &self.shown)
-    }
-
-    /// Ports and knobs that instances of the shown graph had when the document was opened.
-    pub(crate) fn own_interface_when_opened(&self) -> Option<&Arc<Interface>> {
-        interface_of(&self.opened, &self.shown)
+        interface_of(self.interfaces(), self.shown())
     }
 
     /// Returns the title of a node of the shown graph: its own label, or the label of its kind.
@@ -178,21 +174,9 @@ impl OpenDocument {
             .unwrap_or_else(|| id.to_string())
     }
 
-    /// Returns the id of a node of the shown graph in the evaluation: the ids of the entered instances and its own id,
-    /// separated by slashes.
-    pub fn full_id(&self, id: &NodeId) -> String {
-        let path = self.instance_path.iter().chain([id]).map(NodeId::as_str);
-        path.collect::<Vec<_>>().join("/")
-    }
-
     /// Selected nodes of the shown graph.
     pub fn selection(&self) -> &BTreeSet<NodeId> {
         &self.selection
-    }
-
-    /// Returns whether a node is selected.
-    pub fn is_selected(&self, id: &NodeId) -> bool {
-        self.selection.contains(id)
     }
 
     /// Returns the selected node, if exactly one node is selected.
@@ -209,17 +193,10 @@ impl OpenDocument {
 
     /// Generates an id that is neither in the shown graph nor among `taken`: a readable stem with a random end.
     pub(crate) fn new_id(&mut self, stem: &str, taken: &BTreeSet<NodeId>) -> NodeId {
-        let OpenDocument {
-            session, shown, ids, ..
-        } = self;
-        let contents = session.document();
-        ids.id(stem, contents.body(shown).unwrap_or(&contents.graph), taken) // `shown` names an existing graph, see `graph`
-    }
-
-    /// Generates an id with the same stem as another id.
-    pub(crate) fn new_id_like(&mut self, id: &NodeId, taken: &BTreeSet<NodeId>) -> NodeId {
-        let stem = id.as_str().rsplit_once('_').map_or(id.as_str(), |(stem, _)| stem);
-        self.new_id(stem, taken)
+        let contents = self.session.document();
+        // The shown graph exists, see `graph`.
+        let graph = contents.body(self.place.shown()).unwrap_or(&contents.graph);
+        self.ids.id(stem, graph, taken)
     }
 
     /// Reads a graph file that a file of the base uses as a group; `None` if it cannot be read.
@@ -248,7 +225,7 @@ impl OpenDocument {
         if edits.is_empty() {
             return false;
         }
-        let edits = follow_up::completed(self.contents(), &self.shown, edits);
+        let edits = follow_up::completed(self.contents(), self.shown(), edits);
         if let Some(why) = self.why_not_evaluable_after(&edits) {
             return self.refuse(why);
         }
@@ -282,54 +259,6 @@ impl OpenDocument {
     fn why_not_evaluable_after(&mut self, edits: &[Edit]) -> Option<String> {
         let mut read = self.group_files.shared_reader(self.session.graph());
         evaluability::reason_lost_by(self.session.document(), edits, &mut read)
-    }
-
-    /// Undoes the last step, and selects the nodes that come back.
-    pub fn undo(&mut self) {
-        let before = self.shown_nodes();
-        let undone = self.session.undo();
-        self.after_history(undone, "Undone", &before);
-    }
-
-    /// Redoes the last step that was undone, and selects the nodes that come back.
-    pub fn redo(&mut self) {
-        let before = self.shown_nodes();
-        let redone = self.session.redo();
-        self.after_history(redone, "Redone", &before);
-    }
-
-    /// Cancels the step that was started with `session.begin`: the document is restored to its state before the step.
-    pub fn cancel_step(&mut self) {
-        if let Err(error) = self.session.cancel() {
-            self.notify(error.to_string());
-        }
-        self.refresh();
-    }
-
-    /// The shown nodes, to find the nodes that undo or redo restores.
-    fn shown_nodes(&self) -> ShownNodes {
-        ShownNodes {
-            entered_instances: self.instance_path.len(),
-            ids: self.graph().ids().cloned().collect(),
-        }
-    }
-
-    fn after_history(&mut self, moved: Result<Option<String>, EditError>, verb: &str, before: &ShownNodes) {
-        match moved {
-            Ok(step) => self.notices.extend(step.map(|name| format!("{verb}: {name}"))),
-            Err(error) => self.notify(error.to_string()),
-        }
-        self.refresh();
-        let ids = self.graph().ids();
-        let returned: Vec<NodeId> = ids.filter(|id| !before.ids.contains(*id)).cloned().collect();
-        if before.entered_instances == self.instance_path.len() && !returned.is_empty() {
-            self.select(returned);
-        }
-    }
-
-    /// Saves the document to its file.
-    pub fn save(&mut self) -> Result<(), EngineError> {
-        self.session.save()
     }
 
     /// Saves the document to another file, which becomes the document's file. The node kinds beside that file are not read.
@@ -372,23 +301,19 @@ impl OpenDocument {
     }
 
     /// Updates what is derived from the document: ports and knobs of nodes, the shown graph and the selection.
-    fn refresh(&mut self) {
+    pub(crate) fn refresh(&mut self) {
         let session = &self.session;
         let has_changed = self.interfaces.refresh(
             session,
-            &self.catalog,
-            self.kinds_revision,
+            &self.node_kinds.catalog,
+            self.node_kinds.revision,
             &mut self.group_files.reader(session.graph()),
         );
         if !has_changed {
             return;
         }
-        let mut entered = self.entered_graphs();
-        if entered.len() < self.instance_path.len() {
-            // An entered instance does not exist any more: show the innermost graph that still exists.
-            self.show_graph_at(self.instance_path[..entered.len()].to_vec());
-        } else {
-            self.shown = entered.pop().unwrap_or(Body::Main);
+        if self.place.follow(self.session.document()) {
+            self.selection.clear();
         }
         let selection = std::mem::take(&mut self.selection);
         self.select(selection);

@@ -7,6 +7,7 @@ use sabi_files::{NotText, PathBase, canonical, path_text};
 use sabi_graph::Document;
 
 use crate::open_document::OpenDocument;
+use crate::trust::trust_chosen;
 
 /// Writes a path relative to the document's folder if possible. While the document has no file, the path is absolute.
 ///
@@ -24,7 +25,7 @@ pub fn relative(document: &OpenDocument, path: &Path) -> Result<String, NotText>
 /// # Errors
 /// The path cannot be named in a file.
 pub fn chosen(document: &mut OpenDocument, path: &Path) -> Result<String, NotText> {
-    document.trust_chosen(path);
+    trust_chosen(document, path);
     relative(document, path)
 }
 

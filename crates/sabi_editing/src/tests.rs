@@ -28,9 +28,8 @@ mod wiring;
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
-use sabi_engine::catalog::Catalog;
 use sabi_engine::{Kinds, Session};
 use sabi_graph::{Document, FlatGraph, NodeId, OutputRef, Overrides, SlotRef, Value};
 
@@ -38,30 +37,25 @@ use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;
 use crate::knob_target::{self, KnobTarget};
 use crate::new_ids::IdGenerator;
+use crate::node_kinds::NodeKinds;
 use crate::node_size::{GRID, NODE_WIDTH, ShownRows};
 use crate::open_document::OpenDocument;
 use crate::stack::StackEnd;
 use crate::wires::MaskMerge;
 use crate::{
-    arrangement, clipboard, connections, duplication, exposed_knobs, exposed_values, frames, groups, instance_variants,
-    layers, library, navigation, node_paths, node_replacement, node_size, nodes, ports, selection, shown_variant,
-    stack, texture_sets, variants, wires,
+    arrangement, clipboard, connections, duplication, exposed_knobs, exposed_values, frames, groups, history,
+    instance_variants, layers, library, navigation, node_paths, node_replacement, node_size, nodes, ports, selection,
+    shown_variant, stack, texture_sets, variants, wires,
 };
 
 /// The built-in kinds, read once for all tests.
-fn kinds() -> (Arc<Kinds>, Arc<Catalog>) {
-    static KINDS: OnceLock<(Arc<Kinds>, Arc<Catalog>)> = OnceLock::new();
-    let read = || {
-        let kinds = Arc::new(Kinds::builtin());
-        let catalog = Arc::new(Catalog::new(&kinds));
-        (kinds, catalog)
-    };
-    KINDS.get_or_init(read).clone()
+fn kinds() -> NodeKinds {
+    static KINDS: OnceLock<NodeKinds> = OnceLock::new();
+    KINDS.get_or_init(|| NodeKinds::new(Kinds::builtin(), 0)).clone()
 }
 
 fn document_with(session: Session, seed: u64) -> OpenDocument {
-    let (kinds, catalog) = kinds();
-    OpenDocument::with_kinds(session, IdGenerator::seeded(seed), kinds, catalog)
+    OpenDocument::with_kinds(session, IdGenerator::seeded(seed), kinds())
 }
 
 /// Creates an empty graph whose new ids are the same in every run.
@@ -147,9 +141,9 @@ fn step<T>(document: &mut OpenDocument, does: impl FnOnce(&mut OpenDocument) -> 
         "one step: {notices:?}"
     );
     assert_eq!(Document::from_json(&after).as_ref(), Ok(document.contents()));
-    document.undo();
+    history::undo(document);
     assert_eq!(document.session.text(), before);
-    document.redo();
+    history::redo(document);
     assert_eq!(document.session.text(), after);
     document.take_notices();
     for notice in notices {

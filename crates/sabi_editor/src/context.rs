@@ -127,7 +127,7 @@ impl ViewContext<'_> {
     /// Number of errors, without warnings.
     pub(crate) fn problem_count(&self) -> usize {
         let named_model = usize::from(self.is_named_model_refused());
-        self.evaluation.problem_count() + self.document.kinds().0.faults.len() + named_model
+        self.evaluation.problem_count() + self.document.node_kinds().kinds.faults.len() + named_model
     }
 
     /// Returns whether another model stands in for the one that the graph names, which could not be read.

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::Context;
-use sabi_editing::OpenDocument;
+use sabi_editing::{NodeKinds, OpenDocument};
 use sabi_engine::live::{LiveEvent, LiveOptions, LiveRequest, Precedence, ViewSubject};
 use sabi_engine::phases::Activity;
 use sabi_engine::{EngineError, Live};
@@ -236,11 +236,11 @@ impl Evaluation {
     pub(crate) fn request(&mut self, document: &OpenDocument, wanted: Wanted) {
         self.model.set_size(self.wanted_size(document));
         self.model.set_trusted(&document.session.graph().trusted);
-        let (kinds, kinds_revision) = document.kinds();
+        let NodeKinds { kinds, revision, .. } = document.node_kinds();
         self.graph.follow(document);
         let revisions = Revisions {
             document: self.graph.number,
-            kinds: kinds_revision,
+            kinds: *revision,
             model: self.model.revision,
             files: document.files_revision(),
             has_shade: self.has_shade(),
@@ -263,7 +263,7 @@ impl Evaluation {
             revision: self.requests,
             graph: self.graph.take_unsent(),
             kinds: kinds.clone(),
-            kinds_revision,
+            kinds_revision: *revision,
             model: self.model.options.clone(),
             model_revision: self.model.revision,
             coarse_size: COARSE,

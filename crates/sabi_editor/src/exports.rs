@@ -191,7 +191,7 @@ impl Exports {
             let mut request = source.request(folder.clone(), force(&folder));
             request.evaluator.overrides = overrides;
             let open = source.document.session.graph().clone();
-            let kinds = source.document.kinds().0.clone();
+            let kinds = source.document.node_kinds().kinds.clone();
             self.asks_force = needs_force(&open, &request);
             if self.asks_force {
                 let why = "Nothing was exported: the folder has other files. Decide in the Export panel.";

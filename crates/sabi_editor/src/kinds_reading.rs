@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use egui::Context;
-use sabi_editing::OpenDocument;
+use sabi_editing::{OpenDocument, trust};
 use sabi_engine::Kinds;
 
 use crate::task::Task;
@@ -38,7 +38,7 @@ impl KindsReading {
     /// Reads all folders of a document that was opened with the built-in kinds.
     pub(crate) fn read_opened(&mut self, context: &Context, document: &mut OpenDocument) {
         self.wanted = None;
-        let folders = document.node_folders();
+        let folders = trust::node_folders(document);
         if folders.iter().any(|folder| folder.is_dir()) {
             self.read_first(context, document);
         }
@@ -47,7 +47,7 @@ impl KindsReading {
     /// Reads all folders of a document that has another folder now.
     pub(crate) fn read_first(&mut self, context: &Context, document: &mut OpenDocument) {
         self.wanted = Some(Wanted {
-            folders: document.node_folders(),
+            folders: trust::node_folders(document),
             is_first: true,
         });
         self.follow(context, document, PROMPT);
@@ -74,10 +74,11 @@ impl KindsReading {
         if self.running.is_none()
             && let Some(wanted) = self.wanted.take()
         {
-            let (known, revision) = document.kinds();
+            let known = document.node_kinds();
+            let revision = known.revision;
             let mut kinds = match wanted.is_first {
                 true => Kinds::builtin(),
-                false => Kinds::clone(known),
+                false => Kinds::clone(&known.kinds),
             };
             let folders = wanted.folders.clone();
             kinds.trust(&document.session.graph().trusted);
@@ -98,7 +99,7 @@ impl KindsReading {
         };
         let is_first = running.wanted.is_first;
         // Kinds that were read for another graph are of no use.
-        let is_wanted = running.revision == document.kinds().1;
+        let is_wanted = running.revision == document.node_kinds().revision;
         self.running = None;
         match read {
             Ok(kinds) if is_wanted && is_first => document.first_kinds(kinds),
@@ -121,7 +122,7 @@ mod tests {
     const OWN: &str = "//! Own\n//! A test.\n\n/// M.\nfn mask(at: Surface) -> f32 { return 0.5; }\n";
 
     fn has(document: &OpenDocument, id: &str) -> bool {
-        document.kinds().0.library.kind(id).is_some()
+        document.node_kinds().kinds.library.kind(id).is_some()
     }
 
     #[test]

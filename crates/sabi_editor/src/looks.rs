@@ -52,7 +52,9 @@ impl Looks {
         let pinned = self.pinned_3d.as_ref().filter(|_| !self.is_compared);
         // A node that a color is chosen for would only offer its own colors.
         let is_color_target = |result: &NodeRef| match &self.color_target {
-            Some(ColorTarget::Parameter(KnobTarget::Node { node, .. })) => document.full_id(node) == result.node,
+            Some(ColorTarget::Parameter(KnobTarget::Node { node, .. })) => {
+                node_paths::full_id(document, node) == result.node
+            }
             // A paint node is a mask most of the time, which has no colors.
             Some(ColorTarget::Brush) => true,
             Some(ColorTarget::Parameter(KnobTarget::Exposed(_))) | None => false,
@@ -95,14 +97,14 @@ impl Looks {
 
     /// Result of a node at the output that was chosen last; until then at the material of a group, or at the first output.
     pub(crate) fn chosen(&self, document: &OpenDocument, id: &NodeId) -> NodeRef {
-        let output = self.outputs.get(&document.full_id(id)).cloned();
+        let output = self.outputs.get(&node_paths::full_id(document, id)).cloned();
         result_of(document, id, output.or_else(|| material_of_group(document, id)))
     }
 
     /// Shows a node's result, at an output or at the one that was chosen last.
     pub(crate) fn show(&mut self, document: &OpenDocument, id: &NodeId, output: Option<String>) {
         if let Some(output) = output {
-            self.outputs.insert(document.full_id(id), output);
+            self.outputs.insert(node_paths::full_id(document, id), output);
         }
         let result = self.chosen(document, id);
         self.followed = Some(result.clone());
@@ -214,7 +216,7 @@ pub(crate) fn result_of(document: &OpenDocument, id: &NodeId, output: Option<Str
     let outputs = document.interface(id).map_or(&[][..], |interface| &interface.outputs);
     let others = outputs.iter().skip(1).map(|port| &port.name);
     NodeRef {
-        node: document.full_id(id),
+        node: node_paths::full_id(document, id),
         port: output.filter(|output| others.clone().any(|other| other == output)),
     }
 }

@@ -28,7 +28,7 @@ impl NodeTips {
     /// Starts to make a tip of a result, in place of one that is still being made.
     pub(crate) fn start(&mut self, context: &Context, gpu: &Arc<Gpu>, document: &OpenDocument, result: &NodeRef) {
         let graph = document.session.graph().clone();
-        let kinds = Kinds::clone(document.kinds().0);
+        let kinds = Kinds::clone(&document.node_kinds().kinds);
         let adapter = AdapterChoice::Named(gpu.summary().name.clone());
         let gpu = gpu.clone();
         let node = match &result.port {

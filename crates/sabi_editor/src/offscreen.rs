@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{RenderState, WgpuSetup};
 use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, TextureId, Vec2};
-use sabi_editing::nodes;
+use sabi_editing::{history, nodes};
 use sabi_engine::opening::default_cache_dir;
 use sabi_engine::{EngineError, Session};
 use sabi_files::TrustedPaths;
@@ -222,12 +222,12 @@ impl Offscreen {
 
     /// Undoes the last step.
     pub fn undo(&mut self) {
-        self.editor.documents.document.undo();
+        history::undo(&mut self.editor.documents.document);
     }
 
     /// Redoes the last step that was undone.
     pub fn redo(&mut self) {
-        self.editor.documents.document.redo();
+        history::redo(&mut self.editor.documents.document);
     }
 
     /// Number of pictures of the model that were drawn, and the size of the last result in texels.

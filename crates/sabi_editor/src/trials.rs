@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
-use sabi_editing::OpenDocument;
+use sabi_editing::{NodeKinds, OpenDocument};
 use sabi_engine::Live;
 use sabi_engine::evaluating::{load_thumbnail, store_thumbnail};
 use sabi_engine::live::{LiveEvent, LiveRequest, THUMBNAIL_VERSION};
@@ -235,7 +235,7 @@ impl Trials {
         let evaluation = source.evaluation;
         let live = self.live.get_or_insert_with(|| evaluation.start_trials(SIDE, context));
         let texels = texels_of(&trial, evaluation);
-        let (kinds, kinds_revision) = source.document.kinds();
+        let NodeKinds { kinds, revision, .. } = source.document.node_kinds();
         self.requests += 1;
         // The engine sends a picture only once, but two trials may have the same one.
         live.mark_dropped(Vec::new(), node.iter().cloned().collect());
@@ -243,7 +243,7 @@ impl Trials {
             revision: self.requests,
             graph: Arc::new(graph).into(),
             kinds: kinds.clone(),
-            kinds_revision,
+            kinds_revision: *revision,
             model: Arc::new(evaluation.model.options_of_size(texels)),
             model_revision: 2 * self.model + u64::from(texels == FEW_TEXELS),
             coarse_size: texels,

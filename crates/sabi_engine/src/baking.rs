@@ -25,7 +25,7 @@ pub(crate) mod sheet_results;
 
 pub use bake::{bake, bake_graph, check_bake, needs_force};
 pub use bake_request::{
-    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
+    BakeRequest, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
 };
 pub use report::BakeReport;
 pub use seams::Seams;

@@ -15,8 +15,9 @@ use crate::names::FILE_ENDING;
 use crate::open_document::OpenDocument;
 use crate::{
     arrangement, clipboard, document_settings, dropped_layers, duplication, exposed_knobs, exposed_values, frames,
-    groups, hand_layers, instance_variants, knob_target, layers, library, linked_groups, navigation, node_replacement,
-    nodes, notes, painting, ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
+    groups, hand_layers, history, instance_variants, knob_target, layers, library, linked_groups, navigation,
+    node_replacement, nodes, notes, painting, ports, random_knobs, relative_paths, selection, texture_sets, variants,
+    wires,
 };
 
 /// Performs a command on the open document.
@@ -64,11 +65,11 @@ fn paint(document: &mut OpenDocument, command: PaintCommand) -> Outcome {
 fn history(document: &mut OpenDocument, command: HistoryCommand) -> Outcome {
     let before = document.session.revision();
     match command {
-        HistoryCommand::Undo => document.undo(),
-        HistoryCommand::Redo => document.redo(),
+        HistoryCommand::Undo => history::undo(document),
+        HistoryCommand::Redo => history::redo(document),
         HistoryCommand::Begin(step) => document.session.begin(&step),
         HistoryCommand::End => document.session.end(),
-        HistoryCommand::Cancel => document.cancel_step(),
+        HistoryCommand::Cancel => history::cancel_step(document),
     }
     (document.session.revision() != before).into()
 }
@@ -145,7 +146,7 @@ fn replace(document: &mut OpenDocument, node: &NodeId, by: &NodeSource) -> bool 
             if is_replaced {
                 document.session.end();
             } else {
-                document.cancel_step();
+                history::cancel_step(document);
             }
             is_replaced
         }
@@ -402,7 +403,7 @@ fn as_one_step(
             document.select([id.clone()]);
             document.session.end();
         }
-        None => document.cancel_step(),
+        None => history::cancel_step(document),
     }
     added
 }

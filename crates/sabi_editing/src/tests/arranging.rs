@@ -20,13 +20,13 @@ fn selected_nodes_are_aligned() {
     let all = |document: &OpenDocument| ["n", "w", "m"].map(|id| pos(document, id));
     step(&mut document, |document| arrangement::align(document, Align::Left));
     assert_eq!(all(&document), [[-30.0, 400.0], [-30.0, 90.0], [-30.0, 0.0]]);
-    document.undo();
+    history::undo(&mut document);
     step(&mut document, |document| arrangement::align(document, Align::Right));
     assert_eq!(all(&document).map(|pos| pos[0]), [250.0; 3]);
-    document.undo();
+    history::undo(&mut document);
     step(&mut document, |document| arrangement::align(document, Align::Top));
     assert_eq!(all(&document).map(|pos| pos[1]), [0.0; 3]);
-    document.undo();
+    history::undo(&mut document);
     step(&mut document, |document| arrangement::align(document, Align::Bottom));
     let ends = ["n", "w", "m"].map(|name| pos(&document, name)[1] + node_size::of(&document, &id(name))[1]);
     assert!(ends.iter().all(|end| (end - ends[0]).abs() < 1e-3), "{ends:?}");

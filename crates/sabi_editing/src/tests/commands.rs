@@ -222,7 +222,7 @@ fn a_node_is_found_by_its_id_in_the_evaluation() {
     };
     assert_eq!(go_to(&mut document, format!("{instance}/b")), Outcome::Done);
     assert_eq!(document.selected_one(), Some(&id("b")));
-    assert_eq!(document.full_id(&id("b")), format!("{instance}/b"));
+    assert_eq!(node_paths::full_id(&document, &id("b")), format!("{instance}/b"));
     assert_eq!(go_to(&mut document, instance.to_string()), Outcome::Done);
     assert_eq!(document.selected_one(), Some(&instance));
 }

@@ -11,8 +11,7 @@ use sabi_graph::{Document, Fit, GROUP_KIND, PortType};
 
 use super::{arrangement, document_with};
 use crate::library_folder::LibraryFolder;
-use crate::linked_groups;
-use crate::{library, nodes};
+use crate::{history, library, linked_groups, nodes, trust};
 
 /// Minimum number of groups in the library.
 const FEWEST: usize = 46;
@@ -192,7 +191,7 @@ fn with_instance(folder: &Path) -> crate::OpenDocument {
         name: "sabi".to_owned(),
         folder: folder.to_owned(),
     }];
-    document.trust(&TrustedPaths::default().with_path(folder));
+    trust::trust_files(&mut document, &TrustedPaths::default().with_path(folder));
     library::add(&mut document, &folder.join("weathering/worn.sabi"), [0.0; 2], None).expect("an instance");
     document
 }
@@ -256,7 +255,7 @@ fn an_update_keeps_existing_knobs_and_can_be_undone() {
     assert!(group.graph.exposed().contains_key("sharp"));
     assert_ne!(group.library, before.groups["Worn"].library);
     assert_eq!(document.take_notices(), ["'Worn' has no jitter any more"]);
-    document.undo();
+    history::undo(&mut document);
     assert_eq!(*document.contents(), before);
 }
 
@@ -310,7 +309,7 @@ fn all_updates_are_one_step_and_a_missing_file_does_not_block_the_others() {
     assert!(notices.iter().any(|said| said.contains("Soot.sabi")), "{notices:?}");
     let done = "2 groups were updated; undo brings the versions before back.";
     assert!(notices.iter().any(|said| said == done), "{notices:?}");
-    document.undo();
+    history::undo(&mut document);
     assert_eq!(*document.contents(), before);
 }
 
@@ -346,7 +345,7 @@ fn a_file_that_uses_itself_is_refused_by_name() {
         "nodes": { "i": { "kind": "graph/group", "group": "worn.sabi" } } }"#;
     fs::write(folder.path().join("weathering/grain.sabi"), itself).expect("a writable folder");
     let mut document = document_with(Session::new(None), 7);
-    document.trust(&TrustedPaths::default().with_path(folder.path()));
+    trust::trust_files(&mut document, &TrustedPaths::default().with_path(folder.path()));
     assert!(
         library::add(
             &mut document,

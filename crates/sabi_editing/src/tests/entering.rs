@@ -20,12 +20,12 @@ fn groups_are_entered_and_left_again() {
         .collect();
     assert_eq!(path, ["Wear", "inner"]);
     assert_eq!(document.body(), sabi_graph::Body::Group("inner".to_owned()));
-    assert_eq!(document.full_id(&id("n")), "g/i/n");
+    assert_eq!(node_paths::full_id(&document, &id("n")), "g/i/n");
     assert!(navigation::leave(&mut document));
     assert_eq!(document.selected_one(), Some(&id("i")));
     assert!(navigation::leave_to(&mut document, 0) && !navigation::leave(&mut document));
     assert_eq!(document.selected_one(), Some(&id("g")));
-    assert_eq!(document.full_id(&id("n")), "n");
+    assert_eq!(node_paths::full_id(&document, &id("n")), "n");
 }
 
 #[test]
@@ -106,10 +106,10 @@ fn a_removed_group_is_left_and_its_selection_is_cleared() {
     navigation::enter(&mut document, &made);
     select(&mut document, &["n"]);
     // The outer graph has a node with that id again.
-    document.undo();
+    history::undo(&mut document);
     assert!(navigation::breadcrumb(&document).is_empty());
     assert!(document.selection().is_empty(), "{:?}", document.selection());
-    document.redo();
+    history::redo(&mut document);
     assert_eq!(document.selected_one(), Some(&made), "what came back is selected");
 }
 
@@ -118,11 +118,11 @@ fn undo_keeps_the_selection_of_nodes_that_exist() {
     let mut document = opened("", NODES_PLAIN);
     select(&mut document, &["a", "b"]);
     nodes::set_knob(&mut document, &id("a"), "size", number(0.5));
-    document.undo();
+    history::undo(&mut document);
     assert_eq!(document.selection().len(), 2);
     let new = add(&mut document, "noise/white");
     document.select([new, id("a")]);
-    document.undo();
+    history::undo(&mut document);
     assert_eq!(document.selected_one(), Some(&id("a")));
     assert_eq!(
         document.take_notices().pop().as_deref(),

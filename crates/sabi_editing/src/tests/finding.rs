@@ -71,7 +71,7 @@ fn finding_one_file_also_finds_missing_files_beside_it_in_one_step() {
     let mesh = document.contents().preview.clone().and_then(|preview| preview.mesh);
     assert_eq!(mesh.as_deref(), Some("../moved/hero.glb"));
     assert_eq!(missing(&document), ["lost/none.png"]);
-    document.undo();
+    history::undo(&mut document);
     assert_eq!(*document.contents(), before);
 }
 

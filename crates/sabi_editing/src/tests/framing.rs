@@ -72,6 +72,6 @@ fn a_frame_is_removed_with_its_last_node_and_restored_with_it() {
     select(&mut document, &["b"]);
     step(&mut document, |document| nodes::delete(document, false));
     assert!(document.graph().frames().is_empty());
-    document.undo();
+    history::undo(&mut document);
     assert!(document.graph().frames().contains_key("f"));
 }

@@ -234,7 +234,7 @@ fn a_group_is_removed_only_with_its_last_instance() {
     select(&mut document, &["a", "m"]);
     step(&mut document, groups::dissolve_selected);
     assert_eq!(document.contents().groups.len(), 1);
-    assert!(document.is_selected(&id("m")) && document.selection().len() == 2);
+    assert!(document.selection().contains(&id("m")) && document.selection().len() == 2);
     select(&mut document, &["b"]);
     step(&mut document, groups::dissolve_selected);
     assert!(document.contents().groups.is_empty());

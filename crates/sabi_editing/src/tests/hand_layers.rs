@@ -25,7 +25,7 @@ fn a_paint_layer_is_added_on_top_and_shows_painted_colors_unchanged() {
     };
     let paint = step(&mut document, |document| added(document, command));
     assert_eq!(document.node(&paint).expect("a node").kind, "source/paint");
-    assert!(document.is_selected(&paint), "it is painted on next");
+    assert!(document.selection().contains(&paint), "it is painted on next");
     let stack = &stack::all(&document)[0];
     let layer = &stack.layers[0];
     assert_eq!((stack.layers.len(), layer.title.as_str()), (3, "Paint layer"));
@@ -61,7 +61,7 @@ fn a_fill_layer_covers_everything_and_adds_an_output_if_there_is_none() {
     assert_eq!((stacks.len(), titles), (1, vec!["Fill layer", "Model"]));
     assert_eq!(stacks[0].layers[0].node, layer);
     assert_eq!(stacks[0].layers[0].mask, None);
-    document.undo();
+    history::undo(&mut document);
     assert!(document.graph().is_empty());
 }
 

@@ -35,7 +35,7 @@ fn an_inserted_node_moves_others_aside_in_the_same_step() {
         [pos(&document, "clouds"), pos(&document, "aside")],
         [before[0], before[1]]
     );
-    document.undo();
+    history::undo(&mut document);
     let after = ["clouds", "aside", "invert", "levels", "new"].map(|id| pos(&document, id));
     assert_eq!(after, before);
 }

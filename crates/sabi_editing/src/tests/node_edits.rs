@@ -93,7 +93,7 @@ fn undo_of_a_deletion_restores_all_references_and_selects_the_node() {
     select(&mut document, &["a"]);
     step(&mut document, |document| nodes::delete(document, false));
     assert!(document.selection().is_empty() && document.graph().exposed().is_empty());
-    document.undo();
+    history::undo(&mut document);
     assert_eq!(document.selected_one(), Some(&id("a")));
     assert_eq!(wire(&document, "b.source"), "a");
 }
@@ -220,7 +220,7 @@ fn a_node_of_the_main_graph_is_muted_only_once_and_undo_unmutes_it() {
         &mut document,
         &"gone".parse().expect("an id")
     ));
-    document.undo();
+    history::undo(&mut document);
     assert!(document.node(&noise).is_some_and(|node| !node.muted));
 }
 

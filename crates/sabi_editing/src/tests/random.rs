@@ -33,7 +33,7 @@ impl Hands {
         );
         let base = self.document.session.graph().base();
         let mut read = |name: &str| self.document.read_group_file(&base, name);
-        let (catalog, contents) = (kinds().1, Document::from_json(&text).expect("a document"));
+        let (catalog, contents) = (kinds().catalog, Document::from_json(&text).expect("a document"));
         let listed = Interfaces::new(&catalog, &contents, &mut read);
         assert_eq!(
             self.document.interfaces(),
@@ -58,13 +58,13 @@ impl Hands {
         for _ in 1..steps {
             self.document.session.undo().expect("a step back");
         }
-        self.document.undo();
+        history::undo(&mut self.document);
         assert_eq!(self.document.session.undo_names().count(), 0);
         assert_eq!(self.document.session.text(), empty);
         for _ in 1..steps {
             self.document.session.redo().expect("a step forth");
         }
-        self.document.redo();
+        history::redo(&mut self.document);
         assert_eq!(self.document.session.text(), after);
         self.document.take_notices();
     }
@@ -72,7 +72,7 @@ impl Hands {
 
 #[test]
 fn ten_thousand_random_edits_can_be_undone_and_redone() {
-    let kinds: Vec<String> = kinds().1.entries().map(|entry| entry.id.clone()).collect();
+    let kinds: Vec<String> = kinds().catalog.entries().map(|entry| entry.id.clone()).collect();
     for graph in 0..GRAPHS {
         let folder = tempfile::tempdir().expect("a temporary folder");
         std::fs::create_dir_all(folder.path().join("deep/er")).expect("a writable folder");

@@ -32,7 +32,7 @@ fn draws(document: &mut OpenDocument, node: &NodeId, knob: &str) -> Vec<f64> {
     let draw = |_| {
         assert!(randomize(document, node, &BTreeSet::new()));
         let drawn = value(document, node, knob);
-        document.undo();
+        history::undo(document);
         drawn
     };
     (0..DRAWS).map(draw).collect()

@@ -5,7 +5,13 @@ use super::*;
 /// Describes each node that is not muted, with the sources of its inputs. Muted nodes pass inputs on, as in the planner.
 fn heard(document: &OpenDocument) -> Vec<String> {
     let flat = flat(document);
-    let entry = |at: usize| kinds().1.entry(&flat.nodes[at].kind).expect("a built-in kind").clone();
+    let entry = |at: usize| {
+        kinds()
+            .catalog
+            .entry(&flat.nodes[at].kind)
+            .expect("a built-in kind")
+            .clone()
+    };
     let behind = |from: &sabi_graph::FlatRef| {
         let mut ways = vec![from.clone()];
         let mut asked = std::collections::BTreeSet::new();
@@ -47,7 +53,7 @@ fn heals_as_muting(mut document: OpenDocument, ids: &[&str]) -> OpenDocument {
     }
     let muted = heard(&document);
     for _ in ids {
-        document.undo();
+        history::undo(&mut document);
     }
     select(&mut document, ids);
     step(&mut document, |document| nodes::delete(document, true));

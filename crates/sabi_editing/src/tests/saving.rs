@@ -32,14 +32,14 @@ fn a_graph_saved_in_another_folder_finds_its_group_files_and_can_be_undone() {
     );
     assert_eq!(document.title(&wear), "Wear");
     assert_eq!(evaluated(&document), before);
-    document.undo();
-    document.undo();
+    history::undo(&mut document);
+    history::undo(&mut document);
     assert!(document.graph().is_empty());
-    document.redo();
-    document.redo();
+    history::redo(&mut document);
+    history::redo(&mut document);
     assert_eq!(evaluated(&document), before);
     assert!(!document.session.is_dirty());
-    document.save().expect("a writable folder");
+    document.session.save().expect("a writable folder");
 }
 
 #[test]

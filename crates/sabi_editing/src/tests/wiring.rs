@@ -193,7 +193,7 @@ fn a_second_mask_is_blended_with_the_first_one() {
             panic!("a mode is a choice");
         };
         assert!(words.iter().any(|word| word == mode), "{mode}");
-        document.undo();
+        history::undo(&mut document);
     }
     step(&mut document, |document| {
         wires::merge(document, &from("b"), &to("layer.mask"), MaskMerge::Replace)
@@ -268,7 +268,7 @@ fn connecting_a_height_sets_a_visible_strength_unless_one_was_set() {
     };
     assert!(wires::connect(&mut document, &from, &to));
     assert_eq!(height(&document), Some(Value::Number(0.01)));
-    document.undo();
+    history::undo(&mut document);
     assert_eq!(height(&document), None, "one step");
     nodes::set_knob(&mut document, &layer, "height", number(-0.2));
     assert!(wires::connect(&mut document, &from, &to));

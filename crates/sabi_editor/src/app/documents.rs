@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
-use sabi_editing::{OpenDocument, library, relative_paths};
+use sabi_editing::{OpenDocument, library, relative_paths, trust};
 use sabi_engine::catalog::node_file::NodeDraft;
 use sabi_engine::opening::linked_model::SavedReading;
 use sabi_engine::session::{FileState, Keeping};
@@ -187,27 +187,27 @@ impl Documents {
         let trusted = all.fold(named.clone(), |trusted, path| trusted.with_path(path));
         let nodes = settings.trusted_nodes.iter();
         self.trusted_nodes = nodes.fold(TrustedPaths::default(), |trusted, path| trusted.with_path(path));
-        self.document.trust_nodes(self.trusted_nodes.clone());
+        trust::trust_nodes(&mut self.document, self.trusted_nodes.clone());
         self.trust(&trusted);
     }
 
     /// Lets this graph and all later ones open the files that they name below these paths.
     pub(crate) fn trust(&mut self, trusted: &TrustedPaths) {
         self.trusted = std::mem::take(&mut self.trusted).with(trusted);
-        self.document.trust(&self.trusted);
+        trust::trust_files(&mut self.document, &self.trusted);
     }
 
     /// Trusts the node files of a folder: graphs beside it use them when node files are read next.
     pub(crate) fn trust_nodes(&mut self, folder: &Path) {
         self.trusted_nodes = std::mem::take(&mut self.trusted_nodes).with_path(folder);
-        self.document.trust_nodes(self.trusted_nodes.clone());
+        trust::trust_nodes(&mut self.document, self.trusted_nodes.clone());
     }
 
     /// Closes the open graph and opens another one. Returns the file of the model that it names and may open.
     pub(crate) fn replace(&mut self, context: &Context, session: Session) -> Option<PathBuf> {
         let mut document = OpenDocument::before_kinds(session);
-        document.trust_nodes(self.trusted_nodes.clone());
-        document.trust(&self.trusted);
+        trust::trust_nodes(&mut document, self.trusted_nodes.clone());
+        trust::trust_files(&mut document, &self.trusted);
         let before = std::mem::replace(&mut self.document, document);
         before.session.close();
         self.kinds_reading.read_opened(context, &mut self.document);
@@ -253,7 +253,7 @@ impl Documents {
         }
         let now = (
             self.document.interfaces_number(),
-            self.document.kinds().1,
+            self.document.node_kinds().revision,
             self.candidates.own.clone(),
         );
         if self.candidates.of.as_ref() == Some(&now) && !has_changed {
@@ -390,7 +390,7 @@ impl Documents {
     pub(crate) fn watch(&mut self, evaluation: &Evaluation, row: &ModelRow, environment: Option<&Path>) {
         let now = WatchedFiles {
             graph: self.document.session.file().map(Path::to_owned),
-            nodes: self.document.node_folders(),
+            nodes: trust::node_folders(&self.document),
             model: evaluation.model.file().to_owned(),
             loaded: evaluation.model.loaded(),
             beside: row.files(),

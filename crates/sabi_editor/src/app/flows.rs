@@ -273,7 +273,7 @@ impl Editor {
             return;
         };
         if changes.nodes {
-            let folders = self.documents.document.node_folders();
+            let folders = sabi_editing::trust::node_folders(&self.documents.document);
             self.documents.reread_kinds(&self.shell.context, &folders);
         }
         if changes.model {

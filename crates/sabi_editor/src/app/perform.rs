@@ -15,7 +15,7 @@ use sabi_editing::command::{
     WireCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{knob_target, navigation, nodes, variants};
+use sabi_editing::{history, knob_target, navigation, node_paths, nodes, variants};
 use sabi_graph::{NodeId, SlotRef, Value};
 use sabi_nodes::kind::Role;
 
@@ -84,7 +84,10 @@ impl Editor {
             Action::GoTo(node) => self.go_to(&node),
             Action::Steps(steps) => {
                 for _ in 0..steps.unsigned_abs() {
-                    if steps < 0 { document.undo() } else { document.redo() }
+                    match steps < 0 {
+                        true => history::undo(document),
+                        false => history::redo(document),
+                    }
                 }
             }
             Action::Export(action) => self.perform_export(action),
@@ -238,7 +241,7 @@ impl Editor {
     /// Replaces a node, also wherever its result is shown.
     fn replace(&mut self, node: NodeId, by: NodeSource) {
         let document = &mut self.documents.document;
-        let before = document.full_id(&node);
+        let before = node_paths::full_id(document, &node);
         if let Outcome::Added(id) = perform(document, NodeCommand::Replace { node, by }.into()) {
             self.looks.replace(&before, &result_of(document, &id, None));
         }
@@ -325,7 +328,7 @@ impl Editor {
 
     /// Cancels the drag of a parameter.
     fn cancel_drag(&mut self) {
-        self.documents.document.cancel_step();
+        history::cancel_step(&mut self.documents.document);
         self.documents.is_dragging = false;
     }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use egui::{Margin, RichText, Ui};
 use egui_phosphor::regular as icon;
+use sabi_editing::trust;
 use sabi_engine::EngineError;
 use sabi_files::Refusal;
 
@@ -65,7 +66,7 @@ fn refused_files(ui: &mut Ui, context: &ViewContext<'_>) -> Option<TrustAction> 
 }
 
 fn untrusted_nodes(ui: &mut Ui, context: &ViewContext<'_>) -> Option<TrustAction> {
-    let folder = context.document.untrusted_nodes().filter(|_| !context.leaves_nodes)?;
+    let folder = trust::untrusted_nodes(&context.document).filter(|_| !context.leaves_nodes)?;
     let mut chosen = None;
     egui::Panel::top("untrusted nodes")
         .frame(bar(context.theme.panel, Margin::symmetric(8, 4)))

@@ -25,7 +25,7 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContex
         .screen_rect(panel, node_rect(context.document, &shown.id)?);
     let response = interact_node(ui, key, rect);
     let theme = context.theme;
-    let is_selected = context.document.is_selected(&shown.id);
+    let is_selected = context.document.selection().contains(&shown.id);
     ui.painter().add(body::backdrop(theme, shown, rect, zoom, is_selected));
     // Names stay readable as long as a few letters fit.
     let letters = (LETTERS * zoom).max(LEAST_LETTERS);

@@ -19,7 +19,7 @@ pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
 pub(super) fn under(camera: &Camera, document: &OpenDocument, pointer: Pos2) -> Option<String> {
     let panel = camera.panel?;
     let frames = document.graph().frames().iter();
-    let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| document.is_selected(id)));
+    let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| document.selection().contains(id)));
     let mut under = others.filter(|(id, _)| {
         let rect = rect_of(document, id).map(|rect| camera.view.screen_rect(panel, rect));
         rect.is_some_and(|rect| rect.contains(pointer))

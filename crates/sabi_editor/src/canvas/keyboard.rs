@@ -75,7 +75,7 @@ fn neighbor(document: &OpenDocument, key: ArrowKey) -> Option<NodeId> {
     let found = document
         .graph()
         .ids()
-        .filter(|id| !document.is_selected(id))
+        .filter(|id| !document.selection().contains(*id))
         .filter_map(|id| {
             let to = node_rect(document, id)?.center() - from.center();
             let (along, aside) = match key {

@@ -14,7 +14,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
         .ids()
         .filter_map(|id| {
             let category = document.interface(id).map_or("", |interface| interface.category());
-            let color = if document.is_selected(id) {
+            let color = if document.selection().contains(id) {
                 context.theme.accent
             } else {
                 context.theme.category(category)

@@ -59,7 +59,7 @@ pub(super) fn show(
         };
         let Some(response) = response else { continue };
         let title = &canvas.snapshot.graph[key].user_data.title;
-        let is_selected = context.document.is_selected(id);
+        let is_selected = context.document.selection().contains(id);
         response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, title));
         let shown = &canvas.snapshot.graph[key].user_data;
         let sentence = shown.state.fault.as_ref().or(shown.state.waits.as_ref());
@@ -98,7 +98,7 @@ fn in_order(canvas: &mut Canvas, context: &CanvasContext<'_>, seen: Rect) -> Vec
     let turns: BTreeMap<&NodeId, usize> = canvas.draw_order.iter().zip(1..).collect();
     let mut in_turn: Vec<NodeId> = graph.ids().filter(is_seen).cloned().collect();
     // Nodes that were never clicked have no turn and come first, in the order of the graph.
-    in_turn.sort_by_key(|id| (context.document.is_selected(id), turns.get(id).copied()));
+    in_turn.sort_by_key(|id| (context.document.selection().contains(id), turns.get(id).copied()));
     in_turn
 }
 
@@ -149,7 +149,7 @@ fn widget(
     // Its response is ignored, since ports and drags are handled here.
     let _ = widget.show(&pan_zoom, ui, &mut row_context);
     let shown = &canvas.snapshot.graph[key].user_data;
-    let is_selected = context.document.is_selected(&id);
+    let is_selected = context.document.selection().contains(&id);
     let backdrop = body::backdrop(context.theme, shown, rect, zoom, is_selected);
     ui.painter().set(ShapeIdx(before.0 + BACKDROP), backdrop);
     actions.extend(
@@ -213,7 +213,7 @@ fn context_menu(
     context: &CanvasContext<'_>,
     actions: &mut Vec<Action>,
 ) {
-    if response.secondary_clicked() && !context.document.is_selected(id) {
+    if response.secondary_clicked() && !context.document.selection().contains(id) {
         actions.push(Action::Select(vec![id.clone()]));
     }
     let is_group = context.document.node(id).is_some_and(|node| node.group.is_some());
@@ -308,8 +308,8 @@ mod tests {
     use super::super::snapshot::Snapshot;
     use super::*;
     use crate::theme::{Shade, Theme};
-    use sabi_editing::OpenDocument;
     use sabi_editing::node_size::{NODE_WIDTH, rows_of};
+    use sabi_editing::{OpenDocument, history};
     use sabi_graph::{Edit, NodeDisplay, NodeRows};
 
     /// Ports and size of a node as the canvas crate's widget has them.
@@ -401,9 +401,9 @@ mod tests {
                 let (body, node) = (body.clone(), id.clone());
                 document.edit("Fold", vec![Edit::SetDisplay { body, node, display }]);
                 check(&document, &id, zoom, rows);
-                document.undo();
+                history::undo(&mut document);
             }
-            document.undo();
+            history::undo(&mut document);
         }
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn choices(
     // The node that is drawn above the others.
     let node = under.max_by_key(|id| {
         let turn = canvas.draw_order.iter().position(|known| known == *id);
-        (document.is_selected(id), turn)
+        (document.selection().contains(*id), turn)
     })?;
     let [plain, params] = wires::accepting(document, from, node);
     let down = here[1] - document.node(node)?.pos[1];

@@ -21,7 +21,7 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContex
         port: None,
     };
     let color = theme.port(context.document.interfaces().carried(&context.document.body(), &passed));
-    let outline = match (context.document.is_selected(&shown.id), &shown.state.fault) {
+    let outline = match (context.document.selection().contains(&shown.id), &shown.state.fault) {
         (true, _) => Stroke::new(2.0, theme.accent),
         (false, Some(_)) => Stroke::new(1.5, theme.fault),
         (false, None) => Stroke::new(1.0, color),

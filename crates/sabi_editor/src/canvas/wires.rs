@@ -191,7 +191,7 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, context: &CanvasContext<'_>, wires:
             WireLook::Cut
         } else if highlighted == Some(&wire.to) {
             WireLook::Highlighted
-        } else if document.is_selected(&wire.to.node) || document.is_selected(&wire.from.node) {
+        } else if document.selection().contains(&wire.to.node) || document.selection().contains(&wire.from.node) {
             WireLook::Selected
         } else {
             WireLook::Plain

@@ -140,7 +140,7 @@ impl Page {
         ui.add_space(8.0);
         ui.horizontal(|ui| {
             ui.toggle_value(&mut self.shows_source, "Source code");
-            if let Some(own) = document.kinds().0.own_folder(document.session.file(), id) {
+            if let Some(own) = document.node_kinds().kinds.own_folder(document.session.file(), id) {
                 let change = ui.button("Edit").on_hover_text(format!("File: {}", own.display()));
                 if change.clicked() {
                     match DraftEditor::of_own(document, id) {

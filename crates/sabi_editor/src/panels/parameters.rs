@@ -3,7 +3,7 @@
 use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::painting::{PAINT, STROKES};
-use sabi_editing::{OpenDocument, connections, exposed_knobs, ports as document_ports};
+use sabi_editing::{OpenDocument, connections, exposed_knobs, node_paths, ports as document_ports};
 use sabi_engine::catalog::{Interface, Knob};
 use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
@@ -151,7 +151,7 @@ fn heading(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, interface: &Inte
         count => format!("{count} × {}", interface.label),
     });
     ui.colored_label(context.theme.quiet, &interface.summary);
-    if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
+    if let Some(fault) = context.evaluation.faults.of(&node_paths::full_id(document, id)) {
         ui.colored_label(context.theme.fault, context.said(fault));
     }
 }

@@ -34,7 +34,13 @@ impl View for Problems {
             ..
         } = *context;
         let faults = &evaluation.faults.all;
-        let of_kinds: Vec<String> = document.kinds().0.faults.iter().map(ToString::to_string).collect();
+        let of_kinds: Vec<String> = document
+            .node_kinds()
+            .kinds
+            .faults
+            .iter()
+            .map(ToString::to_string)
+            .collect();
         let failures: Vec<&EngineError> = [&evaluation.failure, &evaluation.model.failure]
             .into_iter()
             .flatten()

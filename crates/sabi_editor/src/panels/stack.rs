@@ -7,7 +7,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::command::{KnobCommand, LayerCommand, PaintCommand};
 use sabi_editing::hand_layers::HandLayer;
 use sabi_editing::stack::{Layer, Stack, StackEnd};
-use sabi_editing::{OpenDocument, connections, layers, stack};
+use sabi_editing::{OpenDocument, connections, layers, node_paths, stack};
 use sabi_engine::catalog::Interface;
 use sabi_graph::{NodeId, NodeRef, Value};
 use sabi_nodes::kind::Role;
@@ -160,7 +160,7 @@ impl Layers {
             self.renaming = Some(Renaming::of(layer));
         }
         if ui.button("Show in the graph").clicked() {
-            actions.push(Action::GoTo(document.full_id(&layer.node)));
+            actions.push(Action::GoTo(node_paths::full_id(document, &layer.node)));
         }
         if ui.button("Remove").clicked() {
             actions.push(Action::edit(command_for(stack, at, row::RowChange::Remove)));

@@ -1,6 +1,6 @@
 //! Graphs that are tried.
 
-use sabi_editing::{OpenDocument, linked_groups, variants};
+use sabi_editing::{OpenDocument, linked_groups, node_paths, variants};
 use sabi_engine::OpenGraph;
 use sabi_graph::{Graph, Node, NodeRef};
 
@@ -15,7 +15,7 @@ pub(super) fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(Op
             let graph = variants::tried(document, instance.as_ref(), name.as_deref())?;
             let shown = instance.as_ref().filter(|_| !has_outputs(&graph.document.graph));
             let node = shown.map(|id| NodeRef {
-                node: document.full_id(id),
+                node: node_paths::full_id(document, id),
                 port: document
                     .interface(id)
                     .and_then(|interface| material_port(&interface.outputs)),

@@ -160,8 +160,8 @@ impl Hands {
             22 => {
                 for _ in 0..self.dice.below(6) {
                     match self.dice.one_in(2) {
-                        true => self.document.undo(),
-                        false => self.document.redo(),
+                        true => history::undo(&mut self.document),
+                        false => history::redo(&mut self.document),
                     }
                 }
             }

@@ -27,8 +27,8 @@ impl Hands {
         let kept = match self.dice.below(4) {
             0 => self.document.save_as(&folder.join(file)),
             // Without a file, saving must return an error.
-            1 if self.document.session.file().is_none() => return assert!(self.document.save().is_err()),
-            1 => self.document.save(),
+            1 if self.document.session.file().is_none() => return assert!(self.document.session.save().is_err()),
+            1 => self.document.session.save(),
             _ => self.document.session.keep(&[]).map(drop),
         };
         match kept {
@@ -72,7 +72,7 @@ fn edited_with_kills(graph: usize, folder: &Path) -> usize {
         document: document_with(Session::new(None), 0),
         dice: Dice(graph as u64),
         clipboard: String::new(),
-        kinds: kinds().1.entries().map(|entry| entry.id.clone()).collect(),
+        kinds: kinds().catalog.entries().map(|entry| entry.id.clone()).collect(),
     };
     let (mut edits, mut kills) = (0, 0);
     while edits < EDITS / GRAPHS {

@@ -35,7 +35,7 @@ impl Editor {
             return;
         }
         self.prepare_to_save();
-        let saved = self.documents.document.save();
+        let saved = self.documents.document.session.save();
         if let Err(error) = &saved
             && error.remedies.contains(&Remedy::ReplaceFile)
         {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{knob_target, missing_files, relative_paths};
+use sabi_editing::{knob_target, missing_files, relative_paths, trust};
 use sabi_files::{PathBase, TrustedPaths};
 use sabi_graph::Value;
 
@@ -42,7 +42,7 @@ impl Editor {
 
     /// Remembers the files that the user chose for the graph, so that it opens them the next time.
     pub(in crate::app) fn remember_chosen(&mut self) {
-        for file in self.documents.document.take_chosen() {
+        for file in trust::take_chosen(&mut self.documents.document) {
             self.remember_file(&file);
         }
     }

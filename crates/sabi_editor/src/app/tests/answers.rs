@@ -39,7 +39,7 @@ impl Editor {
 
     /// Number of errors.
     pub(super) fn problem_count(&self) -> usize {
-        self.evaluation.problem_count() + self.documents.document.kinds().0.faults.len()
+        self.evaluation.problem_count() + self.documents.document.node_kinds().kinds.faults.len()
     }
 
     /// Shows a node's result.

@@ -7,7 +7,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::Window;
 use super::hands::id;
-use sabi_editing::navigation;
+use sabi_editing::{history, navigation};
 
 use crate::bars::{ARRANGE, EDIT};
 use crate::command::{Command, GraphCommand, InputPreset, Scope};
@@ -38,7 +38,7 @@ impl Window {
     pub(super) fn prepare(&mut self, selected: &[&str], scope: Scope) -> Before {
         let editor = self.harness.state_mut();
         while editor.documents.document.session.undo_names().next().is_some() {
-            editor.documents.document.undo();
+            history::undo(&mut editor.documents.document);
         }
         navigation::leave_to(&mut editor.documents.document, 0);
         editor.documents.document.take_notices();

@@ -1,6 +1,6 @@
 //! The loss of a device loses no work.
 
-use sabi_editing::nodes;
+use sabi_editing::{history, nodes};
 use sabi_engine::Session;
 
 use super::{Window, cube, open};
@@ -41,7 +41,7 @@ fn no_work_is_lost_with_the_device_and_undo_still_reaches_the_first_step() {
         editor.views.model.pictures.drawn > 0
     });
     for expected in [&added, &empty] {
-        window.harness.state_mut().documents.document.undo();
+        history::undo(&mut window.harness.state_mut().documents.document);
         assert_eq!(&window.text(), expected);
     }
     window.redo(2);

@@ -95,7 +95,15 @@ fn nodes_that_come_with_a_graph_are_used_once_the_user_trusts_them() {
         fs::write(nodes.join("level.wgsl"), level).expect("a node");
         Session::open(&file, None).expect("a graph")
     };
-    let has_own = |window: &Window| window.document().kinds().0.library.kind("mine/level").is_some();
+    let has_own = |window: &Window| {
+        window
+            .document()
+            .node_kinds()
+            .kinds
+            .library
+            .kind("mine/level")
+            .is_some()
+    };
     let asks = |window: &Window| window.says("The graph comes with nodes of its own");
     let mut window = Window::with(open);
     window.settle();

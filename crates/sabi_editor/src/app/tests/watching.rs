@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use sabi_editing::nodes;
+use sabi_editing::{history, nodes, trust};
 use sabi_engine::Session;
 
 use super::{Editor, Window};
@@ -113,7 +113,7 @@ fn a_changed_node_file_changes_the_shown_result_and_a_broken_one_leaves_it() {
         Some(0.5),
         "the last good version stays"
     );
-    let faults = &watched.window.editor().documents.document.kinds().0.faults;
+    let faults = &watched.window.editor().documents.document.node_kinds().kinds.faults;
     assert!(faults[0].path.ends_with("nodes/own/level.wgsl"), "{faults:?}");
     watched.write("nodes/own/level.wgsl", level(0.75));
     watched.until_value(0.75);
@@ -145,7 +145,7 @@ fn a_node_that_blocks_the_device_is_stopped_and_muted_and_the_window_goes_on() {
     watched.window.editor().evaluation.gpu().set_impatient(false);
     watched.write("nodes/own/level.wgsl", level(0.75));
     watched.rest();
-    watched.window.harness.state_mut().documents.document.undo();
+    history::undo(&mut watched.window.harness.state_mut().documents.document);
     watched.until_value(0.75);
 }
 
@@ -154,11 +154,18 @@ fn the_first_node_file_beside_a_graph_is_found_and_asked_about() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.write("nodes/own/level.wgsl", level(0.5));
     watched.window.until("a question", |editor| {
-        editor.documents.document.untrusted_nodes().is_some()
+        trust::untrusted_nodes(&editor.documents.document).is_some()
     });
     watched.window.click("Use these nodes");
     watched.window.until("another kind", |editor| {
-        editor.documents.document.kinds().0.library.kind("own/level").is_some()
+        editor
+            .documents
+            .document
+            .node_kinds()
+            .kinds
+            .library
+            .kind("own/level")
+            .is_some()
     });
 }
 
@@ -247,7 +254,7 @@ fn a_graph_that_another_program_writes_is_asked_about_and_can_be_reloaded() {
     assert!(!watched.window.editor().documents.is_file_foreign);
     let document = &mut watched.window.harness.state_mut().documents.document;
     assert!(!document.session.is_dirty());
-    document.undo();
+    history::undo(document);
     watched.until_value(1.0);
 }
 

@@ -77,7 +77,7 @@ impl DraftEditor {
     /// Editor of a new node that begins as a copy of another one; `None` where there is no folder for it.
     pub(super) fn like(document: &OpenDocument, id: &str, text: &str) -> Option<DraftEditor> {
         let folder = new_node_folder(document.session.file())?;
-        let kinds = document.kinds().0;
+        let kinds = &document.node_kinds().kinds;
         let numbered = (2..).map(|number| format!("{id}_{number}"));
         let mut ids = std::iter::once(format!("{id}_own")).chain(numbered);
         let id = ids.find(|id| node_id_fault(kinds, &folder, id).is_none())?;
@@ -95,7 +95,7 @@ impl DraftEditor {
     /// # Errors
     /// A sentence: the node is none of the artist's own, or its file cannot be read.
     pub(super) fn of_own(document: &OpenDocument, id: &str) -> Result<DraftEditor, String> {
-        let kinds = document.kinds().0;
+        let kinds = &document.node_kinds().kinds;
         let folder = kinds.own_folder(document.session.file(), id);
         let folder = folder.ok_or_else(|| format!("'{id}' is no node of your own; begin a new one from it"))?;
         let text = read_node(&folder, id).map_err(|error| error.to_string())?;
@@ -137,7 +137,7 @@ impl DraftEditor {
     }
 
     fn check(&mut self, document: &OpenDocument) {
-        let kinds = document.kinds().0;
+        let kinds = &document.node_kinds().kinds;
         let NodeDraft { folder, id, text, .. } = &self.node;
         self.why_no_id = node_id_fault(kinds, folder, id);
         self.faults = check_node(kinds, folder, id, text);

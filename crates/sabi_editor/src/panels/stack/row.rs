@@ -44,8 +44,11 @@ pub(super) fn show(
     let (document, theme) = (context.document, context.theme);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click_and_drag());
     // A row also counts as selected while its mask is, as during painting on the mask.
-    let is_mask_selected = layer.mask.as_ref().is_some_and(|mask| document.is_selected(&mask.node));
-    let is_selected = document.is_selected(&layer.node) || is_mask_selected;
+    let is_mask_selected = layer
+        .mask
+        .as_ref()
+        .is_some_and(|mask| document.selection().contains(&mask.node));
+    let is_selected = document.selection().contains(&layer.node) || is_mask_selected;
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, &layer.title));
     let fill = match (is_selected, response.hovered()) {
         (true, _) => theme.raised.lerp_to_gamma(theme.accent, 0.25),
@@ -123,7 +126,7 @@ fn mask_of(ui: &Ui, context: &ViewContext<'_>, layer: &Layer, rect: Rect, action
     let Some(mask) = &layer.mask else { return };
     let title = context.document.title(&mask.node);
     let response = ui.interact(rect, ui.id().with(("mask", &layer.node)), Sense::click());
-    let is_selected = context.document.is_selected(&mask.node);
+    let is_selected = context.document.selection().contains(&mask.node);
     response.widget_info(|| {
         WidgetInfo::selected(
             WidgetType::Button,
