@@ -22,22 +22,22 @@ const OPTIONS: AtlasOptions = AtlasOptions {
 };
 
 /// A result that the program has stored.
-struct Stored {
+struct StoredResult {
     kind: CacheKind,
     key: [u8; 32],
     content: Vec<u8>,
 }
 
 /// The folder of a cache, and what the program has stored there for a mesh.
-struct Place {
+struct CacheFolder {
     folder: tempfile::TempDir,
     mesh: Mesh,
-    atlas: Stored,
-    sheet: Stored,
+    atlas: StoredResult,
+    sheet: StoredResult,
 }
 
 thread_local! {
-    static PLACE: RefCell<Place> = RefCell::new(Place::new());
+    static PLACE: RefCell<CacheFolder> = RefCell::new(CacheFolder::new());
 }
 
 /// The first byte says what is damaged: the atlas or the layout, and whether the others are a whole content or are added over the
@@ -80,20 +80,20 @@ fn changed(content: &[u8], changes: &[u8]) -> Vec<u8> {
     content
 }
 
-impl Place {
-    fn new() -> Place {
+impl CacheFolder {
+    fn new() -> CacheFolder {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let mut place = Place {
+        let mut place = CacheFolder {
             mesh: square(|[x, y]| x * y),
-            atlas: Stored::nothing("atlas"),
-            sheet: Stored::nothing("sheet"),
+            atlas: StoredResult::nothing("atlas"),
+            sheet: StoredResult::nothing("sheet"),
             folder,
         };
         place.atlas();
         place.unwrap();
         let path = place.folder.path();
-        place.atlas = Stored::read(path, "atlas");
-        place.sheet = Stored::read(path, "sheet");
+        place.atlas = StoredResult::read(path, "atlas");
+        place.sheet = StoredResult::read(path, "sheet");
         place
     }
 
@@ -109,9 +109,9 @@ impl Place {
     }
 }
 
-impl Stored {
-    fn nothing(prefix: &'static str) -> Stored {
-        Stored {
+impl StoredResult {
+    fn nothing(prefix: &'static str) -> StoredResult {
+        StoredResult {
             kind: CacheKind {
                 prefix,
                 version: 0,
@@ -123,14 +123,14 @@ impl Stored {
     }
 
     /// Reads the only file whose name begins so.
-    fn read(folder: &Path, prefix: &'static str) -> Stored {
+    fn read(folder: &Path, prefix: &'static str) -> StoredResult {
         let files = fs::read_dir(folder).expect("the cache has a folder");
         let file = files.filter_map(Result::ok).find(|file| {
             let name = file.file_name();
             name.to_string_lossy().starts_with(prefix)
         });
         let bytes = fs::read(file.expect("the result was stored").path()).expect("the file can be read");
-        let mut stored = Stored::nothing(prefix);
+        let mut stored = StoredResult::nothing(prefix);
         let (head, content) = bytes.split_at(HEAD_BYTES);
         let (version, rest) = head[MARK_BYTES..].split_first_chunk().expect("four bytes");
         stored.kind.version = u32::from_le_bytes(*version);

@@ -1,7 +1,7 @@
 //! Any bytes are strokes that can be painted, or a fault.
 
 use sabi_paint::file::read;
-use sabi_paint::{Canvas, Layers, PaintSurface, Painter, StampPictures, StrokeBook, Supplies, SurfaceIndex};
+use sabi_paint::{Canvas, CanvasLayers, PaintSurface, Painter, StampPictures, StrokeBook, Supplies, SurfaceIndex};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 
 use crate::square::square;
@@ -21,7 +21,7 @@ pub fn survives(bytes: &[u8]) {
     let Ok(atlas) = Atlas::build(&mesh, &AtlasOptions::new(16)) else {
         return;
     };
-    let layers = Layers {
+    let layers = CanvasLayers {
         value: true,
         color: true,
         height: true,

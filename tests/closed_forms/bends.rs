@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use sabi_tests::shapes::{Cut, Place, ball, cube, patch, tube, turned_in};
+use sabi_tests::shapes::{PatchDivision, PatchUvs, ball, cube, patch, tube, turned_in};
 use sabi_tests::{MeshFile, OnMesh, Quad};
 
-use crate::held::Held;
+use crate::mean_difference::MeanDifference;
 use crate::rays::graph;
 
 const RAYS: u32 = 64;
@@ -23,8 +23,8 @@ fn bend_of(on_mesh: &mut OnMesh, radius: f64) -> Vec<f32> {
 }
 
 /// Compares a bend with the expected value of each texel that has one. Rays are stopped on one side only, and each stopped ray counts 2.
-fn held(on_mesh: &OnMesh, bend: &[f32], expected: impl Fn(DVec3) -> Option<f64>) -> Held {
-    Held::new(on_mesh, bend, RAYS, expected, |bend| 2.0 * bend.abs() - bend * bend)
+fn held(on_mesh: &OnMesh, bend: &[f32], expected: impl Fn(DVec3) -> Option<f64>) -> MeanDifference {
+    MeanDifference::new(on_mesh, bend, RAYS, expected, |bend| 2.0 * bend.abs() - bend * bend)
 }
 
 /// Expected curvature at a distance from an edge that turns by `turn`, the distance as a share of the radius: the mean
@@ -93,21 +93,25 @@ fn a_ball_and_a_tube_bend_as_their_radius_says() {
 fn a_saddle_bends_as_much_inward_as_outward() {
     let radius = 0.15;
     let height = |s: f64, t: f64| DVec3::new(s - 0.5, (s - 0.5).powi(2) - (0.5 - t).powi(2), 0.5 - t);
-    let mut on_mesh = on(patch(height, PLACE, Cut::even(64)), 96);
+    let mut on_mesh = on(patch(height, PLACE, PatchDivision::even(64)), 96);
     let bend = bend_of(&mut on_mesh, radius);
     let inside = |at: DVec3| (at.x.abs() < 0.3 && at.z.abs() < 0.3).then_some(0.0);
     // Its slices bend by 2 cos 2φ, 4/π in the mean over all ways, to one side or the other: each way stops a share of the
     // radius' half of that.
     let stopped = 4.0 / PI * radius / 2.0;
-    Held::new(&on_mesh, &bend, RAYS, inside, |_| 2.0 * stopped).assert(0.0, "a saddle");
+    MeanDifference::new(&on_mesh, &bend, RAYS, inside, |_| 2.0 * stopped).assert(0.0, "a saddle");
 }
 
-const PLACE: Place = [[0.02; 2], [0.98; 2]];
+const PLACE: PatchUvs = [[0.02; 2], [0.98; 2]];
 
 #[test]
 fn a_plane_is_exactly_flat_in_any_orientation_and_triangulation() {
     let (right, up) = (DVec3::new(0.6, 0.48, 0.64), DVec3::new(-0.8, 0.36, 0.48));
-    for cut in [Cut::even(1), Cut::even(24), Cut::scattered(24, 7)] {
+    for cut in [
+        PatchDivision::even(1),
+        PatchDivision::even(24),
+        PatchDivision::scattered(24, 7),
+    ] {
         let quads = patch(|s, t| right * s + up * t + DVec3::new(0.3, 0.2, -0.7), PLACE, cut);
         let mut on_mesh = on(quads, 96);
         for kind in ["curvature", "edges", "cavity"] {
@@ -125,7 +129,7 @@ fn a_plane_is_exactly_flat_in_any_orientation_and_triangulation() {
 }
 
 /// Curvature and the mask of edges, which are creases of a cube seen from inside, for each owned texel.
-fn masks_of_cube(is_inward: bool, cut: Cut) -> [Vec<(usize, f32)>; 2] {
+fn masks_of_cube(is_inward: bool, cut: PatchDivision) -> [Vec<(usize, f32)>; 2] {
     let quads = cube(cut);
     let mut on_mesh = on(if is_inward { turned_in(quads) } else { quads }, 96);
     let marks = if is_inward { "cavity" } else { "edges" };
@@ -140,17 +144,17 @@ fn masks_of_cube(is_inward: bool, cut: Cut) -> [Vec<(usize, f32)>; 2] {
 #[test]
 fn masks_of_a_cube_are_the_same_whatever_its_triangles() {
     for is_inward in [false, true] {
-        let expected = masks_of_cube(is_inward, Cut::even(1));
+        let expected = masks_of_cube(is_inward, PatchDivision::even(1));
         for values in &expected {
             let marked = values.iter().filter(|(_, value)| value.abs() > 0.1).count();
             assert!(4 * marked > values.len(), "only {marked} texels of {}", values.len());
         }
         // 1 200 and 12 288 triangles.
         for cut in [
-            Cut::even(10),
-            Cut::even(32),
-            Cut::scattered(10, 1),
-            Cut::scattered(32, 2),
+            PatchDivision::even(10),
+            PatchDivision::even(32),
+            PatchDivision::scattered(10, 1),
+            PatchDivision::scattered(32, 2),
         ] {
             for (expected, found) in expected.iter().zip(&masks_of_cube(is_inward, cut)) {
                 assert_eq!(expected.len(), found.len());

@@ -4,7 +4,7 @@ use sabi_tests::{OnMesh, project};
 use serde_json::{Value as Json, json};
 
 /// A mode by its name.
-type Formula<T> = (&'static str, fn(T, T) -> T);
+type BlendFormula<T> = (&'static str, fn(T, T) -> T);
 
 fn hard_light(below: f64, above: f64) -> f64 {
     if above > 0.5 {
@@ -14,7 +14,7 @@ fn hard_light(below: f64, above: f64) -> f64 {
     }
 }
 
-const MODES: [Formula<f64>; 12] = [
+const MODES: [BlendFormula<f64>; 12] = [
     ("normal", |_, above| above),
     ("add", |below, above| below + above),
     ("subtract", |below, above| below - above),
@@ -183,7 +183,7 @@ fn with_saturation(color: Rgb, wanted: f64) -> Rgb {
     })
 }
 
-const COLOR_MODES: [Formula<Rgb>; 4] = [
+const COLOR_MODES: [BlendFormula<Rgb>; 4] = [
     ("hue", |below, above| {
         with_light(with_saturation(above, saturation(below)), light(below))
     }),

@@ -4,7 +4,7 @@ use sabi_engine::Kinds;
 use sabi_engine::opening::linked_model::ModelOptions;
 use sabi_gpu::{CasterChoice, Hits, ResultCache};
 use sabi_plan::Mode;
-use sabi_tests::{Asked, MeshFile, OnMesh, Quad, project};
+use sabi_tests::{EvaluationOptions, MeshFile, OnMesh, Quad, project};
 
 /// Maximum share of texels that may differ: if a ray passes an edge within rounding, either answer is right.
 const OUTLIERS: f64 = 0.002;
@@ -102,7 +102,7 @@ fn hits_of_longer_rays_give_the_results_of_shorter_rays() {
             on_mesh.set_graph(&graph(kind, &format!(r#""{length}": {length_now}, {setting}"#)));
             let shot = on_mesh.evaluate("rays").components();
             on_mesh.evaluator.rays_mut().hits = Hits::Cached;
-            let asked = Asked {
+            let asked = EvaluationOptions {
                 mode: Mode::Interactive,
                 cache: Some(&mut cache),
             };
@@ -125,7 +125,7 @@ fn shorter_rays_reuse_the_hits_of_longer_ones() {
     let mut cache = ResultCache::new(1 << 30);
     let mut held = |params: &str| {
         on_mesh.set_graph(&graph("edges", params));
-        let asked = Asked {
+        let asked = EvaluationOptions {
             mode: Mode::Interactive,
             cache: Some(&mut cache),
         };
@@ -179,7 +179,7 @@ fn a_first_picture_of_a_few_rays_has_the_same_mean_and_is_not_kept() {
     let mut cache = ResultCache::new(1 << 30);
     let mut picture = |most_rays| {
         on_mesh.evaluator.rays_mut().most_rays = most_rays;
-        let asked = Asked {
+        let asked = EvaluationOptions {
             mode: Mode::Interactive,
             cache: Some(&mut cache),
         };

@@ -1,10 +1,10 @@
 //! Clear coats, sheen and fine scratches where two materials meet, and below a layer.
 
-use sabi_tests::{Evaluated, OnMesh, project};
+use sabi_tests::{NodeResult, OnMesh, project};
 use serde_json::{Value, json};
 
 /// A layer over another one; the mask of the upper one is a ramp from 0 to 1 up the cube.
-fn layered(lower: &Value, upper: &Value) -> (OnMesh, Evaluated, Vec<f32>) {
+fn layered(lower: &Value, upper: &Value) -> (OnMesh, NodeResult, Vec<f32>) {
     let nodes = json!({
         "ramp": { "kind": "surface/position" },
         "lower": { "kind": "effect/layer", "params": lower },
@@ -13,7 +13,7 @@ fn layered(lower: &Value, upper: &Value) -> (OnMesh, Evaluated, Vec<f32>) {
     on_cube(&nodes, "upper")
 }
 
-fn on_cube(nodes: &Value, node: &str) -> (OnMesh, Evaluated, Vec<f32>) {
+fn on_cube(nodes: &Value, node: &str) -> (OnMesh, NodeResult, Vec<f32>) {
     let graph = json!({ "format": "sabi", "version": 1, "nodes": nodes }).to_string();
     let mut on_mesh = OnMesh::new(&graph, &project("assets/meshes/cube.glb"), 128);
     let ramp = on_mesh.evaluate("ramp").component("mask");
@@ -92,7 +92,7 @@ fn blended_materials_keep_the_roughness_of_a_coat_that_one_of_them_has() {
 }
 
 /// Lengths of the direction of fine scratches.
-fn strengths(on_mesh: &OnMesh, result: &Evaluated) -> Vec<f32> {
+fn strengths(on_mesh: &OnMesh, result: &NodeResult) -> Vec<f32> {
     let [x, y, z] = ["anisotropy.x", "anisotropy.y", "anisotropy.z"].map(|name| result.component(name));
     let length = |index: usize| (x[index] * x[index] + y[index] * y[index] + z[index] * z[index]).sqrt();
     on_mesh.owned().map(|(index, _)| length(index)).collect()

@@ -1,7 +1,7 @@
 //! Materials that are split, combined, adjusted and dented.
 
 use sabi_plan::Mode;
-use sabi_tests::{Asked, Evaluated, OnMesh, project};
+use sabi_tests::{EvaluationOptions, NodeResult, OnMesh, project};
 use serde_json::{Map, Value as Json, json};
 
 const CHANNELS: [&str; 15] = [
@@ -71,7 +71,7 @@ fn on_cube(nodes: Json) -> OnMesh {
     OnMesh::new(&graph(nodes), &project("assets/meshes/cube.glb"), 64)
 }
 
-fn hold_equal(on_mesh: &OnMesh, what: &str, one: &Evaluated, other: &Evaluated) {
+fn hold_equal(on_mesh: &OnMesh, what: &str, one: &NodeResult, other: &NodeResult) {
     for component in COMPONENTS {
         let (was, is) = (one.component(component), other.component(component));
         for (index, _) in on_mesh.owned() {
@@ -91,7 +91,15 @@ fn what_is_split_and_combined_again_is_the_same() {
         "again": { "kind": "material/combine", "inputs": inputs },
     }));
     for mode in [Mode::Bake { fuse: true }, Mode::Bake { fuse: false }, Mode::Interactive] {
-        let mut as_mode = |node| on_mesh.evaluate_as(node, Asked { mode, ..Asked::baked() });
+        let mut as_mode = |node| {
+            on_mesh.evaluate_as(
+                node,
+                EvaluationOptions {
+                    mode,
+                    ..EvaluationOptions::baked()
+                },
+            )
+        };
         let (varied, again) = (as_mode("varied"), as_mode("again"));
         hold_equal(&on_mesh, &format!("{mode:?}"), &varied, &again);
     }
@@ -141,7 +149,7 @@ fn an_adjustment_with_nothing_set_or_an_empty_mask_changes_nothing() {
 }
 
 /// Formula for the new value of a channel.
-type Formula = fn(f32) -> f32;
+type ChannelFormula = fn(f32) -> f32;
 
 #[test]
 fn an_adjustment_does_to_each_channel_what_its_name_says() {
@@ -152,7 +160,7 @@ fn an_adjustment_does_to_each_channel_what_its_name_says() {
     let node = json!({ "kind": "material/adjust", "inputs": { "material": "varied" }, "params": params });
     let mut on_mesh = on_cube(json!({ "node": node }));
     let (varied, adjusted) = (on_mesh.evaluate("varied"), on_mesh.evaluate("node"));
-    let expected: [(&str, Formula); 7] = [
+    let expected: [(&str, ChannelFormula); 7] = [
         ("base_color.r", |was| 0.75 * was),
         ("alpha", |was| was),
         ("roughness", |was| was + 0.5 * (0.1 - 0.5 * was)),

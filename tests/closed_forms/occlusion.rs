@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use sabi_tests::shapes::{Cut, ball, cube, patch, tube, turned_in};
+use sabi_tests::shapes::{PatchDivision, ball, cube, patch, tube, turned_in};
 use sabi_tests::{MeshFile, OnMesh, Quad};
 
-use crate::held::Held;
+use crate::mean_difference::MeanDifference;
 use crate::rays::{faces, graph};
 
 const RAYS: u32 = 64;
@@ -14,11 +14,11 @@ const RAYS: u32 = 64;
 const FAR: f64 = 1000.0;
 
 /// Compares occlusion within a distance with the expected value of each texel that has one.
-fn held(on_mesh: &mut OnMesh, distance: f64, expected: impl Fn(DVec3) -> Option<f64>) -> Held {
+fn held(on_mesh: &mut OnMesh, distance: f64, expected: impl Fn(DVec3) -> Option<f64>) -> MeanDifference {
     let params = format!(r#""rays": {RAYS}, "distance": {distance}"#);
     on_mesh.set_graph(&graph("occlusion", &params));
     let values = on_mesh.evaluate("rays").component("mask");
-    Held::new(on_mesh, &values, RAYS, expected, |share| share * (1.0 - share))
+    MeanDifference::new(on_mesh, &values, RAYS, expected, |share| share * (1.0 - share))
 }
 
 /// A narrow floor along +x from x = 0 on.
@@ -92,7 +92,11 @@ fn inside_of_a_ball_occlusion_is_the_square_of_the_rays_share_of_its_width() {
 
 #[test]
 fn in_a_closed_box_no_ray_as_long_as_its_diagonal_gets_out() {
-    for cut in [Cut::even(1), Cut::even(10), Cut::scattered(10, 5)] {
+    for cut in [
+        PatchDivision::even(1),
+        PatchDivision::even(10),
+        PatchDivision::scattered(10, 5),
+    ] {
         // Long rays start from texels twice as wide; the scattered charts are two of those wide.
         let mut on_mesh = on(turned_in(cube(cut)), 192);
         on_mesh.set_graph(&graph("occlusion", r#""rays": 64, "distance": 1.74"#));
@@ -108,14 +112,14 @@ fn barrel() -> Vec<Quad> {
         let (turn, rise) = (TAU * s, 2.4 * (t - 0.5));
         0.5 * DVec3::new(rise.cos() * turn.sin(), rise.sin(), rise.cos() * turn.cos())
     };
-    patch(at, [[0.02; 2], [0.98; 2]], Cut::even(48))
+    patch(at, [[0.02; 2], [0.98; 2]], PatchDivision::even(48))
 }
 
 #[test]
 fn a_convex_body_covers_nothing_of_itself() {
     let bodies = [
-        ("a cube", cube(Cut::even(1))),
-        ("a cube of many faces", cube(Cut::scattered(32, 3))),
+        ("a cube", cube(PatchDivision::even(1))),
+        ("a cube of many faces", cube(PatchDivision::scattered(32, 3))),
         ("a barrel", barrel()),
         ("a tube of three sides", tube(3, 0.5)),
         ("a tube of 48 sides", tube(48, 0.5)),

@@ -1,7 +1,7 @@
 //! The surface of a model is independent of the model's place in its scene and of the unit.
 
 use glam::DVec3;
-use sabi_tests::shapes::{Cut, cube};
+use sabi_tests::shapes::{PatchDivision, cube};
 use sabi_tests::{MeshFile, OnMesh, Quad};
 use serde_json::{Value, json};
 
@@ -21,7 +21,7 @@ const GRAPH: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
 fn placed(node: Value) -> OnMesh {
     let offsets = [DVec3::ZERO, DVec3::new(0.4, 0.3, 0.2)];
     let cubes = offsets.into_iter().enumerate().flat_map(|(half, by)| {
-        cube(Cut::scattered(4, 3)).into_iter().map(move |quad| Quad {
+        cube(PatchDivision::scattered(4, 3)).into_iter().map(move |quad| Quad {
             corners: quad
                 .corners
                 .map(|corner| (DVec3::from(corner.map(f64::from)) + by).as_vec3().to_array()),

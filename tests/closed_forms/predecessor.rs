@@ -1,7 +1,7 @@
 //! Defects of the thesis' tool that cannot occur here: blending.
 
 use sabi_plan::Mode;
-use sabi_tests::{Asked, OnMesh};
+use sabi_tests::{EvaluationOptions, OnMesh};
 use serde_json::{Value as Json, json};
 
 use crate::waves::{Chart, plane};
@@ -152,7 +152,13 @@ fn an_empty_mask_and_a_channel_that_is_off_leave_what_is_below() {
 fn stored_apart(on_mesh: &mut OnMesh, node: &str) -> Vec<f32> {
     let mode = Mode::Bake { fuse: false };
     on_mesh
-        .evaluate_as(node, Asked { mode, ..Asked::baked() })
+        .evaluate_as(
+            node,
+            EvaluationOptions {
+                mode,
+                ..EvaluationOptions::baked()
+            },
+        )
         .component("mask")
 }
 

@@ -1,7 +1,7 @@
 //! Defects of the thesis' tool that cannot occur here: changes of values on their way into files.
 
 use sabi_image::{Picture, decode};
-use sabi_tests::Baked;
+use sabi_tests::BakeOutput;
 use serde_json::{Value as Json, json};
 
 use crate::waves::{Chart, plane};
@@ -9,20 +9,20 @@ use crate::waves::{Chart, plane};
 /// The plane's chart covers the middle half of the map, across and down.
 const DENSITY: f32 = 0.5;
 
-fn baked(size: u32, nodes: Json) -> Baked {
+fn baked(size: u32, nodes: Json) -> BakeOutput {
     baked_at(DENSITY, size, nodes)
 }
 
 /// A bake of these nodes on a plane, with masks `across` and `up` from 0 to 1 and `half`, which is 0 on the left and 1 on
 /// the right.
-fn baked_at(density: f32, size: u32, mut nodes: Json) -> Baked {
+fn baked_at(density: f32, size: u32, mut nodes: Json) -> BakeOutput {
     nodes["across"] = json!({ "kind": "surface/position", "params": { "along": [1, 0, 0] } });
     nodes["up"] = json!({ "kind": "surface/position", "params": { "along": [0, 1, 0] } });
     nodes["half"] = json!({ "kind": "adjust/remap", "inputs": { "source": "across" },
                             "params": { "from_low": 0.5, "from_high": 0.5 } });
     nodes["out"] = json!({ "kind": "output/material", "inputs": { "material": "material" } });
     let graph = json!({ "format": "sabi", "version": 1, "nodes": nodes });
-    Baked::new(&graph.to_string(), plane(Chart::straight(density)).path(), size)
+    BakeOutput::new(&graph.to_string(), plane(Chart::straight(density)).path(), size)
 }
 
 fn combine(inputs: Json) -> Json {
@@ -35,17 +35,17 @@ fn stretched(source: &str, low: f64, high: f64) -> Json {
 }
 
 /// A map as numbers, 1 for the highest code.
-struct Map {
+struct MapPixels {
     size: u32,
     rgba: Vec<[f32; 4]>,
 }
 
-impl Map {
-    fn of(baked: &Baked, name: &str, size: u32) -> Map {
+impl MapPixels {
+    fn of(baked: &BakeOutput, name: &str, size: u32) -> MapPixels {
         let picture: Picture = decode(name, &baked.map(name)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!([picture.width, picture.height], [size; 2], "{name}");
         let rgba = picture.linear_rgba(false).rgba;
-        Map { size, rgba }
+        MapPixels { size, rgba }
     }
 
     /// All pixels of the plane: place on it, 0 to 1 across and up, and value.
@@ -85,7 +85,7 @@ fn a_value_of_0_is_no_hole_to_be_filled() {
         ("height.exr", -0.25, 0.5),
         ("height.png", 0.0, 1.0),
     ] {
-        let map = Map::of(&baked, name, size);
+        let map = MapPixels::of(&baked, name, size);
         for ([across, _], [value, ..]) in map.on_the_plane() {
             let expected = if across < 0.5 { left } else { right };
             assert_eq!(value, expected, "{name} at {across}");
@@ -109,8 +109,8 @@ fn a_half_is_exported_as_a_half_and_no_value_is_squared() {
         }),
     );
     let (roughness, metallic) = (
-        Map::of(&baked, "roughness.png", size),
-        Map::of(&baked, "metallic.png", size),
+        MapPixels::of(&baked, "roughness.png", size),
+        MapPixels::of(&baked, "metallic.png", size),
     );
     for (axis, map) in [roughness, metallic].iter().enumerate() {
         for (place, [value, ..]) in map.on_the_plane() {
@@ -121,7 +121,10 @@ fn a_half_is_exported_as_a_half_and_no_value_is_squared() {
             );
         }
     }
-    let (exact, coded) = (Map::of(&baked, "height.exr", size), Map::of(&baked, "height.png", size));
+    let (exact, coded) = (
+        MapPixels::of(&baked, "height.exr", size),
+        MapPixels::of(&baked, "height.png", size),
+    );
     for (([across, _], [height, ..]), (_, [code, ..])) in exact.on_the_plane().into_iter().zip(coded.on_the_plane()) {
         let expected = 0.02 * (across - 0.5);
         assert!((f64::from(height) - expected).abs() < 1e-8, "{height} at {across}");
@@ -152,7 +155,7 @@ fn a_size_that_is_no_power_of_two_works_like_any_other() {
             ("roughness.png", 0, 1.0 / 255.0 + 1.0 / 2048.0),
             ("height.exr", 1, 1e-6),
         ] {
-            let map = Map::of(&baked, name, size);
+            let map = MapPixels::of(&baked, name, size);
             for (place, [value, ..]) in map.on_the_plane() {
                 assert!(
                     (f64::from(value) - place[axis]).abs() <= allowed,
@@ -174,12 +177,12 @@ fn heights_keep_more_than_8_bits() {
         "material": combine(json!({ "height": "low" })),
     });
     let baked = baked(size, nodes);
-    for ([across, _], [height, ..]) in Map::of(&baked, "height.exr", size).on_the_plane() {
+    for ([across, _], [height, ..]) in MapPixels::of(&baked, "height.exr", size).on_the_plane() {
         let expected = 0.1 + 0.0001 * across;
         // Four steps of a 32-bit float at 0.1.
         assert!((f64::from(height) - expected).abs() < 3e-8, "{height} at {across}");
     }
-    let codes = Map::of(&baked, "height.png", size).on_the_plane();
+    let codes = MapPixels::of(&baked, "height.png", size).on_the_plane();
     let mut codes: Vec<u32> = codes.iter().map(|(_, value)| (value[0] * 65535.0) as u32).collect();
     codes.sort_unstable();
     codes.dedup();
@@ -189,7 +192,7 @@ fn heights_keep_more_than_8_bits() {
 /// Red, green and blue of the normals of a slope, as exported: Y+, 0.5 is none.
 fn normals(size: u32, source: &str, rise: f64) -> Vec<[f32; 4]> {
     let nodes = json!({ "slope": stretched(source, 0.0, rise), "material": combine(json!({ "height": "slope" })) });
-    Map::of(&baked(size, nodes), "normal.png", size).away_from_borders()
+    MapPixels::of(&baked(size, nodes), "normal.png", size).away_from_borders()
 }
 
 #[test]
@@ -244,7 +247,7 @@ fn half_of_white_over_black_is_half_the_light() {
         "material": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "half" },
                       "params": { "color": "#ffffff", "opacity": 0.5 } },
     });
-    let map = Map::of(&baked(size, nodes), "base_color.png", size);
+    let map = MapPixels::of(&baked(size, nodes), "base_color.png", size);
     for ([across, _], [red, ..]) in map.on_the_plane() {
         // IEC 61966-2-1 encodes 0.5 as 187.5 of 255; mixing codes would give 128.
         let expected = if across < 0.5 { [0.0, 0.0] } else { [187.0, 188.0] };

@@ -114,7 +114,7 @@ fn assert_comes_back(mesh: &MadeMesh) {
 }
 
 /// Placement of a texture on the model, and the function from a pixel of the unit square to the pixel of the texture there.
-struct Placing {
+struct TexturePlacement {
     name: &'static str,
     transform: Value,
     sampler: Value,
@@ -125,22 +125,22 @@ struct Placing {
 const CLAMP: u32 = 33071;
 const MIRROR: u32 = 33648;
 
-fn placings() -> [Placing; 4] {
+fn placings() -> [TexturePlacement; 4] {
     let offset = |u: f64, v: f64| json!({ "offset": [u, v] });
     [
-        Placing {
+        TexturePlacement {
             name: "as it is",
             transform: Value::Null,
             sampler: json!({}),
             source: |x, y| (x, y),
         },
-        Placing {
+        TexturePlacement {
             name: "moved, repeating",
             transform: offset(0.25, 0.5),
             sampler: json!({}),
             source: |x, y| ((x + SIZE / 4) % SIZE, (y + SIZE / 2) % SIZE),
         },
-        Placing {
+        TexturePlacement {
             name: "moved, mirrored across and clamped down",
             transform: offset(0.5, 0.5),
             sampler: json!({ "wrapS": MIRROR, "wrapT": CLAMP }),
@@ -150,7 +150,7 @@ fn placings() -> [Placing; 4] {
                 (mirrored, (y + SIZE / 2).min(SIZE - 1))
             },
         },
-        Placing {
+        TexturePlacement {
             name: "turned by a right angle",
             transform: json!({ "rotation": std::f64::consts::FRAC_PI_2 }),
             sampler: json!({}),
@@ -176,7 +176,7 @@ fn png_rgba(codes: &[u8]) -> Vec<u8> {
 }
 
 /// A model whose every map lies the same way, with a factor on each.
-fn mapped(placing: &Placing) -> MadeMesh {
+fn mapped(placing: &TexturePlacement) -> MadeMesh {
     let texture = |slot: &'static str, seed: u32, more: Value| {
         let mut info = more;
         if !placing.transform.is_null() {
@@ -211,7 +211,7 @@ fn mapped(placing: &Placing) -> MadeMesh {
 }
 
 /// Value that a code of a picture stands for.
-type Expected<'a> = &'a dyn Fn(u8) -> f64;
+type ExpectedValue<'a> = &'a dyn Fn(u8) -> f64;
 
 #[test]
 fn every_map_of_a_model_comes_back_however_it_wraps_and_is_transformed() {
@@ -221,7 +221,7 @@ fn every_map_of_a_model_comes_back_however_it_wraps_and_is_transformed() {
         let made = mapped(&placing);
         let mut on_mesh = OnMesh::new(GRAPH, made.path(), SIZE);
         let evaluated = on_mesh.evaluate("out");
-        let maps: [(&str, u32, usize, Expected<'_>); 10] = [
+        let maps: [(&str, u32, usize, ExpectedValue<'_>); 10] = [
             ("base_color.r", 1, 0, &srgb),
             ("base_color.g", 1, 1, &|code| 0.5 * srgb(code)),
             ("base_color.b", 1, 2, &|code| 0.25 * srgb(code)),

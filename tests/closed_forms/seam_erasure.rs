@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use sabi_engine::baking::Seams;
 use sabi_image::{Pixels, decode};
-use sabi_tests::{Baked, OnMesh, Seam, project};
+use sabi_tests::{BakeOutput, OnMesh, Seam, project};
 
 const SIZE: u32 = 512;
 
@@ -14,20 +14,20 @@ const RELIEF: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
     "out": { "kind": "output/material", "inputs": { "material": "layer" } } } }"#;
 
 /// A map as a file has it, between its texels.
-struct Map {
+struct InterpolatedMap {
     components: usize,
     values: Vec<f64>,
 }
 
-impl Map {
-    fn new(name: &str, file: &[u8]) -> Map {
+impl InterpolatedMap {
+    fn new(name: &str, file: &[u8]) -> InterpolatedMap {
         let picture = decode(name, file).expect("a map");
         let values: Vec<f64> = match picture.pixels {
             Pixels::U16(codes) => codes.into_iter().map(|code| f64::from(code) / 32767.5 - 1.0).collect(),
             Pixels::F32(values) => values.into_iter().map(f64::from).collect(),
             Pixels::U8(_) => panic!("heights and normals have more bits"),
         };
-        Map {
+        InterpolatedMap {
             components: values.len() / (SIZE * SIZE) as usize,
             values,
         }
@@ -57,11 +57,11 @@ impl Map {
 }
 
 /// Returns the root mean square of a comparison of both sides of the seams, in a map without erasure and in one with erasure.
-fn compared(mesh: &str, name: &str, difference: impl Fn(&OnMesh, &Map, &Seam, f64) -> f64) -> [f64; 2] {
+fn compared(mesh: &str, name: &str, difference: impl Fn(&OnMesh, &InterpolatedMap, &Seam, f64) -> f64) -> [f64; 2] {
     let path = project(&format!("assets/meshes/{mesh}.glb"));
     let on_mesh = OnMesh::new(RELIEF, &path, SIZE);
     [Seams::Keep, Seams::Erase].map(|seams| {
-        let map = Map::new(name, &Baked::with_seams(RELIEF, &path, SIZE, seams).map(name));
+        let map = InterpolatedMap::new(name, &BakeOutput::with_seams(RELIEF, &path, SIZE, seams).map(name));
         let (mut sum, mut count) = (0.0, 0.0);
         for seam in on_mesh.seams() {
             for sample in 0..48 {
@@ -83,13 +83,13 @@ fn uv(on_mesh: &OnMesh, seam: &Seam, side: usize, along: f64) -> DVec2 {
     weights.zip(uvs).map(|(weight, uv)| uv * weight).sum()
 }
 
-fn height_step(on_mesh: &OnMesh, map: &Map, seam: &Seam, along: f64) -> f64 {
+fn height_step(on_mesh: &OnMesh, map: &InterpolatedMap, seam: &Seam, along: f64) -> f64 {
     let [one, other] = [0, 1].map(|side| map.read(uv(on_mesh, seam, side, along))[0]);
     one - other
 }
 
 /// Returns the angle between the normals of both sides in radians.
-fn turn(on_mesh: &OnMesh, map: &Map, seam: &Seam, along: f64) -> f64 {
+fn turn(on_mesh: &OnMesh, map: &InterpolatedMap, seam: &Seam, along: f64) -> f64 {
     let [one, other] = [0, 1].map(|side| {
         let (triangle, weights) = (seam.triangles[side], seam.weights(side, along));
         let (_, at) = on_mesh.on_page(triangle, weights);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DVec3, Vec3};
-use sabi_tests::shapes::{Cut, cube, tube};
+use sabi_tests::shapes::{PatchDivision, cube, tube};
 use sabi_tests::{MeshFile, OnMesh};
 
 use crate::rays::graph;
@@ -67,7 +67,7 @@ fn air_beside_edge(share: f64) -> [f64; 2] {
 
 #[test]
 fn a_rounded_edge_turns_from_one_side_to_the_other_over_its_radius() {
-    let made = MeshFile::new(cube(Cut::even(1))).write();
+    let made = MeshFile::new(cube(PatchDivision::even(1))).write();
     let mut on_mesh = OnMesh::new(&graph("occlusion", ""), made.path(), 192);
     on_mesh.set_graph(&graph("rounded_normal", r#""radius": 0.1, "rays": 256"#));
     let result = on_mesh.evaluate("rays");

@@ -88,7 +88,7 @@ fn an_edited_graph_gives_the_same_bytes_as_one_opened_with_the_edit() {
         param: "at".to_owned(),
         value: Some(sabi_graph::Value::Number(at)),
     };
-    let last = |told: &crate::window::Told| told.shown().last().map(|(.., looks)| bytes(looks));
+    let last = |told: &crate::window::ReceivedEvents| told.shown().last().map(|(.., looks)| bytes(looks));
     let window = Window::new();
     window.answer(request(1, graph(&rusty(0.5))));
     let edits: sabi_engine::live::GraphUpdate = vec![set(0.7)].into();
@@ -221,7 +221,7 @@ fn the_exact_values_of_a_node_are_reported_once() {
         inspected: vec![node("cut")],
         ..request(revision, graph(&rusty(at)))
     };
-    let values = |told: &crate::window::Told| {
+    let values = |told: &crate::window::ReceivedEvents| {
         let mut found = told.all.iter().filter_map(|event| match event {
             LiveEvent::Inspected { values, .. } => Some(values.clone()),
             _ => None,

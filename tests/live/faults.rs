@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-use sabi_engine::live::{BlockedNode, Faults, LiveEvent, LiveRequest, NodeFault};
+use sabi_engine::live::{BlockedNode, GraphFaults, LiveEvent, LiveRequest, NodeFault};
 use sabi_engine::opening::linked_model::ModelOptions;
 use sabi_engine::{Live, OpenGraph};
 use sabi_image::{PngData, PngOptions, encode_png};
@@ -58,7 +58,7 @@ fn faults_are_reported_only_when_they_change() {
     assert!(faults(1, HALF_WIRED).is_some());
     assert_eq!(faults(2, HALF_WIRED), None);
     let mended = HALF_WIRED.replace(r#""filter/blur""#, r#""filter/blur", "inputs": { "source": "clouds" }"#);
-    assert_eq!(faults(3, &mended), Some(Faults::default()));
+    assert_eq!(faults(3, &mended), Some(GraphFaults::default()));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use sabi_engine::opening::linked_model::ModelOptions;
 use sabi_export::SetKey;
 use sabi_tests::project;
 
-use crate::window::{FULL, Told, Window, document, graph, node, request};
+use crate::window::{FULL, ReceivedEvents, Window, document, graph, node, request};
 
 const NODES: &str = r##"
     "clouds": { "kind": "noise/simplex" },
@@ -106,7 +106,7 @@ fn of_several_texture_sets_the_wanted_one_is_shown_where_texture_space_is() {
     let sets = sets.expect("a model");
     let names: Vec<String> = sets.iter().map(TextureSet::title).collect();
     assert_eq!(names, ["wood", "leather"]);
-    let seen = |told: &Told| -> Option<(String, Vec<u8>)> {
+    let seen = |told: &ReceivedEvents| -> Option<(String, Vec<u8>)> {
         let values = told.all.iter().find_map(|event| match event {
             LiveEvent::Inspected { values, .. } => Some(values.set.title()),
             _ => None,

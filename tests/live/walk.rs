@@ -5,12 +5,12 @@ mod edits;
 
 use std::sync::Arc;
 
-use edits::{FIRST, Step, Walk};
+use edits::{FIRST, Walk, WalkStep};
 use sabi_engine::evaluating::ModelLooks;
-use sabi_engine::live::{Faults, LiveRequest};
+use sabi_engine::live::{GraphFaults, LiveRequest};
 use sabi_graph::History;
 
-use crate::window::{Told, Window, bytes, document, request};
+use crate::window::{ReceivedEvents, Window, bytes, document, request};
 
 const EDITS: u64 = 200;
 /// So many edits are shown to the end; those between are overtaken by others.
@@ -20,13 +20,13 @@ const LEAST_COMPARED: usize = 8;
 
 /// Content of a window after the events so far.
 #[derive(Default)]
-struct Screen {
+struct WindowContent {
     shown: Option<Arc<ModelLooks>>,
-    faults: Faults,
+    faults: GraphFaults,
 }
 
-impl Screen {
-    fn take(&mut self, told: &Told) {
+impl WindowContent {
+    fn take(&mut self, told: &ReceivedEvents) {
         if let Some((.., shown)) = told.shown().last() {
             self.shown = Some(Arc::clone(shown));
         }
@@ -54,15 +54,15 @@ impl Screen {
 fn results_after_a_walk_are_those_of_a_fresh_evaluation() {
     let mut open = document(FIRST);
     let (mut history, mut walk) = (History::new(), Walk::new(7));
-    let (window, mut screen) = (Window::new(), Screen::default());
+    let (window, mut screen) = (Window::new(), WindowContent::default());
     let mut compared = 0;
     for revision in 1..=EDITS {
         let document = &mut open.document;
         // Some do not fit, and change nothing.
         let _ = match walk.next(document) {
-            Step::Edit(edit) => history.apply(document, "Edit", *edit),
-            Step::Undo => history.undo(document).map(drop),
-            Step::Redo => history.redo(document).map(drop),
+            WalkStep::Edit(edit) => history.apply(document, "Edit", *edit),
+            WalkStep::Undo => history.undo(document).map(drop),
+            WalkStep::Redo => history.redo(document).map(drop),
         };
         let wished = request(revision, open.clone());
         if revision % EVERY != 0 {
@@ -70,7 +70,7 @@ fn results_after_a_walk_are_those_of_a_fresh_evaluation() {
             continue;
         }
         screen.answer(&window, wished.clone());
-        let mut fresh = Screen::default();
+        let mut fresh = WindowContent::default();
         fresh.answer(&Window::new(), wished);
         assert_eq!(screen.faults, fresh.faults, "after {revision} edits");
         if screen.is_at_fault("out") {

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use sabi_engine::evaluating::ModelLooks;
-use sabi_engine::live::{Faults, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ViewSubject};
+use sabi_engine::live::{GraphFaults, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ViewSubject};
 use sabi_engine::opening::linked_model::ModelOptions;
-use sabi_engine::source::{Pictures, Strokes};
+use sabi_engine::source::{SessionPictures, Strokes};
 use sabi_engine::{Kinds, Live, OpenGraph};
 use sabi_files::TrustedPaths;
 use sabi_gpu::Gpu;
@@ -35,7 +35,7 @@ pub(crate) struct Window {
 
 /// Events that a window received until a request was answered.
 #[derive(Default)]
-pub(crate) struct Told {
+pub(crate) struct ReceivedEvents {
     pub(crate) all: Vec<LiveEvent>,
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn document(text: &str) -> OpenGraph {
     OpenGraph {
         path: PathBuf::from("live.sabi"),
         text: text.into(),
-        pictures: Pictures::default(),
+        pictures: SessionPictures::default(),
         strokes: Strokes::default(),
         trusted: TrustedPaths::of_file(Path::new("live.sabi")).with_path(&std::env::temp_dir()),
         document: Document::from_json(text).unwrap_or_else(|error| panic!("{error}\n{text}")),
@@ -130,8 +130,8 @@ impl Window {
     }
 
     /// Returns all events up to the first batch that ends with one that `is_meant` selects.
-    pub(crate) fn until(&self, is_meant: impl Fn(&LiveEvent) -> bool) -> Told {
-        let mut told = Told::default();
+    pub(crate) fn until(&self, is_meant: impl Fn(&LiveEvent) -> bool) -> ReceivedEvents {
+        let mut told = ReceivedEvents::default();
         while !told.all.last().is_some_and(&is_meant) {
             told.all.extend(self.events());
         }
@@ -139,14 +139,14 @@ impl Window {
     }
 
     /// Sends a request, and returns all events until it is answered.
-    pub(crate) fn answer(&self, request: LiveRequest) -> Told {
+    pub(crate) fn answer(&self, request: LiveRequest) -> ReceivedEvents {
         let asked = request.revision;
         self.live.submit(request);
         self.until(|event| matches!(event, LiveEvent::Done { revision } if *revision == asked))
     }
 }
 
-impl Told {
+impl ReceivedEvents {
     /// Looks that viewports received, in order: revision of the request, true if coarse, the model and the looks.
     pub(crate) fn shown(&self) -> Vec<(u64, bool, &Arc<LiveModel>, &Arc<ModelLooks>)> {
         let shown = self.all.iter().filter_map(|event| match event {
@@ -182,7 +182,7 @@ impl Told {
     }
 
     /// Faults of the graph according to the last event about them.
-    pub(crate) fn faults(&self) -> Option<&Faults> {
+    pub(crate) fn faults(&self) -> Option<&GraphFaults> {
         let mut faults = self.all.iter().rev();
         faults.find_map(|event| match event {
             LiveEvent::Faults { faults, .. } => Some(faults),

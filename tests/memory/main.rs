@@ -1,7 +1,7 @@
 //! Memory that pictures keep, measured in a process of its own.
 #![cfg(target_os = "linux")]
 
-use sabi_tests::{Pictured, even_light, project};
+use sabi_tests::{DrawableGraph, even_light, project};
 use sabi_view::{Background, Light, LightPlace, Lines, Mode, Shot, ViewTransform, Viewpoint};
 
 const SIZE: [u32; 2] = [48, 32];
@@ -47,7 +47,7 @@ fn lights() -> Vec<Light> {
 #[test]
 fn pictures_from_ever_other_places_keep_no_memory() {
     let mesh = project("assets/meshes/cube.glb");
-    let mut pictured = Pictured::new(COATED, &mesh, 64, &even_light(0.8));
+    let mut pictured = DrawableGraph::new(COATED, &mesh, 64, &even_light(0.8));
     pictured.lights = lights();
     let first = Shot {
         height_range: pictured.shown.height_range,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use sabi_nodes::Library;
 use sabi_nodes::kind::{Kind, Role, Shape};
-use sabi_tests::shapes::{Cut, Place, cube, on_sheet, patch, turned_in};
+use sabi_tests::shapes::{PatchDivision, PatchUvs, cube, on_sheet, patch, turned_in};
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
 use serde_json::{Value, json};
 
@@ -16,13 +16,13 @@ const FLAT: &str = "The model has no inside: ";
 const THROUGH: &str = "The model intersects itself at ";
 
 /// A flat face of one unit, moved; `right` and `up` as seen from outside.
-fn sheet(corner: DVec3, right: DVec3, up: DVec3, place: Place) -> Vec<Quad> {
-    patch(|s, t| corner + right * s + up * t, place, Cut::even(1))
+fn sheet(corner: DVec3, right: DVec3, up: DVec3, place: PatchUvs) -> Vec<Quad> {
+    patch(|s, t| corner + right * s + up * t, place, PatchDivision::even(1))
 }
 
 /// A cube moved, on its own half of the sheet.
 fn moved_cube(by: DVec3, half: usize) -> Vec<Quad> {
-    let mut quads = cube(Cut::even(1));
+    let mut quads = cube(PatchDivision::even(1));
     for quad in &mut quads {
         quad.corners = quad
             .corners
@@ -34,7 +34,7 @@ fn moved_cube(by: DVec3, half: usize) -> Vec<Quad> {
 
 /// Faces without area, of three kinds: a point, a line, and a corner on the line between two others.
 fn faces_without_area() -> Vec<Quad> {
-    let mut quads = cube(Cut::even(2));
+    let mut quads = cube(PatchDivision::even(2));
     let uvs = quads[0].uvs;
     let [a, b] = [[0.5, 0.5, 0.5], [0.5, -0.5, 0.5]];
     for corners in [[a; 4], [a, b, b, a], [a, [0.5, 0.0, 0.5], b, a]] {
@@ -54,7 +54,7 @@ fn eight() -> Vec<Quad> {
         let turn = std::f64::consts::TAU * (s + 0.01);
         DVec3::new(turn.sin(), t, (2.0 * turn).sin())
     };
-    patch(at, on_sheet(0, 1), Cut::even(10))
+    patch(at, on_sheet(0, 1), PatchDivision::even(10))
 }
 
 /// Returns models by name, with the expected warnings.
@@ -75,13 +75,17 @@ fn models() -> Vec<(&'static str, Vec<Quad>, &'static [&'static str])> {
     ]
     .concat();
     let crossing = [moved_cube(DVec3::ZERO, 0), moved_cube(DVec3::new(0.3, 0.4, 0.2), 1)].concat();
-    let mut box_without_lid = cube(Cut::even(1));
+    let mut box_without_lid = cube(PatchDivision::even(1));
     box_without_lid.remove(2);
     vec![
         ("an open sheet", flat, &[OPEN]),
         ("a box without a lid", box_without_lid, &[OPEN]),
         ("a fin", fin, &[OPEN, UNCLEAR]),
-        ("a cube inside out", turned_in(cube(Cut::even(1))), &[INSIDE_OUT]),
+        (
+            "a cube inside out",
+            turned_in(cube(PatchDivision::even(1))),
+            &[INSIDE_OUT],
+        ),
         ("two cubes through each other", crossing, &[]),
         ("a band through itself", eight(), &[OPEN, THROUGH]),
         ("a sheet seen from both sides", two_sided, &[FLAT]),

@@ -1,6 +1,6 @@
 //! Field nodes: reading across a seam gives the values on the other side.
 
-use sabi_tests::{Evaluated, MadeMesh, MeshFile, OnMesh, Quad, extent, project};
+use sabi_tests::{MadeMesh, MeshFile, NodeResult, OnMesh, Quad, extent, project};
 
 /// Smoothing of `source`, `steps` times.
 fn smoothing(source: &str, steps: u32) -> String {
@@ -15,7 +15,7 @@ fn constant(value: f32) -> String {
     format!(r#"{{ "kind": "adjust/levels", "params": {{ "low": {value}, "high": {value} }} }}"#)
 }
 
-fn on_model(graph: &str, mesh: &str, size: u32) -> (OnMesh, Evaluated) {
+fn on_model(graph: &str, mesh: &str, size: u32) -> (OnMesh, NodeResult) {
     let mut on_mesh = OnMesh::new(graph, &project(&format!("assets/meshes/{mesh}.glb")), size);
     let evaluated = on_mesh.evaluate("smooth");
     (on_mesh, evaluated)
@@ -96,7 +96,7 @@ fn along_the_strip(mesh: &MadeMesh, graph: &str) -> Vec<f64> {
 }
 
 /// Texture coordinates of a point of the strip's second half.
-type Layout = fn([f32; 2]) -> [f32; 2];
+type UvLayout = fn([f32; 2]) -> [f32; 2];
 
 #[test]
 fn a_strip_that_is_cut_is_smoothed_like_the_whole_one() {
@@ -105,7 +105,7 @@ fn a_strip_that_is_cut_is_smoothed_like_the_whole_one() {
     let whole = along_the_strip(&strip(None), &graph);
     let corners = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.25], [0.0, 0.25]];
     // Moved by whole texels, turned by a quarter, mirrored.
-    let layouts: [(&str, Layout); 3] = [
+    let layouts: [(&str, UvLayout); 3] = [
         ("moved", |[x, y]| [x + 0.125, 0.75 - y]),
         ("turned", |[x, y]| [y + 0.125, 0.375 + x]),
         ("mirrored", |[x, y]| [0.75 - x, 0.75 - y]),

@@ -10,7 +10,7 @@ use sabi_color::srgb8_from_linear;
 use sabi_export::{Cover, SetLayout, set_keys};
 use sabi_graph::PortType;
 use sabi_image::{PngData, PngOptions, decode, encode_png, quantize_u8};
-use sabi_tests::{Evaluated, OnMesh, project};
+use sabi_tests::{NodeResult, OnMesh, project};
 
 use crate::specimens::{Specimen, for_each, on_own_mesh, specimens};
 
@@ -28,14 +28,14 @@ const MASK_SIZE: u32 = 64;
 const COLOR_SIZE: u32 = 32;
 
 /// A picture of 8-bit samples.
-struct Sheet {
+struct SamplePicture {
     width: u32,
     height: u32,
     channels: u8,
     codes: Vec<u8>,
 }
 
-impl Sheet {
+impl SamplePicture {
     fn png(&self) -> Vec<u8> {
         let options = PngOptions {
             channels: self.channels,
@@ -46,7 +46,7 @@ impl Sheet {
     }
 
     /// Pictures of one size side by side.
-    fn beside(parts: &[Vec<u8>], side: u32, channels: u8) -> Sheet {
+    fn beside(parts: &[Vec<u8>], side: u32, channels: u8) -> SamplePicture {
         let row = side as usize * usize::from(channels);
         let codes = (0..side as usize)
             .flat_map(|y| {
@@ -55,7 +55,7 @@ impl Sheet {
                     .flat_map(move |part| part[y * row..][..row].iter().copied())
             })
             .collect();
-        Sheet {
+        SamplePicture {
             width: side * parts.len() as u32,
             height: side,
             channels,
@@ -79,7 +79,7 @@ fn in_layout(on_mesh: &OnMesh, values: &[f32]) -> Vec<f32> {
 }
 
 /// Three components of a result as 8-bit samples, each passed through `code`.
-fn triple(on_mesh: &OnMesh, evaluated: &Evaluated, names: [&str; 3], code: fn(f32) -> u8) -> Vec<u8> {
+fn triple(on_mesh: &OnMesh, evaluated: &NodeResult, names: [&str; 3], code: fn(f32) -> u8) -> Vec<u8> {
     let planes = names.map(|name| in_layout(on_mesh, &evaluated.component(name)));
     (0..planes[0].len())
         .flat_map(|pixel| planes.each_ref().map(|plane| code(plane[pixel])))
@@ -92,7 +92,7 @@ fn signed(value: f32) -> u8 {
 
 /// Picture of a result: a mask in gray; a color; a vector; or a material's base color, its roughness with metallic and
 /// occlusion, and its normal if it has a relief.
-fn sheet(specimen: &Specimen) -> Sheet {
+fn sheet(specimen: &Specimen) -> SamplePicture {
     let size = if specimen.ty == PortType::Mask {
         MASK_SIZE
     } else {
@@ -104,10 +104,10 @@ fn sheet(specimen: &Specimen) -> Sheet {
     match specimen.ty {
         PortType::Mask => {
             let values = in_layout(&on_mesh, &evaluated.component("mask"));
-            Sheet::beside(&[values.into_iter().map(quantize_u8).collect()], size, 1)
+            SamplePicture::beside(&[values.into_iter().map(quantize_u8).collect()], size, 1)
         }
-        PortType::Color => Sheet::beside(&[see(["color.r", "color.g", "color.b"], srgb8_from_linear)], size, 3),
-        PortType::Vector => Sheet::beside(&[see(["vector.x", "vector.y", "vector.z"], signed)], size, 3),
+        PortType::Color => SamplePicture::beside(&[see(["color.r", "color.g", "color.b"], srgb8_from_linear)], size, 3),
+        PortType::Vector => SamplePicture::beside(&[see(["vector.x", "vector.y", "vector.z"], signed)], size, 3),
         PortType::Material => {
             let mut parts = vec![
                 see(["base_color.r", "base_color.g", "base_color.b"], srgb8_from_linear),
@@ -116,7 +116,7 @@ fn sheet(specimen: &Specimen) -> Sheet {
             if evaluated.normals.is_some() {
                 parts.push(see(["normal.x", "normal.y", "normal.z"], signed));
             }
-            Sheet::beside(&parts, size, 3)
+            SamplePicture::beside(&parts, size, 3)
         }
     }
 }
@@ -184,7 +184,7 @@ fn hold_statistics(expected: &str, got: &[(String, [f64; 4])]) -> Result<(), Str
 }
 
 /// Compares samples. If they differ, writes expected, actual and difference side by side below the folder of pictures.
-fn hold_picture(name: &str, expected: &[u8], got: &Sheet) -> Result<(), String> {
+fn hold_picture(name: &str, expected: &[u8], got: &SamplePicture) -> Result<(), String> {
     let picture = decode("golden.png", expected).map_err(|error| error.to_string())?;
     let sabi_image::Pixels::U8(was) = picture.pixels else {
         return Err("the stored picture has not 8 bits".to_owned());
@@ -211,7 +211,7 @@ fn hold_picture(name: &str, expected: &[u8], got: &Sheet) -> Result<(), String> 
                 .flat_map(move |part| part[y * row..][..row].iter().copied())
         })
         .collect();
-    let contact = Sheet {
+    let contact = SamplePicture {
         width: 3 * got.width,
         codes,
         ..*got

@@ -1,7 +1,7 @@
 //! Groups are inlined, so nesting costs no time and does not change results.
 
 use sabi_plan::Mode;
-use sabi_tests::{Asked, OnMesh, project};
+use sabi_tests::{EvaluationOptions, OnMesh, project};
 
 /// Number of groups nested in each other.
 const DEPTH: usize = 6;
@@ -83,7 +83,10 @@ fn one_mask_through_six_groups_into_three_effects_gives_the_bytes_of_the_flat_gr
     let mut flat = OnMesh::new(&flat(), &cube, 64);
     let inner = format!("three/{}", ["fx"; DEPTH].join("/"));
     for mode in [Mode::Bake { fuse: true }, Mode::Bake { fuse: false }, Mode::Interactive] {
-        let asked = || Asked { mode, ..Asked::baked() };
+        let asked = || EvaluationOptions {
+            mode,
+            ..EvaluationOptions::baked()
+        };
         let (nested, flat) = (nested.evaluate_as(&inner, asked()), flat.evaluate_as("three", asked()));
         assert_eq!(nested.plan.passes(), flat.plan.passes(), "{mode:?}");
         assert!(nested.bytes() == flat.bytes(), "{mode:?}: the bytes differ");

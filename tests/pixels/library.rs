@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use sabi_engine::effect_library::effect_library;
 use sabi_gpu::ResultCache;
 use sabi_plan::Mode;
-use sabi_tests::{Asked, Evaluated, OnMesh, project};
+use sabi_tests::{EvaluationOptions, NodeResult, OnMesh, project};
 use serde_json::{Value, json};
 
 /// Models that shares are measured on.
@@ -68,8 +68,8 @@ fn instance(file: &Path, params: Value) -> String {
 
 /// Evaluates a result with one kernel for each kind of node, which all groups share; fused kernels would take longer to compile
 /// than they run here.
-fn evaluate(on_mesh: &mut OnMesh, node: &str) -> Evaluated {
-    let asked = Asked {
+fn evaluate(on_mesh: &mut OnMesh, node: &str) -> NodeResult {
+    let asked = EvaluationOptions {
         mode: Mode::Interactive,
         cache: None,
     };
@@ -160,7 +160,7 @@ const SAFE_DIELECTRIC: [f64; 2] = [0.012, 0.87];
 const SAFE_METAL: [f64; 2] = [0.2, 1.0];
 
 /// Shares of the texels of a material whose base color does not exist: of anything but metal, and of metal.
-fn unsafe_shares(on_mesh: &OnMesh, material: &Evaluated) -> [f64; 2] {
+fn unsafe_shares(on_mesh: &OnMesh, material: &NodeResult) -> [f64; 2] {
     let [red, green, blue] = ["r", "g", "b"].map(|part| material.component(&format!("base_color.{part}")));
     let metallic = material.component("metallic");
     let mut unsafe_texels = [0_usize; 2];
@@ -201,7 +201,7 @@ fn base_materials_vary_in_roughness_at_three_sizes() {
         for params in looks(&document) {
             on_mesh.set_graph(&graph(&params));
             let levels = ["channels.roughness", "blur_0", "blur_1", "blur_2"].map(|node| {
-                let asked = Asked {
+                let asked = EvaluationOptions {
                     mode: Mode::Interactive,
                     cache: Some(&mut cache),
                 };

@@ -2,7 +2,7 @@
 
 use sabi_gpu::ResultCache;
 use sabi_plan::Mode;
-use sabi_tests::{Asked, OnMesh, project, range};
+use sabi_tests::{EvaluationOptions, OnMesh, project, range};
 
 const BAKE: Mode = Mode::Bake { fuse: true };
 const UNFUSED: Mode = Mode::Bake { fuse: false };
@@ -16,8 +16,11 @@ fn example(name: &str) -> OnMesh {
     OnMesh::new(&graph, &project(&format!("assets/meshes/{mesh}.glb")), SIZE)
 }
 
-fn as_mode(mode: Mode) -> Asked<'static> {
-    Asked { mode, ..Asked::baked() }
+fn as_mode(mode: Mode) -> EvaluationOptions<'static> {
+    EvaluationOptions {
+        mode,
+        ..EvaluationOptions::baked()
+    }
 }
 
 /// The largest difference, as a share of what the component can be: 0 to 1, or the heights that there are.
@@ -61,7 +64,7 @@ const CHAIN: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
     "rust": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "smooth" } } } }"##;
 
 fn run(on_mesh: &mut OnMesh, cache: &mut ResultCache) -> (Vec<String>, Vec<u8>) {
-    let asked = Asked {
+    let asked = EvaluationOptions {
         mode: Mode::Interactive,
         cache: Some(cache),
     };

@@ -2,7 +2,7 @@
 
 use sabi_nodes::Library;
 use sabi_plan::Mode;
-use sabi_tests::{Asked, OnMesh, project};
+use sabi_tests::{EvaluationOptions, OnMesh, project};
 use serde_json::{Value, json};
 
 use crate::specimens::{for_each, on_own_mesh};
@@ -58,7 +58,11 @@ fn a_ramp_multiplies_a_parameter_of_points_and_fields_in_all_modes() {
     let mask = |on_mesh: &mut OnMesh, node: &str| on_mesh.evaluate(node).component("mask");
     let [ramp, clouds, sharp] = ["ramp", "clouds", "sharp"].map(|node| mask(&mut on_mesh, node));
     for mode in [Mode::Bake { fuse: true }, Mode::Bake { fuse: false }, Mode::Interactive] {
-        let mut asked_for = |node: &str| on_mesh.evaluate_as(node, Asked { mode, cache: None }).component("mask");
+        let mut asked_for = |node: &str| {
+            on_mesh
+                .evaluate_as(node, EvaluationOptions { mode, cache: None })
+                .component("mask")
+        };
         let [point, field] = ["point", "field"].map(&mut asked_for);
         for (index, _) in on_mesh.owned() {
             let expected = 0.8 * ramp[index].clamp(0.0, 1.0);

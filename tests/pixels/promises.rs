@@ -3,12 +3,12 @@
 use sabi_graph::PortType;
 use sabi_nodes::Library;
 use sabi_nodes::kind::{Kind, Memory, Param, Role};
-use sabi_tests::{Evaluated, OnMesh};
+use sabi_tests::{NodeResult, OnMesh};
 use serde_json::{Value, json};
 
 use crate::specimens::{Specimen, for_each, on_own_mesh};
 
-fn numbers(on_mesh: &OnMesh, evaluated: &Evaluated) -> Result<(), String> {
+fn numbers(on_mesh: &OnMesh, evaluated: &NodeResult) -> Result<(), String> {
     for (name, values) in evaluated.components() {
         if let Some(index) = on_mesh.covered().find(|index| !values[*index].is_finite()) {
             let texel = on_mesh.texel(index);

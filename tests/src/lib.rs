@@ -1,11 +1,11 @@
 //! Shared parts of the test binaries: one device, graphs on models, and results with their positions on the surface.
 
-mod baked;
+mod bake_output;
 mod device;
+mod drawable_graph;
 mod meshes;
 mod node_files;
 mod on_mesh;
-mod pictured;
 mod places;
 mod seams;
 pub mod shapes;
@@ -13,12 +13,12 @@ pub mod shapes;
 use std::env;
 use std::path::{Path, PathBuf};
 
-pub use baked::{Baked, report_file};
+pub use bake_output::{BakeOutput, report_file};
 pub use device::{adapter, device};
+pub use drawable_graph::{DrawableGraph, even_light};
 pub use meshes::{MadeMesh, MadeTexture, MeshFile, Quad};
 pub use node_files::NodeFolder;
-pub use on_mesh::{Asked, Evaluated, OnMesh, flat_graph};
-pub use pictured::{Pictured, even_light};
+pub use on_mesh::{EvaluationOptions, NodeResult, OnMesh, flat_graph};
 pub use places::OnPage;
 pub use seams::Seam;
 

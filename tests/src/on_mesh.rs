@@ -6,7 +6,7 @@ use std::time::Duration;
 use sabi_engine::evaluating::EvaluatorOptions;
 use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions};
 use sabi_engine::phases::NoProgress;
-use sabi_engine::source::{Pictures, Strokes};
+use sabi_engine::source::{SessionPictures, Strokes};
 use sabi_engine::{Evaluator, Kinds, OpenGraph};
 use sabi_files::TrustedPaths;
 use sabi_gpu::{
@@ -31,17 +31,17 @@ pub struct OnMesh {
 }
 
 /// Options of an evaluation.
-pub struct Asked<'c> {
+pub struct EvaluationOptions<'c> {
     /// Way to cut the graph into passes.
     pub mode: Mode,
     /// Results of earlier evaluations.
     pub cache: Option<&'c mut ResultCache>,
 }
 
-impl Asked<'static> {
+impl EvaluationOptions<'static> {
     /// As a bake does it.
-    pub fn baked() -> Asked<'static> {
-        Asked {
+    pub fn baked() -> EvaluationOptions<'static> {
+        EvaluationOptions {
             mode: Mode::Bake { fuse: true },
             cache: None,
         }
@@ -49,7 +49,7 @@ impl Asked<'static> {
 }
 
 /// A node's result, for all texels of the atlas, page by page and row by row.
-pub struct Evaluated {
+pub struct NodeResult {
     /// Type of the result.
     pub ty: PortType,
     /// Planes as they were stored.
@@ -73,7 +73,7 @@ fn opened(graph: &str) -> OpenGraph {
     OpenGraph {
         path: PathBuf::from("test.sabi"),
         text: graph.into(),
-        pictures: Pictures::default(),
+        pictures: SessionPictures::default(),
         strokes: Strokes::default(),
         trusted: TrustedPaths::of_file(Path::new("test.sabi")).with_path(&std::env::temp_dir()),
         document: Document::from_json(graph).unwrap_or_else(|error| panic!("{error}\n{graph}")),
@@ -141,12 +141,12 @@ impl OnMesh {
     }
 
     /// Evaluates `id` or `id.port` as a bake does.
-    pub fn evaluate(&mut self, node: &str) -> Evaluated {
-        self.evaluate_as(node, Asked::baked())
+    pub fn evaluate(&mut self, node: &str) -> NodeResult {
+        self.evaluate_as(node, EvaluationOptions::baked())
     }
 
     /// Evaluates `id` or `id.port`.
-    pub fn evaluate_as(&mut self, node: &str, asked: Asked<'_>) -> Evaluated {
+    pub fn evaluate_as(&mut self, node: &str, asked: EvaluationOptions<'_>) -> NodeResult {
         let target = self.target(node);
         let plan = self.evaluator.plan(&[target], asked.mode);
         let plan = plan.unwrap_or_else(|error| panic!("{node}: {error}"));
@@ -183,7 +183,7 @@ impl OnMesh {
             };
             normals.read(&mut run).expect("normals")
         });
-        Evaluated {
+        NodeResult {
             ty: result.stored.ty,
             planes,
             normals,
@@ -206,7 +206,7 @@ impl OnMesh {
     }
 }
 
-impl Evaluated {
+impl NodeResult {
     /// Each number of a texel by name, for all texels of the atlas. Texels that nothing covers hold anything.
     pub fn components(&self) -> Vec<(String, Vec<f32>)> {
         let mut components = Vec::new();

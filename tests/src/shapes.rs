@@ -7,31 +7,31 @@ use glam::DVec3;
 use crate::meshes::Quad;
 
 /// Low and high texture coordinates of a patch.
-pub type Place = [[f32; 2]; 2];
+pub type PatchUvs = [[f32; 2]; 2];
 
 /// Division of a patch into faces.
 #[derive(Clone, Copy, Debug)]
-pub struct Cut {
+pub struct PatchDivision {
     /// Faces along both sides.
     pub steps: [u32; 2],
     /// A seed to move inner corners within the patch and to turn diagonals by; none leaves all as even as it is.
     pub scatter: Option<u32>,
 }
 
-impl Cut {
+impl PatchDivision {
     /// As many even faces along either side.
-    pub fn even(steps: u32) -> Cut {
-        Cut {
+    pub fn even(steps: u32) -> PatchDivision {
+        PatchDivision {
             steps: [steps; 2],
             scatter: None,
         }
     }
 
     /// The same with corners and diagonals at random.
-    pub fn scattered(steps: u32, seed: u32) -> Cut {
-        Cut {
+    pub fn scattered(steps: u32, seed: u32) -> PatchDivision {
+        PatchDivision {
             scatter: Some(seed),
-            ..Cut::even(steps)
+            ..PatchDivision::even(steps)
         }
     }
 }
@@ -45,7 +45,7 @@ fn random(seed: u32, [x, y]: [u32; 2], which: u32) -> f64 {
 }
 
 /// A patch over the unit square; `at` goes right and up as seen from outside.
-pub fn patch(at: impl Fn(f64, f64) -> DVec3, place: Place, cut: Cut) -> Vec<Quad> {
+pub fn patch(at: impl Fn(f64, f64) -> DVec3, place: PatchUvs, cut: PatchDivision) -> Vec<Quad> {
     let [columns, rows] = cut.steps;
     let is_border = |[x, y]: [u32; 2]| x.is_multiple_of(columns) || y.is_multiple_of(rows);
     // Less than a quarter of a face: whichever way a face is divided, its triangles keep their side.
@@ -89,7 +89,7 @@ pub fn turned_in(mut quads: Vec<Quad>) -> Vec<Quad> {
 }
 
 /// The place of one of several patches on a sheet, with room around it.
-pub fn on_sheet(index: usize, count: usize) -> Place {
+pub fn on_sheet(index: usize, count: usize) -> PatchUvs {
     let columns = (count as f32).sqrt().ceil();
     let side = 1.0 / columns;
     let [x, y] = [index as f32 % columns, (index as f32 / columns).floor()];
@@ -110,7 +110,7 @@ const SIDES: [[DVec3; 3]; 6] = [
 ];
 
 /// A cube around the origin from -1 to 1, its places passed on.
-pub fn bent_cube(bend: impl Fn(DVec3) -> DVec3, cut: Cut) -> Vec<Quad> {
+pub fn bent_cube(bend: impl Fn(DVec3) -> DVec3, cut: PatchDivision) -> Vec<Quad> {
     let sides = SIDES.iter().enumerate().flat_map(|(index, [right, up, out])| {
         let at = |s: f64, t: f64| bend(*out + *right * (2.0 * s - 1.0) + *up * (2.0 * t - 1.0));
         patch(at, on_sheet(index, 6), cut)
@@ -119,13 +119,13 @@ pub fn bent_cube(bend: impl Fn(DVec3) -> DVec3, cut: Cut) -> Vec<Quad> {
 }
 
 /// A cube around the origin of one unit a side.
-pub fn cube(cut: Cut) -> Vec<Quad> {
+pub fn cube(cut: PatchDivision) -> Vec<Quad> {
     bent_cube(|at| 0.5 * at, cut)
 }
 
 /// A ball around the origin.
 pub fn ball(radius: f64, steps: u32) -> Vec<Quad> {
-    bent_cube(|at| radius * at.normalize(), Cut::even(steps))
+    bent_cube(|at| radius * at.normalize(), PatchDivision::even(steps))
 }
 
 /// A tube around the y axis without ends, from -1 to 1, of flat sides whose edges are `radius` from the axis.
@@ -134,7 +134,7 @@ pub fn tube(sides: u32, radius: f64) -> Vec<Quad> {
         let (sine, cosine) = (TAU * s).sin_cos();
         DVec3::new(radius * sine, 2.0 * t - 1.0, radius * cosine)
     };
-    let cut = Cut {
+    let cut = PatchDivision {
         steps: [sides, 1],
         scatter: None,
     };

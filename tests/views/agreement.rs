@@ -3,8 +3,8 @@
 use glam::{Vec2, Vec3};
 use sabi_export::{BorderRule, ChartBorders};
 use sabi_gpu::PlaneData;
-use sabi_tests::{OnMesh, Pictured, even_light, project};
-use sabi_view::{Mode, Picked, Shot, Viewpoint};
+use sabi_tests::{DrawableGraph, OnMesh, even_light, project};
+use sabi_view::{Mode, PickedPoint, Shot, Viewpoint};
 
 use crate::{is_inside, seen};
 
@@ -33,7 +33,7 @@ fn exported(plane: &PlaneData, on_mesh: &OnMesh) -> Vec<[f32; 4]> {
 }
 
 /// Values between the four texels around a picked place, as a texture filter of an engine would read the map.
-pub(crate) fn between(texels: &[[f32; 4]], on_mesh: &OnMesh, picked: &Picked) -> [f32; 4] {
+pub(crate) fn between(texels: &[[f32; 4]], on_mesh: &OnMesh, picked: &PickedPoint) -> [f32; 4] {
     let at = Vec2::from(picked.texel) - 0.5;
     let (corner, weight) = (at.floor(), at - at.floor());
     let [x, y] = [corner.x as u32, corner.y as u32];
@@ -44,7 +44,7 @@ pub(crate) fn between(texels: &[[f32; 4]], on_mesh: &OnMesh, picked: &Picked) ->
 }
 
 /// The frame of a normal map at a picked place: tangent, bitangent and normal, interpolated.
-fn basis(on_mesh: &OnMesh, picked: &Picked) -> [Vec3; 3] {
+fn basis(on_mesh: &OnMesh, picked: &PickedPoint) -> [Vec3; 3] {
     let mesh = &on_mesh.evaluator.linked().model.mesh;
     let corners = mesh.triangles[picked.triangle as usize].map(|vertex| vertex as usize);
     let mixed = |of: &dyn Fn(usize) -> Vec3| -> Vec3 {
@@ -67,7 +67,7 @@ fn signed([x, y, z, _]: [f32; 4]) -> Vec3 {
 fn normals_are_those_of_the_exported_map_decoded_in_its_frame() {
     for mesh in ["bench", "figure"] {
         let mesh = project(&format!("assets/meshes/{mesh}.glb"));
-        let mut pictured = Pictured::new(GRAPH, &mesh, 256, &even_light(1.0));
+        let mut pictured = DrawableGraph::new(GRAPH, &mesh, 256, &even_light(1.0));
         let normals = pictured.on_mesh.evaluate("coat").normals.expect("normals");
         let normals = exported(&normals, &pictured.on_mesh);
         let camera = pictured.camera(Viewpoint::THREE_QUARTER, SIZE);
@@ -102,7 +102,7 @@ fn normals_are_those_of_the_exported_map_decoded_in_its_frame() {
 #[test]
 fn channels_have_the_codes_that_are_exported() {
     let mesh = project("assets/meshes/bench.glb");
-    let mut pictured = Pictured::new(GRAPH, &mesh, 256, &even_light(1.0));
+    let mut pictured = DrawableGraph::new(GRAPH, &mesh, 256, &even_light(1.0));
     let evaluated = pictured.on_mesh.evaluate("coat");
     let color = stored(&evaluated.planes[0].1);
     let surface = stored(&evaluated.planes[1].1);
@@ -140,7 +140,7 @@ fn channels_have_the_codes_that_are_exported() {
 #[test]
 fn the_same_scene_gives_the_same_bytes() {
     let mesh = project("assets/meshes/bench.glb");
-    let pictured = Pictured::new(GRAPH, &mesh, 128, &even_light(1.0));
+    let pictured = DrawableGraph::new(GRAPH, &mesh, 128, &even_light(1.0));
     let shot = Shot {
         samples: 3,
         ..Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_tests::{Pictured, device, even_light, project};
+use sabi_tests::{DrawableGraph, device, even_light, project};
 use sabi_view::{Background, Pixels, Renderer, SceneRevision, Shot, ViewTransform, Viewpoint, Viewport};
 
 use crate::furnace::look;
@@ -12,15 +12,15 @@ const SIZE: [u32; 2] = [160, 120];
 const BLACK: Background = Background::Plain([0.0; 3]);
 
 /// A white sphere in even light.
-fn sphere(radiance: f32) -> Pictured {
-    Pictured::looking(
+fn sphere(radiance: f32) -> DrawableGraph {
+    DrawableGraph::looking(
         &project("assets/meshes/sphere.glb"),
         &look(0.8, 1.0, 0.0),
         &even_light(radiance),
     )
 }
 
-fn shot(pictured: &Pictured, bloom: f32, background: Background) -> Shot {
+fn shot(pictured: &DrawableGraph, bloom: f32, background: Background) -> Shot {
     Shot {
         bloom,
         background,

@@ -9,7 +9,7 @@ use sabi_engine::phases::NoProgress;
 use sabi_export::{BorderRule, ChartBorders, STEEPER};
 use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported, ResultCache, ShownMaps, read_layer, read_slot};
 use sabi_plan::Mode as Plans;
-use sabi_tests::{Baked, MadeMesh, MeshFile, OnMesh, Pictured, even_light, project};
+use sabi_tests::{BakeOutput, DrawableGraph, MadeMesh, MeshFile, OnMesh, even_light, project};
 use sabi_view::{Mode, Viewpoint};
 
 use crate::agreement::{between, stored};
@@ -47,8 +47,8 @@ fn two_squares() -> MadeMesh {
 fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps() {
     let mesh = two_squares();
     let model = ModelOptions::new(mesh.path(), TEXELS);
-    let baked = Baked::of(GRAPH, model, Seams::Erase);
-    let mut pictured = Pictured::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
+    let baked = BakeOutput::of(GRAPH, model, Seams::Erase);
+    let mut pictured = DrawableGraph::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
     // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the picture.
     let color = map(&baked, "base_color.png", true);
     let apart = difference(&pictured, &color, Mode::BaseColor, sabi_color::srgb_from_linear);
@@ -72,7 +72,7 @@ fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps()
 #[test]
 fn without_borders_the_neighbor_would_show() {
     let mesh = two_squares();
-    let mut pictured = Pictured::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
+    let mut pictured = DrawableGraph::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
     let evaluated = pictured.on_mesh.evaluate("second.mask");
     let texels = stored(&evaluated.planes[0].1);
     let camera = pictured.camera(Viewpoint::FRONT, SIZE);

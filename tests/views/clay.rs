@@ -1,6 +1,6 @@
 //! A node's own mask on clay, as it is painted on: the shape of the model is seen whatever the mask is.
 
-use sabi_tests::{Pictured, even_light, project};
+use sabi_tests::{DrawableGraph, even_light, project};
 use sabi_view::{Mode, Shot, Viewpoint};
 
 use crate::seen;
@@ -16,7 +16,7 @@ const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "clay", "nodes
 
 #[test]
 fn the_shape_is_seen_where_a_mask_is_black_and_where_it_is_white() {
-    let mut pictured = Pictured::new(GRAPH, &project("assets/meshes/cube.glb"), 64, &even_light(1.0));
+    let mut pictured = DrawableGraph::new(GRAPH, &project("assets/meshes/cube.glb"), 64, &even_light(1.0));
     let camera = pictured.camera(Viewpoint::THREE_QUARTER, SIZE);
     let mut values = |node: &str| {
         pictured.show_node(node);

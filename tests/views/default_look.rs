@@ -1,16 +1,16 @@
 //! The look that pictures start with: framing, colors, ground and shade.
 
-use sabi_tests::{Pictured, even_light, project};
+use sabi_tests::{DrawableGraph, even_light, project};
 use sabi_view::{Background, Pixels, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Shot, ViewTransform, Viewpoint};
 
 use crate::furnace::look;
 
 /// A model of the project in one material, with the lights of the studio and the shade of the model.
-fn in_studio(mesh: &str, color: [f32; 3], roughness: f32) -> Pictured {
+fn in_studio(mesh: &str, color: [f32; 3], roughness: f32) -> DrawableGraph {
     let mesh = project(&format!("assets/meshes/{mesh}.glb"));
     let mut look = look(0.5, roughness, 0.0);
     look.color = [color[0], color[1], color[2], 1.0];
-    let mut pictured = Pictured::looking(&mesh, &look, &even_light(0.5));
+    let mut pictured = DrawableGraph::looking(&mesh, &look, &even_light(0.5));
     pictured.lights = STUDIO_LIGHTS.to_vec();
     pictured
         .on_mesh
@@ -20,7 +20,7 @@ fn in_studio(mesh: &str, color: [f32; 3], roughness: f32) -> Pictured {
     pictured
 }
 
-fn studio_shot(pictured: &Pictured, size: [u32; 2]) -> Shot {
+fn studio_shot(pictured: &DrawableGraph, size: [u32; 2]) -> Shot {
     Shot {
         environment_strength: STUDIO_ENVIRONMENT_STRENGTH,
         background: Background::Clear,
@@ -119,7 +119,7 @@ fn the_shade_of_the_model_darkens_what_its_parts_enclose() {
     let size = [96, 64];
     let look = look(0.5, 1.0, 0.0);
     let picture = |has_shade: bool| {
-        let pictured = Pictured::looking(&mesh, &look, &even_light(0.8));
+        let pictured = DrawableGraph::looking(&mesh, &look, &even_light(0.8));
         if has_shade {
             pictured
                 .on_mesh

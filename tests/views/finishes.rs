@@ -2,7 +2,7 @@
 
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
-use sabi_tests::{Pictured, even_light, project};
+use sabi_tests::{DrawableGraph, even_light, project};
 use sabi_view::{Mode, Shot, Viewpoint};
 
 use crate::agreement::{between, stored};
@@ -25,7 +25,7 @@ fn graph(color: &str, params: &str, roughness: f32, metallic: f32) -> String {
 /// Lowest and highest light of a white sphere in even light of 1.
 fn range_in_even_light(params: &str, roughness: f32, metallic: f32) -> [f32; 2] {
     let sphere = project("assets/meshes/sphere.glb");
-    let pictured = Pictured::new(
+    let pictured = DrawableGraph::new(
         &graph("#ffffff", params, roughness, metallic),
         &sphere,
         64,
@@ -69,7 +69,7 @@ fn no_finish_sends_out_more_light_than_falls_on_it() {
 fn a_coat_over_a_dark_body_adds_its_reflection_in_proportion_to_its_strength() {
     let sphere = project("assets/meshes/sphere.glb");
     let middle = |params: &str| {
-        let pictured = Pictured::new(&graph("#000000", params, 1.0, 0.0), &sphere, 64, &even_light(1.0));
+        let pictured = DrawableGraph::new(&graph("#000000", params, 1.0, 0.0), &sphere, 64, &even_light(1.0));
         let shot = Shot::new(pictured.camera(Viewpoint::FRONT, SIZE));
         pictured.light(&shot, SIZE)[(SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2) as usize][0]
     };
@@ -96,7 +96,7 @@ fn rare_channels_are_shown_as_they_are_exported() {
         "coat": 0.9, "coat_roughness": 0.6, "anisotropy": 0.8, "sheen": "#c08040", "sheen_roughness": 0.7,
         "subsurface": "#80c0ff", "subsurface_transmission": 0.5 } },
     "out": { "kind": "output/material", "inputs": { "material": "finish" } } } }"##;
-    let mut pictured = Pictured::new(graph, &project("assets/meshes/figure.glb"), 256, &even_light(1.0));
+    let mut pictured = DrawableGraph::new(graph, &project("assets/meshes/figure.glb"), 256, &even_light(1.0));
     let planes = pictured.on_mesh.evaluate("finish").planes;
     let plane_of = |channel: Channel| {
         let found = planes.iter().find(|(plane, _)| *plane == Plane::Material(channel));

@@ -1,7 +1,7 @@
 //! The white furnace: in even light a body that absorbs nothing cannot be seen.
 
 use sabi_gpu::DeviceMaps;
-use sabi_tests::{MeshFile, Pictured, Quad, even_light, project};
+use sabi_tests::{DrawableGraph, MeshFile, Quad, even_light, project};
 use sabi_view::{MaterialLook, Shot, Viewpoint};
 
 /// A plain material.
@@ -20,7 +20,7 @@ const SIZE: [u32; 2] = [96, 96];
 #[test]
 fn white_bodies_of_any_roughness_vanish_in_even_light() {
     let mesh = project("assets/meshes/sphere.glb");
-    let mut pictured = Pictured::looking(&mesh, &look(1.0, 0.0, 0.0), &even_light(1.0));
+    let mut pictured = DrawableGraph::looking(&mesh, &look(1.0, 0.0, 0.0), &even_light(1.0));
     let shot = Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE));
     for metallic in [0.0, 1.0] {
         for step in 0..=10 {
@@ -43,7 +43,7 @@ fn white_bodies_of_any_roughness_vanish_in_even_light() {
 #[test]
 fn a_gray_body_never_sends_out_more_than_falls_on_it() {
     let mesh = project("assets/meshes/sphere.glb");
-    let mut pictured = Pictured::looking(&mesh, &look(0.5, 0.0, 0.0), &even_light(2.0));
+    let mut pictured = DrawableGraph::looking(&mesh, &look(0.5, 0.0, 0.0), &even_light(2.0));
     let shot = Shot::new(pictured.camera(Viewpoint::FRONT, SIZE));
     for (roughness, metallic) in [(0.0, 0.0), (0.3, 1.0), (0.7, 0.5), (1.0, 0.0), (1.0, 1.0)] {
         pictured.set_look(&look(0.5, roughness, metallic));
@@ -83,7 +83,7 @@ fn bumps_that_face_away_from_the_eye_vanish_in_even_light_too() {
     }]);
     let made = square.write();
     for metallic in [0, 1] {
-        let pictured = Pictured::new(&steep_hills(metallic), made.path(), 128, &even_light(1.0));
+        let pictured = DrawableGraph::new(&steep_hills(metallic), made.path(), 128, &even_light(1.0));
         let shot = Shot::new(pictured.camera(Viewpoint::at(65.0, 20.0), SIZE));
         for (pixel, [red, ..]) in pictured.light(&shot, SIZE).iter().enumerate() {
             assert!((red - 1.0).abs() < 0.01, "metallic {metallic}, pixel {pixel}: {red}");
@@ -94,7 +94,7 @@ fn bumps_that_face_away_from_the_eye_vanish_in_even_light_too() {
 #[test]
 fn a_buried_place_is_as_dark_as_its_occlusion_says() {
     let mesh = project("assets/meshes/sphere.glb");
-    let mut pictured = Pictured::looking(&mesh, &look(1.0, 1.0, 0.0), &even_light(1.0));
+    let mut pictured = DrawableGraph::looking(&mesh, &look(1.0, 1.0, 0.0), &even_light(1.0));
     let shot = Shot::new(pictured.camera(Viewpoint::FRONT, SIZE));
     for open in [0.0, 0.25, 0.5, 1.0] {
         let mut buried = look(1.0, 1.0, 0.0);

@@ -16,15 +16,15 @@ mod sun;
 mod viewport;
 
 use glam::{UVec2, Vec2};
-use sabi_tests::Pictured;
-use sabi_view::{Camera, Picked, aspect_of, pick};
+use sabi_tests::DrawableGraph;
+use sabi_view::{Camera, PickedPoint, aspect_of, pick};
 
 /// Each pixel of a picture whose middle sees the model, with the surface point there.
 fn seen<'p>(
-    pictured: &'p Pictured,
+    pictured: &'p DrawableGraph,
     camera: &'p Camera,
     [width, height]: [u32; 2],
-) -> impl Iterator<Item = (usize, Picked)> + 'p {
+) -> impl Iterator<Item = (usize, PickedPoint)> + 'p {
     let size = UVec2::new(width, height).as_vec2();
     let linked = pictured.on_mesh.evaluator.linked();
     let mesh = &linked.model.mesh;
@@ -39,6 +39,6 @@ fn seen<'p>(
 
 /// Returns true if a place is well inside its triangle, with all four texels around it on the chart itself: beside a
 /// seam, values are read from ghosts, which are compared elsewhere.
-fn is_inside(picked: &Picked) -> bool {
+fn is_inside(picked: &PickedPoint) -> bool {
     picked.barycentric.iter().all(|share| *share > 0.05)
 }

@@ -1,6 +1,6 @@
 //! A model that is seen once and shown in many looks.
 
-use sabi_tests::{Pictured, device, even_light, project};
+use sabi_tests::{DrawableGraph, device, even_light, project};
 use sabi_view::{Background, Light, MaterialLook, Mode, Renderer, STUDIO_LIGHTS, Shot, Viewpoint};
 
 use crate::furnace::look;
@@ -15,7 +15,7 @@ const NODES: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
 #[test]
 fn each_look_of_a_pose_equals_a_picture_of_that_look_alone() {
     let mesh = project("assets/meshes/cube.glb");
-    let mut pictured = Pictured::new(NODES, &mesh, 64, &even_light(0.8));
+    let mut pictured = DrawableGraph::new(NODES, &mesh, 64, &even_light(0.8));
     // A pose has the lights of a studio, with hard shadows.
     pictured.lights = STUDIO_LIGHTS
         .map(|light| Light {

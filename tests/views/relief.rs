@@ -1,7 +1,7 @@
 //! Relief against a march on the processor through the same heights.
 
 use glam::Vec3;
-use sabi_tests::{MeshFile, Pictured, Quad, even_light};
+use sabi_tests::{DrawableGraph, MeshFile, Quad, even_light};
 use sabi_view::relief::{ReliefFrame, march};
 use sabi_view::{Mode, Shot, Viewpoint};
 
@@ -40,7 +40,7 @@ fn between(texels: &[f32], width: usize, [x, y]: [f64; 2]) -> f64 {
 fn lines_of_sight_hit_relief_where_a_march_on_the_processor_hits_it() {
     let made = square().write();
     let texels = 128;
-    let mut pictured = Pictured::new(HILLS, made.path(), texels, &even_light(1.0));
+    let mut pictured = DrawableGraph::new(HILLS, made.path(), texels, &even_light(1.0));
     let heights = pictured.on_mesh.evaluate("coat").component("height");
     let width = pictured.on_mesh.evaluator.linked().atlas.page_size[0] as usize;
     for viewpoint in [
@@ -95,7 +95,7 @@ fn lines_of_sight_hit_relief_where_a_march_on_the_processor_hits_it() {
 fn without_heights_relief_changes_nothing() {
     let made = square().write();
     let flat = HILLS.replace("0.04", "0.0");
-    let pictured = Pictured::new(&flat, made.path(), 64, &even_light(1.0));
+    let pictured = DrawableGraph::new(&flat, made.path(), 64, &even_light(1.0));
     let plain = Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE));
     let with_relief = Shot {
         has_relief: true,

@@ -11,7 +11,7 @@ use sabi_export::{NONE, SetLayout, layouts};
 use sabi_gpu::{Exported, Shares, ShownMaps, read_layer, read_slot};
 use sabi_image::{LinearPicture, decode};
 use sabi_plan::Mode as Plans;
-use sabi_tests::{Baked, Evaluated, MadeMesh, MeshFile, OnMesh, Pictured, Quad, even_light, project};
+use sabi_tests::{BakeOutput, DrawableGraph, MadeMesh, MeshFile, NodeResult, OnMesh, Quad, even_light, project};
 use sabi_view::{Mode, Shot, Viewpoint};
 
 use crate::seen;
@@ -53,9 +53,9 @@ fn taken(mesh: &MadeMesh, overlap: Overlap) -> ModelOptions {
     }
 }
 
-fn pictured(mesh: &MadeMesh, overlap: Overlap) -> Pictured {
+fn pictured(mesh: &MadeMesh, overlap: Overlap) -> DrawableGraph {
     let on_mesh = OnMesh::on_model(GRAPH, Kinds::builtin(), taken(mesh, overlap), |_| {});
-    Pictured::of(on_mesh, &even_light(1.0))
+    DrawableGraph::of(on_mesh, &even_light(1.0))
 }
 
 /// A map as an engine reads it at a place, texels from the upper left corner: repeating, between four pixels.
@@ -73,7 +73,12 @@ fn read(map: &LinearPicture, texel: [f32; 2]) -> glam::Vec4 {
 
 /// Largest difference between a mode of the picture and the values that an engine reads from a map, in parts of the
 /// range 0 to 1, at all pixels of the model, up to its very border.
-pub(crate) fn difference(pictured: &Pictured, map: &LinearPicture, mode: Mode, encode: impl Fn(f32) -> f32) -> f32 {
+pub(crate) fn difference(
+    pictured: &DrawableGraph,
+    map: &LinearPicture,
+    mode: Mode,
+    encode: impl Fn(f32) -> f32,
+) -> f32 {
     let camera = pictured.camera(Viewpoint::FRONT, SIZE);
     let shot = Shot {
         mode,
@@ -95,7 +100,7 @@ pub(crate) fn difference(pictured: &Pictured, map: &LinearPicture, mode: Mode, e
     most
 }
 
-pub(crate) fn map(baked: &Baked, name: &str, is_srgb: bool) -> LinearPicture {
+pub(crate) fn map(baked: &BakeOutput, name: &str, is_srgb: bool) -> LinearPicture {
     decode(name, &baked.map(name)).expect("a map").linear_rgba(is_srgb)
 }
 
@@ -103,7 +108,7 @@ pub(crate) fn map(baked: &Baked, name: &str, is_srgb: bool) -> LinearPicture {
 fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
     let mesh = mirrored(0.25, 0.75);
     for overlap in [Overlap::First, Overlap::Merge] {
-        let baked = Baked::of(GRAPH, taken(&mesh, overlap), Seams::Erase);
+        let baked = BakeOutput::of(GRAPH, taken(&mesh, overlap), Seams::Erase);
         let mut pictured = pictured(&mesh, overlap);
         // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the
         // picture.
@@ -247,7 +252,7 @@ fn stacked_boxes() -> MadeMesh {
 }
 
 /// The numbers of a result, and of normals, at the texels that the maps take, as bits.
-fn exported(on_mesh: &OnMesh, result: &Evaluated, overlap: Overlap) -> Vec<u32> {
+fn exported(on_mesh: &OnMesh, result: &NodeResult, overlap: Overlap) -> Vec<u32> {
     let atlas = &on_mesh.evaluator.linked().atlas;
     let mut bits = Vec::new();
     for layout in layouts(atlas) {

@@ -1,8 +1,8 @@
 //! Models and pictures of any size.
 
 use sabi_tests::shapes::ball;
-use sabi_tests::{MeshFile, Pictured, Quad, device, even_light, project};
-use sabi_view::{Lens, Shot, Target, ViewError, Viewpoint};
+use sabi_tests::{DrawableGraph, MeshFile, Quad, device, even_light, project};
+use sabi_view::{Lens, RenderTarget, Shot, ViewError, Viewpoint};
 
 use crate::furnace::look;
 
@@ -17,7 +17,7 @@ fn a_model_of_any_scale_gives_the_same_picture() {
         };
         let quads: Vec<Quad> = ball(1.0, 6).iter().map(scaled).collect();
         let made = MeshFile::new(quads).write();
-        let pictured = Pictured::looking(made.path(), &look(0.6, 0.3, 0.0), &even_light(0.8));
+        let pictured = DrawableGraph::looking(made.path(), &look(0.6, 0.3, 0.0), &even_light(0.8));
         let shot = Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE));
         pictured.pixels(&shot, SIZE).rgba
     };
@@ -41,10 +41,10 @@ fn a_model_of_any_scale_gives_the_same_picture() {
 fn a_picture_without_pixels_or_with_too_many_is_refused_in_a_sentence() {
     let gpu = device();
     for size in [[0, 10], [10, 0], [0, 0], [100_000, 10]] {
-        let refused = Target::new(&gpu, size).err();
+        let refused = RenderTarget::new(&gpu, size).err();
         assert!(matches!(refused, Some(ViewError::Size { .. })), "{size:?}: {refused:?}");
     }
-    let told = Target::new(&gpu, [0, 7]).err().map(|error| error.to_string());
+    let told = RenderTarget::new(&gpu, [0, 7]).err().map(|error| error.to_string());
     assert_eq!(
         told.as_deref(),
         Some("a picture of 0 × 7 pixels cannot be drawn; each side has 1 to 8192 pixels")
@@ -54,7 +54,7 @@ fn a_picture_without_pixels_or_with_too_many_is_refused_in_a_sentence() {
 #[test]
 fn each_frame_may_have_another_size_and_lens() {
     let mesh = project("assets/meshes/cube.glb");
-    let pictured = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let pictured = DrawableGraph::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
     for (width, height) in [(1, 1), (1, 200), (200, 1), (33, 17), (64, 64)] {
         for lens in [Lens::Perspective, Lens::Orthographic] {
             let mut camera = pictured.camera(Viewpoint::THREE_QUARTER, [width, height]);

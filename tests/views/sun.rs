@@ -1,6 +1,6 @@
 //! Lights and the shadows they throw.
 
-use sabi_tests::{MeshFile, Pictured, Quad, even_light};
+use sabi_tests::{DrawableGraph, MeshFile, Quad, even_light};
 use sabi_view::{Background, Light, LightPlace, Shot, Viewpoint};
 
 use crate::furnace::look;
@@ -28,12 +28,12 @@ fn floor_and_roof() -> MeshFile {
 /// Light that leaves the floor in the roof's shadow, and outside of it.
 fn floor_light(lights: Vec<Light>) -> [f32; 2] {
     let made = floor_and_roof().write();
-    let mut pictured = Pictured::looking(made.path(), &look(0.5, 1.0, 0.0), &even_light(0.0));
+    let mut pictured = DrawableGraph::looking(made.path(), &look(0.5, 1.0, 0.0), &even_light(0.0));
     pictured.lights = lights;
     light_of(&pictured, 1)
 }
 
-fn light_of(pictured: &Pictured, samples: u32) -> [f32; 2] {
+fn light_of(pictured: &DrawableGraph, samples: u32) -> [f32; 2] {
     let camera = pictured.camera(Viewpoint::at(20.0, 30.0), SIZE);
     let shot = Shot {
         background: Background::Clear,
@@ -110,7 +110,7 @@ fn a_roof_blocks_light_in_proportion_to_its_opacity() {
             ..floor_and_roof()
         };
         let made = made.write();
-        let mut pictured = Pictured::new(VEILED, made.path(), 64, &even_light(0.0));
+        let mut pictured = DrawableGraph::new(VEILED, made.path(), 64, &even_light(0.0));
         pictured.lights = vec![far];
         let [shaded, open] = light_of(&pictured, 16);
         let kept = 1.0 - shaded / open;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use sabi_gpu::{AdapterKind, Gpu};
-use sabi_tests::{Pictured, device, even_light, project};
+use sabi_tests::{DrawableGraph, device, even_light, project};
 use sabi_view::{Mode, Quality, Renderer, SceneRevision, Shot, Viewpoint, Viewport};
 
 use crate::furnace::look;
@@ -31,7 +31,7 @@ fn numbered(number: u64) -> SceneRevision {
 #[test]
 fn a_picture_is_drawn_again_only_when_something_changed() {
     let mesh = project("assets/meshes/cube.glb");
-    let pictured = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let pictured = DrawableGraph::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
     let gpu = device();
     let mut viewport = viewport(&gpu);
     let mut shot = Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE));
@@ -73,7 +73,7 @@ fn a_picture_is_drawn_again_only_when_something_changed() {
 #[test]
 fn a_picture_at_rest_is_refined_to_the_one_that_is_drawn_at_once() {
     let mesh = project("assets/meshes/cube.glb");
-    let pictured = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let pictured = DrawableGraph::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
     let gpu = device();
     let mut viewport = viewport(&gpu);
     let shot = Shot {
@@ -99,7 +99,7 @@ fn a_picture_at_rest_is_refined_to_the_one_that_is_drawn_at_once() {
 #[test]
 fn a_picture_needs_no_more_pipelines_once_the_missing_ones_are_made() {
     let mesh = project("assets/meshes/cube.glb");
-    let pictured = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let pictured = DrawableGraph::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
     let gpu = device();
     let renderer = Arc::new(Renderer::new(&gpu).expect("a renderer"));
     let mut first = Viewport::new(&gpu, renderer.clone());
@@ -148,8 +148,8 @@ fn a_picture_needs_no_more_pipelines_once_the_missing_ones_are_made() {
 #[test]
 fn only_the_changed_part_of_a_scene_is_drawn_again_if_it_is_known() {
     let mesh = project("assets/meshes/cube.glb");
-    let before = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
-    let after = Pictured::looking(&mesh, &look(0.1, 0.3, 0.0), &even_light(0.8));
+    let before = DrawableGraph::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let after = DrawableGraph::looking(&mesh, &look(0.1, 0.3, 0.0), &even_light(0.8));
     let gpu = device();
     let shot = Shot {
         bloom: 0.0,

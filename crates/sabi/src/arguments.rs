@@ -65,7 +65,7 @@ Exit codes: 0 done, 1 some items of a plan failed, 2 wrong command line, 3 not a
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<CliCommand>,
     #[command(flatten)]
     edit: EditArguments,
     #[command(flatten)]
@@ -74,9 +74,9 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     /// Command to run; the editor without one.
-    pub(crate) fn into_command(self) -> (Command, Global) {
+    pub(crate) fn into_command(self) -> (CliCommand, Global) {
         // Without a command, the editor opens.
-        (self.command.unwrap_or(Command::Edit(self.edit)), self.global)
+        (self.command.unwrap_or(CliCommand::Edit(self.edit)), self.global)
     }
 }
 
@@ -139,7 +139,7 @@ pub(crate) enum ProgressChoice {
 
 /// Command of the command line.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum CliCommand {
     /// Open the editor, as without a command
     Edit(EditArguments),
     /// Bake a graph on a model into a PBR texture set
@@ -174,47 +174,47 @@ pub(crate) enum Command {
     Doctor(DoctorArguments),
 }
 
-impl Command {
+impl CliCommand {
     /// Name of the command on the command line.
     pub(crate) fn name(&self) -> &'static str {
         match self {
-            Command::Edit(_) => "edit",
-            Command::Bake(_) => "bake",
-            Command::Preview(_) => "preview",
-            Command::Render(_) => "render",
-            Command::Check(_) => "check",
-            Command::Info(_) => "info",
-            Command::Nodes(_) => "nodes",
-            Command::Presets(_) => "presets",
-            Command::Mesh(_) => "mesh",
-            Command::Paint(_) => "paint",
-            Command::Plan(_) => "plan",
-            Command::Run(_) => "run",
-            Command::Pack(_) => "pack",
-            Command::Unpack(_) => "unpack",
-            Command::Verify(_) => "verify",
-            Command::Doctor(_) => "doctor",
+            CliCommand::Edit(_) => "edit",
+            CliCommand::Bake(_) => "bake",
+            CliCommand::Preview(_) => "preview",
+            CliCommand::Render(_) => "render",
+            CliCommand::Check(_) => "check",
+            CliCommand::Info(_) => "info",
+            CliCommand::Nodes(_) => "nodes",
+            CliCommand::Presets(_) => "presets",
+            CliCommand::Mesh(_) => "mesh",
+            CliCommand::Paint(_) => "paint",
+            CliCommand::Plan(_) => "plan",
+            CliCommand::Run(_) => "run",
+            CliCommand::Pack(_) => "pack",
+            CliCommand::Unpack(_) => "unpack",
+            CliCommand::Verify(_) => "verify",
+            CliCommand::Doctor(_) => "doctor",
         }
     }
 }
 
-impl Command {
+impl CliCommand {
     /// Returns whether it prints JSON, and so failures as JSON.
     pub(crate) fn prints_json(&self) -> bool {
         match self {
-            Command::Edit(_) | Command::Preview(_) | Command::Render(_) | Command::Plan(_) => false,
-            Command::Bake(arguments) => arguments.prints_report(),
-            Command::Check(arguments) => arguments.json,
-            Command::Info(arguments) => arguments.json,
-            Command::Nodes(arguments) => arguments.json,
-            Command::Presets(arguments) => arguments.command.prints_json(),
-            Command::Mesh(arguments) => arguments.json,
-            Command::Paint(arguments) => arguments.command.prints_json(),
-            Command::Run(arguments) => arguments.json,
-            Command::Pack(arguments) => arguments.json,
-            Command::Unpack(arguments) => arguments.json,
-            Command::Verify(arguments) => arguments.json,
-            Command::Doctor(arguments) => arguments.json,
+            CliCommand::Edit(_) | CliCommand::Preview(_) | CliCommand::Render(_) | CliCommand::Plan(_) => false,
+            CliCommand::Bake(arguments) => arguments.prints_report(),
+            CliCommand::Check(arguments) => arguments.json,
+            CliCommand::Info(arguments) => arguments.json,
+            CliCommand::Nodes(arguments) => arguments.json,
+            CliCommand::Presets(arguments) => arguments.command.prints_json(),
+            CliCommand::Mesh(arguments) => arguments.json,
+            CliCommand::Paint(arguments) => arguments.command.prints_json(),
+            CliCommand::Run(arguments) => arguments.json,
+            CliCommand::Pack(arguments) => arguments.json,
+            CliCommand::Unpack(arguments) => arguments.json,
+            CliCommand::Verify(arguments) => arguments.json,
+            CliCommand::Doctor(arguments) => arguments.json,
         }
     }
 }

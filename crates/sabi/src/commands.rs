@@ -20,28 +20,28 @@ mod verify;
 
 use sabi_files::TrustedPaths;
 
-use crate::arguments::Command;
+use crate::arguments::CliCommand;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
 /// Runs a command. Graphs and models may open the files that they name in folders below `trusted`.
-pub(crate) fn run(command: Command, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(command: CliCommand, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     match command {
-        Command::Edit(arguments) => edit::run(&arguments, trusted),
-        Command::Bake(arguments) => bake::run(&arguments, trusted, terminal),
-        Command::Preview(arguments) => preview::run(&arguments, trusted, terminal),
-        Command::Render(arguments) => render::run(&arguments, trusted, terminal),
-        Command::Check(arguments) => check::run(&arguments, trusted, terminal),
-        Command::Info(arguments) => info::run(&arguments, trusted, terminal),
-        Command::Nodes(arguments) => nodes::run(&arguments, trusted, terminal),
-        Command::Presets(arguments) => presets::run(&arguments, terminal),
-        Command::Mesh(arguments) => mesh::run(arguments, trusted, terminal),
-        Command::Paint(arguments) => paint::run(&arguments, trusted, terminal),
-        Command::Plan(arguments) => plan::run(&arguments, trusted, terminal),
-        Command::Run(arguments) => run::run(&arguments, trusted, terminal),
-        Command::Pack(arguments) => pack::run(&arguments, trusted, terminal),
-        Command::Unpack(arguments) => unpack::run(&arguments, terminal),
-        Command::Verify(arguments) => verify::run(&arguments, terminal),
-        Command::Doctor(arguments) => doctor::run(&arguments, terminal),
+        CliCommand::Edit(arguments) => edit::run(&arguments, trusted),
+        CliCommand::Bake(arguments) => bake::run(&arguments, trusted, terminal),
+        CliCommand::Preview(arguments) => preview::run(&arguments, trusted, terminal),
+        CliCommand::Render(arguments) => render::run(&arguments, trusted, terminal),
+        CliCommand::Check(arguments) => check::run(&arguments, trusted, terminal),
+        CliCommand::Info(arguments) => info::run(&arguments, trusted, terminal),
+        CliCommand::Nodes(arguments) => nodes::run(&arguments, trusted, terminal),
+        CliCommand::Presets(arguments) => presets::run(&arguments, terminal),
+        CliCommand::Mesh(arguments) => mesh::run(arguments, trusted, terminal),
+        CliCommand::Paint(arguments) => paint::run(&arguments, trusted, terminal),
+        CliCommand::Plan(arguments) => plan::run(&arguments, trusted, terminal),
+        CliCommand::Run(arguments) => run::run(&arguments, trusted, terminal),
+        CliCommand::Pack(arguments) => pack::run(&arguments, trusted, terminal),
+        CliCommand::Unpack(arguments) => unpack::run(&arguments, terminal),
+        CliCommand::Verify(arguments) => verify::run(&arguments, terminal),
+        CliCommand::Doctor(arguments) => doctor::run(&arguments, terminal),
     }
 }

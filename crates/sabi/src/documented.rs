@@ -1,6 +1,6 @@
 //! Tests that docs/report.md names exactly the keys of the JSON that only the command line writes.
 
-#[path = "../../sabi_engine/src/documented/keys.rs"]
+#[path = "../../sabi_engine/src/report_keys/keys.rs"]
 pub(crate) mod keys;
 
 use std::path::Path;

@@ -2,7 +2,6 @@
 
 mod advice;
 mod arguments;
-mod asked_bake;
 mod commands;
 mod defect;
 #[cfg(test)]
@@ -17,6 +16,7 @@ mod openjd;
 mod printable;
 mod progress;
 mod report_file;
+mod requested_bake;
 mod stopping;
 mod terminal;
 mod usage;

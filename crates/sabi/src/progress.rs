@@ -9,7 +9,7 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sabi_engine::phases::{Phase, Progress};
 
-use pace::Pace;
+use pace::PrintPace;
 
 use crate::arguments::ProgressChoice;
 use crate::event::Event;
@@ -20,20 +20,20 @@ use crate::terminal::Terminal;
 /// Progress of a command, shown on standard error.
 pub(crate) struct ShownProgress {
     terminal: Terminal,
-    display: Display,
+    display: ProgressDisplay,
     started: Instant,
 }
 
 /// Form in which progress is shown.
-enum Display {
+enum ProgressDisplay {
     /// Bar of the current phase.
     Bar(ProgressBar),
     /// Lines for people.
-    Lines(Mutex<Pace>),
+    Lines(Mutex<PrintPace>),
     /// Lines for programs.
-    Events(Mutex<Pace>),
+    Events(Mutex<PrintPace>),
     /// Lines for Open Job Description.
-    Statuses(Mutex<Pace>),
+    Statuses(Mutex<PrintPace>),
     None,
 }
 
@@ -43,21 +43,21 @@ impl ShownProgress {
         listen_for_signals(*terminal);
         ShownProgress {
             terminal: *terminal,
-            display: Display::new(terminal.progress(), io::stderr().is_terminal()),
+            display: ProgressDisplay::new(terminal.progress(), io::stderr().is_terminal()),
             started: Instant::now(),
         }
     }
 }
 
-impl Display {
-    fn new(choice: ProgressChoice, is_terminal: bool) -> Display {
+impl ProgressDisplay {
+    fn new(choice: ProgressChoice, is_terminal: bool) -> ProgressDisplay {
         match choice {
-            ProgressChoice::Auto if is_terminal => Display::Bar(bar()),
-            ProgressChoice::Auto => Display::Lines(Mutex::new(Pace::LINES_OF_LONG_WORK)),
-            ProgressChoice::Plain => Display::Lines(Mutex::new(Pace::LINES)),
-            ProgressChoice::Json => Display::Events(Mutex::new(Pace::EVENTS)),
-            ProgressChoice::Openjd => Display::Statuses(Mutex::new(Pace::LINES)),
-            ProgressChoice::None => Display::None,
+            ProgressChoice::Auto if is_terminal => ProgressDisplay::Bar(bar()),
+            ProgressChoice::Auto => ProgressDisplay::Lines(Mutex::new(PrintPace::LINES_OF_LONG_WORK)),
+            ProgressChoice::Plain => ProgressDisplay::Lines(Mutex::new(PrintPace::LINES)),
+            ProgressChoice::Json => ProgressDisplay::Events(Mutex::new(PrintPace::EVENTS)),
+            ProgressChoice::Openjd => ProgressDisplay::Statuses(Mutex::new(PrintPace::LINES)),
+            ProgressChoice::None => ProgressDisplay::None,
         }
     }
 }
@@ -73,7 +73,7 @@ fn bar() -> ProgressBar {
 impl Drop for ShownProgress {
     /// Removes the bar.
     fn drop(&mut self) {
-        if let Display::Bar(bar) = &self.display {
+        if let ProgressDisplay::Bar(bar) = &self.display {
             bar.finish_and_clear();
         }
     }
@@ -83,25 +83,28 @@ impl Progress for ShownProgress {
     fn advance(&self, phase: Phase, done: usize, of: usize) {
         tracing::debug!(phase = phase.label(), done, of);
         // The pace is usable even if a thread panicked while it held the lock.
-        let is_due = |pace: &Mutex<Pace>| {
+        let is_due = |pace: &Mutex<PrintPace>| {
             let mut pace = pace.lock().unwrap_or_else(PoisonError::into_inner);
             pace.is_due(self.started.elapsed(), phase, done, of)
         };
         match &self.display {
-            Display::Bar(bar) => {
+            ProgressDisplay::Bar(bar) => {
                 bar.set_message(phase.label());
                 bar.set_length(of as u64);
                 bar.set_position(done as u64);
             }
-            Display::Lines(pace) if is_due(pace) => {
+            ProgressDisplay::Lines(pace) if is_due(pace) => {
                 self.terminal.line(format_args!("{} {done}/{of}", phase.label()));
             }
-            Display::Events(pace) if is_due(pace) => self.terminal.event(&Event::phase(phase, done, of)),
-            Display::Statuses(pace) if is_due(pace) => {
+            ProgressDisplay::Events(pace) if is_due(pace) => self.terminal.event(&Event::phase(phase, done, of)),
+            ProgressDisplay::Statuses(pace) if is_due(pace) => {
                 // A closed stream has no reader, so a failure does not matter.
                 let _ = openjd::status(&self.terminal, &format!("{} {done}/{of}", phase.label()));
             }
-            Display::Lines(_) | Display::Events(_) | Display::Statuses(_) | Display::None => {}
+            ProgressDisplay::Lines(_)
+            | ProgressDisplay::Events(_)
+            | ProgressDisplay::Statuses(_)
+            | ProgressDisplay::None => {}
         }
     }
 

@@ -8,7 +8,7 @@ use sabi_files::io_reason;
 use serde::Serialize;
 
 use crate::advice::with_flags;
-use crate::arguments::{Command, Global, ProgressChoice};
+use crate::arguments::{CliCommand, Global, ProgressChoice};
 use crate::event::Event;
 use crate::exit::{Exit, Failure};
 use crate::failure_report::FailureReport;
@@ -30,7 +30,7 @@ pub(crate) struct Terminal {
 
 impl Terminal {
     /// Creates the output of a command.
-    pub(crate) fn new(global: &Global, command: &Command, progress: ProgressChoice) -> Terminal {
+    pub(crate) fn new(global: &Global, command: &CliCommand, progress: ProgressChoice) -> Terminal {
         Terminal {
             command: command.name(),
             json: command.prints_json(),

@@ -2,8 +2,8 @@
 //! times.
 
 mod group;
+mod group_pictures;
 mod page;
-mod pictures;
 mod times;
 
 use self::group::{GROUPS, groups};
@@ -50,7 +50,7 @@ pub(crate) fn run(project: &Project, names: &[String]) -> Result<(), TaskError> 
         .iter()
         .filter(|group| names.is_empty() || names.contains(&&group.stem))
     {
-        pictures::draw_group(project, &groups, group, &work)?;
+        group_pictures::draw_group(project, &groups, group, &work)?;
     }
     write_file(&project.root.join(FOLDER).join("README.md"), page::page(&groups))
 }

@@ -26,10 +26,10 @@ const HEIGHT: usize = 256;
 const PLACES: usize = 3;
 
 /// Linear light from a direction of unit length, in sRGB's primaries; its scale does not matter.
-type Light = fn(DVec3) -> DVec3;
+type LightFunction = fn(DVec3) -> DVec3;
 
 /// Every environment, and how bright its mean is: 1 shows a surface of 18 % at about 18 % from most sides.
-const MAKERS: [(&str, Light, f64); 5] = [
+const MAKERS: [(&str, LightFunction, f64); 5] = [
     ("studio", studio::light, 0.75),
     ("overcast", overcast::light, 1.0),
     ("low_sun", low_sun::light, 0.75),
@@ -60,7 +60,7 @@ fn luminance(color: DVec3) -> f64 {
 }
 
 /// Pixels row by row from the top, scaled so that the mean luminance over the sphere is `mean`.
-fn picture(light: Light, mean: f64) -> Vec<DVec3> {
+fn picture(light: LightFunction, mean: f64) -> Vec<DVec3> {
     let pixel = |at: usize| {
         let place = |sample: usize| {
             let inside = |at: usize| (at as f64 + 0.5) / PLACES as f64;

@@ -4,8 +4,8 @@
 
 mod effects;
 mod environments;
+mod example_pictures;
 mod models;
-mod pictures;
 mod reference;
 mod small_png;
 
@@ -35,7 +35,7 @@ fn run(task: &str, arguments: &[String]) -> Result<(), TaskError> {
     match task {
         "assets" => assets(&project, arguments),
         "reference" => reference::run(&project, arguments),
-        "pictures" => pictures::run(&project, arguments),
+        "pictures" => example_pictures::run(&project, arguments),
         "library" => effects::run(&project, arguments),
         other => Err(TaskError::new(
             2,

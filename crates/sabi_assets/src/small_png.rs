@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Decoded picture of 8 bits a channel.
 #[derive(Clone, Debug)]
-pub(crate) struct Picture {
+pub(crate) struct RgbPicture {
     /// Width and height in pixels.
     pub(crate) size: [usize; 2],
     /// Codes row by row; gray is repeated.
@@ -14,7 +14,7 @@ pub(crate) struct Picture {
 }
 
 /// Reads a PNG file; an error is a sentence that names the file.
-pub(crate) fn read(path: &Path) -> Result<Picture, String> {
+pub(crate) fn read(path: &Path) -> Result<RgbPicture, String> {
     let fault = |error: &dyn std::fmt::Display| format!("{} cannot be read: {error}", path.display());
     let file = File::open(path).map_err(|error| fault(&error))?;
     let mut decoder = png::Decoder::new(BufReader::new(file));
@@ -24,7 +24,7 @@ pub(crate) fn read(path: &Path) -> Result<Picture, String> {
     let mut bytes = vec![0; size];
     let info = reader.next_frame(&mut bytes).map_err(|error| fault(&error))?;
     let pixels = bytes[..info.buffer_size()].chunks_exact(info.color_type.samples());
-    Ok(Picture {
+    Ok(RgbPicture {
         size: [info.width as usize, info.height as usize],
         pixels: pixels
             .map(|pixel| match *pixel {

@@ -30,4 +30,4 @@ pub use plan_file::BakePlan;
 pub use planning::{PlannedBakes, plan_bakes};
 
 #[cfg(test)]
-mod documented;
+mod report_keys;

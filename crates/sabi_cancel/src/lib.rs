@@ -14,7 +14,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Items of [`Looking::looking`] between two looks.
+/// Items of [`CancelableIterator::looking`] between two looks.
 const ITEMS: u32 = 256;
 
 thread_local! {
@@ -28,7 +28,7 @@ pub struct Cancel(Option<Arc<AtomicBool>>);
 
 /// Outcome of work that was canceled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Canceled;
+pub struct CanceledWork;
 
 impl Cancel {
     /// Creates a request that was not made yet.
@@ -66,22 +66,22 @@ impl Cancel {
     /// As [`look`], on any thread that takes part in the work, such as one of a pool.
     pub fn look(&self) {
         if self.is_made() {
-            resume_unwind(Box::new(Canceled));
+            resume_unwind(Box::new(CanceledWork));
         }
     }
 
     /// Runs a part of the work, which [`look`]s, on any thread that takes part in it. On a thread of a pool, the part must not wait for
     /// that pool: the thread would take up other work meanwhile, which would end with this one.
     pub fn during<T>(&self, work: impl FnOnce() -> T) -> T {
-        let _before = Before(CURRENT.replace(self.clone()));
+        let _before = OuterCancel(CURRENT.replace(self.clone()));
         work()
     }
 }
 
 /// Request that a thread listens to again when this is dropped.
-struct Before(Cancel);
+struct OuterCancel(Cancel);
 
-impl Drop for Before {
+impl Drop for OuterCancel {
     fn drop(&mut self) {
         CURRENT.set(std::mem::take(&mut self.0));
     }
@@ -91,11 +91,11 @@ impl Drop for Before {
 ///
 /// # Errors
 /// The request was made while the work looked. Panics of the work go on.
-pub fn cancelable<T>(request: &Cancel, work: impl FnOnce() -> T) -> Result<T, Canceled> {
+pub fn cancelable<T>(request: &Cancel, work: impl FnOnce() -> T) -> Result<T, CanceledWork> {
     // Work that looks leaves nothing half changed.
     match catch_unwind(AssertUnwindSafe(|| request.during(work))) {
         Ok(done) => Ok(done),
-        Err(payload) if is_canceled(payload.as_ref()) => Err(Canceled),
+        Err(payload) if is_canceled(payload.as_ref()) => Err(CanceledWork),
         Err(payload) => resume_unwind(payload),
     }
 }
@@ -103,17 +103,17 @@ pub fn cancelable<T>(request: &Cancel, work: impl FnOnce() -> T) -> Result<T, Ca
 /// Ends the work of this thread if it was canceled; does nothing on a thread whose work is not [`cancelable`].
 pub fn look() {
     if CURRENT.with_borrow(Cancel::is_made) {
-        resume_unwind(Box::new(Canceled));
+        resume_unwind(Box::new(CanceledWork));
     }
 }
 
 /// Returns true if what was caught ends canceled work, and is no panic.
 pub fn is_canceled(payload: &(dyn Any + Send)) -> bool {
-    payload.is::<Canceled>()
+    payload.is::<CanceledWork>()
 }
 
 /// Iterators over many items, each of which takes little time.
-pub trait Looking: Iterator + Sized {
+pub trait CancelableIterator: Iterator + Sized {
     /// The same items, with a [`look`] at every few hundredth.
     fn looking(self) -> impl Iterator<Item = Self::Item> {
         let cancel = Cancel::current();
@@ -128,7 +128,7 @@ pub trait Looking: Iterator + Sized {
     }
 }
 
-impl<I: Iterator> Looking for I {}
+impl<I: Iterator> CancelableIterator for I {}
 
 /// Reader of a long file that [`look`]s before each piece, so that decoders of other crates do.
 #[derive(Debug)]
@@ -191,7 +191,7 @@ mod tests {
             }
             seen
         });
-        assert_eq!(counted, Err(Canceled));
+        assert_eq!(counted, Err(CanceledWork));
         assert_eq!(Arc::strong_count(&held), 1);
         look();
     }
@@ -205,7 +205,7 @@ mod tests {
             look();
             (within, Cancel::current().is_made())
         });
-        assert_eq!(done, Ok((Err(Canceled), false)));
+        assert_eq!(done, Ok((Err(CanceledWork), false)));
         Cancel::never().cancel();
         Cancel::never().look();
     }
@@ -219,7 +219,7 @@ mod tests {
             let thread = std::thread::spawn(move || current.during(look));
             thread.join().unwrap_or_else(|payload| resume_unwind(payload));
         });
-        assert_eq!(done, Err(Canceled));
+        assert_eq!(done, Err(CanceledWork));
     }
 
     #[test]

@@ -27,7 +27,7 @@ pub enum Align {
 
 /// Directions in which nodes are distributed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum DistributionAxis {
     /// From left to right.
     Horizontal,
     /// From top to bottom.
@@ -87,10 +87,10 @@ pub fn align(document: &mut OpenDocument, by: Align) -> bool {
 }
 
 /// Moves the selected nodes between the first and the last one so that the spaces between them are equal.
-pub fn distribute(document: &mut OpenDocument, along: Axis) -> bool {
+pub fn distribute(document: &mut OpenDocument, along: DistributionAxis) -> bool {
     let axis = match along {
-        Axis::Horizontal => 0,
-        Axis::Vertical => 1,
+        DistributionAxis::Horizontal => 0,
+        DistributionAxis::Vertical => 1,
     };
     let mut places = selected_positions(document);
     if places.len() < 3 {

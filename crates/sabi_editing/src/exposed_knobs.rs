@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_engine::catalog::Knob;
-use sabi_graph::{Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
+use sabi_graph::{Edit, ExposedParameter, INSTANCE_KNOBS, NodeId, SlotRef, Value};
 
 use crate::instances::interface_of;
 use crate::names::{free_name, knob_label};
@@ -16,7 +16,7 @@ pub struct ExposedKnob {
     /// Name in files and on command lines.
     pub name: String,
     /// Definition of the exposed knob in the graph.
-    pub exposed: Exposed,
+    pub exposed: ExposedParameter,
     /// Appearance of the knob: that of the first knob that it controls, with its own name and range.
     pub knob: Knob,
     /// Current value, in the shown variant if there is one.
@@ -87,10 +87,10 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
         node: id.clone(),
         name: knob.to_owned(),
     };
-    let exposed = Exposed {
+    let exposed = ExposedParameter {
         to: vec![slot],
         label: Some(label),
-        ..Exposed::default()
+        ..ExposedParameter::default()
     };
     let edit = exposing(document, &name, exposed);
     document.edit("Expose", vec![edit])
@@ -233,7 +233,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
 }
 
 /// Changes the definition of an exposed knob.
-fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOnce(&mut Exposed)) -> bool {
+fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOnce(&mut ExposedParameter)) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
@@ -288,7 +288,7 @@ pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) 
 }
 
 /// Edit that sets the definition of an exposed knob.
-pub(crate) fn exposing(document: &OpenDocument, name: &str, knob: Exposed) -> Edit {
+pub(crate) fn exposing(document: &OpenDocument, name: &str, knob: ExposedParameter) -> Edit {
     Edit::Expose {
         body: document.body(),
         name: name.to_owned(),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
+use sabi_graph::{Edit, ExposedParameter, NodeId, SlotRef, Value, canonical_number};
 
 use crate::names::knob_label;
 use crate::open_document::OpenDocument;
@@ -67,7 +67,7 @@ fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
         return vec![exposed_knobs::exposing(
             document,
             name,
-            Exposed {
+            ExposedParameter {
                 default,
                 ..exposed.clone()
             },
@@ -135,7 +135,7 @@ pub(crate) fn values_of_exposed(
         let can_lose_default = exposed.curves.is_empty() || inside.is_some();
         if exposed.default.is_some() && can_lose_default && (!is_of_variant || value.is_some() && inside.is_none()) {
             let default = inside.cloned();
-            let exposed = Exposed {
+            let exposed = ExposedParameter {
                 default,
                 ..exposed.clone()
             };
@@ -159,7 +159,7 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
         let label = knob_label(document.own_interface(), name);
         return document.refuse(format!("'{label}' {why}"));
     }
-    let edit = exposed_knobs::exposing(document, name, Exposed { default, ..exposed });
+    let edit = exposed_knobs::exposing(document, name, ExposedParameter { default, ..exposed });
     document.edit("Set default", vec![edit])
 }
 
@@ -179,7 +179,7 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     if let Some(why) = outside {
         return document.refuse(why);
     }
-    let edit = exposed_knobs::exposing(document, name, Exposed { range, ..exposed });
+    let edit = exposed_knobs::exposing(document, name, ExposedParameter { range, ..exposed });
     document.edit("Set range", vec![edit])
 }
 
@@ -187,7 +187,7 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
 fn set_values<'d>(
     document: &'d OpenDocument,
     name: &'d str,
-    exposed: &'d Exposed,
+    exposed: &'d ExposedParameter,
 ) -> impl Iterator<Item = (String, Value)> + 'd {
     let default = exposed
         .default

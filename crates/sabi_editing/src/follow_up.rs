@@ -114,11 +114,11 @@ fn following(before: &Document, after: &Document, changed: &BTreeSet<String>) ->
         let Some((was, is)) = before.groups.get(name).zip(after.groups.get(name)) else {
             continue;
         };
-        let change = Change { was, is };
+        let change = GroupChange { was, is };
         for (body, graph) in bodies(after) {
             let found: BTreeSet<&NodeId> = instances(graph, name).map(|(id, _)| id).collect();
             for (id, node) in instances(graph, name) {
-                let instance = Instance {
+                let instance = ChangedInstance {
                     body: &body,
                     graph,
                     id,
@@ -143,12 +143,12 @@ fn following(before: &Document, after: &Document, changed: &BTreeSet<String>) ->
 }
 
 /// A group before and after the edits. A reference to a name that it did not expose before was broken already and is not changed.
-struct Change<'a> {
+struct GroupChange<'a> {
     was: &'a GroupDef,
     is: &'a GroupDef,
 }
 
-impl Change<'_> {
+impl GroupChange<'_> {
     fn lost_input(&self, name: &str) -> bool {
         self.was.inputs.contains_key(name) && !self.is.inputs.contains_key(name)
     }
@@ -183,15 +183,15 @@ impl Change<'_> {
 }
 
 /// An instance of a changed group.
-struct Instance<'a> {
+struct ChangedInstance<'a> {
     body: &'a Body,
     graph: &'a Graph,
     id: &'a NodeId,
     node: &'a Node,
 }
 
-impl Instance<'_> {
-    fn inputs(&self, change: &Change<'_>, edits: &mut Vec<Edit>) {
+impl ChangedInstance<'_> {
+    fn inputs(&self, change: &GroupChange<'_>, edits: &mut Vec<Edit>) {
         let inputs = self.graph.inputs(self.id.as_str()).into_keys();
         let gone = inputs.filter(|name| change.lost_input(name));
         edits.extend(gone.map(|name| Edit::Disconnect {
@@ -201,7 +201,7 @@ impl Instance<'_> {
         }));
     }
 
-    fn knobs(&self, change: &Change<'_>, edits: &mut Vec<Edit>) {
+    fn knobs(&self, change: &GroupChange<'_>, edits: &mut Vec<Edit>) {
         let is_gone = |name: &str, value: &Value| match name {
             "variant" => value.as_text().is_some_and(|name| change.lost_variant(name)),
             name => change.lost_knob(name),
@@ -215,7 +215,7 @@ impl Instance<'_> {
         }));
     }
 
-    fn readers(&self, change: &Change<'_>, edits: &mut Vec<Edit>) {
+    fn readers(&self, change: &GroupChange<'_>, edits: &mut Vec<Edit>) {
         for slot in self.graph.readers(self.id.as_str()) {
             let Some(from) = self.graph.link_into(slot.node.as_str(), &slot.name) else {
                 continue;
@@ -238,7 +238,7 @@ struct OuterGraph<'a> {
 }
 
 impl OuterGraph<'_> {
-    fn follow(&self, change: &Change<'_>, edits: &mut Vec<Edit>) {
+    fn follow(&self, change: &GroupChange<'_>, edits: &mut Vec<Edit>) {
         let body = || self.body.clone();
         for (name, knob) in self.graph.exposed() {
             let to = self.kept(&knob.to, |name| change.lost_knob(name));

@@ -11,11 +11,11 @@ use sabi_files::{PathBase, TrustedPaths, Unread};
 use sabi_graph::Document;
 
 /// Length and modification time of a file; `None` if it does not exist.
-type Stamp = Option<(u64, SystemTime)>;
+type FileStamp = Option<(u64, SystemTime)>;
 
 #[derive(Default)]
 pub(crate) struct GroupFiles {
-    known: BTreeMap<PathBuf, (Stamp, Option<Arc<Document>>)>,
+    known: BTreeMap<PathBuf, (FileStamp, Option<Arc<Document>>)>,
 }
 
 impl GroupFiles {
@@ -59,7 +59,7 @@ impl GroupFiles {
     }
 }
 
-fn stamp(path: &Path) -> Stamp {
+fn stamp(path: &Path) -> FileStamp {
     let metadata = fs::metadata(path).ok()?;
     Some((metadata.len(), metadata.modified().ok()?))
 }

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Interface, Interfaces};
-use sabi_graph::{Body, Document, Edit, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, SlotRef};
+use sabi_graph::{
+    Body, Document, Edit, ExposedParameter, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, SlotRef,
+};
 
 /// All graphs of a document.
 pub(crate) fn bodies(document: &Document) -> Vec<(Body, &Graph)> {
@@ -39,7 +41,7 @@ pub(crate) fn renamed_knobs(document: &Document, matches: impl Fn(&Body, &SlotRe
     let mut edits = Vec::new();
     for (body, graph) in bodies(document) {
         for (name, knob) in graph.exposed() {
-            let mut knob: Exposed = knob.clone();
+            let mut knob: ExposedParameter = knob.clone();
             if renamed(&mut knob.to, |slot| matches(&body, slot), to) {
                 let curves = knob.curves.into_iter().map(|(mut slot, curve)| {
                     if matches(&body, &slot) {

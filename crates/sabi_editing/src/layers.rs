@@ -10,7 +10,7 @@ use crate::connections::port_in_wire;
 use crate::node_size::NODE_WIDTH;
 use crate::open_document::OpenDocument;
 use crate::ports::input_label;
-use crate::stack::{Layer, Link, Stack, StackEnd, main_input};
+use crate::stack::{Layer, LayerLink, Stack, StackEnd, main_input};
 use crate::{connections, new_nodes, node_size, nodes, ports, reconnection, stack, wires};
 
 /// Space between a new layer or mask and the node that reads it, canvas points.
@@ -238,7 +238,7 @@ pub(crate) fn add_over(document: &mut OpenDocument, id: &NodeId, kind: &str, gro
         .filter(|(_, from)| is_read(Some(from)))
         .map(|(name, _)| name.clone())
         .collect();
-    let link = Link {
+    let link = LayerLink {
         slot: readers.first().cloned(),
         from: Some(from.clone()),
         is_shared: false,
@@ -270,7 +270,7 @@ pub(crate) fn add_over(document: &mut OpenDocument, id: &NodeId, kind: &str, gro
         .then_some(new)
 }
 
-fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, label: &str) -> Option<String> {
+fn why_not_between(document: &OpenDocument, link: &LayerLink, takes_material: bool, label: &str) -> Option<String> {
     if link.is_shared {
         return Some("a reroute there has other readers, which would change too; use the canvas".to_owned());
     }
@@ -290,7 +290,7 @@ fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, l
 
 /// Returns a place for a layer of this size in a link where it covers no other node, and edits that move the nodes behind
 /// it out of the way.
-fn place_of_layer(document: &OpenDocument, link: &Link, size: [f32; 2]) -> ([f32; 2], Vec<Edit>) {
+fn place_of_layer(document: &OpenDocument, link: &LayerLink, size: [f32; 2]) -> ([f32; 2], Vec<Edit>) {
     let place = |id: &NodeId| document.node(id).map(|node| node.pos);
     let reader = link.slot.as_ref().map(|slot| &slot.node);
     let source = link.from.as_ref().map(|from| &from.node);

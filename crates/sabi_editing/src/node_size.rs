@@ -48,8 +48,8 @@ pub fn is_reroute(entry: &Interface) -> bool {
 /// Rows that a node shows, and their positions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShownRows {
-    inputs: Shown,
-    outputs: Shown,
+    inputs: VisibleRows,
+    outputs: VisibleRows,
     knobs: usize,
     has_picture: bool,
     is_reroute: bool,
@@ -57,24 +57,24 @@ pub struct ShownRows {
 
 /// Choice of the rows of a list that are shown.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Shown {
+enum VisibleRows {
     All(usize),
     Some(Vec<usize>),
 }
 
-impl Shown {
+impl VisibleRows {
     fn count(&self) -> usize {
         match self {
-            Shown::All(count) => *count,
-            Shown::Some(rows) => rows.len(),
+            VisibleRows::All(count) => *count,
+            VisibleRows::Some(rows) => rows.len(),
         }
     }
 
     /// Returns the position of a row among the shown rows.
     fn place(&self, row: usize) -> Option<usize> {
         match self {
-            Shown::All(count) => (row < *count).then_some(row),
-            Shown::Some(rows) => rows.iter().position(|shown| *shown == row),
+            VisibleRows::All(count) => (row < *count).then_some(row),
+            VisibleRows::Some(rows) => rows.iter().position(|shown| *shown == row),
         }
     }
 }
@@ -83,8 +83,8 @@ impl ShownRows {
     /// Returns all rows of a node.
     pub fn all(entry: &Interface) -> ShownRows {
         ShownRows {
-            inputs: Shown::All(entry.inputs.len()),
-            outputs: Shown::All(entry.outputs.len()),
+            inputs: VisibleRows::All(entry.inputs.len()),
+            outputs: VisibleRows::All(entry.outputs.len()),
             knobs: own_knobs(entry).count(),
             has_picture: !entry.outputs.is_empty() || entry.category() == "output",
             is_reroute: is_reroute(entry),
@@ -102,15 +102,15 @@ impl ShownRows {
             NodeRows::Wired => {
                 let is_wired = |row: &usize| graph.link_into(id.as_str(), &entry.inputs[*row].name).is_some();
                 ShownRows {
-                    inputs: Shown::Some((0..entry.inputs.len()).filter(is_wired).collect()),
-                    outputs: Shown::Some(read_outputs(graph, id, entry)),
+                    inputs: VisibleRows::Some((0..entry.inputs.len()).filter(is_wired).collect()),
+                    outputs: VisibleRows::Some(read_outputs(graph, id, entry)),
                     knobs: 0,
                     ..all
                 }
             }
             NodeRows::None => ShownRows {
-                inputs: Shown::Some(Vec::new()),
-                outputs: Shown::Some(Vec::new()),
+                inputs: VisibleRows::Some(Vec::new()),
+                outputs: VisibleRows::Some(Vec::new()),
                 knobs: 0,
                 has_picture: false,
                 is_reroute: false,

@@ -20,7 +20,7 @@ struct NewSource {
 }
 
 /// Sources of an input: a group's input, a wire, or both.
-type Sources = (Option<String>, Option<OutputRef>);
+type InputSources = (Option<String>, Option<OutputRef>);
 
 /// Returns edits that connect all readers of these nodes, and the outputs of the group, to the results that the nodes pass on.
 pub(crate) fn reconnecting(document: &OpenDocument, removed: &BTreeSet<NodeId>) -> Vec<Edit> {
@@ -93,7 +93,7 @@ impl<'d> SourceSearch<'d> {
     /// the same type that leads to a node that stays.
     fn source_behind(&mut self, from: &OutputRef) -> NewSource {
         // Sources still to be followed, the next one last.
-        let mut stack: Vec<Sources> = vec![(None, Some(from.clone()))];
+        let mut stack: Vec<InputSources> = vec![(None, Some(from.clone()))];
         let mut visited = BTreeSet::new();
         // The first input of the group that was met on the way. A wire found after it is read only while nothing is
         // connected to that input.
@@ -121,7 +121,7 @@ impl<'d> SourceSearch<'d> {
         NewSource { wire: dead_end, fed }
     }
 
-    fn sources(&self, body: &Body, id: &NodeId, name: String) -> Sources {
+    fn sources(&self, body: &Body, id: &NodeId, name: String) -> InputSources {
         let graph = self.document.graph_of(body);
         let wire = graph.and_then(|graph| graph.link_into(id.as_str(), &name).cloned());
         let slot = SlotRef { node: id.clone(), name };
@@ -190,7 +190,7 @@ impl<'d> SourceSearch<'d> {
             None => outputs.values().next(),
         };
         // Sources still to be followed, the next one last.
-        let mut stack: Vec<Sources> = vec![(None, given.cloned())];
+        let mut stack: Vec<InputSources> = vec![(None, given.cloned())];
         let mut found: Vec<String> = Vec::new();
         let mut visited = BTreeSet::new();
         while let Some((feeder, wire)) = stack.pop() {

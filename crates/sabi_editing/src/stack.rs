@@ -46,12 +46,12 @@ pub struct Stack {
     pub title: String,
     /// Layers, top layer first.
     pub layers: Vec<Layer>,
-    pub(crate) links: Vec<Link>,
+    pub(crate) links: Vec<LayerLink>,
 }
 
 /// Connection from a layer, or from the end of the stack, to the layer below.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Link {
+pub(crate) struct LayerLink {
     /// Input that reads the layer below: an input of the layer above, or of the last reroute on the way. `None` if an
     /// output of the group reads it, and below the material at the bottom.
     pub(crate) slot: Option<SlotRef>,
@@ -117,8 +117,8 @@ fn of(document: &OpenDocument, end: StackEnd) -> Stack {
 }
 
 /// Follows a wire through reroutes to its source.
-fn link(document: &OpenDocument, slot: Option<SlotRef>, from: Option<OutputRef>) -> Link {
-    let mut link = Link {
+fn link(document: &OpenDocument, slot: Option<SlotRef>, from: Option<OutputRef>) -> LayerLink {
+    let mut link = LayerLink {
         slot,
         from,
         is_shared: false,
@@ -153,7 +153,7 @@ fn material_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
     })
 }
 
-fn layer(document: &OpenDocument, at: &OutputRef, above: &Link, below: &Link) -> Layer {
+fn layer(document: &OpenDocument, at: &OutputRef, above: &LayerLink, below: &LayerLink) -> Layer {
     let id = &at.node;
     let interface = document.interface(id);
     let node = document.node(id);
@@ -195,7 +195,7 @@ fn shared_reason(document: &OpenDocument, id: &NodeId, others: &[NodeId], is_giv
         .then(|| format!("'{title}' is also given to an output of the group, which would change too; use the canvas"))
 }
 
-fn lowest_reason(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<String> {
+fn lowest_reason(document: &OpenDocument, id: &NodeId, below: &LayerLink) -> Option<String> {
     let title = document.title(id);
     let Some(slot) = &below.slot else {
         return Some(format!(

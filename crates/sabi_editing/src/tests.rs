@@ -33,7 +33,7 @@ use std::sync::OnceLock;
 use sabi_engine::{Kinds, Session};
 use sabi_graph::{Document, FlatGraph, NodeId, OutputRef, Overrides, SlotRef, Value};
 
-use crate::arrangement::{Align, Axis};
+use crate::arrangement::{Align, DistributionAxis};
 use crate::connections::PendingWire;
 use crate::knob_target::{self, KnobTarget};
 use crate::new_ids::IdGenerator;

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use sabi_engine::baking::preset_pictures::{PicturePart, PresetPicture, preset_pictures};
+use sabi_engine::baking::preset_pictures::{PictureChannel, PresetPicture, preset_pictures};
 
 /// Material channel that is read from an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Reading {
+pub(crate) struct ChannelReading {
     /// Input of *Combine material*.
     pub(crate) channel: String,
     /// Output of the image node; `None` means the first one.
@@ -28,7 +28,7 @@ pub(crate) struct MapName {
     /// Name of the set in lower case.
     pub(crate) set: String,
     /// Channels in the image; empty for a map that is not part of a material, such as a position map.
-    pub(crate) readings: Vec<Reading>,
+    pub(crate) readings: Vec<ChannelReading>,
     /// Number of the UDIM tile, if the name has one.
     pub(crate) tile: Option<u32>,
 }
@@ -125,7 +125,7 @@ impl MapName {
 /// Images by the words that name them.
 struct KnownNames {
     /// Images of presets by name, in lower case and without spaces, with the words before the name of the material.
-    of_presets: BTreeMap<String, Vec<(String, Vec<Reading>)>>,
+    of_presets: BTreeMap<String, Vec<(String, Vec<ChannelReading>)>>,
     /// Words before the name of the material.
     prefixes: Vec<String>,
 }
@@ -154,10 +154,10 @@ impl KnownNames {
 
     /// Returns the channels of the image that a word stands for in a file name with a prefix. Channels of several presets
     /// with the same name are combined, such as the opacity that some of them store beside the base color.
-    fn readings(&self, word: &str, prefix: &str) -> Option<Vec<Reading>> {
+    fn readings(&self, word: &str, prefix: &str) -> Option<Vec<ChannelReading>> {
         let of_presets = self.of_presets.get(word).map_or(&[][..], Vec::as_slice);
         // A single letter is ambiguous without the prefix that its preset writes.
-        let is_clear = |(own, _): &&(String, Vec<Reading>)| own == prefix || word.chars().count() > 1;
+        let is_clear = |(own, _): &&(String, Vec<ChannelReading>)| own == prefix || word.chars().count() > 1;
         let (own, others): (Vec<_>, Vec<_>) = of_presets
             .iter()
             .filter(is_clear)
@@ -167,29 +167,29 @@ impl KnownNames {
             return None;
         }
         let convention = convention.into_iter().flat_map(|(_, channels)| *channels);
-        let conventional = convention.map(|(channel, output)| Reading {
+        let conventional = convention.map(|(channel, output)| ChannelReading {
             channel: (*channel).to_owned(),
             output: *output,
             is_inverted: false,
             is_green_down: false,
             needs_alpha: false,
         });
-        let in_alpha = |(_, readings): &(String, Vec<Reading>), channel: &str| {
+        let in_alpha = |(_, readings): &(String, Vec<ChannelReading>), channel: &str| {
             let mut readings = readings.iter();
             readings.any(|reading| reading.channel == channel && reading.output == ALPHA)
         };
         // An image without alpha is opaque, and so is a material without opacity. For other channels a missing alpha would
         // give a wrong value.
-        let needs_alpha = |reading: &Reading| {
+        let needs_alpha = |reading: &ChannelReading| {
             let is_certain = of_presets.iter().all(|preset| in_alpha(preset, &reading.channel));
             reading.output == ALPHA && reading.channel != OPACITY && !is_certain
         };
         let own = own.into_iter().flat_map(|(_, readings)| readings.clone());
         let others = others.into_iter().flat_map(|(_, readings)| readings.clone());
-        let mut all: Vec<Reading> = Vec::new();
+        let mut all: Vec<ChannelReading> = Vec::new();
         for mut reading in own.chain(conventional).chain(others) {
             reading.needs_alpha = needs_alpha(&reading);
-            let is_taken = |known: &Reading| known.channel == reading.channel || known.output == reading.output;
+            let is_taken = |known: &ChannelReading| known.channel == reading.channel || known.output == reading.output;
             if !all.iter().any(is_taken) {
                 all.push(reading);
             }
@@ -199,7 +199,7 @@ impl KnownNames {
 }
 
 /// Returns how a part of a preset's image is read; `None` if *Combine material* has no such channel.
-fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
+fn reading(picture: &PresetPicture, part: &PictureChannel) -> Option<ChannelReading> {
     let channel = match part.channel.as_deref()? {
         "opacity" => OPACITY,
         "normal" => "slope",
@@ -217,7 +217,7 @@ fn reading(picture: &PresetPicture, part: &PicturePart) -> Option<Reading> {
         (2, 1) => BLUE,
         _ => return None,
     };
-    Some(Reading {
+    Some(ChannelReading {
         channel: channel.to_owned(),
         output,
         is_inverted: part.is_inverted,

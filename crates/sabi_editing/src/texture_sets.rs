@@ -10,7 +10,7 @@ use sabi_nodes::label_of;
 
 use crate::node_size::{NODE_WIDTH, size_of};
 use crate::open_document::OpenDocument;
-use crate::texture_map_names::{MapName, Reading};
+use crate::texture_map_names::{ChannelReading, MapName};
 use crate::{new_nodes, relative_paths, wires};
 
 const IMAGE: &str = "source/image";
@@ -25,7 +25,7 @@ const RELIEF: f64 = 0.02;
 /// Image of a set, with the channels that are read from it.
 struct SetPicture {
     file: PathBuf,
-    readings: Vec<Reading>,
+    readings: Vec<ChannelReading>,
 }
 
 /// Adds the texture sets that these image files form according to their names, as one undo step. Each set becomes a
@@ -219,7 +219,7 @@ impl Sets {
                     known.any(|known| known.channel == channel)
                 };
                 let new = name.readings.into_iter();
-                let readings: Vec<Reading> = new
+                let readings: Vec<ChannelReading> = new
                     .filter(|reading| !is_given(&reading.channel) && (!reading.needs_alpha || is_png_with_alpha(file)))
                     .collect();
                 if !readings.is_empty() {

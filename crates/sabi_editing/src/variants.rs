@@ -100,7 +100,7 @@ fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
 
 /// Returns the whole graph as if the shown graph, or an instance in it, had another variant; a `name` of `None` stands for
 /// the graph's own values. Returns `None` if there is no such instance.
-pub fn tried(document: &OpenDocument, instance: Option<&NodeId>, name: Option<&str>) -> Option<OpenGraph> {
+pub fn graph_with_variant(document: &OpenDocument, instance: Option<&NodeId>, name: Option<&str>) -> Option<OpenGraph> {
     let edit = match instance {
         None => showing(document, name),
         Some(id) => Edit::Batch(instance_variants::choosing(document, id, name)?),

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use sabi_editor::Offscreen;
 use sabi_gpu::AdapterChoice;
-use walk::{FIRST, Step, Walk};
+use walk::{FIRST, Walk, WalkStep};
 
 const EDITS: usize = 10_000;
 const EVERY: usize = 1000;
@@ -51,9 +51,9 @@ fn main() {
             began = Instant::now();
         }
         match walk.next(window.document()) {
-            Step::Edit(edit) => window.edit(*edit),
-            Step::Undo => window.undo(),
-            Step::Redo => window.redo(),
+            WalkStep::Edit(edit) => window.edit(*edit),
+            WalkStep::Undo => window.undo(),
+            WalkStep::Redo => window.redo(),
         }
         window.frame(Vec::new());
         // About as soon as a user could act again: some results arrive, others are replaced before.

@@ -23,7 +23,7 @@ use crate::settings::brush::BrushChoices;
 use crate::settings::export::{ExportChoices, ExportPlace};
 use crate::settings::stencil::StencilChoices;
 use crate::settings::text_font::TextFont;
-use crate::theme::Shade;
+use crate::theme::ColorScheme;
 
 /// sRGB color that was clicked, or a sentence about why there is none.
 pub(crate) type ClickedColor = Result<[u8; 3], String>;
@@ -298,7 +298,7 @@ pub(crate) enum PaintAction {
 /// Change of a setting.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum SettingAction {
-    Shade(Shade),
+    Shade(ColorScheme),
     InputPreset(InputPreset),
     /// Number of backups of a graph file.
     Backups(usize),

@@ -21,24 +21,24 @@ use sabi_gpu::Gpu;
 
 use crate::action::Action;
 use crate::bars;
+use crate::choice_previews::{ChoicePreviews, PreviewSource};
 use crate::command::{Command, FileCommand};
 use crate::context::{View, ViewContext};
 use crate::dock::{Dock, Panel};
-use crate::evaluation::{Evaluation, Wanted};
+use crate::evaluation::{Evaluation, WantedResults};
 use crate::exports::Exports;
-use crate::looks::Looks;
 use crate::model_row::ModelRow;
-use crate::node_tips::NodeTips;
+use crate::node_brush_tip::NodeBrushTip;
 use crate::notices::Work;
-use crate::packing::Packing;
+use crate::pack_task::PackTask;
 use crate::panels::input_histogram;
 use crate::pen::Pens;
-use crate::trials::{TrialSource, Trials};
+use crate::shown_results::ShownResults;
 use crate::views::Views;
-pub(crate) use documents::Folders;
+pub(crate) use documents::ProgramFolders;
 use documents::{Documents, autosave_at_end};
 pub(crate) use opening::{Handover, InitialState};
-use opening::{LostWindow, Opened};
+use opening::{LostWindow, OpenedWindow};
 use shell::Shell;
 use variant_pictures::AwaitedPicture;
 
@@ -48,13 +48,13 @@ pub(crate) struct Editor {
     pub(crate) documents: Documents,
     pub(crate) evaluation: Evaluation,
     pub(crate) row: ModelRow,
-    pub(crate) trials: Trials,
-    pub(crate) looks: Looks,
+    pub(crate) choice_previews: ChoicePreviews,
+    pub(crate) looks: ShownResults,
     pub(crate) exports: Exports,
     pub(crate) shell: Shell,
     pub(crate) views: Views,
-    pub(crate) node_tips: NodeTips,
-    packing: Packing,
+    pub(crate) node_brush_tip: NodeBrushTip,
+    packing: PackTask,
     pub(crate) pens: Pens,
     awaited_picture: AwaitedPicture,
     handover: Handover,
@@ -77,13 +77,13 @@ impl Editor {
     ) -> Editor {
         let (folders, at_end) = (initial.folders.clone(), initial.at_end);
         let mut shell = Shell::new(folders.settings.clone(), context, render);
-        let Opened {
+        let OpenedWindow {
             documents,
             views,
             model,
             beside,
             fault,
-        } = Opened::new(initial, &shell.settings, context, &handover);
+        } = OpenedWindow::new(initial, &shell.settings, context, &handover);
         for fault in fault {
             shell.fail(fault);
         }
@@ -91,14 +91,14 @@ impl Editor {
         let mut editor = Editor {
             evaluation: Evaluation::new(gpu, &model, reading, folders.cache, context),
             row: ModelRow::default(),
-            trials: Trials::default(),
+            choice_previews: ChoicePreviews::default(),
             documents,
-            looks: Looks::default(),
+            looks: ShownResults::default(),
             exports: Exports::default(),
             shell,
             views,
-            node_tips: NodeTips::default(),
-            packing: Packing::default(),
+            node_brush_tip: NodeBrushTip::default(),
+            packing: PackTask::default(),
             pens: Pens::default(),
             awaited_picture: AwaitedPicture::default(),
             handover,
@@ -118,7 +118,7 @@ impl Editor {
             documents,
             evaluation,
             row,
-            trials,
+            choice_previews,
             looks,
             exports,
             shell,
@@ -138,7 +138,7 @@ impl Editor {
             library: &documents.library,
             pictures: &documents.pictures,
             brushes: &documents.brushes,
-            trials,
+            choice_previews,
             candidates: documents.candidates(),
             recoveries: &documents.recoveries.found,
             settings: &shell.settings,
@@ -170,7 +170,7 @@ impl Editor {
         self.follow_reading();
         self.follow_row(&context);
         self.follow_exports(&context);
-        self.take_node_tip();
+        self.take_node_brush_tip();
         match self.packing.take() {
             Some(Ok(told)) => self.shell.notify(told),
             Some(Err(refused)) => self.shell.fail(refused),
@@ -202,8 +202,8 @@ impl Editor {
         // Before the device gets work that may block the window.
         self.autosave(&context);
         self.request_results(&context);
-        let kept = self.trials.advance(
-            &TrialSource {
+        let kept = self.choice_previews.advance(
+            &PreviewSource {
                 document: &self.documents.document,
                 evaluation: &self.evaluation,
                 library: &self.documents.library,
@@ -244,7 +244,7 @@ impl Editor {
         let nodes = nodes.map(|id| self.looks.chosen(document, &id));
         let layers = self.views.layers.wanted.iter().cloned();
         let on_model = self.looks.on_model(document, &self.shell.settings);
-        let wanted = Wanted {
+        let wanted = WantedResults {
             subjects: [on_model].into_iter().chain(self.looks.beside_model()).collect(),
             inspected: self.looks.inspected().cloned(),
             measured: input_histogram::measured(document).filter(|_| is_shown(Panel::Parameters)),
@@ -370,7 +370,7 @@ impl eframe::App for Editor {
         if !self.is_leaving {
             self.end();
             // Cancels an archive that is being written, and waits until its temporary file is deleted.
-            self.packing = Packing::default();
+            self.packing = PackTask::default();
             (self.at_end)();
         }
     }

@@ -30,7 +30,7 @@ use mover::HeldStrokes;
 pub(crate) use mover::Mover;
 use open_stroke::OpenStroke;
 use path::HeldKnot;
-use path_tool::Extended;
+use path_tool::PathToExtend;
 pub(crate) use shown_path::ShownPath;
 pub(crate) use shown_pixel::shown_pixel;
 use stencil::HeldStencil;
@@ -43,7 +43,7 @@ const SIZE_OF_DRAG: f32 = 1.008;
 const HARDNESS_OF_DRAG: f32 = 0.004;
 
 /// Subject of a drag of the brush.
-enum Held {
+enum BrushDrag {
     Stroke(Box<OpenStroke>),
     Decal(HeldDecal),
     Knot(Box<HeldKnot>),
@@ -54,7 +54,7 @@ enum Held {
 /// The brush in a view: draws strokes, and moves decals, knots, marked strokes and the stencil.
 #[derive(Default)]
 pub(crate) struct BrushTool {
-    held: Option<Held>,
+    held: Option<BrushDrag>,
     /// End of the last stroke, from which Shift draws a straight line, with the name of its model.
     last: Option<(String, StrokePoint)>,
     /// Place that the next stroke copies from, with the name of its model.
@@ -66,13 +66,13 @@ pub(crate) struct BrushTool {
     /// Place where a drag began that changes the size.
     resized_at: Option<Pos2>,
     /// Path that clicks add knots to.
-    extended: Extended,
+    extended: PathToExtend,
     /// Time and place of the last press, for double clicks.
     pressed: Option<(f64, Pos2)>,
 }
 
 /// View that the brush paints in.
-pub(crate) trait Canvas {
+pub(crate) trait PaintView {
     /// Surface point under a place of the screen.
     fn site(&self, model: &LiveModel, at: Pos2) -> Option<Site>;
 
@@ -95,15 +95,15 @@ pub(crate) trait Canvas {
     fn stencil_map(&self, model: &LiveModel, stencil: &ShownStencil) -> Option<[[f64; 4]; 3]>;
 }
 
-impl Held {
+impl BrushDrag {
     /// The paint node that is changed; `None` while the stencil is moved.
     fn node(&self) -> Option<&NodeId> {
         match self {
-            Held::Stroke(stroke) => Some(&stroke.node),
-            Held::Decal(decal) => Some(&decal.node),
-            Held::Knot(knot) => Some(&knot.node),
-            Held::Strokes(strokes) => Some(&strokes.node),
-            Held::Stencil(_) => None,
+            BrushDrag::Stroke(stroke) => Some(&stroke.node),
+            BrushDrag::Decal(decal) => Some(&decal.node),
+            BrushDrag::Knot(knot) => Some(&knot.node),
+            BrushDrag::Strokes(strokes) => Some(&strokes.node),
+            BrushDrag::Stencil(_) => None,
         }
     }
 }
@@ -115,7 +115,7 @@ impl BrushTool {
     }
 
     /// The brush with the size that it has under a place of the screen.
-    pub(crate) fn brush_at(brush: &BrushChoices, model: &LiveModel, canvas: &impl Canvas, at: Pos2) -> BrushChoices {
+    pub(crate) fn brush_at(brush: &BrushChoices, model: &LiveModel, canvas: &impl PaintView, at: Pos2) -> BrushChoices {
         match point_at(model, canvas, at, 1.0, true) {
             Some(point) => decal::sized(brush, model, canvas, &point),
             None => brush.clone(),
@@ -124,7 +124,7 @@ impl BrushTool {
 
     /// Returns true if the marked strokes have handles: not while a path is drawn.
     pub(crate) fn moves_marked(&self) -> bool {
-        self.extended == Extended::None
+        self.extended == PathToExtend::None
     }
 
     /// Place where the outline of the brush stays while a drag changes its size.
@@ -135,8 +135,10 @@ impl BrushTool {
     /// Place of the brush on the screen while a stroke is drawn: behind the pointer where it is pulled.
     pub(crate) fn pulled(&self) -> Option<Pos2> {
         match &self.held {
-            Some(Held::Stroke(stroke)) => Some(stroke.brush_place()),
-            Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_) | Held::Stencil(_)) | None => None,
+            Some(BrushDrag::Stroke(stroke)) => Some(stroke.brush_place()),
+            Some(BrushDrag::Decal(_) | BrushDrag::Knot(_) | BrushDrag::Strokes(_) | BrushDrag::Stencil(_)) | None => {
+                None
+            }
         }
     }
 
@@ -147,7 +149,7 @@ impl BrushTool {
         response: &Response,
         painted: Option<&PaintSubject>,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         actions: &mut Vec<Action>,
     ) -> bool {
         let places = self.places_since(ui, painted.map_or(&[], |painted| &painted.pen));
@@ -158,7 +160,7 @@ impl BrushTool {
         }
         let Some(painted) = painted else {
             self.resized_at = None;
-            self.extended = Extended::None;
+            self.extended = PathToExtend::None;
             return false;
         };
         self.follow_marked(ui, painted);
@@ -178,18 +180,18 @@ impl BrushTool {
         };
         let stencil = painted.stencil.as_ref().zip(canvas.stencil_view());
         if let Some(held) = stencil.and_then(|(stencil, view)| HeldStencil::at(stencil, view, at)) {
-            self.held = Some(Held::Stencil(Box::new(held)));
+            self.held = Some(BrushDrag::Stencil(Box::new(held)));
             return true;
         }
         if let Some(decal) = HeldDecal::at(painted, model, canvas, at) {
             actions.push(Action::Paint(PaintAction::Begin));
-            self.held = Some(Held::Decal(decal));
+            self.held = Some(BrushDrag::Decal(decal));
             self.end_if_lifted(ui, actions);
             return true;
         }
         if let Some(strokes) = HeldStrokes::at(painted, model, canvas, at).filter(|_| self.moves_marked()) {
             actions.push(Action::Paint(PaintAction::Begin));
-            self.held = Some(Held::Strokes(Box::new(strokes)));
+            self.held = Some(BrushDrag::Strokes(Box::new(strokes)));
             self.end_if_lifted(ui, actions);
             return true;
         }
@@ -208,7 +210,7 @@ impl BrushTool {
         &mut self,
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
         pen: PenState,
         modifiers: Modifiers,
@@ -233,7 +235,7 @@ impl BrushTool {
         }
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(stroke.add(&[(at, pen)], canvas));
-        self.held = Some(Held::Stroke(Box::new(stroke)));
+        self.held = Some(BrushDrag::Stroke(Box::new(stroke)));
     }
 
     /// Returns true if a press takes the place to copy from, instead of a stroke.
@@ -247,7 +249,7 @@ impl BrushTool {
         &mut self,
         brush: &BrushChoices,
         model: &LiveModel,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
         is_meant: bool,
         actions: &mut Vec<Action>,
@@ -323,10 +325,10 @@ impl BrushTool {
         ui: &Ui,
         is_gone: bool,
         places: &[(Pos2, PenState)],
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         actions: &mut Vec<Action>,
     ) {
-        if let Some(Held::Stencil(held)) = &self.held {
+        if let Some(BrushDrag::Stencil(held)) = &self.held {
             actions.extend(places.last().map(|(at, _)| held.drag(*at)));
             if is_gone || !ui.input(|input| input.pointer.button_down(PointerButton::Primary)) {
                 self.held = None;
@@ -339,20 +341,20 @@ impl BrushTool {
             return;
         }
         match &mut self.held {
-            Some(Held::Stroke(stroke)) => actions.extend(stroke.add(places, canvas)),
-            Some(Held::Decal(decal)) => {
+            Some(BrushDrag::Stroke(stroke)) => actions.extend(stroke.add(places, canvas)),
+            Some(BrushDrag::Decal(decal)) => {
                 let last = places.last().and_then(|(at, _)| decal.drag(*at, canvas));
                 actions.extend(last);
             }
-            Some(Held::Strokes(strokes)) => {
+            Some(BrushDrag::Strokes(strokes)) => {
                 let last = places.last().and_then(|(at, _)| strokes.drag(*at, canvas));
                 actions.extend(last);
             }
-            Some(Held::Knot(knot)) => {
+            Some(BrushDrag::Knot(knot)) => {
                 let last = places.last().and_then(|(at, _)| knot.drag(*at, canvas));
                 actions.extend(last);
             }
-            Some(Held::Stencil(_)) | None => {}
+            Some(BrushDrag::Stencil(_)) | None => {}
         }
         self.end_if_lifted(ui, actions);
     }
@@ -362,15 +364,16 @@ impl BrushTool {
         if !ui.input(|input| input.pointer.button_down(PointerButton::Primary)) {
             actions.push(Action::Paint(PaintAction::End));
             match self.held.take() {
-                Some(Held::Stroke(stroke)) => {
+                Some(BrushDrag::Stroke(stroke)) => {
                     self.last = stroke.last_point();
                     actions.push(Action::Paint(PaintAction::MarkNew));
                 }
-                Some(Held::Knot(knot)) if knot.is_new => {
-                    self.extended = Extended::New;
+                Some(BrushDrag::Knot(knot)) if knot.is_new => {
+                    self.extended = PathToExtend::New;
                     actions.push(Action::Paint(PaintAction::MarkNew));
                 }
-                Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_) | Held::Stencil(_)) | None => {}
+                Some(BrushDrag::Decal(_) | BrushDrag::Knot(_) | BrushDrag::Strokes(_) | BrushDrag::Stencil(_))
+                | None => {}
             }
         }
     }

@@ -26,7 +26,7 @@ mod reroute;
 mod sensing;
 mod sides;
 mod snapshot;
-mod tips;
+mod tooltips;
 mod view;
 mod wire_names;
 mod wires;
@@ -48,7 +48,7 @@ use crate::key_map::KeyMap;
 use crate::search::Candidate;
 use crate::theme::{Theme, type_size};
 use add_menu::{AddMenu, Purpose};
-use camera::Camera;
+use camera::CanvasCamera;
 use dragged_node::EdgeScroll;
 use focus::PortFocus;
 use gesture::Gesture;
@@ -56,9 +56,9 @@ use node_summary::NodeState;
 use notes::{DraggedNote, NoteText};
 use popups::Popups;
 use port_refs::PortRef;
-use questions::Renaming;
-use snapshot::Snapshot;
-use view::View;
+use questions::ItemRename;
+use snapshot::GraphSnapshot;
+use view::CanvasView;
 
 /// Zoom below which nodes are drawn as cards with a picture and a name, and wires are dragged from their sides.
 const CARD_ZOOM: f32 = 0.5;
@@ -69,8 +69,8 @@ const GRID_STEP: f32 = 40.0;
 #[derive(Default)]
 pub(crate) struct Canvas {
     /// Shown part of the graph.
-    pub(crate) camera: Camera,
-    snapshot: Snapshot,
+    pub(crate) camera: CanvasCamera,
+    snapshot: GraphSnapshot,
     /// Current drag.
     gesture: Gesture,
     popups: Popups,
@@ -200,7 +200,7 @@ impl Canvas {
             CanvasCommand::Rename => {
                 self.popups.renaming = document
                     .selected_one()
-                    .map(|id| Renaming::node(id.clone(), document.title(id)));
+                    .map(|id| ItemRename::node(id.clone(), document.title(id)));
             }
             CanvasCommand::AddNote => self.popups.note = Some(NoteText::of_new(self.camera.place_for_new(ui))),
             CanvasCommand::NextPort => self.focus.step(document, &self.gesture, true),
@@ -348,7 +348,7 @@ fn draw_hint(ui: &Ui, panel: Rect, lines: &[String], theme: &Theme) {
     }
 }
 
-fn draw_grid(ui: &Ui, panel: Rect, view: &View, theme: &Theme) {
+fn draw_grid(ui: &Ui, panel: Rect, view: &CanvasView, theme: &Theme) {
     ui.painter().rect_filled(panel, 0.0, theme.canvas);
     let step = GRID_STEP * view.zoom;
     // Lines this close look like a gray area and take long to draw.

@@ -15,20 +15,20 @@ use sabi_graph::{LibrarySource, NodeId, NodeRef};
 use crate::action::Action;
 use crate::brush_shelf::BrushShelf;
 use crate::builtin_models::model_of;
+use crate::choice_previews::ChoicePreviews;
 use crate::evaluation::Evaluation;
 use crate::exports::Exports;
 use crate::key_map::KeyMap;
-use crate::knobs::Lengths;
-use crate::library::Library;
-use crate::looks::Looks;
+use crate::knobs::LengthUnits;
+use crate::library::GroupLibrary;
 use crate::model_row::ModelRow;
 use crate::paths::canonical_if_present;
 use crate::pen::Pens;
 use crate::saved_pictures::SavedPictures;
 use crate::search::Candidate;
 use crate::settings::Settings;
+use crate::shown_results::ShownResults;
 use crate::theme::Theme;
-use crate::trials::Trials;
 
 /// Part of the window. It owns its state, reads the context, and returns actions.
 pub(crate) trait View {
@@ -47,14 +47,14 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) models: &'a [PathBuf],
     /// Folder of Sabi's own models, written when they are used.
     pub(crate) examples: Option<&'a Path>,
-    pub(crate) looks: &'a Looks,
+    pub(crate) looks: &'a ShownResults,
     pub(crate) exports: &'a Exports,
-    pub(crate) library: &'a Library,
+    pub(crate) library: &'a GroupLibrary,
     pub(crate) pictures: &'a SavedPictures,
     /// Brushes that are kept.
     pub(crate) brushes: &'a BrushShelf,
     /// Pictures of variants and effects that can be chosen, on the open model.
-    pub(crate) trials: &'a Trials,
+    pub(crate) choice_previews: &'a ChoicePreviews,
     /// Nodes and groups that can be added.
     pub(crate) candidates: &'a [Candidate],
     /// Graphs and node files that were not saved when the program ended.
@@ -89,8 +89,8 @@ impl ViewContext<'_> {
     }
 
     /// Units of lengths on the model that is shown.
-    pub(crate) fn lengths(&self) -> Lengths {
-        Lengths::on(self.evaluation.model.received.as_deref())
+    pub(crate) fn lengths(&self) -> LengthUnits {
+        LengthUnits::on(self.evaluation.model.received.as_deref())
     }
 
     /// Sentence in which nodes have their titles in place of their ids.

@@ -313,7 +313,7 @@ impl Dock {
             rects,
         } = self;
         rects.clear();
-        let mut docked = Docked {
+        let mut docked = PanelTabs {
             theme,
             problems,
             contents: &mut |ui, panel| {
@@ -356,14 +356,14 @@ fn padded(ui: &mut Ui, theme: &Theme, contents: impl FnOnce(&mut Ui)) {
 }
 
 /// Draws the tabs of panels and their contents.
-struct Docked<'a> {
+struct PanelTabs<'a> {
     theme: &'a Theme,
     /// Number of problems, which the tab of that panel shows.
     problems: usize,
     contents: &'a mut dyn FnMut(&mut Ui, Panel),
 }
 
-impl egui_tiles::Behavior<Panel> for Docked<'_> {
+impl egui_tiles::Behavior<Panel> for PanelTabs<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _: TileId, panel: &mut Panel) -> UiResponse {
         (self.contents)(ui, *panel);
         UiResponse::None

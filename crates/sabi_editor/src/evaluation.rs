@@ -22,12 +22,12 @@ use sabi_graph::NodeRef;
 
 use crate::import_options::ImportOptions;
 use faults::NodeFaults;
-use graph::EvaluatedGraph;
+use graph::GraphTracker;
 use model::RequestedModel;
-use results::{Dropped, Results};
+use results::{DroppedResults, EvaluationResults};
 
 pub(crate) use model::ModelOutcome;
-pub(crate) use results::Picture;
+pub(crate) use results::ResultPicture;
 
 /// Texels for one unit of UV of a first picture.
 const COARSE: u32 = 256;
@@ -39,13 +39,13 @@ const MOST_BESIDE: u32 = 512;
 /// Rank of the evaluation of models beside the main one.
 const RANK_BESIDE: u8 = 1;
 /// Rank of the evaluation of trials: pictures of variants and effects that can be chosen.
-const RANK_TRIALS: u8 = 2;
+const RANK_PREVIEWS: u8 = 2;
 /// Longest submission of an evaluation in the background, since a frame may have to wait for it.
 const SHORT_SUBMISSION: Duration = Duration::from_millis(8);
 
 /// Results of the graph that the window shows.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Wanted {
+pub(crate) struct WantedResults {
     pub(crate) subjects: Vec<ViewSubject>,
     /// Result that the 2D view shows.
     pub(crate) inspected: Option<NodeRef>,
@@ -67,14 +67,14 @@ pub(crate) struct Evaluation {
     most_texels: u32,
     cache_dir: Option<PathBuf>,
     pub(crate) model: RequestedModel,
-    graph: EvaluatedGraph,
+    graph: GraphTracker,
     /// Revisions and wanted results of the last request.
-    requested: Option<(Revisions, Wanted)>,
+    requested: Option<(Revisions, WantedResults)>,
     /// Number of requests.
     requests: u64,
     /// First revision of the requested file, and the number of the first request for it.
     first_of_file: (u64, u64),
-    pub(crate) results: Results,
+    pub(crate) results: EvaluationResults,
     pub(crate) faults: NodeFaults,
     /// Images and group files that the graph names.
     pub(crate) files: Arc<BTreeSet<PathBuf>>,
@@ -128,9 +128,9 @@ impl Evaluation {
         Evaluation::start(self.gpu.clone(), model, import, options, MOST_BESIDE, context)
     }
 
-    /// Starts an evaluator of trials, which draws thumbnails of `thumbnail_px` pixels along a side while all others are
+    /// Starts an evaluator for trials, which draws thumbnails of `thumbnail_px` pixels along a side while all others are
     /// idle.
-    pub(crate) fn start_trials(&self, thumbnail_px: u32, context: &Context) -> Live {
+    pub(crate) fn start_previews(&self, thumbnail_px: u32, context: &Context) -> Live {
         let options = LiveOptions {
             cache_dir: self.cache_dir.clone(),
             cache_bytes: DEFAULT_BUDGET_BYTES / 16,
@@ -139,7 +139,7 @@ impl Evaluation {
             // A picture is drawn once, and with the same shade as in the view.
             finds_shade_first: self.finds_shade(),
             precedence: self.precedence.clone(),
-            rank: RANK_TRIALS,
+            rank: RANK_PREVIEWS,
             ..LiveOptions::default()
         };
         let context = context.clone();
@@ -169,11 +169,11 @@ impl Evaluation {
             most_texels,
             model: RequestedModel::new(model, import, FULL[0], cache_dir.as_deref()),
             cache_dir,
-            graph: EvaluatedGraph::default(),
+            graph: GraphTracker::default(),
             requested: None,
             requests: 0,
             first_of_file: (0, 0),
-            results: Results::default(),
+            results: EvaluationResults::default(),
             faults: NodeFaults::default(),
             files: Arc::default(),
             refused: Vec::new(),
@@ -223,7 +223,7 @@ impl Evaluation {
     }
 
     /// Returns whether a picture is of another model than the requested one, which is still being read.
-    pub(crate) fn is_outdated(&self, picture: &Picture) -> bool {
+    pub(crate) fn is_outdated(&self, picture: &ResultPicture) -> bool {
         self.model.failure.is_none() && picture.model.model_revision < self.model.file_since()
     }
 
@@ -233,7 +233,7 @@ impl Evaluation {
     }
 
     /// Sends a request if the graph or the wanted results changed since the last one.
-    pub(crate) fn request(&mut self, document: &OpenDocument, wanted: Wanted) {
+    pub(crate) fn request(&mut self, document: &OpenDocument, wanted: WantedResults) {
         self.model.set_size(self.wanted_size(document));
         self.model.set_trusted(&document.session.graph().trusted);
         let NodeKinds { kinds, revision, .. } = document.node_kinds();
@@ -309,7 +309,7 @@ impl Evaluation {
                 } => {
                     tracing::info!(?subject, texels = model.size, "a picture arrived");
                     self.failure = None;
-                    let picture = Picture {
+                    let picture = ResultPicture {
                         model,
                         looks,
                         outputs,
@@ -320,8 +320,9 @@ impl Evaluation {
                 }
                 LiveEvent::Inspected { revision, node, values } => {
                     let wanted = self.requested.as_ref().map(|(_, wanted)| wanted);
-                    let is_wanted =
-                        |of: fn(&Wanted) -> &Option<NodeRef>| wanted.is_some_and(|it| of(it).as_ref() == Some(&node));
+                    let is_wanted = |of: fn(&WantedResults) -> &Option<NodeRef>| {
+                        wanted.is_some_and(|it| of(it).as_ref() == Some(&node))
+                    };
                     if is_wanted(|wanted| &wanted.measured) {
                         self.results.measured = Some((node.clone(), values.clone()));
                         if !is_wanted(|wanted| &wanted.inspected) {
@@ -342,7 +343,7 @@ impl Evaluation {
                 LiveEvent::Times { times, .. } => self.results.add_times(times),
                 LiveEvent::Failed { error, .. } => self.failure = Some(error),
                 LiveEvent::Lost(error) => self.lost = Some(error),
-                // A picture of the outputs is requested by trials only.
+                // A picture of the outputs is requested for choices only.
                 LiveEvent::Done { .. } | LiveEvent::OutputsThumbnail { .. } => {}
             }
         }
@@ -360,7 +361,7 @@ impl Evaluation {
         self.mark_dropped(dropped);
     }
 
-    fn mark_dropped(&self, dropped: Dropped) {
+    fn mark_dropped(&self, dropped: DroppedResults) {
         if !dropped.subjects.is_empty() || !dropped.thumbnails.is_empty() {
             self.live.mark_dropped(dropped.subjects, dropped.thumbnails);
         }

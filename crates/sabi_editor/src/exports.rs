@@ -1,6 +1,6 @@
 //! Exports: textures of the open graph, written on a thread of their own.
 
-mod running;
+mod export_task;
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -18,8 +18,8 @@ use sabi_graph::Overrides;
 use crate::evaluation::Evaluation;
 use crate::paths::{canonical_if_present, file_name};
 use crate::settings::export::{ExportChoices, ExportPlace};
-use crate::task::Failed;
-use running::{Bake, Running};
+use crate::task::TaskFailure;
+use export_task::{Bake, ExportTask};
 
 /// Name of the folder for the graph's own values, where every variant is exported.
 const BASE: &str = "base";
@@ -29,19 +29,19 @@ const BASE: &str = "base";
 pub(crate) struct Exports {
     /// Target of the open graph's textures.
     pub(crate) place: ExportPlace,
-    pub(crate) running: Option<Running>,
+    pub(crate) running: Option<ExportTask>,
     /// Exports that start after the running one, each of a graph as it was saved meanwhile.
     pub(crate) queued: VecDeque<Bake>,
     /// True if the folder has files that do not belong to the graph, and the panel asks whether to write there anyway.
     pub(crate) asks_force: bool,
     /// Result of the last export.
-    pub(crate) result: Option<Result<Written, EngineError>>,
+    pub(crate) result: Option<Result<ExportOutput, EngineError>>,
 }
 
 /// Files and warnings of an export.
-pub(crate) struct Written {
+pub(crate) struct ExportOutput {
     pub(crate) folder: PathBuf,
-    pub(crate) files: Vec<WrittenFile>,
+    pub(crate) files: Vec<ExportedFile>,
     /// Channels without a file because they are the same everywhere, with their values.
     pub(crate) constants: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
@@ -50,7 +50,7 @@ pub(crate) struct Written {
 }
 
 /// A file of an export.
-pub(crate) struct WrittenFile {
+pub(crate) struct ExportedFile {
     /// Path in the folder.
     pub(crate) path: String,
     /// Bits and color space of a map.
@@ -75,14 +75,14 @@ impl Exports {
 
     /// Takes over the result of an export that has ended, and starts the next one. Returns the folder of the one that has ended.
     pub(crate) fn poll(&mut self, context: &Context) -> Option<PathBuf> {
-        let done = self.running.as_ref().and_then(Running::poll)?;
+        let done = self.running.as_ref().and_then(ExportTask::poll)?;
         let running = self.running.take()?;
         let failed = "The export stopped unexpectedly, which is a bug in the program; nothing was changed.";
-        let done = done.unwrap_or_else(|Failed| Err(EngineError::new(ErrorKind::Defect, failed)));
+        let done = done.unwrap_or_else(|TaskFailure| Err(EngineError::new(ErrorKind::Defect, failed)));
         let before = self.result.take().filter(|_| running.continues);
         self.result = Some(match (before, done) {
             (Some(Ok(before)), Ok(report)) => Ok(before.and(&running.folder, report)),
-            (_, Ok(report)) => Ok(Written::new(running.folder.clone(), report)),
+            (_, Ok(report)) => Ok(ExportOutput::new(running.folder.clone(), report)),
             (_, Err(error)) => {
                 // Later exports may be of a newer save.
                 while self.queued.front().is_some_and(|bake| bake.continues) {
@@ -92,7 +92,7 @@ impl Exports {
             }
         });
         if let Some(bake) = self.queued.pop_front() {
-            self.running = Some(Running::start(context, bake));
+            self.running = Some(ExportTask::start(context, bake));
         }
         Some(running.folder.clone())
     }
@@ -114,7 +114,7 @@ impl Exports {
             return Err("An export is being made already.".to_owned());
         }
         let mut bakes = self.bakes(source, |_| force)?.into_iter();
-        self.running = bakes.next().map(|bake| Running::start(context, bake));
+        self.running = bakes.next().map(|bake| ExportTask::start(context, bake));
         self.queued.extend(bakes);
         Ok(())
     }
@@ -208,9 +208,9 @@ impl Exports {
     }
 }
 
-impl Written {
-    fn new(folder: PathBuf, report: BakeReport) -> Written {
-        Written {
+impl ExportOutput {
+    fn new(folder: PathBuf, report: BakeReport) -> ExportOutput {
+        ExportOutput {
             folder,
             files: files_of(&report),
             constants: report.constants.iter().map(constant_text).collect(),
@@ -220,7 +220,7 @@ impl Written {
     }
 
     /// Adds the files of a folder beside this one.
-    fn and(mut self, folder: &Path, report: BakeReport) -> Written {
+    fn and(mut self, folder: &Path, report: BakeReport) -> ExportOutput {
         let named = |folder: &Path, path: &str| format!("{}/{path}", file_name(folder));
         if let Some(above) = folder.parent().filter(|above| self.folder != **above) {
             for file in &mut self.files {
@@ -234,10 +234,11 @@ impl Written {
             }
             above.clone_into(&mut self.folder);
         }
-        self.files.extend(files_of(&report).into_iter().map(|file| WrittenFile {
-            path: named(folder, &file.path),
-            ..file
-        }));
+        self.files
+            .extend(files_of(&report).into_iter().map(|file| ExportedFile {
+                path: named(folder, &file.path),
+                ..file
+            }));
         let constants = report.constants.iter().map(constant_text);
         self.constants
             .extend(constants.map(|constant| named(folder, &constant)));
@@ -254,13 +255,13 @@ impl Written {
 }
 
 /// Files of a bake, with the format of those that are maps.
-fn files_of(report: &BakeReport) -> Vec<WrittenFile> {
+fn files_of(report: &BakeReport) -> Vec<ExportedFile> {
     let format = |path: &String| {
         let map = report.outputs.iter().find(|map| map.path == *path)?;
         let space = if map.color_space == "srgb" { "sRGB" } else { "linear" };
         Some(format!("{} bits, {space}", map.bits))
     };
-    let file = |path: &String| WrittenFile {
+    let file = |path: &String| ExportedFile {
         path: path.clone(),
         format: format(path),
     };

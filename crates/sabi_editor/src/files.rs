@@ -203,13 +203,13 @@ impl Questions {
         let title = "There are changes that are not saved";
         let answer = buttons_question(ui, "unsaved question", 420.0, title, "They would be lost.", &buttons);
         match answer {
-            Answer::Button(0) => {
+            QuestionAnswer::Button(0) => {
                 self.after_save = Some(next);
                 Some(Action::File(FileAction::Save))
             }
-            Answer::Button(1) => Some(Action::File(FileAction::Proceed(next))),
-            Answer::Button(_) | Answer::Closed => None,
-            Answer::None => {
+            QuestionAnswer::Button(1) => Some(Action::File(FileAction::Proceed(next))),
+            QuestionAnswer::Button(_) | QuestionAnswer::Closed => None,
+            QuestionAnswer::None => {
                 self.open = Some(Question::Unsaved { next });
                 None
             }
@@ -231,13 +231,13 @@ impl Questions {
             buttons_question(ui, "replace question", 460.0, title, &text, buttons),
             is_own,
         ) {
-            (Answer::Button(0), true) => return Some(Action::File(FileAction::SaveBesideTheirs)),
-            (Answer::Button(0), false) | (Answer::Button(1), true) => {
+            (QuestionAnswer::Button(0), true) => return Some(Action::File(FileAction::SaveBesideTheirs)),
+            (QuestionAnswer::Button(0), false) | (QuestionAnswer::Button(1), true) => {
                 return Some(Action::File(FileAction::Overwrite(file)));
             }
-            (Answer::Button(_), _) => self.ask_for_name(Some(&file)),
-            (Answer::Closed, _) => self.after_save = None,
-            (Answer::None, _) => self.open = Some(Question::Replace { file, reason }),
+            (QuestionAnswer::Button(_), _) => self.ask_for_name(Some(&file)),
+            (QuestionAnswer::Closed, _) => self.after_save = None,
+            (QuestionAnswer::None, _) => self.open = Some(Question::Replace { file, reason }),
         }
         None
     }
@@ -253,9 +253,9 @@ impl Questions {
         let buttons = ["Recover the changes", "Open the file as it was saved"];
         let title = "There is unsaved work on this graph";
         match buttons_question(ui, "recovery question", 460.0, title, &text, &buttons) {
-            Answer::Button(0) => return Some(Action::File(FileAction::Ask(Next::Recover(at)))),
-            Answer::Button(_) | Answer::Closed => {}
-            Answer::None => self.open = Some(Question::Recover { at }),
+            QuestionAnswer::Button(0) => return Some(Action::File(FileAction::Ask(Next::Recover(at)))),
+            QuestionAnswer::Button(_) | QuestionAnswer::Closed => {}
+            QuestionAnswer::None => self.open = Some(Question::Recover { at }),
         }
         None
     }
@@ -268,11 +268,11 @@ impl Questions {
         );
         let title = "This graph is open already";
         match buttons_question(ui, "open question", 460.0, title, &text, &buttons) {
-            Answer::Button(1) => self.ask_for_name(Some(&file)),
-            Answer::Button(2) => return Some(Action::File(FileAction::AllowSaving)),
+            QuestionAnswer::Button(1) => self.ask_for_name(Some(&file)),
+            QuestionAnswer::Button(2) => return Some(Action::File(FileAction::AllowSaving)),
             // Saving stays refused until the user allows it.
-            Answer::Button(_) | Answer::Closed => self.after_save = None,
-            Answer::None => self.open = Some(Question::OpenElsewhere { file }),
+            QuestionAnswer::Button(_) | QuestionAnswer::Closed => self.after_save = None,
+            QuestionAnswer::None => self.open = Some(Question::OpenElsewhere { file }),
         }
         None
     }
@@ -282,10 +282,10 @@ impl Questions {
         let text = format!("There is no folder {folder} yet.");
         let buttons = ["Create it and save", ANOTHER_NAME];
         match buttons_question(ui, "folder question", 460.0, "Make a folder?", &text, &buttons) {
-            Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
-            Answer::Button(_) => self.ask_for_name(Some(&file)),
-            Answer::Closed => self.after_save = None,
-            Answer::None => self.open = Some(Question::NewFolder { file }),
+            QuestionAnswer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
+            QuestionAnswer::Button(_) => self.ask_for_name(Some(&file)),
+            QuestionAnswer::Closed => self.after_save = None,
+            QuestionAnswer::None => self.open = Some(Question::NewFolder { file }),
         }
         None
     }
@@ -303,7 +303,7 @@ impl Questions {
         let text = "The window closes when the export is done.";
         let title = "An export is running";
         let answer = buttons_question(ui, "exporting question", 420.0, title, text, &buttons);
-        if matches!(answer, Answer::Button(1) | Answer::Closed) {
+        if matches!(answer, QuestionAnswer::Button(1) | QuestionAnswer::Closed) {
             return None;
         }
         if context.exports.running.is_none() {
@@ -311,7 +311,7 @@ impl Questions {
         }
         // A canceled export ends soon, without leaving incomplete files.
         self.open = Some(Question::Exporting);
-        (answer == Answer::Button(0)).then_some(Action::Export(ExportAction::Cancel))
+        (answer == QuestionAnswer::Button(0)).then_some(Action::Export(ExportAction::Cancel))
     }
 }
 
@@ -338,7 +338,7 @@ fn replacement_text(file: &Path, reason: ReplaceReason, backups: usize) -> Strin
 
 /// Answer to a question with buttons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Answer {
+enum QuestionAnswer {
     None,
     /// The button of this index.
     Button(usize),
@@ -350,8 +350,8 @@ enum Answer {
 const NOT_BY_ENTER: [&str; 2] = [REPLACE, CANCEL_EXPORT];
 
 /// Shows a question with buttons, of which the first is the suggested one. A click beside it does not answer it.
-fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, buttons: &[&str]) -> Answer {
-    let mut answer = Answer::None;
+fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, buttons: &[&str]) -> QuestionAnswer {
+    let mut answer = QuestionAnswer::None;
     let modal = Modal::new(Id::new(id)).show(ui.ctx(), |ui| {
         ui.set_width(width);
         ui.heading(title);
@@ -361,7 +361,7 @@ fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, butt
                 let words = RichText::new(*words);
                 let words = if at == 0 { words.strong() } else { words };
                 if ui.add(Button::new(words)).clicked() {
-                    answer = Answer::Button(at);
+                    answer = QuestionAnswer::Button(at);
                 }
             }
         });
@@ -370,8 +370,8 @@ fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, butt
     let is_pressed = |key: Key| is_on_top && ui.input(|input| input.key_pressed(key));
     let by_enter = buttons.first().is_some_and(|first| !NOT_BY_ENTER.contains(first));
     match answer {
-        Answer::None if is_pressed(Key::Escape) => Answer::Closed,
-        Answer::None if by_enter && is_pressed(Key::Enter) => Answer::Button(0),
+        QuestionAnswer::None if is_pressed(Key::Escape) => QuestionAnswer::Closed,
+        QuestionAnswer::None if by_enter && is_pressed(Key::Enter) => QuestionAnswer::Button(0),
         answer => answer,
     }
 }

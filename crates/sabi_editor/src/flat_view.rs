@@ -14,7 +14,7 @@ use egui::{
     Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::live::Inspected;
+use sabi_engine::live::InspectedResult;
 use sabi_export::SetKey;
 use sabi_graph::NodeRef;
 
@@ -24,11 +24,11 @@ use crate::brush::{BrushTool, PaintSubject, ShownPath};
 use crate::command::TextureCommand;
 use crate::context::{View, ViewContext};
 use crate::evaluation::Evaluation;
-use crate::looks::title_of;
-use crate::outdated;
-use crate::task::{Failed, Task};
+use crate::outdated_results;
+use crate::shown_results::title_of;
+use crate::task::{Task, TaskFailure};
 use crate::theme::{Theme, space, type_size};
-use brush::{SeenTexture, Triangles};
+use brush::{SeenTexture, TriangleGrids};
 pub(crate) use picture::Histogram;
 use picture::picture_of;
 use wires::Wires;
@@ -58,12 +58,12 @@ pub(crate) struct FlatView {
     loading: Option<(PictureSource, Task<(ColorImage, Histogram)>)>,
     wires: Wires,
     /// Triangles by their places in the texture, among which the brush finds the one under the pointer.
-    triangles: Triangles,
+    triangles: TriangleGrids,
     brush: BrushTool,
 }
 
 /// Source of a picture: values, the index of a plane, and a component of it.
-type PictureSource = (Arc<Inspected>, usize, Option<usize>);
+type PictureSource = (Arc<InspectedResult>, usize, Option<usize>);
 
 struct ShownPicture {
     of: PictureSource,
@@ -72,7 +72,7 @@ struct ShownPicture {
 }
 
 /// Result that the view shows, and its state.
-struct Subject<'a> {
+struct FlatViewSubject<'a> {
     /// Result to show; `None` before a node is clicked.
     wanted: Option<&'a NodeRef>,
     /// Title of the result.
@@ -90,7 +90,7 @@ struct Subject<'a> {
 
 /// Requests made in the view.
 #[derive(Default)]
-struct ViewOutput {
+struct FlatViewOutput {
     /// True if the pin was clicked.
     unpins: bool,
     /// Clicked color.
@@ -113,7 +113,7 @@ impl Default for FlatView {
             failed: None,
             loading: None,
             wires: Wires::default(),
-            triangles: Triangles::default(),
+            triangles: TriangleGrids::default(),
             brush: BrushTool::default(),
         }
     }
@@ -126,7 +126,7 @@ impl View for FlatView {
         let title = wanted.map_or_else(String::new, |result| title_of(context.document, result));
         let painted = PaintSubject::of(context);
         let fault = wanted.and_then(|node| context.evaluation.faults.sentence(&node.node));
-        let subject = Subject {
+        let subject = FlatViewSubject {
             wanted,
             title: &title,
             fault: fault.map(|sentence| context.said(sentence)),
@@ -144,9 +144,9 @@ impl View for FlatView {
 
 impl FlatView {
     /// Draws the result of the inspected node.
-    fn draw(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>) -> ViewOutput {
-        let mut output = ViewOutput::default();
-        let Subject {
+    fn draw(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &FlatViewSubject<'_>) -> FlatViewOutput {
+        let mut output = FlatViewOutput::default();
+        let FlatViewSubject {
             wanted, theme, title, ..
         } = *subject;
         let inspected = evaluation.results.inspected.as_ref();
@@ -195,7 +195,7 @@ impl FlatView {
             shown.histogram.draw(&painter, rect, square, theme);
         }
         if evaluation.is_inspected_outdated() {
-            outdated::cover(&painter, rect, evaluation, theme);
+            outdated_results::cover(&painter, rect, evaluation, theme);
         } else if let Some(activity) = evaluation.activity().filter(|_| evaluation.is_busy()) {
             let text = format!("{} {}", icon::HOURGLASS_MEDIUM, activity_text(&activity));
             let corner = rect.right_bottom() - vec2(8.0, 6.0);
@@ -235,9 +235,9 @@ impl FlatView {
         ui: &Ui,
         response: &egui::Response,
         evaluation: &Evaluation,
-        subject: &Subject<'_>,
+        subject: &FlatViewSubject<'_>,
         canvas: &SeenTexture,
-        output: &mut ViewOutput,
+        output: &mut FlatViewOutput,
     ) -> bool {
         let model = evaluation.model.received.as_ref();
         model.is_some_and(|model| {
@@ -274,7 +274,7 @@ impl FlatView {
 
     /// Returns whether a picture of these values is shown.
     #[cfg(test)]
-    pub(crate) fn shows(&self, values: &Arc<Inspected>) -> bool {
+    pub(crate) fn shows(&self, values: &Arc<InspectedResult>) -> bool {
         let shown = self.shown.as_ref();
         shown.is_some_and(|shown| Arc::ptr_eq(&shown.of.0, values))
     }
@@ -290,7 +290,7 @@ impl FlatView {
     }
 
     /// Makes a picture on a thread of its own where another one is needed, with the last one shown meanwhile.
-    fn refresh(&mut self, ui: &Ui, values: &Arc<Inspected>) {
+    fn refresh(&mut self, ui: &Ui, values: &Arc<InspectedResult>) {
         let Some(plane) = values.planes.get(self.plane) else {
             self.shown = None;
             return;
@@ -303,7 +303,7 @@ impl FlatView {
         {
             match come {
                 Ok((image, histogram)) => self.take(ui, of, image, histogram),
-                Err(Failed) => (self.shown, self.failed) = (None, Some(of)),
+                Err(TaskFailure) => (self.shown, self.failed) = (None, Some(of)),
             }
         }
         let mut known = self
@@ -350,7 +350,7 @@ impl FlatView {
         self.zoom.unwrap_or(fitting)
     }
 
-    fn turn(&mut self, ui: &Ui, response: &egui::Response, rect: Rect, values: &Inspected) {
+    fn turn(&mut self, ui: &Ui, response: &egui::Response, rect: Rect, values: &InspectedResult) {
         let (delta, scroll) = ui.input(|input| (input.pointer.delta(), input.smooth_scroll_delta().y));
         if response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Primary) {
             self.pan += delta;
@@ -366,7 +366,7 @@ impl FlatView {
     }
 
     /// Shows the exact values under the pointer.
-    fn probe(&self, ui: &Ui, response: &egui::Response, square: Rect, values: &Inspected, theme: &Theme) {
+    fn probe(&self, ui: &Ui, response: &egui::Response, square: Rect, values: &InspectedResult, theme: &Theme) {
         let Some(at) = response.hover_pos() else { return };
         let Some(([x, y], texel)) = self.texel_at(at, square, values.size) else {
             return;

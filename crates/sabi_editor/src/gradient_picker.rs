@@ -8,8 +8,8 @@ use egui::{
 };
 use sabi_editing::knob_target::KnobTarget;
 use sabi_engine::picked_gradient::PickedPicture;
-use sabi_engine::source::Pictures;
-use sabi_nodes::kind::{Written, WrittenStop};
+use sabi_engine::source::SessionPictures;
+use sabi_nodes::kind::{WrittenStop, WrittenValue};
 
 use crate::action::Action;
 use crate::context::{View, ViewContext};
@@ -31,26 +31,26 @@ pub(crate) const MOST_STOPS: usize = 16;
 /// The question, while it is open.
 #[derive(Default)]
 pub(crate) struct GradientPicker {
-    picking: Option<Picking>,
+    picking: Option<GradientPick>,
 }
 
 /// A gradient that is being picked.
-struct Picking {
+struct GradientPick {
     parameter: KnobTarget,
     file: PathBuf,
-    state: State,
+    state: PickState,
 }
 
 /// Picture that is picked from.
-enum State {
+enum PickState {
     Loading(Task<Result<PickedPicture, String>>),
     /// Reason why there is no picture.
     Failed(String),
-    Shown(Box<Shown>),
+    Shown(Box<PictureWithLine>),
 }
 
 /// Picture with the line over it.
-struct Shown {
+struct PictureWithLine {
     picture: PickedPicture,
     texture: TextureHandle,
     /// Ends of the line: 0 to 1 to the right and down.
@@ -61,7 +61,7 @@ struct Shown {
 }
 
 /// Answer in a frame.
-enum Answer {
+enum PickerAnswer {
     None,
     Use,
     Another,
@@ -73,12 +73,12 @@ impl GradientPicker {
     pub(crate) fn open(&mut self, context: &Context, parameter: KnobTarget, file: PathBuf) {
         let read = file.clone();
         let task = Task::start(context, move || {
-            PickedPicture::read(&Pictures::default(), &read, MOST_PIXELS)
+            PickedPicture::read(&SessionPictures::default(), &read, MOST_PIXELS)
         });
-        self.picking = Some(Picking {
+        self.picking = Some(GradientPick {
             parameter,
             file,
-            state: State::Loading(task),
+            state: PickState::Loading(task),
         });
     }
 }
@@ -89,7 +89,7 @@ impl View for GradientPicker {
             return Vec::new();
         };
         picking.state.advance(ui.ctx());
-        let mut answer = Answer::None;
+        let mut answer = PickerAnswer::None;
         let modal = Modal::new(Id::new("gradient picker")).show(ui.ctx(), |ui| {
             ui.set_width(ROOM.x);
             ui.heading("Pick a gradient");
@@ -97,21 +97,21 @@ impl View for GradientPicker {
             picking.state.show(ui, context.theme);
             answer = picking.buttons(ui);
         });
-        if modal.should_close() && matches!(answer, Answer::None) {
-            answer = Answer::Closed;
+        if modal.should_close() && matches!(answer, PickerAnswer::None) {
+            answer = PickerAnswer::Closed;
         }
         match answer {
-            Answer::None => Vec::new(),
-            Answer::Closed => {
+            PickerAnswer::None => Vec::new(),
+            PickerAnswer::Closed => {
                 self.picking = None;
                 Vec::new()
             }
-            Answer::Another => self.end(|picking| Some(Action::AskForGradient(picking.parameter))),
-            Answer::Use => self.end(|picking| {
-                let State::Shown(shown) = picking.state else {
+            PickerAnswer::Another => self.end(|picking| Some(Action::AskForGradient(picking.parameter))),
+            PickerAnswer::Use => self.end(|picking| {
+                let PickState::Shown(shown) = picking.state else {
                     return None;
                 };
-                let stops = Written::Stops(shown.stops).to_value();
+                let stops = WrittenValue::Stops(shown.stops).to_value();
                 let parameter = picking.parameter;
                 Some(Action::SetGradient { parameter, stops })
             }),
@@ -123,72 +123,72 @@ impl GradientPicker {
     /// Returns whether a picture is shown.
     #[cfg(test)]
     pub(crate) fn has_picture(&self) -> bool {
-        matches!(&self.picking, Some(picking) if matches!(picking.state, State::Shown(_)))
+        matches!(&self.picking, Some(picking) if matches!(picking.state, PickState::Shown(_)))
     }
 
     /// Returns whether a picture could not be read.
     #[cfg(test)]
     pub(crate) fn has_fault(&self) -> bool {
-        matches!(&self.picking, Some(picking) if matches!(picking.state, State::Failed(_)))
+        matches!(&self.picking, Some(picking) if matches!(picking.state, PickState::Failed(_)))
     }
 
-    fn end(&mut self, action: impl FnOnce(Picking) -> Option<Action>) -> Vec<Action> {
+    fn end(&mut self, action: impl FnOnce(GradientPick) -> Option<Action>) -> Vec<Action> {
         self.picking.take().and_then(action).into_iter().collect()
     }
 }
 
-impl Picking {
-    fn buttons(&self, ui: &mut Ui) -> Answer {
-        let can_use = matches!(self.state, State::Shown(_));
-        let mut answer = Answer::None;
+impl GradientPick {
+    fn buttons(&self, ui: &mut Ui) -> PickerAnswer {
+        let can_use = matches!(self.state, PickState::Shown(_));
+        let mut answer = PickerAnswer::None;
         ui.horizontal(|ui| {
             if ui
                 .add_enabled(can_use, Button::new(RichText::new("Use it").strong()))
                 .clicked()
             {
-                answer = Answer::Use;
+                answer = PickerAnswer::Use;
             }
             if ui.button("Another picture…").clicked() {
-                answer = Answer::Another;
+                answer = PickerAnswer::Another;
             }
             if ui.button("Cancel").clicked() {
-                answer = Answer::Closed;
+                answer = PickerAnswer::Closed;
             }
         });
         answer
     }
 }
 
-impl State {
+impl PickState {
     /// Takes a picture that was read.
     fn advance(&mut self, context: &Context) {
-        let State::Loading(task) = self else { return };
+        let PickState::Loading(task) = self else { return };
         let Some(read) = task.poll() else { return };
         *self = match read {
-            Ok(Ok(picture)) => State::Shown(Box::new(Shown::new(context, picture))),
-            Ok(Err(why)) => State::Failed(why),
-            Err(_) => State::Failed("The picture could not be read; try again, or choose another one.".to_owned()),
+            Ok(Ok(picture)) => PickState::Shown(Box::new(PictureWithLine::new(context, picture))),
+            Ok(Err(why)) => PickState::Failed(why),
+            Err(_) => PickState::Failed("The picture could not be read; try again, or choose another one.".to_owned()),
         };
     }
 
     fn show(&mut self, ui: &mut Ui, theme: &Theme) {
         match self {
-            State::Loading(_) => {
+            PickState::Loading(_) => {
                 ui.label("Reading the picture…");
             }
-            State::Failed(why) => {
+            PickState::Failed(why) => {
                 ui.colored_label(theme.fault, why.as_str());
             }
-            State::Shown(shown) => shown.show(ui, theme),
+            PickState::Shown(shown) => shown.show(ui, theme),
         }
     }
 }
 
-impl Shown {
-    fn new(context: &Context, picture: PickedPicture) -> Shown {
+impl PictureWithLine {
+    fn new(context: &Context, picture: PickedPicture) -> PictureWithLine {
         let size = picture.pixels.size.map(|side| side as usize);
         let image = ColorImage::from_rgba_unmultiplied(size, &picture.pixels.rgba);
-        let mut shown = Shown {
+        let mut shown = PictureWithLine {
             texture: context.load_texture("picture to pick from", image, TextureOptions::LINEAR),
             picture,
             line: [[0.1, 0.5], [0.9, 0.5]],

@@ -27,7 +27,7 @@ pub(crate) const LAST_SCENE: u32 = 63;
 #[serde(default)]
 pub(crate) struct ImportOptions {
     /// Axis of the file that points up.
-    #[serde(with = "Axis")]
+    #[serde(with = "UpSetting")]
     pub(crate) up: Up,
     /// UV set.
     pub(crate) uv: u32,
@@ -40,10 +40,10 @@ pub(crate) struct ImportOptions {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scene: Option<u32>,
     /// Treatment of UVs in several tiles.
-    #[serde(with = "Tiles")]
+    #[serde(with = "TilesSetting")]
     pub(crate) udim: Udim,
     /// Treatment of charts that overlap in the UV set.
-    #[serde(with = "Sharing")]
+    #[serde(with = "OverlapSetting")]
     pub(crate) overlap: Overlap,
     /// Parts of the file that are used.
     #[serde(skip_serializing_if = "PartChoice::is_default")]
@@ -143,7 +143,7 @@ impl ImportOptions {
 /// [`Up`] as settings name it.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Up", rename_all = "snake_case")]
-enum Axis {
+enum UpSetting {
     Y,
     Z,
     X,
@@ -152,7 +152,7 @@ enum Axis {
 /// [`Udim`] as settings name it.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Udim", rename_all = "snake_case")]
-enum Tiles {
+enum TilesSetting {
     Auto,
     On,
     Off,
@@ -161,7 +161,7 @@ enum Tiles {
 /// [`Overlap`] as settings name it.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Overlap", rename_all = "snake_case")]
-enum Sharing {
+enum OverlapSetting {
     Auto,
     First,
     Merge,

@@ -14,15 +14,15 @@ const PROMPT: Duration = Duration::from_millis(100);
 
 /// Folders to read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-struct Wanted {
+struct WantedFolders {
     folders: Vec<PathBuf>,
     /// True if all kinds that were read before are discarded, as for another graph.
     is_first: bool,
 }
 
-struct Running {
+struct KindsTask {
     task: Task<Kinds>,
-    wanted: Wanted,
+    wanted: WantedFolders,
     /// Revision of the document's kinds when the reading began.
     revision: u64,
 }
@@ -30,8 +30,8 @@ struct Running {
 /// The reading of node files that is under way, and the folders that are read after it.
 #[derive(Default)]
 pub(crate) struct KindsReading {
-    running: Option<Running>,
-    wanted: Option<Wanted>,
+    running: Option<KindsTask>,
+    wanted: Option<WantedFolders>,
 }
 
 impl KindsReading {
@@ -46,7 +46,7 @@ impl KindsReading {
 
     /// Reads all folders of a document that has another folder now.
     pub(crate) fn read_first(&mut self, context: &Context, document: &mut OpenDocument) {
-        self.wanted = Some(Wanted {
+        self.wanted = Some(WantedFolders {
             folders: trust::node_folders(document),
             is_first: true,
         });
@@ -86,7 +86,7 @@ impl KindsReading {
                 kinds.reread(&folders);
                 kinds
             });
-            self.running = Some(Running { task, wanted, revision });
+            self.running = Some(KindsTask { task, wanted, revision });
             self.end(document, patience);
         }
     }
@@ -134,7 +134,7 @@ mod tests {
         let (context, mut reading) = (Context::default(), KindsReading::default());
         let mut document = OpenDocument::before_kinds(Session::new(None));
         let wanted = |reading: &mut KindsReading| {
-            reading.wanted = Some(Wanted {
+            reading.wanted = Some(WantedFolders {
                 folders: folders.to_vec(),
                 is_first: false,
             })

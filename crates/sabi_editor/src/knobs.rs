@@ -36,7 +36,7 @@ pub(crate) use self::free_curve::{CurveMemory, curve_ui};
 pub(crate) use self::inline::{is_inline_menu_asked, knob_inline};
 pub(crate) use self::knob_ui::KnobMemory;
 use self::knob_ui::KnobUi;
-pub(crate) use self::length::Lengths;
+pub(crate) use self::length::LengthUnits;
 pub(crate) use self::picker::{picker, remember as remember_color};
 pub(crate) use self::stops::paint_gradient;
 pub(crate) use self::text_field::select_all;
@@ -141,7 +141,7 @@ pub(crate) fn knobs_ui(
     theme: &Theme,
     memory: &mut KnobMemory,
     sections: &[KnobSection<'_>],
-    lengths: &Lengths,
+    lengths: &LengthUnits,
 ) -> Vec<KnobEvent> {
     sections_ui(ui, KnobUi::new(theme, memory, lengths), sections)
 }
@@ -152,7 +152,7 @@ pub(crate) fn exposed_ui(
     theme: &Theme,
     memory: &mut KnobMemory,
     sections: &[KnobSection<'_>],
-    lengths: &Lengths,
+    lengths: &LengthUnits,
 ) -> Vec<KnobEvent> {
     let mut knob_ui = KnobUi::new(theme, memory, lengths);
     knob_ui.is_panel = true;

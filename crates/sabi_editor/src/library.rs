@@ -21,7 +21,7 @@ use crate::search::LibraryGroup;
 
 /// Groups in the folders of the library, read again when a file changes.
 #[derive(Default)]
-pub(crate) struct Library {
+pub(crate) struct GroupLibrary {
     /// True if files may have changed since they were read.
     is_stale: bool,
     groups: Vec<LibraryGroup>,
@@ -33,7 +33,7 @@ pub(crate) struct Library {
     folders: Option<Vec<(LibraryKind, PathBuf)>>,
 }
 
-impl Library {
+impl GroupLibrary {
     /// Marks the files to be read again, since they may have changed.
     pub(crate) fn invalidate(&mut self) {
         self.is_stale = true;

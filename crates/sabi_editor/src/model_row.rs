@@ -7,7 +7,7 @@ use egui::Context;
 use sabi_editing::OpenDocument;
 use sabi_engine::live::ViewSubject;
 
-use crate::evaluation::{Evaluation, ModelOutcome, Wanted};
+use crate::evaluation::{Evaluation, ModelOutcome, WantedResults};
 use crate::import_options::ImportOptions;
 use crate::task::Task;
 
@@ -97,9 +97,9 @@ impl ModelRow {
     /// Requests the result that the main model shows on all of them.
     pub(crate) fn request(&mut self, document: &OpenDocument, subject: &ViewSubject) {
         for evaluation in &mut self.beside {
-            let wanted = Wanted {
+            let wanted = WantedResults {
                 subjects: vec![subject.clone()],
-                ..Wanted::default()
+                ..WantedResults::default()
             };
             evaluation.request(document, wanted);
         }

@@ -8,17 +8,17 @@ mod environment_loader;
 mod eyedropper;
 mod lights;
 mod menu;
+mod model_view_pictures;
 mod navigation;
 mod painting;
-mod pictures;
 mod renderer_loader;
 mod row;
 mod saved_picture;
 mod saved_views;
-mod showing;
 mod softness;
 mod stencil_picture;
 mod subject;
+mod subject_menus;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
@@ -30,35 +30,35 @@ use crate::action::Action;
 use crate::activity_text::activity_text;
 use crate::brush::BrushTool;
 use crate::command::{Scope, ViewportCommand};
-use crate::evaluation::{Evaluation, Picture};
+use crate::evaluation::{Evaluation, ResultPicture};
 use crate::mouse;
-use crate::outdated;
+use crate::outdated_results;
 use crate::settings::viewport::ViewChoices;
 use comparison::Comparison;
 use environment_loader::EnvironmentLoader;
 use lights::Lights;
+use model_view_pictures::ModelViewPictures;
 use navigation::{Navigation, aspect, picked_by};
-use pictures::Pictures;
 use row::RowView;
 use saved_picture::SavedPicture;
-use showing::Captions;
 use softness::SoftnessCache;
 use stencil_picture::StencilPicture;
-use subject::{Subject, ViewOutput};
+use subject::{ModelViewOutput, Subject};
+use subject_menus::Captions;
 
 /// Samples of a picture at full quality.
 const SAMPLES: u32 = 8;
 
 /// View of the model in its light.
 pub(crate) struct ModelView {
-    pub(crate) pictures: Pictures,
+    pub(crate) pictures: ModelViewPictures,
     pub(crate) navigation: Navigation,
     pub(crate) environment: EnvironmentLoader,
     pub(crate) lights: Lights,
     pub(crate) shot: Shot,
     pub(crate) comparison: Comparison,
     /// Result that is shown until the wanted one arrives.
-    last: Option<Picture>,
+    last: Option<ResultPicture>,
     /// Models beside the main one.
     row: RowView,
     /// Length that is shown as a bar, working units.
@@ -88,7 +88,7 @@ impl ModelView {
         };
         choices.apply(&mut shot);
         ModelView {
-            pictures: Pictures::default(),
+            pictures: ModelViewPictures::default(),
             navigation,
             environment: EnvironmentLoader::new(environment),
             lights: Lights::new(&choices.lights),
@@ -133,10 +133,10 @@ impl ModelView {
         evaluation: &Evaluation,
         render: Option<&RenderState>,
         subject: &Subject<'_>,
-    ) -> ViewOutput {
-        let mut output = ViewOutput {
+    ) -> ModelViewOutput {
+        let mut output = ModelViewOutput {
             fault: self.environment.poll(evaluation, ui.ctx()),
-            ..ViewOutput::default()
+            ..ModelViewOutput::default()
         };
         let area = ui.available_rect_before_wrap();
         if !area.is_positive() {
@@ -178,11 +178,13 @@ impl ModelView {
             ui.painter().set(background, painted);
         }
         if picture.as_ref().is_some_and(|picture| evaluation.is_outdated(picture)) {
-            let cancel = outdated::cover_with_cancel(ui, rect, evaluation, subject.theme);
+            let cancel = outdated_results::cover_with_cancel(ui, rect, evaluation, subject.theme);
             output.actions.extend(cancel);
         }
         if picture.is_none() {
-            output.actions.extend(outdated::cancel_first(ui, rect, evaluation));
+            output
+                .actions
+                .extend(outdated_results::cancel_first(ui, rect, evaluation));
         }
         self.paint_beside(ui, &cells, render, picture.as_ref(), subject, &mut output.actions);
         self.last = picture;
@@ -190,7 +192,7 @@ impl ModelView {
             painting::sentence(ui, rect, subject.theme, fault);
         }
         painting::length_bar(self, ui, rect, evaluation, subject.theme);
-        showing::label(self, ui, rect, evaluation, subject);
+        subject_menus::label(self, ui, rect, evaluation, subject);
         softness::show(self, ui, rect, evaluation, subject, &mut output.actions);
         self.show_stencil(ui, rect, subject);
         self.show_brush(ui, &response, rect, subject);
@@ -199,7 +201,7 @@ impl ModelView {
     }
 
     /// Texture set of the surface that was clicked.
-    fn clicked_set(&self, response: &egui::Response, rect: Rect, picture: &Picture) -> Option<SetKey> {
+    fn clicked_set(&self, response: &egui::Response, rect: Rect, picture: &ResultPicture) -> Option<SetKey> {
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
         let at = Some(at).filter(|at| rect.contains(*at))?;
         let model = &picture.model;
@@ -228,7 +230,7 @@ impl ModelView {
         rect: Rect,
         evaluation: &Evaluation,
         render: Option<&RenderState>,
-        picture: Option<&Picture>,
+        picture: Option<&ResultPicture>,
         subject: &Subject<'_>,
     ) -> bool {
         let failure = evaluation.model.failure.as_ref().map(ToString::to_string);

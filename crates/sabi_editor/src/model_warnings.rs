@@ -7,7 +7,7 @@ use sabi_engine::Warning;
 use crate::notices::with_capital;
 use crate::theme::{Theme, type_size};
 
-/// Most warnings whose sentences a tooltip shows.
+/// Most warnings whose sentences the tooltip shows.
 const MOST_SHOWN: usize = 4;
 
 /// Shows the number of warnings about a model, if there are any. Returns whether it was clicked.

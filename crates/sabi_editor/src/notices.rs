@@ -30,7 +30,7 @@ pub(crate) enum Work {
 }
 
 /// Failure that the user has not closed yet.
-struct Failure {
+struct FailureNotice {
     work: Work,
     sentence: String,
 }
@@ -39,7 +39,7 @@ struct Failure {
 #[derive(Default)]
 pub(crate) struct Notices {
     shown: VecDeque<(Instant, String)>,
-    failures: Vec<Failure>,
+    failures: Vec<FailureNotice>,
 }
 
 impl Notices {
@@ -56,12 +56,12 @@ impl Notices {
     /// Shows why some work has failed, until the user closes the message or the work succeeds.
     pub(crate) fn fail(&mut self, work: Work, sentence: impl Into<String>) {
         let sentence = sentence.into();
-        let is_known = |failure: &Failure| {
+        let is_known = |failure: &FailureNotice| {
             let is_replaced = work != Work::Other && failure.work == work;
             is_replaced || failure.sentence == sentence
         };
         self.failures.retain(|failure| !is_known(failure));
-        self.failures.push(Failure { work, sentence });
+        self.failures.push(FailureNotice { work, sentence });
     }
 
     /// Removes the message about a failure of some work, since it has succeeded.

@@ -17,10 +17,10 @@ use sabi_files::TrustedPaths;
 use sabi_gpu::{AdapterChoice, Gpu};
 use sabi_graph::{Document, Edit, NodeId, Value};
 
-use crate::app::{Editor, Folders, InitialState};
+use crate::app::{Editor, InitialState, ProgramFolders};
 use crate::dock::Panel;
 use crate::window::configuration;
-use painter::Painter;
+use painter::FramePainter;
 
 /// A window without a screen.
 pub struct Offscreen {
@@ -30,7 +30,7 @@ pub struct Offscreen {
     opened: Instant,
     /// Receives a message when a frame is requested.
     woken: Receiver<()>,
-    painter: Painter,
+    painter: FramePainter,
 }
 
 /// CPU time of a frame.
@@ -45,7 +45,7 @@ pub struct FrameTime {
 }
 
 /// A frame after layout and tessellation.
-struct Tessellated {
+struct TessellatedFrame {
     time: FrameTime,
     primitives: Vec<ClippedPrimitive>,
     /// Textures to free after painting.
@@ -85,14 +85,14 @@ impl Offscreen {
             model,
             is_model_given: true,
             trusted: TrustedPaths::default(),
-            folders: Folders {
+            folders: ProgramFolders {
                 cache: default_cache_dir(),
-                ..Folders::default()
+                ..ProgramFolders::default()
             },
             is_start: false,
             at_end: || {},
         };
-        let painter = Painter::new(render.clone(), size.into());
+        let painter = FramePainter::new(render.clone(), size.into());
         let handover = Arc::new(Mutex::new(None));
         let editor = Editor::new(initial, &context, Arc::new(gpu), Some(render), handover);
         Ok(Offscreen {
@@ -107,7 +107,7 @@ impl Offscreen {
 
     /// Lays out a frame with these events, and draws the model where it has changed.
     pub fn frame(&mut self, events: Vec<Event>) -> FrameTime {
-        let Tessellated { time, free, .. } = self.tessellate_frame(events);
+        let TessellatedFrame { time, free, .. } = self.tessellate_frame(events);
         self.painter.free(&free);
         time
     }
@@ -118,14 +118,14 @@ impl Offscreen {
     /// The device is lost.
     pub fn paint(&mut self, events: Vec<Event>) -> Result<Duration, EngineError> {
         let started = Instant::now();
-        let Tessellated { primitives, free, .. } = self.tessellate_frame(events);
+        let TessellatedFrame { primitives, free, .. } = self.tessellate_frame(events);
         self.painter.paint(&primitives);
         self.painter.free(&free);
         self.finish()?;
         Ok(started.elapsed())
     }
 
-    fn tessellate_frame(&mut self, events: Vec<Event>) -> Tessellated {
+    fn tessellate_frame(&mut self, events: Vec<Event>) -> TessellatedFrame {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(egui::Pos2::ZERO, self.size)),
             time: Some(self.opened.elapsed().as_secs_f64()),
@@ -149,7 +149,7 @@ impl Offscreen {
             tessellation: started.elapsed(),
         };
         self.painter.upload(&output.textures_delta.set);
-        Tessellated {
+        TessellatedFrame {
             time,
             primitives,
             free: output.textures_delta.free,

@@ -100,14 +100,14 @@ pub(crate) enum PenEvent {
 #[derive(Default)]
 pub(crate) struct Pens {
     pointer: PenPointer,
-    link: Link,
+    link: PenConnection,
     /// Places of the pointer in this frame that a pen reported, in order.
     pub(crate) places: Vec<PenPlace>,
 }
 
 /// Connection to the tablets of the system.
 #[derive(Default)]
-enum Link {
+enum PenConnection {
     /// Not connected yet: tablets are only needed for painting.
     #[default]
     Unasked,
@@ -122,7 +122,7 @@ enum Link {
 impl Pens {
     /// Connects to the tablets of the system, once.
     pub(crate) fn connect(&mut self, frame: &eframe::Frame) {
-        if !matches!(self.link, Link::Unasked) {
+        if !matches!(self.link, PenConnection::Unasked) {
             return;
         }
         // Frames of tests have no window.
@@ -130,7 +130,7 @@ impl Pens {
             return;
         };
         self.link = match connected {
-            Ok(tablet) => Link::Connected {
+            Ok(tablet) => PenConnection::Connected {
                 tablet: Box::new(tablet),
                 since: Instant::now(),
             },
@@ -140,13 +140,13 @@ impl Pens {
 
     /// Ends the connection, while the window is there.
     pub(crate) fn disconnect(&mut self) {
-        self.link = Link::Unasked;
+        self.link = PenConnection::Unasked;
     }
 
     /// Adds the events of pens since the last frame to the events of a frame. `zoom` is the size of a point, logical
     /// pixels.
     pub(crate) fn enter_frame(&mut self, raw: &mut RawInput, zoom: f32) {
-        if let Link::Connected { tablet, .. } = &mut self.link {
+        if let PenConnection::Connected { tablet, .. } = &mut self.link {
             match tablet.pump() {
                 Ok(events) => self.pointer.receive(events),
                 Err(why) => {
@@ -171,7 +171,7 @@ impl Pens {
             context.request_repaint();
             return;
         }
-        let Link::Connected { tablet, since } = &self.link else {
+        let PenConnection::Connected { tablet, since } = &self.link else {
             return;
         };
         let may_come = tablet.is_known() || since.elapsed() < NAMING;
@@ -183,10 +183,10 @@ impl Pens {
     /// Sentence about the tablets of the system.
     pub(crate) fn status(&self) -> &str {
         match &self.link {
-            Link::Unasked => "Pens are looked for once painting begins.",
-            Link::Connected { tablet, .. } if tablet.is_known() => "A tablet is connected.",
-            Link::Connected { .. } => "No tablet is connected.",
-            Link::Missing(why) => why,
+            PenConnection::Unasked => "Pens are looked for once painting begins.",
+            PenConnection::Connected { tablet, .. } if tablet.is_known() => "A tablet is connected.",
+            PenConnection::Connected { .. } => "No tablet is connected.",
+            PenConnection::Missing(why) => why,
         }
     }
 
@@ -204,7 +204,7 @@ impl Pens {
 }
 
 /// Logs the reason that there is no connection, and returns the link.
-fn missing(why: String) -> Link {
+fn missing(why: String) -> PenConnection {
     tracing::info!("{why}");
-    Link::Missing(why)
+    PenConnection::Missing(why)
 }

@@ -17,15 +17,15 @@ pub(crate) const OF_GROUP: &str = "group";
 pub(crate) const OF_GRAPH: &str = "graph";
 
 /// Subject of a picture: a file, and a name in it. The file of a graph that was never saved is empty.
-type Subject = (PathBuf, String);
-type Loaded = (TextureHandle, Pixels);
+type PictureSubject = (PathBuf, String);
+type LoadedPicture = (TextureHandle, Pixels);
 
 /// Small pictures of saved variants and library groups.
 #[derive(Default)]
 pub(crate) struct SavedPictures {
     cache: Option<PathBuf>,
     /// Pictures that were looked for, with `None` where there is none. Filled while views read, hence the cell.
-    known: RefCell<BTreeMap<Subject, Option<Loaded>>>,
+    known: RefCell<BTreeMap<PictureSubject, Option<LoadedPicture>>>,
 }
 
 impl SavedPictures {
@@ -83,7 +83,7 @@ impl SavedPictures {
         }
         let known = self.known.get_mut().iter();
         let copied = known.filter_map(|((file, what), picture)| Some((file, what, picture.as_ref()?)));
-        let copied: Vec<(String, Loaded)> = copied
+        let copied: Vec<(String, LoadedPicture)> = copied
             .filter(|(file, ..)| *file == from)
             .map(|(_, what, picture)| (what.clone(), picture.clone()))
             .collect();

@@ -254,13 +254,13 @@ mod tests {
     use sabi_engine::effect_library::effect_library;
 
     use super::*;
-    use crate::library::Library;
+    use crate::library::GroupLibrary;
 
     /// Everything that can be added where there are Sabi's own effects.
     fn with_effects() -> Vec<Candidate> {
         let catalog = Catalog::new(&Kinds::builtin());
         let folder = effect_library(Path::new("")).expect("the library of the project");
-        let mut library = Library::default();
+        let mut library = GroupLibrary::default();
         let groups = library.groups(vec![(LibraryKind::Sabi, folder)], &catalog);
         candidates(&catalog, &Interfaces::default(), &[], groups)
     }

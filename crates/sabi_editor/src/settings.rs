@@ -13,14 +13,14 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::session::BACKUPS;
-use sabi_files::{stored, write_whole};
+use sabi_files::{path_encoding, write_whole};
 use serde_json::Value as Json;
 
 use crate::command::InputPreset;
 use crate::dock::Layout;
 use crate::import_options::ImportOptions;
 use crate::paths::canonical_if_present;
-use crate::theme::Shade;
+use crate::theme::ColorScheme;
 use brush::BrushChoices;
 use export::{ExportChoices, ExportPlace};
 use merging::merged;
@@ -45,7 +45,7 @@ pub(crate) const MOST_MODELS: usize = 24;
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub(crate) struct Settings {
-    pub(crate) shade: Shade,
+    pub(crate) shade: ColorScheme,
     /// Factor of the size of everything.
     pub(crate) scale: f32,
     #[serde(rename = "habit")]
@@ -55,28 +55,28 @@ pub(crate) struct Settings {
     /// Keys of commands that have others than the preset's, by the command's name.
     pub(crate) keys: BTreeMap<String, Vec<String>>,
     /// Recent graph files, the last one first.
-    #[serde(with = "stored::list")]
+    #[serde(with = "path_encoding::list")]
     pub(crate) recent: Vec<PathBuf>,
     /// Models that were shown, the last ones last.
-    #[serde(with = "stored::list")]
+    #[serde(with = "path_encoding::list")]
     pub(crate) models: Vec<PathBuf>,
     /// Models on the strip above the viewport, by the file of the graph that they are shown with.
-    #[serde(with = "stored::map")]
+    #[serde(with = "path_encoding::map")]
     pub(crate) model_strips: BTreeMap<PathBuf, ModelStrip>,
     /// Files and folders that graphs and models may open, the last ones first.
-    #[serde(with = "stored::list")]
+    #[serde(with = "path_encoding::list")]
     pub(crate) trusted: Vec<PathBuf>,
     /// Folders of node files beside graphs that are used.
-    #[serde(with = "stored::list")]
+    #[serde(with = "path_encoding::list")]
     pub(crate) trusted_nodes: Vec<PathBuf>,
     /// Options for reading models that differ from the default.
-    #[serde(with = "stored::map")]
+    #[serde(with = "path_encoding::map")]
     pub(crate) readings: BTreeMap<PathBuf, ImportOptions>,
     /// True if node pictures show texture space.
     pub(crate) is_flat: bool,
     pub(crate) export: ExportChoices,
     /// Export targets of recent graphs.
-    #[serde(with = "stored::map")]
+    #[serde(with = "path_encoding::map")]
     pub(crate) export_places: BTreeMap<PathBuf, ExportPlace>,
     /// Environment of the viewport: a built-in name, or a file.
     pub(crate) environment: String,
@@ -102,7 +102,7 @@ pub(crate) struct Settings {
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub(crate) struct ModelStrip {
-    #[serde(with = "stored::list")]
+    #[serde(with = "path_encoding::list")]
     pub(crate) files: Vec<PathBuf>,
 }
 
@@ -121,7 +121,7 @@ impl ModelStrip {
 impl Default for Settings {
     fn default() -> Settings {
         Settings {
-            shade: Shade::Dark,
+            shade: ColorScheme::Dark,
             scale: 1.0,
             input_preset: InputPreset::Default,
             backups: BACKUPS,

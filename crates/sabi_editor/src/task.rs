@@ -14,7 +14,7 @@ pub(crate) struct Task<T> {
 }
 
 /// The work gave no result: it panicked, or the system gave no thread for it.
-pub(crate) struct Failed;
+pub(crate) struct TaskFailure;
 
 impl<T: Send + 'static> Task<T> {
     /// Starts the work; `context` draws a frame when it is done.
@@ -34,20 +34,20 @@ impl<T: Send + 'static> Task<T> {
     }
 
     /// Returns the result of the work once, after it is done.
-    pub(crate) fn poll(&self) -> Option<Result<T, Failed>> {
+    pub(crate) fn poll(&self) -> Option<Result<T, TaskFailure>> {
         match self.result.try_recv() {
             Ok(result) => Some(Ok(result)),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(Failed)),
+            Err(TryRecvError::Disconnected) => Some(Err(TaskFailure)),
         }
     }
 
     /// Returns the result of the work once, if it is done within this time.
-    pub(crate) fn wait(&self, patience: Duration) -> Option<Result<T, Failed>> {
+    pub(crate) fn wait(&self, patience: Duration) -> Option<Result<T, TaskFailure>> {
         match self.result.recv_timeout(patience) {
             Ok(result) => Some(Ok(result)),
             Err(RecvTimeoutError::Timeout) => None,
-            Err(RecvTimeoutError::Disconnected) => Some(Err(Failed)),
+            Err(RecvTimeoutError::Disconnected) => Some(Err(TaskFailure)),
         }
     }
 }

@@ -6,7 +6,7 @@ use sabi_graph::PortType;
 /// Color scheme of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum Shade {
+pub(crate) enum ColorScheme {
     /// Light on dark, as in most image tools.
     #[default]
     Dark,
@@ -40,7 +40,7 @@ pub(crate) mod type_size {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Theme {
     /// Shade that the colors are of.
-    pub(crate) shade: Shade,
+    pub(crate) shade: ColorScheme,
     /// Background of the window.
     pub(crate) background: Color32,
     /// Background of the canvas.
@@ -76,9 +76,9 @@ const TOOLTIP_DELAY: f32 = 0.7;
 
 impl Theme {
     /// Theme of a shade.
-    pub(crate) fn of(shade: Shade) -> Theme {
+    pub(crate) fn of(shade: ColorScheme) -> Theme {
         match shade {
-            Shade::Dark => Theme {
+            ColorScheme::Dark => Theme {
                 shade,
                 background: rgb(0x17181a),
                 canvas: rgb(0x1c1d20),
@@ -95,7 +95,7 @@ impl Theme {
                 warning: rgb(0xe6b450),
                 good: rgb(0x5fb38a),
             },
-            Shade::Light => Theme {
+            ColorScheme::Light => Theme {
                 shade,
                 background: rgb(0xd4d6d9),
                 canvas: rgb(0xe3e5e8),
@@ -125,8 +125,8 @@ impl Theme {
             None => [0x8b919b, 0x7a808a],
         };
         rgb(match self.shade {
-            Shade::Dark => dark,
-            Shade::Light => light,
+            ColorScheme::Dark => dark,
+            ColorScheme::Light => light,
         })
     }
 
@@ -148,16 +148,16 @@ impl Theme {
             _ => [0x3f4248, 0xd0d3d8],
         };
         rgb(match self.shade {
-            Shade::Dark => dark,
-            Shade::Light => light,
+            ColorScheme::Dark => dark,
+            ColorScheme::Light => light,
         })
     }
 
     /// Applies the theme to the window.
     pub(crate) fn apply(&self, context: &egui::Context) {
         let theme = match self.shade {
-            Shade::Dark => egui::Theme::Dark,
-            Shade::Light => egui::Theme::Light,
+            ColorScheme::Dark => egui::Theme::Dark,
+            ColorScheme::Light => egui::Theme::Light,
         };
         context.set_theme(theme);
         context.all_styles_mut(|style| self.style(style));
@@ -189,8 +189,8 @@ impl Theme {
 
     fn visuals(&self) -> Visuals {
         let mut visuals = match self.shade {
-            Shade::Dark => Visuals::dark(),
-            Shade::Light => Visuals::light(),
+            ColorScheme::Dark => Visuals::dark(),
+            ColorScheme::Light => Visuals::light(),
         };
         let corner = CornerRadius::same(space::CORNER);
         visuals.panel_fill = self.panel;
@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     fn text_can_be_read_on_every_background_that_it_has() {
-        for theme in [Shade::Dark, Shade::Light].map(Theme::of) {
+        for theme in [ColorScheme::Dark, ColorScheme::Light].map(Theme::of) {
             for behind in [theme.panel, theme.raised, theme.canvas] {
                 assert!(contrast(theme.text, behind) > 7.0, "{theme:?}");
                 assert!(contrast(theme.quiet, behind) > 4.5, "{:?} {behind:?}", theme.shade);
@@ -278,7 +278,7 @@ mod tests {
     #[test]
     fn ports_of_two_types_never_look_alike_even_without_green() {
         let types = PortType::ALL;
-        for theme in [Shade::Dark, Shade::Light].map(Theme::of) {
+        for theme in [ColorScheme::Dark, ColorScheme::Light].map(Theme::of) {
             for (at, one) in types.iter().enumerate() {
                 for other in &types[at + 1..] {
                     let [one_seen, other_seen] = [one, other].map(|ty| {

@@ -10,11 +10,11 @@ const MOST_FRAMES: u32 = 3;
 #[derive(Default)]
 pub(crate) struct TypeAhead {
     held: Vec<Event>,
-    awaited: Option<Awaited>,
+    awaited: Option<FocusChange>,
 }
 
 /// Change of the keyboard focus that held events wait for.
-struct Awaited {
+struct FocusChange {
     /// True if a text field opens, false if it closes.
     opens: bool,
     /// Frames for which they still wait.
@@ -26,9 +26,9 @@ impl TypeAhead {
     /// opens or closes a text field. Later ones are held back.
     pub(crate) fn split(&mut self, context: &Context, opens_text_field: impl Fn(Key, Modifiers) -> bool) {
         let is_typing = context.text_edit_focused();
-        self.awaited = self.awaited.take().and_then(|Awaited { opens, frames }| {
+        self.awaited = self.awaited.take().and_then(|FocusChange { opens, frames }| {
             let frames = frames.checked_sub(1).filter(|_| opens != is_typing)?;
-            Some(Awaited { opens, frames })
+            Some(FocusChange { opens, frames })
         });
         let is_waiting = self.awaited.is_some();
         let is_multiline = is_typing && is_in_multiline(context);
@@ -64,7 +64,7 @@ impl TypeAhead {
                 if !is_typing && matches!(self.held.first(), Some(Event::Text(_))) {
                     self.held.remove(0);
                 }
-                self.awaited = Some(Awaited {
+                self.awaited = Some(FocusChange {
                     opens: !is_typing,
                     frames: MOST_FRAMES,
                 });

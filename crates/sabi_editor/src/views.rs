@@ -10,12 +10,12 @@ use crate::flat_view::FlatView;
 use crate::gradient_picker::GradientPicker;
 use crate::model_view::ModelView;
 use crate::panels::export::ExportPanel;
-use crate::panels::history::History;
+use crate::panels::history::HistoryPanel;
 use crate::panels::library::LibraryPanel;
-use crate::panels::page::Page;
+use crate::panels::node_page::NodePage;
 use crate::panels::parameters::Parameters;
 use crate::panels::problems::Problems;
-use crate::panels::stack::Layers;
+use crate::panels::stack::StackPanel;
 use crate::panels::timing::Timing;
 
 /// The views of the window, each with its own state.
@@ -24,13 +24,13 @@ pub(crate) struct Views {
     pub(crate) model: ModelView,
     pub(crate) flat: FlatView,
     pub(crate) parameters: Parameters,
-    pub(crate) layers: Layers,
+    pub(crate) layers: StackPanel,
     pub(crate) library: LibraryPanel,
     pub(crate) export: ExportPanel,
-    pub(crate) history: History,
+    pub(crate) history: HistoryPanel,
     pub(crate) problems: Problems,
     pub(crate) timing: Timing,
-    pub(crate) page: Page,
+    pub(crate) page: NodePage,
     pub(crate) questions: Questions,
     pub(crate) gradient_picker: GradientPicker,
     pub(crate) start: StartPage,

@@ -11,7 +11,7 @@ use sabi_engine::{EngineError, ErrorKind, Remedy, Session};
 use sabi_files::TrustedPaths;
 use sabi_gpu::{AdapterChoice, Gpu, choose_adapter, device_descriptor};
 
-use crate::app::{Editor, Folders, Handover, InitialState};
+use crate::app::{Editor, Handover, InitialState, ProgramFolders};
 use crate::builtin_models::model_of;
 use crate::files::{examples, new_graph};
 use crate::paths::in_canonical_folder;
@@ -174,7 +174,7 @@ pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
     }
 }
 
-fn folders() -> Folders {
+fn folders() -> ProgramFolders {
     let settings = default_folder();
     let library = settings.as_ref().map(|folder| folder.join("effects"));
     let effects = library.and_then(|folder| match effect_library(&folder) {
@@ -184,7 +184,7 @@ fn folders() -> Folders {
             None
         }
     });
-    Folders {
+    ProgramFolders {
         effects,
         recovery: settings.as_ref().map(|folder| folder.join("unsaved")),
         library: settings.as_ref().map(|folder| folder.join("library")),
@@ -195,7 +195,7 @@ fn folders() -> Folders {
 }
 
 /// First model: the requested one, the one that the graph names, or a built-in one.
-fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> Result<PathBuf, EngineError> {
+fn first_model(request: &EditRequest, session: &Session, folders: &ProgramFolders) -> Result<PathBuf, EngineError> {
     if let Some(mesh) = &request.mesh {
         return Ok(in_canonical_folder(mesh));
     }

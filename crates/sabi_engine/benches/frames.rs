@@ -15,8 +15,8 @@ use sabi_engine::{Evaluator, Kinds, OpenGraph};
 use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::Overrides;
 use sabi_view::{
-    Background, Camera, Environment, Light, LightPlace, Lines, Mode, Panorama, Placement, Renderer,
-    STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Scene, Shot, Target, ViewModel, Viewpoint,
+    Background, Camera, Environment, Light, LightPlace, Lines, Mode, Panorama, Placement, RenderTarget, Renderer,
+    STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Scene, Shot, ViewModel, Viewpoint,
 };
 use setup::{adapter, peer_model, root};
 
@@ -108,7 +108,7 @@ impl Stage {
         let mut shot = Shot::new(Camera::seen_from(Viewpoint::FRONT, &points, aspect));
         shot.height_range = self.shown.height_range;
         change(&mut shot);
-        let mut target = Target::new(gpu, size).unwrap();
+        let mut target = RenderTarget::new(gpu, size).unwrap();
         let frame = |_| {
             let started = Instant::now();
             self.renderer.draw(gpu, &mut target, &scene, &shot).unwrap();

@@ -19,7 +19,7 @@ use sabi_engine::opening::linked_model::ModelOptions;
 use sabi_engine::{Kinds, Live, OpenGraph};
 use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
-use sabi_view::{Background, Camera, Environment, MaterialLook, Mode, Renderer, Scene, Shot, Target, Viewpoint};
+use sabi_view::{Background, Camera, Environment, MaterialLook, Mode, RenderTarget, Renderer, Scene, Shot, Viewpoint};
 use setup::{adapter, peer_model};
 
 const MOVES: usize = 15;
@@ -62,16 +62,16 @@ fn row(what: &str, ms: f64, aim: &str) {
 }
 
 /// Looks that were drawn, with their model.
-type Pictured = (Arc<LiveModel>, Arc<ModelLooks>);
+type DrawnLooks = (Arc<LiveModel>, Arc<ModelLooks>);
 
 /// Stand-in for a window that draws the results it receives.
-struct Window {
+struct BenchWindow {
     gpu: Arc<Gpu>,
     live: Live,
     woken: Receiver<()>,
     renderer: Renderer,
     environment: Environment,
-    target: Target,
+    target: RenderTarget,
 }
 
 /// Milliseconds of one move from the request on: until coarse and full results were reported, and until they were drawn.
@@ -79,14 +79,14 @@ struct Window {
 struct Move {
     told: [f64; 2],
     drawn: [f64; 2],
-    last: Option<Pictured>,
+    last: Option<DrawnLooks>,
     nodes: Vec<(String, Duration)>,
 }
 
-impl Window {
-    fn new(gpu: &Arc<Gpu>, options: LiveOptions) -> Window {
+impl BenchWindow {
+    fn new(gpu: &Arc<Gpu>, options: LiveOptions) -> BenchWindow {
         let (wake, woken) = channel();
-        Window {
+        BenchWindow {
             live: Live::start(gpu.clone(), options.clone(), move || {
                 // Sending fails once the window is closed, which does not matter.
                 let _ = wake.send(());
@@ -94,12 +94,12 @@ impl Window {
             woken,
             renderer: Renderer::new(gpu).unwrap(),
             environment: load_environment(gpu, "studio", options.cache_dir.as_deref()).unwrap().0,
-            target: Target::new(gpu, VIEWPORT).unwrap(),
+            target: RenderTarget::new(gpu, VIEWPORT).unwrap(),
             gpu: gpu.clone(),
         }
     }
 
-    fn draw(&mut self, pictured: &Pictured) {
+    fn draw(&mut self, pictured: &DrawnLooks) {
         let (model, shown) = pictured;
         let points = model.placement.points_in_view(&model.linked.model.mesh);
         let aspect = VIEWPORT[0] as f32 / VIEWPORT[1] as f32;
@@ -150,7 +150,7 @@ impl Window {
 }
 
 /// Measures a thumbnail of a look drawn on its own, and as one of many of a pose, in milliseconds.
-fn pictures(window: &Window, pictured: &Pictured) -> [f64; 2] {
+fn pictures(window: &BenchWindow, pictured: &DrawnLooks) -> [f64; 2] {
     let (model, shown) = pictured;
     let (gpu, renderer, environment) = (&window.gpu, &window.renderer, &window.environment);
     let look: &MaterialLook = shown.looks.last().unwrap();
@@ -168,7 +168,7 @@ fn pictures(window: &Window, pictured: &Pictured) -> [f64; 2] {
         environment,
         lights: &[],
     };
-    let mut target = Target::new(gpu, THUMBNAIL).unwrap();
+    let mut target = RenderTarget::new(gpu, THUMBNAIL).unwrap();
     let mut pose = renderer.pose(gpu, THUMBNAIL, &model.view, environment, &shot).unwrap();
     let alone = |_| {
         let started = Instant::now();
@@ -242,7 +242,7 @@ impl Slider {
 /// Measures moves of the slider on a fine sheet, where the window itself decides to show a coarse result first.
 fn bench_fine(gpu: &Arc<Gpu>) {
     let slider = Slider::on(FINE);
-    let mut window = Window::new(
+    let mut window = BenchWindow::new(
         gpu,
         LiveOptions {
             cache_dir: default_cache_dir(),
@@ -290,7 +290,7 @@ fn main() {
         ..LiveOptions::default()
     };
     let slider = Slider::on(512);
-    let mut window = Window::new(&gpu, options);
+    let mut window = BenchWindow::new(&gpu, options);
     let first = window.answer(slider.request(0));
     row("the first time: coarse", first.told[0], "");
     row("the first time: full", first.told[1], "");

@@ -31,8 +31,6 @@
 
 pub mod baking;
 pub mod catalog;
-#[cfg(test)]
-mod documented;
 pub mod effect_library;
 mod error;
 pub mod evaluating;
@@ -47,9 +45,11 @@ pub mod program;
 mod program_cache;
 pub mod remedy;
 pub mod rendering;
+#[cfg(test)]
+mod report_keys;
 pub mod session;
 pub mod source;
-pub mod stroke_chores;
+pub mod stroke_maintenance;
 mod warning;
 
 pub use error::{EngineError, ErrorKind};

@@ -28,10 +28,10 @@ use sabi_graph::NodeRef;
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::Activity;
 use crate::remedy::Remedy;
-pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault};
+pub use event::{BlockedNode, GraphFaults, InspectedResult, LiveEvent, LiveModel, LiveTimes, NodeFault};
 pub use graph_update::GraphUpdate;
 pub use precedence::Precedence;
-use queue::{Dropped, WorkerQueue};
+use queue::{DroppedPictures, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, ViewSubject};
 pub use thumbnail_renderer::THUMBNAIL_VERSION;
 use worker::Worker;
@@ -71,7 +71,7 @@ impl Live {
     /// Records that the window has dropped pictures, so that they are sent again when they are requested again. Otherwise
     /// pictures are sent only when they change.
     pub fn mark_dropped(&self, subjects: Vec<ViewSubject>, thumbnails: Vec<NodeRef>) {
-        self.queue.mark_dropped(Dropped { subjects, thumbnails });
+        self.queue.mark_dropped(DroppedPictures { subjects, thumbnails });
     }
 
     /// Returns and removes the events since the last call, oldest first.

@@ -1,6 +1,6 @@
 //! Packing of a graph and everything needed to bake it elsewhere into one archive, and unpacking.
 
-mod checked;
+mod archive_check;
 mod entries;
 mod manifest;
 pub(crate) mod model_files;
@@ -10,7 +10,7 @@ mod needs;
 pub(crate) mod own_nodes;
 mod pack;
 mod places;
-mod rewritten;
+mod rewritten_paths;
 mod unpack;
 
 pub use named_inputs::{NamedInputs, inputs_of_graph, inputs_of_model};

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use sabi_cancel::{Cancel, Canceled, cancelable};
+use sabi_cancel::{Cancel, CanceledWork, cancelable};
 use serde::{Serialize, Serializer};
 use strum::VariantArray;
 
@@ -146,7 +146,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
 const STACK_BYTES: usize = 8 << 20;
 
 /// Work that was canceled, or for which there is no thread.
-pub(crate) struct Stopped {
+pub(crate) struct StoppedWork {
     pub(crate) error: EngineError,
     /// Thread that is still running and ends at its next check; `None` if none was started.
     pub(crate) left: Option<JoinHandle<()>>,
@@ -173,8 +173,8 @@ pub fn unless_canceled<T: Send + 'static>(
 pub(crate) fn unless_left<T: Send + 'static>(
     progress: &dyn Progress,
     work: impl FnOnce() -> T + Send + 'static,
-) -> Result<T, Stopped> {
-    let stopped = |error| Stopped { error, left: None };
+) -> Result<T, StoppedWork> {
+    let stopped = |error| StoppedWork { error, left: None };
     stop_if_canceled(progress).map_err(stopped)?;
     let (give, take) = mpsc::channel();
     let cancel = Cancel::new();
@@ -196,7 +196,7 @@ pub(crate) fn unless_left<T: Send + 'static>(
                 if let Err(error) = stop_if_canceled(progress) {
                     cancel.cancel();
                     let left = Some(thread);
-                    return Err(Stopped { error, left });
+                    return Err(StoppedWork { error, left });
                 }
             }
             Err(RecvTimeoutError::Disconnected) => {
@@ -214,7 +214,7 @@ pub(crate) fn unless_left<T: Send + 'static>(
 ///
 /// # Errors
 /// The work was canceled.
-pub(crate) fn watched<T>(progress: &dyn Progress, work: impl FnOnce() -> T) -> Result<T, Canceled> {
+pub(crate) fn watched<T>(progress: &dyn Progress, work: impl FnOnce() -> T) -> Result<T, CanceledWork> {
     let cancel = Cancel::new();
     let (ends, ended) = mpsc::channel::<()>();
     thread::scope(|scope| {
@@ -393,7 +393,7 @@ mod tests {
                 thread::yield_now();
             }
         };
-        assert_eq!(watched::<()>(&Third::default(), endless), Err(Canceled));
+        assert_eq!(watched::<()>(&Third::default(), endless), Err(CanceledWork));
         assert_eq!(watched(&NoProgress, || 7), Ok(7));
     }
 

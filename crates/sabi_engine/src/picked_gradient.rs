@@ -7,8 +7,8 @@ use sabi_image::{DeclaredColorSpace, Pixels as Samples};
 use sabi_nodes::kind::WrittenStop;
 use sabi_view::Pixels;
 
-use crate::source::Pictures;
-use crate::source::mip_chain::Reading;
+use crate::source::SessionPictures;
+use crate::source::mip_chain::PixelReading;
 
 /// Number of points along a line at which its color is measured.
 const PLACES: usize = 128;
@@ -28,7 +28,7 @@ pub struct PickedPicture {
 
 impl PickedPicture {
     /// Reads an image file, reduced to at most `side` pixels along a side. The error is a sentence.
-    pub fn read(pictures: &Pictures, file: &Path, side: u32) -> Result<PickedPicture, String> {
+    pub fn read(pictures: &SessionPictures, file: &Path, side: u32) -> Result<PickedPicture, String> {
         let opened = pictures.open(file, &file.to_string_lossy(), "");
         let open = opened.map_err(|(why, _)| format!("The picture cannot be used: {why}."))?;
         let picture = &open.picture;
@@ -37,7 +37,7 @@ impl PickedPicture {
             DeclaredColorSpace::Linear => false,
             DeclaredColorSpace::Unknown => !matches!(picture.pixels, Samples::F32(_)),
         };
-        let reading = Reading {
+        let reading = PixelReading {
             is_srgb,
             by_alpha: true,
         };

@@ -9,7 +9,7 @@ pub(crate) mod render;
 pub(crate) mod stamp_square;
 
 pub use density::Softness;
-pub use displace::Triangles;
+pub use displace::TriangleLimit;
 pub use preview::{PreviewRequest, preview, preview_graph};
 pub use render::{RenderRequest, Turns, encode_picture, render, render_graph};
 pub use stamp_square::{StampSquare, stamp_square};

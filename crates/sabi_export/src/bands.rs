@@ -76,7 +76,7 @@ impl BandGather {
             }
             let (pixels, _) = values.as_chunks_mut::<N>();
             let mut room = [[0.0; 4]; LONGEST_RUN];
-            let mut take = |run: &Run| {
+            let mut take = |run: &PixelRun| {
                 if run.length == 0 {
                     return;
                 }
@@ -87,12 +87,12 @@ impl BandGather {
                     *values = std::array::from_fn(|index| stored.get(first + index).copied().unwrap_or(neutral[index]));
                 }
             };
-            let mut run = Run::default();
+            let mut run = PixelRun::default();
             for (pixel, from) in padding.sources_from(part).take(PART).enumerate() {
                 let from = source(layout, from).filter(|from| band.contains(from));
                 if !run.extend(pixel, from) {
                     take(&run);
-                    run = Run::at(pixel, from);
+                    run = PixelRun::at(pixel, from);
                 }
             }
             take(&run);
@@ -105,17 +105,17 @@ const LONGEST_RUN: usize = 64;
 
 /// Adjacent pixels of a part of a set that take their values from adjacent texels.
 #[derive(Clone, Copy, Default)]
-struct Run {
+struct PixelRun {
     /// The first pixel, and the first texel.
     pixel: usize,
     texel: usize,
     length: usize,
 }
 
-impl Run {
+impl PixelRun {
     /// Run of a pixel; empty if it has no texel.
-    fn at(pixel: usize, texel: Option<usize>) -> Run {
-        Run {
+    fn at(pixel: usize, texel: Option<usize>) -> PixelRun {
+        PixelRun {
             pixel,
             // The default is not read in an empty run.
             texel: texel.unwrap_or_default(),

@@ -70,7 +70,7 @@ impl BorderRule {
 impl ChartBorders {
     /// Finds the ghosts of a set. `layout` must be made from `atlas`.
     pub fn new(atlas: &Atlas, layout: &SetLayout) -> ChartBorders {
-        let pages = Pages {
+        let pages = BorderPages {
             atlas,
             layout: Some(layout),
         };
@@ -87,7 +87,7 @@ impl ChartBorders {
 
     /// Finds the ghosts of an atlas that is shown itself: its pixels are its texels, page by page and row by row.
     pub fn of_atlas(atlas: &Atlas) -> ChartBorders {
-        let pages = Pages { atlas, layout: None };
+        let pages = BorderPages { atlas, layout: None };
         let [width, height] = atlas.page_size.map(|side| side as usize);
         let texels = atlas.ghosts.par_iter().map(|ghost| {
             let [x, y, page] = ghost.texel.map(|at| at as usize);
@@ -175,12 +175,12 @@ impl BorderGhost {
 }
 
 /// Atlas and layout of a set; none where the atlas itself is shown.
-struct Pages<'a> {
+struct BorderPages<'a> {
     atlas: &'a Atlas,
     layout: Option<&'a SetLayout>,
 }
 
-impl Pages<'_> {
+impl BorderPages<'_> {
     /// Returns the ghost that provides the value of a pixel; `None` if no texel of its chart is shown near it.
     fn ghost(&self, at: (usize, usize)) -> Option<BorderGhost> {
         let (texel, pixel) = at;

@@ -12,38 +12,38 @@ use crate::{Channel, ChannelPixels};
 /// The value of a constant channel, linear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum Value {
+pub enum ConstantValue {
     /// Value of a channel with one component.
     Number(f32),
     /// Value of a color or a normal.
     Triple([f32; 3]),
 }
 
-impl Value {
+impl ConstantValue {
     /// The neutral value of a channel.
-    pub(crate) fn neutral(channel: &Channel) -> Value {
+    pub(crate) fn neutral(channel: &Channel) -> ConstantValue {
         match *channel.neutral() {
-            [x, y, z] => Value::Triple([x, y, z]),
+            [x, y, z] => ConstantValue::Triple([x, y, z]),
             // A channel has at least one component.
-            ref other => Value::Number(other[0]),
+            ref other => ConstantValue::Number(other[0]),
         }
     }
 
     /// A component of it; a number is the same in all.
     pub(crate) fn component(self, index: usize) -> f32 {
         match self {
-            Value::Number(number) => number,
+            ConstantValue::Number(number) => number,
             // Values have at most three components.
-            Value::Triple(values) => values[index.min(2)],
+            ConstantValue::Triple(values) => values[index.min(2)],
         }
     }
 }
 
-impl fmt::Display for Value {
+impl fmt::Display for ConstantValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Value::Number(number) => write!(f, "{number}"),
-            Value::Triple([x, y, z]) => write!(f, "{x}, {y}, {z}"),
+            ConstantValue::Number(number) => write!(f, "{number}"),
+            ConstantValue::Triple([x, y, z]) => write!(f, "{x}, {y}, {z}"),
         }
     }
 }
@@ -108,9 +108,9 @@ fn survey_of<const N: usize>(neutral: [f32; N], layout: &SetLayout, data: &mut [
 
 /// Returns the value of a channel whose owned pixels all are within half a step of its file's precision. Of normals, only
 /// the flat one counts. A set without owned pixels has the neutral value.
-pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Option<Value> {
+pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Option<ConstantValue> {
     let Some((low, high)) = bounds else {
-        return Some(Value::neutral(channel));
+        return Some(ConstantValue::neutral(channel));
     };
     let components = channel.components();
     let same = (0..components).all(|index| is_same(channel, index, low[index], high[index], high));
@@ -131,9 +131,9 @@ pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Optio
     };
     match (same, channel, components) {
         (false, ..) => None,
-        (true, Channel::Normal, _) => Some(Value::Triple([0.0, 0.0, 1.0])),
-        (true, _, 3) => Some(Value::Triple(std::array::from_fn(value))),
-        _ => Some(Value::Number(value(0))),
+        (true, Channel::Normal, _) => Some(ConstantValue::Triple([0.0, 0.0, 1.0])),
+        (true, _, 3) => Some(ConstantValue::Triple(std::array::from_fn(value))),
+        _ => Some(ConstantValue::Number(value(0))),
     }
 }
 
@@ -198,7 +198,7 @@ mod tests {
         }
     }
 
-    fn of(channel: Channel, a: &[f32], b: &[f32]) -> Option<Value> {
+    fn of(channel: Channel, a: &[f32], b: &[f32]) -> Option<ConstantValue> {
         let other = vec![9.0; a.len()];
         let data = [a, b, &other, &other].concat();
         let mut pixels = ChannelPixels {
@@ -218,7 +218,7 @@ mod tests {
             for stored in [cut(set), rounded(set)] {
                 assert_eq!(
                     of(Channel::Roughness, &[stored], &[stored]),
-                    Some(Value::Number(set)),
+                    Some(ConstantValue::Number(set)),
                     "{stored}"
                 );
             }
@@ -234,14 +234,14 @@ mod tests {
         }
         let [dark, bright] = [cut(0.007), rounded(0.509)];
         let color = of(Channel::BaseColor, &[dark, bright, 1.0], &[dark, bright, 1.0]);
-        assert_eq!(color, Some(Value::Triple([0.007, 0.509, 1.0])));
+        assert_eq!(color, Some(ConstantValue::Triple([0.007, 0.509, 1.0])));
         let height = of(Channel::Height, &[0.699_707_03], &[0.699_707_03]);
-        assert_eq!(height, Some(Value::Number(0.699_707_03)), "a float all the way");
+        assert_eq!(height, Some(ConstantValue::Number(0.699_707_03)), "a float all the way");
     }
 
     #[test]
     fn a_channel_is_constant_within_half_a_step_of_its_file() {
-        assert_eq!(of(Channel::Roughness, &[0.7], &[0.7]), Some(Value::Number(0.7)));
+        assert_eq!(of(Channel::Roughness, &[0.7], &[0.7]), Some(ConstantValue::Number(0.7)));
         assert!(of(Channel::Roughness, &[0.7], &[0.7 + 0.4 / 255.0]).is_some());
         assert_eq!(of(Channel::Roughness, &[0.7], &[0.7 + 0.6 / 255.0]), None);
         assert!(
@@ -250,12 +250,12 @@ mod tests {
         );
         assert_eq!(of(Channel::Mask("m".into()), &[0.7], &[0.7001]), None, "16 bits");
         assert_eq!(of(Channel::Height, &[0.0], &[1e-7]), None, "floats");
-        assert_eq!(of(Channel::Height, &[-2.5], &[-2.5]), Some(Value::Number(-2.5)));
+        assert_eq!(of(Channel::Height, &[-2.5], &[-2.5]), Some(ConstantValue::Number(-2.5)));
     }
 
     #[test]
     fn colors_are_compared_as_they_are_encoded() {
-        let gray = Value::Triple([0.5; 3]);
+        let gray = ConstantValue::Triple([0.5; 3]);
         assert_eq!(of(Channel::BaseColor, &[0.5; 3], &[0.5; 3]), Some(gray));
         assert_eq!(
             of(Channel::BaseColor, &[0.0; 3], &[0.0003; 3]),
@@ -272,7 +272,7 @@ mod tests {
 
     #[test]
     fn only_the_flat_normal_is_constant() {
-        let flat = Some(Value::Triple([0.0, 0.0, 1.0]));
+        let flat = Some(ConstantValue::Triple([0.0, 0.0, 1.0]));
         assert_eq!(of(Channel::Normal, &[0.0, 0.0, 1.0], &[1e-6, 0.0, 1.0]), flat);
         assert_eq!(of(Channel::Normal, &[0.6, 0.0, 0.8], &[0.6, 0.0, 0.8]), None);
     }
@@ -288,7 +288,7 @@ mod tests {
         let found = survey(&Channel::Occlusion, &empty, &mut pixels);
         assert_eq!(
             constant_value(&Channel::Occlusion, found.bounds),
-            Some(Value::Number(1.0))
+            Some(ConstantValue::Number(1.0))
         );
     }
 }

@@ -17,14 +17,14 @@ pub(crate) use facts::{ChannelFacts, FileFacts, SetFacts};
 pub(crate) use material::{DocumentMaterial, PresetFiles, changes_nothing, materials};
 
 use crate::Channel;
-use crate::preset::Document;
+use crate::preset::DocumentFormat;
 use crate::record::DocumentedMaterial;
 
 /// Returns the text of a document. For USDZ it is the text of its first file.
-pub(crate) fn text(document: Document, materials: &[DocumentMaterial]) -> String {
+pub(crate) fn text(document: DocumentFormat, materials: &[DocumentMaterial]) -> String {
     match document {
-        Document::MaterialX => materialx::text(materials),
-        Document::Usda | Document::Usdz => usd::text(materials),
+        DocumentFormat::MaterialX => materialx::text(materials),
+        DocumentFormat::Usda | DocumentFormat::Usdz => usd::text(materials),
     }
 }
 
@@ -35,29 +35,29 @@ pub(crate) fn usd_files(materials: &[DocumentMaterial]) -> Vec<&str> {
 
 /// Returns the channels of a material that vary and that the format supports, but for which the preset has no file that the
 /// document can use.
-pub(crate) fn lacking(document: Document, material: &DocumentMaterial) -> impl Iterator<Item = &Channel> {
+pub(crate) fn lacking(document: DocumentFormat, material: &DocumentMaterial) -> impl Iterator<Item = &Channel> {
     material.missing.iter().filter(move |channel| has(document, channel))
 }
 
 /// Returns the entry in the report for a material of a document.
-pub(crate) fn documented(document: Document, material: &DocumentMaterial) -> DocumentedMaterial {
+pub(crate) fn documented(document: DocumentFormat, material: &DocumentMaterial) -> DocumentedMaterial {
     let untaken = material.channels.keys().filter(|channel| !has(document, channel));
     let mut left_out: Vec<Channel> = material.missing.iter().chain(untaken).cloned().collect();
     left_out.sort();
     DocumentedMaterial {
         material: material.name.clone(),
         names: match document {
-            Document::MaterialX => materialx::names(material).into(),
-            Document::Usda | Document::Usdz => vec![usd::path(material)],
+            DocumentFormat::MaterialX => materialx::names(material).into(),
+            DocumentFormat::Usda | DocumentFormat::Usdz => vec![usd::path(material)],
         },
         left_out,
     }
 }
 
 /// Returns true if materials of the format have the channel.
-fn has(document: Document, channel: &Channel) -> bool {
+fn has(document: DocumentFormat, channel: &Channel) -> bool {
     match document {
-        Document::MaterialX => true,
-        Document::Usda | Document::Usdz => usd::input(channel).is_some(),
+        DocumentFormat::MaterialX => true,
+        DocumentFormat::Usda | DocumentFormat::Usdz => usd::input(channel).is_some(),
     }
 }

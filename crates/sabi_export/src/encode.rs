@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use sabi_image::{ExrSamples, ImageError, PngData, PngOptions, encode_exr, encode_png, encode_tga};
 
 use self::code_rows::code_rows;
-pub(crate) use self::plane::{Codes, Plane, planes};
-use crate::preset::Format;
+pub(crate) use self::plane::{CodeMapping, ComponentPlane, planes};
+use crate::preset::MapFormat;
 
 /// Number of rows that are encoded together. It is large enough that the rows above and below, which dithering needs, take
 /// little extra time.
@@ -18,16 +18,16 @@ const BLOCK_ROWS: usize = 32;
 
 /// Encoding of a file.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Encoding {
+pub(crate) struct FileEncoding {
     /// Pixels across and down.
     pub(crate) size: [u32; 2],
-    pub(crate) format: Format,
+    pub(crate) format: MapFormat,
     /// True if the sRGB curve is applied to all components, except the last of two or four.
     pub(crate) is_srgb: bool,
 }
 
 /// The bytes of a file of one to four components.
-pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>, ImageError> {
+pub(crate) fn encode(planes: &[ComponentPlane<'_>], encoding: FileEncoding) -> Result<Vec<u8>, ImageError> {
     let [width, height] = encoding.size;
     let png = |data: PngData<'_>| {
         let options = PngOptions {
@@ -38,14 +38,14 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
         encode_png(width, height, data, options)
     };
     match encoding.format {
-        Format::Png { bits: 16 } => png(PngData::Rows(&|rows, bytes| {
+        MapFormat::Png { bits: 16 } => png(PngData::Rows(&|rows, bytes| {
             code_rows::<[u8; 2]>(planes, encoding.size, encoding.is_srgb, rows, bytes.as_chunks_mut().0);
         })),
-        Format::Png { .. } => png(PngData::Rows(&|rows, bytes| {
+        MapFormat::Png { .. } => png(PngData::Rows(&|rows, bytes| {
             code_rows(planes, encoding.size, encoding.is_srgb, rows, bytes)
         })),
-        Format::Tga => encode_tga(width, height, planes.len() as u8, &codes_8(planes, encoding)),
-        Format::ExrHalf | Format::Exr => {
+        MapFormat::Tga => encode_tga(width, height, planes.len() as u8, &codes_8(planes, encoding)),
+        MapFormat::ExrHalf | MapFormat::Exr => {
             let values: Vec<Cow<'_, [f32]>> = planes.iter().map(|plane| floats(plane, encoding.size)).collect();
             let names: &[&str] = match planes.len() {
                 1 => &["Y"],
@@ -56,7 +56,7 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
             let channels: Vec<(&str, &[f32])> =
                 names.iter().copied().zip(values.iter().map(|plane| &**plane)).collect();
             let samples = match encoding.format {
-                Format::ExrHalf => ExrSamples::Half,
+                MapFormat::ExrHalf => ExrSamples::Half,
                 _ => ExrSamples::Float,
             };
             encode_exr(width, height, &channels, samples)
@@ -65,10 +65,10 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
 }
 
 /// Values of a component as floats, row by row from the top.
-fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
-    if let Plane::Channel {
+fn floats<'a>(plane: &ComponentPlane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
+    if let ComponentPlane::Channel {
         pixels,
-        codes: Codes::Range(_) | Codes::Unit | Codes::Signed,
+        codes: CodeMapping::Range(_) | CodeMapping::Unit | CodeMapping::Signed,
         is_inverted: false,
         ..
     } = plane
@@ -87,7 +87,7 @@ fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
 }
 
 /// 8-bit codes, components interleaved.
-pub(crate) fn codes_8(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u8> {
+pub(crate) fn codes_8(planes: &[ComponentPlane<'_>], encoding: FileEncoding) -> Vec<u8> {
     let [width, height] = encoding.size.map(|side| side as usize);
     let row_bytes = width * planes.len().max(1);
     let mut codes = vec![0; row_bytes * height];

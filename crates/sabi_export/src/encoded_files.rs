@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use crate::ChannelPixels;
-use crate::encode::{Encoding, Plane};
+use crate::encode::{ComponentPlane, FileEncoding};
 
 /// Store of encoded files.
 pub trait EncodedFiles: Debug + Send + Sync {
@@ -16,7 +16,7 @@ pub trait EncodedFiles: Debug + Send + Sync {
 }
 
 /// Returns a hash of everything except the program that determines the bytes of a file.
-pub(crate) fn key(planes: &[Plane<'_>], encoding: Encoding) -> [u8; 32] {
+pub(crate) fn key(planes: &[ComponentPlane<'_>], encoding: FileEncoding) -> [u8; 32] {
     let mut hash = blake3::Hasher::new_derive_key("sabi encoded files");
     // Channels are packed more than once.
     let mut known: BTreeMap<*const f32, blake3::Hash> = BTreeMap::new();
@@ -34,8 +34,8 @@ pub(crate) fn key(planes: &[Plane<'_>], encoding: Encoding) -> [u8; 32] {
     part(format!("{encoding:?}").as_bytes());
     for plane in planes {
         match plane {
-            Plane::Constant(value) => part(&value.to_le_bytes()),
-            Plane::Channel {
+            ComponentPlane::Constant(value) => part(&value.to_le_bytes()),
+            ComponentPlane::Channel {
                 pixels,
                 index,
                 codes,
@@ -54,13 +54,13 @@ pub(crate) fn key(planes: &[Plane<'_>], encoding: Encoding) -> [u8; 32] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::encode::{Codes, encode};
-    use crate::preset::Format;
+    use crate::encode::{CodeMapping, encode};
+    use crate::preset::MapFormat;
     use sabi_image::DitherPattern;
 
-    const ENCODING: Encoding = Encoding {
+    const ENCODING: FileEncoding = FileEncoding {
         size: [2, 1],
-        format: Format::Png { bits: 8 },
+        format: MapFormat::Png { bits: 8 },
         is_srgb: false,
     };
 
@@ -75,42 +75,42 @@ mod tests {
             pixels([0.0, 0.25, 0.5, 1.0]),
             pixels([0.0, 0.25, 0.5, 0.75]),
         );
-        let plane = |pixels, index, codes, is_inverted| Plane::Channel {
+        let plane = |pixels, index, codes, is_inverted| ComponentPlane::Channel {
             pixels,
             index,
             codes,
             is_inverted,
             dither: None,
         };
-        let of = |plane: Plane<'_>, encoding| (key(&[plane], encoding), encode(&[plane], encoding).unwrap());
-        let first = of(plane(&one, 0, Codes::Unit, false), ENCODING);
-        assert_eq!(of(plane(&same, 0, Codes::Unit, false), ENCODING), first);
+        let of = |plane: ComponentPlane<'_>, encoding| (key(&[plane], encoding), encode(&[plane], encoding).unwrap());
+        let first = of(plane(&one, 0, CodeMapping::Unit, false), ENCODING);
+        assert_eq!(of(plane(&same, 0, CodeMapping::Unit, false), ENCODING), first);
         let others = [
-            of(plane(&one, 1, Codes::Unit, false), ENCODING),
-            of(plane(&other, 1, Codes::Unit, false), ENCODING),
-            of(plane(&one, 0, Codes::Unit, true), ENCODING),
-            of(plane(&one, 0, Codes::Range([0.0, 2.0]), false), ENCODING),
-            of(Plane::Constant(0.5), ENCODING),
+            of(plane(&one, 1, CodeMapping::Unit, false), ENCODING),
+            of(plane(&other, 1, CodeMapping::Unit, false), ENCODING),
+            of(plane(&one, 0, CodeMapping::Unit, true), ENCODING),
+            of(plane(&one, 0, CodeMapping::Range([0.0, 2.0]), false), ENCODING),
+            of(ComponentPlane::Constant(0.5), ENCODING),
             of(
-                plane(&one, 0, Codes::Unit, false),
-                Encoding {
+                plane(&one, 0, CodeMapping::Unit, false),
+                FileEncoding {
                     is_srgb: true,
                     ..ENCODING
                 },
             ),
             of(
-                plane(&one, 0, Codes::Unit, false),
-                Encoding {
-                    format: Format::Png { bits: 16 },
+                plane(&one, 0, CodeMapping::Unit, false),
+                FileEncoding {
+                    format: MapFormat::Png { bits: 16 },
                     ..ENCODING
                 },
             ),
         ];
         let noise = |seed| {
-            let dithered = Plane::Channel {
+            let dithered = ComponentPlane::Channel {
                 pixels: &one,
                 index: 0,
-                codes: Codes::Unit,
+                codes: CodeMapping::Unit,
                 is_inverted: false,
                 dither: Some(DitherPattern::new(seed, "roughness", 0)),
             };

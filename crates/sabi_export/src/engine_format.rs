@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use crate::Channel;
-use crate::preset::{Component, ComponentSource, Content, Format, Map, components_of};
+use crate::preset::{Component, ComponentSource, Map, MapContent, MapFormat, components_of};
 
 /// Format of a texture on a device, as engines import a file of its use.
 ///
@@ -33,7 +33,7 @@ pub enum EngineFormat {
 
 impl EngineFormat {
     /// Returns the format for a file with these components.
-    pub(crate) fn of(components: &[Component], format: Format) -> EngineFormat {
+    pub(crate) fn of(components: &[Component], format: MapFormat) -> EngineFormat {
         let channels = || {
             components.iter().filter_map(|component| match &component.source {
                 ComponentSource::Channel(channel, _) => Some(channel),
@@ -61,8 +61,8 @@ impl EngineFormat {
     /// Returns the format for a map of a preset.
     pub fn of_map(map: &Map) -> EngineFormat {
         match &map.content {
-            Content::Packed(components) => EngineFormat::of(components, map.format),
-            Content::Every(kind) => {
+            MapContent::Packed(components) => EngineFormat::of(components, map.format),
+            MapContent::Every(kind) => {
                 EngineFormat::of(&components_of(&Channel::output(*kind, String::new())), map.format)
             }
         }

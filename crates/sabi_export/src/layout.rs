@@ -1,13 +1,13 @@
 //! Layout of a texture set: the atlas texel of each pixel.
 
-mod grid;
+mod pixel_grid;
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_surface::atlas::{Atlas, Chart, EMPTY, GHOST_BIT, udim_number};
 
-pub(crate) use grid::{Grid, MappedTexel};
+pub(crate) use pixel_grid::{MappedTexel, PixelGrid};
 
 /// Marks the absence of a texel or pixel.
 pub const NONE: u32 = u32::MAX;
@@ -131,7 +131,7 @@ impl SetLayout {
             shared: Vec::new(),
             collisions: 0,
         };
-        Grid::new(atlas, key).for_each(|mapped| {
+        PixelGrid::new(atlas, key).for_each(|mapped| {
             let loser = layout.place(atlas, &mapped);
             layout.shared.extend(loser.filter(|_| shares));
         });

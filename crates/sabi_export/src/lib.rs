@@ -30,7 +30,7 @@ mod encoded_files;
 mod engine_format;
 mod engine_memory;
 mod error;
-mod held;
+mod held_channels;
 mod layout;
 mod mesh_map;
 mod model_copy;
@@ -41,14 +41,14 @@ pub mod preset;
 mod record;
 mod resize;
 mod seams;
-mod shared;
-mod shown;
+mod shared_texels;
+mod shown_texels;
 mod write;
 
 pub use bands::BandGather;
 pub use borders::{BorderGhost, BorderRule, ChartBorders, STEEPER};
 pub use channel::{Channel, ChannelPixels, OutputKind};
-pub use constant::Value;
+pub use constant::ConstantValue;
 pub use encoded_files::EncodedFiles;
 pub use engine_format::EngineFormat;
 pub use engine_memory::{EngineMemory, SetMemory};
@@ -56,14 +56,14 @@ pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use mesh_map::MeshMap;
 pub use model_copy::{
-    CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
-    Scaled, Treatment, baked_materials, unwrapped_materials,
+    CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MappedFactor, MaterialMaps,
+    ModelCopy, Treatment, baked_materials, unwrapped_materials,
 };
 pub use name_pattern::{NameParts, NamePattern, folder_name};
 pub use names::{file_stem, set_names, sheet_names};
 pub use padding::{Padding, PaddingMap};
-pub use record::{ConstantRecord, CutMap, DocumentRecord, DocumentedMaterial, LeftOut, OutputRecord};
+pub use record::{ConstantRecord, CutMap, DocumentRecord, DocumentedMaterial, OutputRecord, UnmappedChannels};
 pub use seams::SeamSamples;
-pub use shared::SharedTexels;
-pub use shown::ShownTexels;
-pub use write::{BakeWriter, Committed, NamedPreset, SetOptions, SetWriter, Written, WrittenDocuments};
+pub use shared_texels::SharedTexels;
+pub use shown_texels::ShownTexels;
+pub use write::{BakeWriter, CommittedBake, NamedPreset, SetOptions, SetWriter, WrittenChannel, WrittenDocuments};

@@ -19,7 +19,7 @@ mod maps;
 mod material;
 mod numbers;
 mod options;
-mod pictures;
+mod picture_slots;
 mod references;
 mod tiles;
 mod wrap;
@@ -34,12 +34,12 @@ use serde_json::Value as Json;
 use self::container::Container;
 use self::from_mesh::MeshCopy;
 use self::geometry::{FileBytes, GeometryEdits, UvSets};
-use self::tiles::Tiles;
+use self::tiles::MaterialTiles;
 use self::wrap::wraps;
 use crate::names::{file_stem, set_names};
 use crate::{ExportError, SetKey};
 
-pub use self::finish_maps::{FinishMaps, Scaled};
+pub use self::finish_maps::{FinishMaps, MappedFactor};
 pub use self::geometry::unwrapped_materials;
 pub use self::look::{LookChange, Treatment};
 pub use self::map_file::MapFile;
@@ -88,7 +88,7 @@ pub struct ModelCopy<'m> {
     source: CopySource<'m>,
     options: CopyOptions,
     materials: Vec<CopiedMaterial>,
-    tiles: Tiles,
+    tiles: MaterialTiles,
     /// Indices in the document of the materials of UDIM tiles, as far as they exist.
     tile_places: BTreeMap<SetKey, usize>,
     stem: String,
@@ -122,7 +122,7 @@ impl<'m> ModelCopy<'m> {
         options: CopyOptions,
     ) -> Result<ModelCopy<'m>, ExportError> {
         let CopySource { model, .. } = source;
-        let tiles = Tiles::of(baked);
+        let tiles = MaterialTiles::of(baked);
         let names = set_names(model);
         let name = |material: u32| {
             names
@@ -132,9 +132,9 @@ impl<'m> ModelCopy<'m> {
         };
         let mut warnings = tiles.warnings(&model.mesh, &name);
         let mut tile_places = BTreeMap::new();
-        let file = Edited::read(source, &tiles)?;
+        let file = GltfModel::read(source, &tiles)?;
         let (container, document, bytes) = match file {
-            Some(Edited {
+            Some(GltfModel {
                 container,
                 document,
                 bytes,
@@ -237,7 +237,7 @@ fn materials(source: CopySource<'_>, names: Vec<String>, is_made: bool) -> Vec<C
 }
 
 /// The document of a glTF model.
-struct Edited {
+struct GltfModel {
     container: Container,
     document: Json,
     bytes: FileBytes,
@@ -245,9 +245,9 @@ struct Edited {
     refused: Option<String>,
 }
 
-impl Edited {
+impl GltfModel {
     /// Reads the document; `None` for models of other formats.
-    fn read(source: CopySource<'_>, tiles: &Tiles) -> Result<Option<Edited>, ExportError> {
+    fn read(source: CopySource<'_>, tiles: &MaterialTiles) -> Result<Option<GltfModel>, ExportError> {
         let CopySource { path, model, .. } = source;
         let refuse = |reason: String| ExportError::Model {
             path: path.to_owned(),
@@ -273,7 +273,7 @@ impl Edited {
             tangents: BTreeMap::new(),
         };
         let refused = edits.check(&document, &container, &bytes).err();
-        Ok(Some(Edited {
+        Ok(Some(GltfModel {
             container,
             document,
             bytes,

@@ -11,7 +11,7 @@ mod tests;
 use std::collections::BTreeSet;
 
 pub use builtin::{BUILTIN_NAMES, builtin, builtin_text, raw};
-pub use document::Document;
+pub use document::DocumentFormat;
 pub use read::PresetError;
 
 use crate::name_pattern::{NameParts, NamePattern};
@@ -31,7 +31,7 @@ pub struct Preset {
     /// Its files, in the order of writing.
     pub maps: Vec<Map>,
     /// Documents of materials that are written beside the maps.
-    pub documents: Vec<Document>,
+    pub documents: Vec<DocumentFormat>,
 }
 
 /// Direction that green of a normal map means.
@@ -47,12 +47,12 @@ pub enum NormalY {
 /// Kind of file of a preset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// Word for it in file names; unused for [`Content::Every`], whose files have the names of the outputs.
+    /// Word for it in file names; unused for [`MapContent::Every`], whose files have the names of the outputs.
     pub name: String,
     /// Content of the file.
-    pub content: Content,
+    pub content: MapContent,
     /// Encoding of the file.
-    pub format: Format,
+    pub format: MapFormat,
     /// True if colors go through the sRGB curve; the file says so.
     pub is_srgb: bool,
     /// True if gradients in integer files are dithered. Areas of constant value never are.
@@ -68,7 +68,7 @@ pub struct Map {
 
 /// Content of a file.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Content {
+pub enum MapContent {
     /// Up to four components: gray, gray and alpha, RGB, RGBA.
     Packed(Vec<Component>),
     /// Each output of the graph of one kind, a file for each.
@@ -126,7 +126,7 @@ pub enum When {
 
 /// Encoding of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum MapFormat {
     /// PNG of whole numbers of 8 or 16 bits.
     Png {
         /// 8 or 16.
@@ -171,18 +171,18 @@ impl Map {
     /// Returns true if the channel is a part of the file.
     pub fn has(&self, channel: &Channel) -> bool {
         match &self.content {
-            Content::Every(kind) => channel.output_kind() == Some(*kind),
-            Content::Packed(components) => components
+            MapContent::Every(kind) => channel.output_kind() == Some(*kind),
+            MapContent::Packed(components) => components
                 .iter()
                 .any(|component| matches!(&component.source, ComponentSource::Channel(held, _) if held == channel)),
         }
     }
 
-    /// The channels that the file is packed of; none for [`Content::Every`].
+    /// The channels that the file is packed of; none for [`MapContent::Every`].
     pub fn channels(&self) -> BTreeSet<&Channel> {
         let components = match &self.content {
-            Content::Packed(components) => &components[..],
-            Content::Every(_) => &[],
+            MapContent::Packed(components) => &components[..],
+            MapContent::Every(_) => &[],
         };
         let channels = components.iter().filter_map(|component| match &component.source {
             ComponentSource::Channel(channel, _) => Some(channel),
@@ -214,28 +214,28 @@ pub(crate) fn components_of(channel: &Channel) -> Vec<Component> {
     (0..channel.components()).map(component).collect()
 }
 
-impl Format {
+impl MapFormat {
     /// Ending of file names.
     pub fn ending(self) -> &'static str {
         match self {
-            Format::Png { .. } => "png",
-            Format::Tga => "tga",
-            Format::ExrHalf | Format::Exr => "exr",
+            MapFormat::Png { .. } => "png",
+            MapFormat::Tga => "tga",
+            MapFormat::ExrHalf | MapFormat::Exr => "exr",
         }
     }
 
     /// Bits of a sample.
     pub fn bits(self) -> u8 {
         match self {
-            Format::Png { bits } => bits,
-            Format::Tga => 8,
-            Format::ExrHalf => 16,
-            Format::Exr => 32,
+            MapFormat::Png { bits } => bits,
+            MapFormat::Tga => 8,
+            MapFormat::ExrHalf => 16,
+            MapFormat::Exr => 32,
         }
     }
 
     /// True for whole numbers, which hold 0..1.
     pub fn is_whole(self) -> bool {
-        matches!(self, Format::Png { .. } | Format::Tga)
+        matches!(self, MapFormat::Png { .. } | MapFormat::Tga)
     }
 }

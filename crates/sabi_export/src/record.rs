@@ -3,8 +3,8 @@
 use sabi_color::srgb8_from_linear;
 use serde::Serialize;
 
-use crate::preset::Document;
-use crate::{Channel, EngineFormat, Value};
+use crate::preset::DocumentFormat;
+use crate::{Channel, ConstantValue, EngineFormat};
 
 /// A file of a texture set.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,7 +55,7 @@ pub struct ConstantRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub udim: Option<u32>,
     /// Its value, linear.
-    pub value: Value,
+    pub value: ConstantValue,
     /// A color as its sRGB code.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub srgb: Option<String>,
@@ -63,9 +63,9 @@ pub struct ConstantRecord {
 
 impl ConstantRecord {
     /// A constant channel of a set. Colors get their sRGB code, which is what artists write.
-    pub(crate) fn new(channel: Channel, material: String, udim: Option<u32>, value: Value) -> ConstantRecord {
+    pub(crate) fn new(channel: Channel, material: String, udim: Option<u32>, value: ConstantValue) -> ConstantRecord {
         let srgb = match value {
-            Value::Triple(values) if channel.is_color() => {
+            ConstantValue::Triple(values) if channel.is_color() => {
                 let is_color = values.iter().all(|value| (0.0..=1.0).contains(value));
                 let [r, g, b] = values.map(srgb8_from_linear);
                 is_color.then(|| format!("#{r:02x}{g:02x}{b:02x}"))
@@ -84,7 +84,7 @@ impl ConstantRecord {
 
 /// Channels of a material that a preset has no map for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
+pub struct UnmappedChannels {
     /// The preset.
     pub preset: String,
     /// Stem of the set's files: the material.
@@ -116,7 +116,7 @@ pub struct DocumentRecord {
     /// Preset that it belongs to.
     pub preset: String,
     /// Its format.
-    pub format: Document,
+    pub format: DocumentFormat,
     /// Its materials.
     pub materials: Vec<DocumentedMaterial>,
     /// BLAKE3 of the file's bytes, hexadecimal.
@@ -166,13 +166,13 @@ mod tests {
             serde_json::to_string(&record).unwrap()
         };
         assert_eq!(
-            constant(Channel::Roughness, Value::Number(0.7)),
+            constant(Channel::Roughness, ConstantValue::Number(0.7)),
             r#"{"channel":"roughness","material":"wood","udim":1002,"value":0.7}"#
         );
         assert_eq!(
-            constant(Channel::BaseColor, Value::Triple([1.0, 0.5, 0.0])),
+            constant(Channel::BaseColor, ConstantValue::Triple([1.0, 0.5, 0.0])),
             r##"{"channel":"base_color","material":"wood","udim":1002,"value":[1.0,0.5,0.0],"srgb":"#ffbc00"}"##
         );
-        assert!(!constant(Channel::Normal, Value::Triple([0.0, 0.0, 1.0])).contains("srgb"));
+        assert!(!constant(Channel::Normal, ConstantValue::Triple([0.0, 0.0, 1.0])).contains("srgb"));
     }
 }

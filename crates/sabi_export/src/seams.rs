@@ -7,7 +7,7 @@
 //! texels keep their bits.
 
 mod erase;
-mod readers;
+mod footprint_places;
 mod solve;
 #[cfg(test)]
 mod tests;
@@ -18,7 +18,7 @@ use sabi_surface::atlas::Atlas;
 use sabi_surface::model::Mesh;
 use sabi_surface::seams::Seam;
 
-use self::readers::Readers;
+use self::footprint_places::FootprintPlaces;
 use crate::layout::SetLayout;
 
 /// Number of samples for each texel along a seam. It is more than one, so that all texels beside the seam are sampled.
@@ -34,15 +34,15 @@ const MOST_SAMPLES: f64 = (1 << 21) as f64;
 pub struct SeamSamples {
     /// The set's pixels beside seams, ascending.
     pixels: Vec<u32>,
-    samples: Vec<Sample>,
+    samples: Vec<SeamSample>,
     /// Samples of each pixel.
-    readers: Readers,
+    readers: FootprintPlaces,
     seams: Vec<Seam>,
 }
 
 /// Sample of a seam.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Sample {
+struct SeamSample {
     sides: [Footprint; 2],
     /// Length of seam that the sample represents, in texels of the finer side.
     length: f32,
@@ -83,7 +83,7 @@ impl SeamSamples {
             .sum();
         let spacing = (1.0 / SAMPLES_A_TEXEL).max(total / MOST_SAMPLES);
         let of_seam = |(index, seam): (usize, &Seam)| sampler.samples(index as u32, *seam, spacing);
-        let mut samples: Vec<Sample> = seams.par_iter().enumerate().flat_map_iter(of_seam).collect();
+        let mut samples: Vec<SeamSample> = seams.par_iter().enumerate().flat_map_iter(of_seam).collect();
         let read = samples
             .iter()
             .flat_map(|sample| sample.sides)
@@ -101,7 +101,7 @@ impl SeamSamples {
                     .map(|pixel| pixels.partition_point(|&other| other < pixel) as u32);
             });
         SeamSamples {
-            readers: Readers::new(&samples, pixels.len()),
+            readers: FootprintPlaces::new(&samples, pixels.len()),
             pixels,
             samples,
             seams: seams.to_vec(),
@@ -145,7 +145,7 @@ impl SeamSampler<'_> {
         if length.is_finite() { length } else { 0.0 }
     }
 
-    fn samples(&self, index: u32, seam: Seam, spacing: f64) -> impl Iterator<Item = Sample> {
+    fn samples(&self, index: u32, seam: Seam, spacing: f64) -> impl Iterator<Item = SeamSample> {
         let length = self.length(&seam);
         let count = if length > 0.0 {
             (length / spacing).ceil().max(1.0) as u32
@@ -156,7 +156,7 @@ impl SeamSampler<'_> {
         (0..count).filter_map(move |at| {
             let fraction = (f64::from(at) + 0.5) / f64::from(count);
             let read = |side: usize| self.footprint(seam.triangles[side], ends[side], fraction);
-            Some(Sample {
+            Some(SeamSample {
                 sides: [read(0)?, read(1)?],
                 length: (length / f64::from(count)) as f32,
                 seam: index,

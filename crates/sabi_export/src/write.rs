@@ -14,17 +14,17 @@ use rayon::prelude::*;
 use sabi_files::{Disk, StagedSet};
 
 pub use self::documents::WrittenDocuments;
-use self::file::{EncodedFile, FileSet, Values, WantedFile, WrittenFile, held_values, sources};
+use self::file::{ComponentValues, EncodedFile, FileSet, StagedMap, WantedFile, held_values, sources};
 pub use self::options::{NamedPreset, SetOptions};
 use crate::constant::{constant_value, survey};
 use crate::document::{ChannelFacts, FileFacts, SetFacts, changes_nothing};
 use crate::encoded_files::EncodedFiles;
-use crate::held::{HeldChannel, HeldSet, MapIndex};
+use crate::held_channels::{HeldChannel, HeldSet, MapIndex};
 use crate::layout::{Cover, SetKey, SetLayout};
 use crate::model_copy::{ChannelInput, MapCollector, MaterialMaps, WrittenMap};
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::preset::{Content, Map, When, components_of};
-use crate::{Channel, ChannelPixels, ConstantRecord, CutMap, ExportError, LeftOut, OutputRecord};
+use crate::preset::{Map, MapContent, When, components_of};
+use crate::{Channel, ChannelPixels, ConstantRecord, CutMap, ExportError, OutputRecord, UnmappedChannels};
 
 /// Writes the texture sets of one bake into a folder; all files are put in place together by [`BakeWriter::commit`].
 #[derive(Debug)]
@@ -51,7 +51,7 @@ pub struct BakeWriter {
 
 /// Result of writing a channel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Written {
+pub struct WrittenChannel {
     /// Its files; none when it is constant and maps of constants were not asked for.
     pub outputs: Vec<OutputRecord>,
     /// Its value where it is constant.
@@ -62,7 +62,7 @@ pub struct Written {
 
 /// Result of a committed bake.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Committed {
+pub struct CommittedBake {
     /// All files now in place.
     pub files: Vec<PathBuf>,
     /// Files in the folder that an earlier bake of these sets may have left and that this one has no map for: the channel
@@ -140,7 +140,7 @@ impl BakeWriter {
 
     /// Channels of the materials that presets have no map for, once all sets are finished. Channels that change nothing do not
     /// count, nor do presets without any map of a material.
-    pub fn left_out(&self, options: &SetOptions) -> Vec<LeftOut> {
+    pub fn left_out(&self, options: &SetOptions) -> Vec<UnmappedChannels> {
         let mut materials: BTreeMap<u32, (&str, BTreeSet<&Channel>)> = BTreeMap::new();
         for (key, set) in &self.facts {
             let (_, channels) = materials.entry(key.material).or_insert((&set.name, BTreeSet::new()));
@@ -165,7 +165,7 @@ impl BakeWriter {
                     .filter(|channel| has.contains(channel) && is_layered(channel));
                 let channels: Vec<Channel> = channels.cloned().collect();
                 if !channels.is_empty() {
-                    found.push(LeftOut {
+                    found.push(UnmappedChannels {
                         preset: preset.name.clone(),
                         material: (*material).to_owned(),
                         channels,
@@ -192,7 +192,7 @@ impl BakeWriter {
     }
 
     /// Puts all files in place.
-    pub fn commit(self) -> Result<Committed, ExportError> {
+    pub fn commit(self) -> Result<CommittedBake, ExportError> {
         let folder = self.staged.folder().to_owned();
         let files = self.staged.commit()?;
         let left_over = self
@@ -201,7 +201,7 @@ impl BakeWriter {
             .map(|name| folder.join(name))
             .filter(|path| path.is_file())
             .collect();
-        Ok(Committed { files, left_over })
+        Ok(CommittedBake { files, left_over })
     }
 }
 
@@ -223,7 +223,7 @@ impl SetWriter<'_> {
         channel: &Channel,
         mut pixels: ChannelPixels,
         is_connected: bool,
-    ) -> Result<Written, ExportError> {
+    ) -> Result<WrittenChannel, ExportError> {
         let components = channel.components();
         let expected = self.layout.cover.len() * components;
         if pixels.components != components || pixels.data.len() != expected {
@@ -269,7 +269,7 @@ impl SetWriter<'_> {
         if let Some(pixels) = pixels {
             self.collect(channel, &pixels, value, high, peak, &written)?;
         }
-        Ok(Written {
+        Ok(WrittenChannel {
             outputs: written.into_iter().map(|written| written.record).collect(),
             constant,
             not_finite: found.not_finite,
@@ -317,7 +317,7 @@ impl SetWriter<'_> {
     }
 
     /// Writes the files of an output of the graph.
-    fn output(&mut self, channel: &Channel, held: &HeldChannel) -> Result<Vec<WrittenFile>, ExportError> {
+    fn output(&mut self, channel: &Channel, held: &HeldChannel) -> Result<Vec<StagedMap>, ExportError> {
         let Some(kind) = channel.output_kind() else {
             return Ok(Vec::new());
         };
@@ -325,7 +325,7 @@ impl SetWriter<'_> {
         let is_varied = held.constant.is_none() || options.all_maps;
         let mut files = Vec::new();
         for NamedPreset { preset, names } in &options.presets {
-            for map in preset.maps.iter().filter(|map| map.content == Content::Every(kind)) {
+            for map in preset.maps.iter().filter(|map| map.content == MapContent::Every(kind)) {
                 let name = self.file_name(map, names, &channel.name());
                 let is_wanted = is_varied && (map.when != When::ItselfAboveOne || held.is_above_one());
                 if !is_wanted {
@@ -337,7 +337,9 @@ impl SetWriter<'_> {
                     map,
                     preset,
                     name,
-                    sources: components.map(|component| (component, Values::Pixels(held))).collect(),
+                    sources: components
+                        .map(|component| (component, ComponentValues::Pixels(held)))
+                        .collect(),
                     scale: 1.0,
                 });
             }
@@ -346,7 +348,7 @@ impl SetWriter<'_> {
     }
 
     /// Writes packed maps, or skips those that are not wanted.
-    fn packed(&mut self, maps: &[MapIndex]) -> Result<Vec<WrittenFile>, ExportError> {
+    fn packed(&mut self, maps: &[MapIndex]) -> Result<Vec<StagedMap>, ExportError> {
         let options = self.options;
         // Put back below.
         let mut held = std::mem::take(self.held());
@@ -356,7 +358,7 @@ impl SetWriter<'_> {
             let map = &preset.maps[index[1]];
             let name = self.file_name(map, names, &map.name);
             match &map.content {
-                Content::Packed(components) if held.is_wanted(map, options.all_maps) => {
+                MapContent::Packed(components) if held.is_wanted(map, options.all_maps) => {
                     let sources = sources(components, |channel| held_values(&held, channel));
                     let components = sources.iter().map(|(component, _)| component.clone()).collect();
                     let scale = held.scale(map);
@@ -399,7 +401,7 @@ impl SetWriter<'_> {
     }
 
     /// Encodes files at once, which keeps all cores busy, and stages them in their order.
-    fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
+    fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<StagedMap>, ExportError> {
         let set = FileSet {
             name: &self.name,
             udim: self.layout.key.udim,
@@ -432,10 +434,10 @@ impl SetWriter<'_> {
         &mut self,
         channel: &Channel,
         pixels: &ChannelPixels,
-        constant: Option<crate::Value>,
+        constant: Option<crate::ConstantValue>,
         high: [f32; 3],
         peak: f32,
-        written: &[WrittenFile],
+        written: &[StagedMap],
     ) -> Result<(), ExportError> {
         let Some(collector) = &mut self.bake.map_collector else {
             return Ok(());

@@ -3,7 +3,7 @@
 use std::fs::OpenOptions;
 use std::path::Path;
 
-use crate::disk::{Disk, Step};
+use crate::disk::{Disk, DiskStep};
 use crate::error::{FileError, Operation};
 
 /// Appends bytes to a file and waits until they are on the disk. If that fails, the file is truncated to its earlier length
@@ -24,11 +24,11 @@ impl Disk {
         let failed = |error| FileError::new(Operation::Append, file, error);
         let mut open = OpenOptions::new().append(true).open(file).map_err(failed)?;
         let length = open.metadata().map_err(failed)?.len();
-        let written = self.write(Step::Append, file, &mut open, bytes);
-        let written = written.and_then(|()| self.step(Step::Sync, file, || open.sync_data()));
+        let written = self.write(DiskStep::Append, file, &mut open, bytes);
+        let written = written.and_then(|()| self.step(DiskStep::Sync, file, || open.sync_data()));
         written.map_err(|error| {
             // Report the first error, not an error of this cleanup.
-            let _ = self.step(Step::Shorten, file, || open.set_len(length));
+            let _ = self.step(DiskStep::Shorten, file, || open.set_len(length));
             failed(error)
         })
     }

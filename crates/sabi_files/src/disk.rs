@@ -19,7 +19,7 @@ pub struct Disk {
 
 /// Fault of a test disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum DiskFault {
     /// The system refuses one step. All other steps succeed.
     Refuse,
     /// The disk is full from one step on: bytes and new names are refused, but removing and renaming succeed.
@@ -28,14 +28,14 @@ pub enum Fault {
     End,
 }
 
-impl Fault {
+impl DiskFault {
     /// All faults.
-    pub const ALL: [Fault; 3] = [Fault::Refuse, Fault::Full, Fault::End];
+    pub const ALL: [DiskFault; 3] = [DiskFault::Refuse, DiskFault::Full, DiskFault::End];
 }
 
 /// Step that changes the disk and can fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
+pub(crate) enum DiskStep {
     CreateFolder,
     /// Creating a file or folder with a temporary name, in the folder that the step names.
     CreateTemporary,
@@ -51,14 +51,17 @@ pub(crate) enum Step {
     Remove,
 }
 
-impl Step {
+impl DiskStep {
     /// Returns true if the step needs free space.
     fn takes_room(self) -> bool {
         match self {
-            Step::CreateFolder | Step::CreateTemporary | Step::CreateFile | Step::Write | Step::Link | Step::Append => {
-                true
-            }
-            Step::Sync | Step::Rename | Step::SyncFolder | Step::Shorten | Step::Remove => false,
+            DiskStep::CreateFolder
+            | DiskStep::CreateTemporary
+            | DiskStep::CreateFile
+            | DiskStep::Write
+            | DiskStep::Link
+            | DiskStep::Append => true,
+            DiskStep::Sync | DiskStep::Rename | DiskStep::SyncFolder | DiskStep::Shorten | DiskStep::Remove => false,
         }
     }
 }
@@ -70,13 +73,13 @@ impl Disk {
     }
 
     /// Creates a test disk with a fault at a step. Steps are counted from 0.
-    pub fn failing(fault: Fault, at: usize) -> Disk {
+    pub fn failing(fault: DiskFault, at: usize) -> Disk {
         Disk::with_record(Record::failing(fault, at))
     }
 
     /// Creates test disks, one for each fault at each of this many steps, each with a description.
     pub fn each_fault(steps: usize) -> impl Iterator<Item = (Disk, String)> {
-        let faults = Fault::ALL.into_iter();
+        let faults = DiskFault::ALL.into_iter();
         let all = faults.flat_map(move |fault| (0..steps).map(move |at| (fault, at)));
         all.map(move |(fault, at)| (Disk::failing(fault, at), format!("{fault:?} at step {at} of {steps}")))
     }
@@ -115,7 +118,7 @@ impl Disk {
     }
 
     /// Performs a step that changes a path: `work` makes the change.
-    pub(crate) fn step<T>(&self, step: Step, path: &Path, work: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
+    pub(crate) fn step<T>(&self, step: DiskStep, path: &Path, work: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
         if let Some(mut record) = self.record() {
             record.begin(step)?;
         }
@@ -127,7 +130,7 @@ impl Disk {
     }
 
     /// Appends bytes to an open file.
-    pub(crate) fn write(&self, step: Step, path: &Path, file: &mut File, bytes: &[u8]) -> io::Result<()> {
+    pub(crate) fn write(&self, step: DiskStep, path: &Path, file: &mut File, bytes: &[u8]) -> io::Result<()> {
         if let Some(mut record) = self.record()
             && let Err(error) = record.begin(step)
         {
@@ -148,7 +151,7 @@ impl Disk {
     /// Renames a file or a folder. `work` makes the change.
     pub(crate) fn rename<T>(&self, from: &Path, to: &Path, work: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
         if let Some(mut record) = self.record() {
-            record.begin(Step::Rename)?;
+            record.begin(DiskStep::Rename)?;
         }
         let done = work()?;
         if let Some(mut record) = self.record() {
@@ -162,6 +165,6 @@ impl Disk {
     /// # Errors
     /// It does not exist, or the system refuses.
     pub fn remove(&self, file: &Path) -> io::Result<()> {
-        self.step(Step::Remove, file, || fs::remove_file(file))
+        self.step(DiskStep::Remove, file, || fs::remove_file(file))
     }
 }

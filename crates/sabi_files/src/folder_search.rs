@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use sabi_cancel::look;
 
 use crate::address::leads_to_network;
-use crate::named::folded;
+use crate::path_base::folded;
 use crate::read::Unread;
 use crate::refusal::Refusal;
-use crate::trusted::TrustedPaths;
+use crate::trusted_paths::TrustedPaths;
 
 /// Most files and folders that are looked at.
 const MOST_ENTRIES: usize = 100_000;

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{NamedTempFile, TempDir};
 
-use crate::disk::{Disk, Step};
+use crate::disk::{Disk, DiskStep};
 
 /// Start of temporary names: hidden, and short enough that the names do not become too long.
 pub(crate) const PREFIX: &str = ".sabi-";
@@ -41,7 +41,7 @@ pub(crate) fn temporary_in(disk: &Disk, folder: &Path, prefix: &OsStr) -> io::Re
         names.permissions(permissions);
     }
     names.disable_cleanup(disk.keeps_temporaries());
-    let mut temporary = disk.step(Step::CreateTemporary, folder, || names.tempfile_in(folder))?;
+    let mut temporary = disk.step(DiskStep::CreateTemporary, folder, || names.tempfile_in(folder))?;
     for _ in 0..MOST_CLAIMS {
         if claim(temporary.as_file(), temporary.path()) {
             break;
@@ -80,7 +80,7 @@ pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<Temp
         names.permissions(permissions);
     }
     names.disable_cleanup(disk.keeps_temporaries());
-    let mut made = disk.step(Step::CreateTemporary, folder, || names.tempdir_in(folder))?;
+    let mut made = disk.step(DiskStep::CreateTemporary, folder, || names.tempdir_in(folder))?;
     for _ in 0..MOST_CLAIMS {
         let lock = match File::open(made.path()) {
             Ok(handle) => Some(handle),

@@ -9,7 +9,7 @@ use std::{fs, io::ErrorKind};
 
 use tempfile::NamedTempFile;
 
-use crate::disk::{Disk, Step};
+use crate::disk::{Disk, DiskStep};
 use crate::error::{FileError, Operation};
 use crate::paths::behind_links;
 use crate::temporary::{PREFIX, temporary_in};
@@ -116,7 +116,9 @@ impl WholeFile {
     /// The disk is full or not available.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), FileError> {
         let path = self.temporary.path().to_owned();
-        let written = self.disk.write(Step::Write, &path, self.temporary.as_file_mut(), bytes);
+        let written = self
+            .disk
+            .write(DiskStep::Write, &path, self.temporary.as_file_mut(), bytes);
         written.map_err(|error| FileError::new(Operation::Write, &self.target, error))
     }
 
@@ -128,7 +130,9 @@ impl WholeFile {
     /// Waits until the bytes are on the disk. Some file systems report only here that the disk is full.
     pub(crate) fn sync(&mut self) -> Result<(), FileError> {
         let file = self.temporary.as_file();
-        let synced = self.disk.step(Step::Sync, self.temporary.path(), || file.sync_all());
+        let synced = self
+            .disk
+            .step(DiskStep::Sync, self.temporary.path(), || file.sync_all());
         synced.map_err(|error| FileError::new(Operation::Write, &self.target, error))
     }
 
@@ -203,7 +207,7 @@ pub(crate) fn folder_of(file: &Path) -> &Path {
 pub(crate) fn create_folder(disk: &Disk, folder: &Path, durability: Durability) -> Result<(), FileError> {
     for missing in missing_folders(folder) {
         // Another process may create the folder at the same moment.
-        let created = disk.step(Step::CreateFolder, missing, || fs::create_dir_all(missing));
+        let created = disk.step(DiskStep::CreateFolder, missing, || fs::create_dir_all(missing));
         created.map_err(|error| FileError::new(Operation::CreateFolder, folder, error))?;
         if durability == Durability::Synced {
             sync_folder(disk, folder_of(missing))?;
@@ -224,7 +228,7 @@ pub(crate) fn missing_folders(folder: &Path) -> Vec<&Path> {
 /// Syncs the entries of a folder, so that a renamed file keeps its new name after a power failure.
 #[cfg(unix)]
 pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
-    let synced = disk.step(Step::SyncFolder, folder, || {
+    let synced = disk.step(DiskStep::SyncFolder, folder, || {
         fs::File::open(folder).and_then(|folder| folder.sync_all())
     });
     match synced {
@@ -245,7 +249,7 @@ pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
 /// Does nothing: folders cannot be synced on this system, whose file systems record renames in a journal.
 #[cfg(not(unix))]
 pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
-    let synced = disk.step(Step::SyncFolder, folder, || Ok(()));
+    let synced = disk.step(DiskStep::SyncFolder, folder, || Ok(()));
     synced.map_err(|error| FileError::new(Operation::SyncFolder, folder, error))
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::address::is_local;
-use crate::named::{PathBase, without_detours};
+use crate::path_base::{PathBase, without_detours};
 use crate::paths::{absolute, canonical};
 
 /// Returns the absolute path of a file that a file names, without `.` and `..`.

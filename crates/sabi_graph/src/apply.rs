@@ -1,6 +1,6 @@
 //! Applies edits and gives their exact inverses.
 
-mod exposed;
+mod exposed_knobs;
 mod groups;
 mod no_effect;
 mod nodes;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::document::{Fit, GroupDef, GroupInput, Preview};
-use crate::graph::{Exposed, Frame};
+use crate::graph::{ExposedParameter, Frame};
 use crate::problem::Problem;
 use crate::{Document, Node, NodeDisplay, NodeId, Note, OutputRef, Value};
 
@@ -71,7 +71,11 @@ pub enum Edit {
     /// Adds a note or replaces the one of that id, or removes it (`None`).
     SetNote { body: Body, id: String, note: Option<Note> },
     /// Exposes a knob, or replaces the one of that name.
-    Expose { body: Body, name: String, knob: Exposed },
+    Expose {
+        body: Body,
+        name: String,
+        knob: ExposedParameter,
+    },
     /// Removes a knob from the exposed ones and from all variants.
     Unexpose { body: Body, name: String },
     /// Sets the knob values of a variant, or removes the variant (`None`).

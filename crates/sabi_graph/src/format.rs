@@ -16,14 +16,14 @@ pub(crate) struct ObjectKeys {
     /// Description, a sentence.
     pub(crate) about: &'static str,
     /// Keys, in the order of writing.
-    pub(crate) keys: &'static [Key],
+    pub(crate) keys: &'static [ObjectKey],
 }
 
 /// Key of an object.
 #[derive(Debug)]
-pub(crate) struct Key {
+pub(crate) struct ObjectKey {
     pub(crate) name: &'static str,
-    pub(crate) value: Shape,
+    pub(crate) value: ValueShape,
     pub(crate) is_needed: bool,
     /// Meaning, a sentence.
     pub(crate) about: &'static str,
@@ -31,7 +31,7 @@ pub(crate) struct Key {
 
 /// Shape of a value.
 #[derive(Debug)]
-pub(crate) enum Shape {
+pub(crate) enum ValueShape {
     /// Exactly this text.
     Word(&'static str),
     /// One of these texts.
@@ -61,7 +61,7 @@ pub(crate) enum Shape {
     /// Objects with fixed keys, by name.
     Objects(&'static ObjectKeys),
     /// Values of another shape, by name.
-    Map(&'static Shape),
+    Map(&'static ValueShape),
 }
 
 impl ObjectKeys {
@@ -71,8 +71,8 @@ impl ObjectKeys {
     }
 }
 
-const fn key(name: &'static str, value: Shape, about: &'static str) -> Key {
-    Key {
+const fn key(name: &'static str, value: ValueShape, about: &'static str) -> ObjectKey {
+    ObjectKey {
         name,
         value,
         is_needed: false,
@@ -80,38 +80,46 @@ const fn key(name: &'static str, value: Shape, about: &'static str) -> Key {
     }
 }
 
-const fn needed(name: &'static str, value: Shape, about: &'static str) -> Key {
-    Key {
+const fn needed(name: &'static str, value: ValueShape, about: &'static str) -> ObjectKey {
+    ObjectKey {
         is_needed: true,
         ..key(name, value, about)
     }
 }
 
-const ABOUT: Key = key("about", Shape::Text, "What one sees, a sentence or two.");
-const WORDS: Key = key(
+const ABOUT: ObjectKey = key("about", ValueShape::Text, "What one sees, a sentence or two.");
+const WORDS: ObjectKey = key(
     "words",
-    Shape::Texts,
+    ValueShape::Texts,
     "Words that it is found by, besides those of its name and text.",
 );
-const EXPOSED_KEY: Key = key("exposed", Shape::Objects(&EXPOSED), "Knobs that it exposes, by name.");
-const VARIANTS: Key = key(
+const EXPOSED_KEY: ObjectKey = key(
+    "exposed",
+    ValueShape::Objects(&EXPOSED),
+    "Knobs that it exposes, by name.",
+);
+const VARIANTS: ObjectKey = key(
     "variants",
-    Shape::Map(&Shape::Map(&Shape::Any)),
+    ValueShape::Map(&ValueShape::Map(&ValueShape::Any)),
     "Sets of values for its knobs, by name.",
 );
-const FRAMES: Key = key("frames", Shape::Objects(&FRAME), "Titled boxes around nodes, by name.");
-const NOTES: Key = key("notes", Shape::Objects(&NOTE), "Notes on the canvas, by name.");
-const INPUTS: Key = key(
+const FRAMES: ObjectKey = key(
+    "frames",
+    ValueShape::Objects(&FRAME),
+    "Titled boxes around nodes, by name.",
+);
+const NOTES: ObjectKey = key("notes", ValueShape::Objects(&NOTE), "Notes on the canvas, by name.");
+const INPUTS: ObjectKey = key(
     "inputs",
-    Shape::Objects(&INPUT),
+    ValueShape::Objects(&INPUT),
     "Inputs, by name, where it is used as a group.",
 );
-const OUTPUTS: Key = key(
+const OUTPUTS: ObjectKey = key(
     "outputs",
-    Shape::Map(&Shape::Reference),
+    ValueShape::Map(&ValueShape::Reference),
     "Outputs of nodes, by the name of the group's output.",
 );
-const NODES: Key = needed("nodes", Shape::Objects(&NODE), "Nodes by id; may be empty.");
+const NODES: ObjectKey = needed("nodes", ValueShape::Objects(&NODE), "Nodes by id; may be empty.");
 const FIT_WORDS: &str =
     "Length that counts as 1: \"unit\" (the model's largest side), \"metres\", \"piece\", or a number of meters.";
 
@@ -120,25 +128,29 @@ pub(crate) static DOCUMENT: ObjectKeys = ObjectKeys {
     name: "graph",
     about: "The whole file.",
     keys: &[
-        needed("format", Shape::Word("sabi"), "Mark of a graph file."),
-        needed("version", Shape::Version, "Version of the format; older ones are read."),
-        key("name", Shape::Text, "Display name."),
+        needed("format", ValueShape::Word("sabi"), "Mark of a graph file."),
+        needed(
+            "version",
+            ValueShape::Version,
+            "Version of the format; older ones are read.",
+        ),
+        key("name", ValueShape::Text, "Display name."),
         ABOUT,
         WORDS,
         key(
             "preview",
-            Shape::Object(&PREVIEW),
+            ValueShape::Object(&PREVIEW),
             "What the graph is shown on while it is edited.",
         ),
-        key("fit", Shape::Fit, FIT_WORDS),
-        key("seed", Shape::Whole, "Seed of the whole graph."),
+        key("fit", ValueShape::Fit, FIT_WORDS),
+        key("seed", ValueShape::Whole, "Seed of the whole graph."),
         EXPOSED_KEY,
         VARIANTS,
         FRAMES,
         NOTES,
         key(
             "groups",
-            Shape::Objects(&GROUP),
+            ValueShape::Objects(&GROUP),
             "Groups that the file defines, by name.",
         ),
         INPUTS,
@@ -152,11 +164,19 @@ pub(crate) static GROUP: ObjectKeys = ObjectKeys {
     name: "group",
     about: "A graph that is used as a node.",
     keys: &[
-        key("name", Shape::Text, "Display name, where it is not that of the group."),
+        key(
+            "name",
+            ValueShape::Text,
+            "Display name, where it is not that of the group.",
+        ),
         ABOUT,
         WORDS,
-        key("library", Shape::Object(&LIBRARY), "Library file that it is a copy of."),
-        key("fit", Shape::Fit, FIT_WORDS),
+        key(
+            "library",
+            ValueShape::Object(&LIBRARY),
+            "Library file that it is a copy of.",
+        ),
+        key("fit", ValueShape::Fit, FIT_WORDS),
         EXPOSED_KEY,
         VARIANTS,
         FRAMES,
@@ -174,25 +194,33 @@ pub(crate) static NODE: ObjectKeys = ObjectKeys {
     keys: &[
         needed(
             "kind",
-            Shape::Text,
+            ValueShape::Text,
             "Kind, such as `noise/simplex`, or `graph/group` for an instance of a group.",
         ),
         key(
             "group",
-            Shape::Text,
+            ValueShape::Text,
             "Group of an instance: its name, or the path of a graph file.",
         ),
-        key("label", Shape::Text, "Display name."),
+        key("label", ValueShape::Text, "Display name."),
         key(
             "inputs",
-            Shape::Map(&Shape::Reference),
+            ValueShape::Map(&ValueShape::Reference),
             "Links, by input: `node` or `node.output`. An input that a parameter has as well is its mask.",
         ),
-        key("params", Shape::Map(&Shape::Any), "Parameters that were set, by name."),
-        key("pos", Shape::Numbers(2), "Place on the canvas, in points."),
-        key("muted", Shape::Flag, "Whether it passes its main input on."),
-        key("rows", Shape::Words(&["all", "wired", "none"]), "Rows that are drawn."),
-        key("named_wires", Shape::Flag, "Whether its wires are drawn as names."),
+        key(
+            "params",
+            ValueShape::Map(&ValueShape::Any),
+            "Parameters that were set, by name.",
+        ),
+        key("pos", ValueShape::Numbers(2), "Place on the canvas, in points."),
+        key("muted", ValueShape::Flag, "Whether it passes its main input on."),
+        key(
+            "rows",
+            ValueShape::Words(&["all", "wired", "none"]),
+            "Rows that are drawn.",
+        ),
+        key("named_wires", ValueShape::Flag, "Whether its wires are drawn as names."),
     ],
 };
 
@@ -201,18 +229,18 @@ pub(crate) static EXPOSED: ObjectKeys = ObjectKeys {
     name: "exposed",
     about: "A knob that a graph or group exposes.",
     keys: &[
-        key("to", Shape::References, "Parameters that it sets, `node.param`."),
+        key("to", ValueShape::References, "Parameters that it sets, `node.param`."),
         key(
             "curves",
-            Shape::Map(&Shape::Curve),
+            ValueShape::Map(&ValueShape::Curve),
             "Value of a parameter over that of the knob, by `node.param`: points [knob, parameter].",
         ),
-        key("label", Shape::Text, "Display name."),
-        key("about", Shape::Text, "Its effect, a sentence."),
-        key("section", Shape::Text, "Title of the section that it stands in."),
-        key("order", Shape::Whole, "Place among the exposed knobs."),
-        key("range", Shape::Numbers(2), "Lowest and highest number taken."),
-        key("default", Shape::Any, "Value until it is set."),
+        key("label", ValueShape::Text, "Display name."),
+        key("about", ValueShape::Text, "Its effect, a sentence."),
+        key("section", ValueShape::Text, "Title of the section that it stands in."),
+        key("order", ValueShape::Whole, "Place among the exposed knobs."),
+        key("range", ValueShape::Numbers(2), "Lowest and highest number taken."),
+        key("default", ValueShape::Any, "Value until it is set."),
     ],
 };
 
@@ -221,13 +249,17 @@ pub(crate) static INPUT: ObjectKeys = ObjectKeys {
     name: "input",
     about: "An input of a group.",
     keys: &[
-        key("to", Shape::References, "Inputs of nodes that it feeds, `node.input`."),
+        key(
+            "to",
+            ValueShape::References,
+            "Inputs of nodes that it feeds, `node.input`.",
+        ),
         key(
             "type",
-            Shape::Words(&["mask", "color", "vector", "material"]),
+            ValueShape::Words(&["mask", "color", "vector", "material"]),
             "Type of its values.",
         ),
-        key("label", Shape::Text, "Display name."),
+        key("label", ValueShape::Text, "Display name."),
     ],
 };
 
@@ -236,9 +268,9 @@ pub(crate) static FRAME: ObjectKeys = ObjectKeys {
     name: "frame",
     about: "A titled box around nodes.",
     keys: &[
-        key("title", Shape::Text, "Title."),
-        key("color", Shape::Text, "Color, `#rrggbb`."),
-        key("nodes", Shape::Texts, "Ids of the nodes in it."),
+        key("title", ValueShape::Text, "Title."),
+        key("color", ValueShape::Text, "Color, `#rrggbb`."),
+        key("nodes", ValueShape::Texts, "Ids of the nodes in it."),
     ],
 };
 
@@ -247,10 +279,10 @@ pub(crate) static NOTE: ObjectKeys = ObjectKeys {
     name: "note",
     about: "A note on the canvas.",
     keys: &[
-        needed("text", Shape::Text, "Its text."),
-        key("pos", Shape::Numbers(2), "Place on the canvas, in points."),
-        key("width", Shape::Number, "Width, in points."),
-        key("color", Shape::Text, "Color, `#rrggbb`."),
+        needed("text", ValueShape::Text, "Its text."),
+        key("pos", ValueShape::Numbers(2), "Place on the canvas, in points."),
+        key("width", ValueShape::Number, "Width, in points."),
+        key("color", ValueShape::Text, "Color, `#rrggbb`."),
     ],
 };
 
@@ -261,34 +293,34 @@ pub(crate) static PREVIEW: ObjectKeys = ObjectKeys {
     keys: &[
         key(
             "mesh",
-            Shape::Text,
+            ValueShape::Text,
             "Model, relative to the graph file; `builtin:NAME` for one that comes with the program, such as `builtin:crate`.",
         ),
         key(
             "textures",
-            Shape::Text,
+            ValueShape::Text,
             "Folder in which, and below which, files are looked for that the model names and that are not there, relative to the graph file.",
         ),
         key(
             "parts",
-            Shape::Texts,
+            ValueShape::Texts,
             "Names of the parts of the model that are taken; without it all but hulls and coarser levels of detail.",
         ),
         key(
             "without",
-            Shape::Texts,
+            ValueShape::Texts,
             "Names of the parts of the model that are left out.",
         ),
         key(
             "turn_faces",
-            Shape::Flag,
+            ValueShape::Flag,
             "True to turn faces of the model that are inside out.",
         ),
-        key("size", Shape::Whole, "Texels along a side."),
-        key("variant", Shape::Text, "Variant that is shown."),
+        key("size", ValueShape::Whole, "Texels along a side."),
+        key("variant", ValueShape::Text, "Variant that is shown."),
         key(
             "views",
-            Shape::Objects(&VIEW),
+            ValueShape::Objects(&VIEW),
             "Views of the model that were kept, by name.",
         ),
     ],
@@ -301,17 +333,21 @@ pub(crate) static VIEW: ObjectKeys = ObjectKeys {
     keys: &[
         key(
             "target",
-            Shape::Numbers(3),
+            ValueShape::Numbers(3),
             "Point that is looked at, from the middle of the model.",
         ),
         key(
             "yaw",
-            Shape::Number,
+            ValueShape::Number,
             "Side that is seen, degrees: 0 the front, 90 the right.",
         ),
-        key("pitch", Shape::Number, "Elevation, degrees: 90 is from above."),
-        key("distance", Shape::Number, "Distance from the target."),
-        key("parallel", Shape::Flag, "Whether it is seen through a parallel lens."),
+        key("pitch", ValueShape::Number, "Elevation, degrees: 90 is from above."),
+        key("distance", ValueShape::Number, "Distance from the target."),
+        key(
+            "parallel",
+            ValueShape::Flag,
+            "Whether it is seen through a parallel lens.",
+        ),
     ],
 };
 
@@ -322,12 +358,12 @@ pub(crate) static LIBRARY: ObjectKeys = ObjectKeys {
     keys: &[
         needed(
             "file",
-            Shape::Text,
+            ValueShape::Text,
             "Path in the library, or relative to the graph file.",
         ),
         needed(
             "digest",
-            Shape::Text,
+            ValueShape::Text,
             "BLAKE3 of the file that was copied, in hexadecimal.",
         ),
     ],

@@ -12,7 +12,7 @@ use crate::{KnobCurve, NodeDisplay, NodeId, Note, OutputRef, SlotRef, Value};
 
 /// A knob that a graph exposes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Exposed {
+pub struct ExposedParameter {
     /// The parameters it sets, written `node.param`.
     pub to: Vec<SlotRef>,
     /// Curves for the parameters that do not take the value of the knob directly: value of the parameter over the value of
@@ -34,12 +34,12 @@ pub struct Exposed {
     pub extra: BTreeMap<String, Value>,
 }
 
-impl Exposed {
+impl ExposedParameter {
     /// Returns this knob with other parameters. Curves of parameters that it no longer sets are removed.
-    pub fn with_targets(&self, to: Vec<SlotRef>) -> Exposed {
+    pub fn with_targets(&self, to: Vec<SlotRef>) -> ExposedParameter {
         let mut curves = self.curves.clone();
         curves.retain(|slot, _| to.contains(slot));
-        Exposed {
+        ExposedParameter {
             to,
             curves,
             ..self.clone()
@@ -120,7 +120,7 @@ pub struct Graph {
     index: BTreeMap<NodeId, NodeIndex>,
     pub(crate) frames: BTreeMap<String, Frame>,
     pub(crate) notes: BTreeMap<String, Note>,
-    pub(crate) exposed: BTreeMap<String, Exposed>,
+    pub(crate) exposed: BTreeMap<String, ExposedParameter>,
     pub(crate) variants: BTreeMap<String, BTreeMap<String, Value>>,
 }
 
@@ -241,13 +241,14 @@ impl Graph {
     }
 
     /// Exposed knobs, by name.
-    pub fn exposed(&self) -> &BTreeMap<String, Exposed> {
+    pub fn exposed(&self) -> &BTreeMap<String, ExposedParameter> {
         &self.exposed
     }
 
     /// Returns the exposed knobs in their order, by position and name. A section is placed where its first knob is.
-    pub fn exposed_in_order(&self) -> Vec<(&str, &Exposed)> {
-        let mut knobs: Vec<(&str, &Exposed)> = self.exposed.iter().map(|(name, knob)| (name.as_str(), knob)).collect();
+    pub fn exposed_in_order(&self) -> Vec<(&str, &ExposedParameter)> {
+        let mut knobs: Vec<(&str, &ExposedParameter)> =
+            self.exposed.iter().map(|(name, knob)| (name.as_str(), knob)).collect();
         knobs.sort_by_key(|(_, knob)| knob.order.unwrap_or(u32::MAX));
         let mut sections: Vec<Option<&str>> = Vec::new();
         for (_, knob) in &knobs {

@@ -9,17 +9,17 @@ pub const UNDO_STEPS: usize = 2000;
 /// Undo and redo as two stacks of inverse edits.
 #[derive(Clone, Debug, Default)]
 pub struct History {
-    undo: Vec<Step>,
-    redo: Vec<Step>,
+    undo: Vec<UndoStep>,
+    redo: Vec<UndoStep>,
     /// The open group of edits.
-    open: Option<Step>,
+    open: Option<UndoStep>,
     /// Redo stack before the first edit of the open group. It is restored when the group is canceled.
-    redo_before_group: Vec<Step>,
+    redo_before_group: Vec<UndoStep>,
 }
 
 /// One step: its name in menus, and the edits that undo or redo it, in the order to apply them.
 #[derive(Clone, Debug)]
-struct Step {
+struct UndoStep {
     name: String,
     edits: Vec<Edit>,
 }
@@ -49,7 +49,7 @@ impl History {
             // A drag sets the same knob repeatedly. The inverse of the first edit undoes all of them, so later inverses are not recorded.
             Some(step) if step.edits.last().is_some_and(|last| sets_the_same(last, &inverse)) => {}
             Some(step) => step.edits.push(inverse),
-            None => self.push_undo(Step {
+            None => self.push_undo(UndoStep {
                 name: name.to_owned(),
                 edits: vec![inverse],
             }),
@@ -58,7 +58,7 @@ impl History {
     }
 
     /// Pushes a step onto the undo stack.
-    fn push_undo(&mut self, step: Step) {
+    fn push_undo(&mut self, step: UndoStep) {
         self.undo.push(step);
         // Remove many steps at once, since removing from the front moves all others.
         if self.undo.len() >= UNDO_STEPS + UNDO_STEPS / 4 {
@@ -70,7 +70,7 @@ impl History {
     /// the name of the first edit. A group that is still open is ended first.
     pub fn begin(&mut self, name: &str) {
         self.end();
-        self.open = Some(Step {
+        self.open = Some(UndoStep {
             name: name.to_owned(),
             edits: Vec::new(),
         });
@@ -189,14 +189,18 @@ fn sets_the_same(one: &Edit, other: &Edit) -> bool {
 }
 
 /// Applies the top step of one stack and pushes its inverse onto the other.
-fn replay(document: &mut Document, from: &mut Vec<Step>, to: &mut Vec<Step>) -> Result<Option<String>, EditError> {
+fn replay(
+    document: &mut Document,
+    from: &mut Vec<UndoStep>,
+    to: &mut Vec<UndoStep>,
+) -> Result<Option<String>, EditError> {
     let Some(step) = from.pop() else {
         return Ok(None);
     };
     match document.apply(Edit::Batch(step.edits.clone())) {
         Ok(inverse) => {
             let name = step.name;
-            to.push(Step {
+            to.push(UndoStep {
                 name: name.clone(),
                 edits: vec![inverse],
             });

@@ -8,10 +8,10 @@ use crate::value::{Value, number_text};
 
 /// Object to be written, with its keys in order.
 #[derive(Default)]
-pub(crate) struct OrderedObject(Vec<(String, Item)>);
+pub(crate) struct OrderedObject(Vec<(String, LayoutItem)>);
 
 /// Value to be written.
-pub(crate) enum Item {
+pub(crate) enum LayoutItem {
     Value(Value),
     Object(OrderedObject),
 }
@@ -19,7 +19,7 @@ pub(crate) enum Item {
 impl OrderedObject {
     /// Adds a key with a value.
     pub(crate) fn put(&mut self, key: &str, value: impl Into<Value>) {
-        self.0.push((key.to_owned(), Item::Value(value.into())));
+        self.0.push((key.to_owned(), LayoutItem::Value(value.into())));
     }
 
     /// Adds a key, if there is a value.
@@ -31,11 +31,11 @@ impl OrderedObject {
 
     /// Adds a key with an object.
     pub(crate) fn put_object(&mut self, key: &str, object: OrderedObject) {
-        self.0.push((key.to_owned(), Item::Object(object)));
+        self.0.push((key.to_owned(), LayoutItem::Object(object)));
     }
 
     /// Adds a key with an object whose members `each` creates, unless the map is empty.
-    pub(crate) fn put_map<K: ToString, V>(&mut self, key: &str, map: &BTreeMap<K, V>, each: impl Fn(&V) -> Item) {
+    pub(crate) fn put_map<K: ToString, V>(&mut self, key: &str, map: &BTreeMap<K, V>, each: impl Fn(&V) -> LayoutItem) {
         if !map.is_empty() {
             let members = map.iter().map(|(name, value)| (name.to_string(), each(value)));
             self.put_object(key, OrderedObject(members.collect()));
@@ -52,14 +52,14 @@ impl OrderedObject {
     }
 
     /// Adds a member.
-    pub(crate) fn push(&mut self, key: String, item: Item) {
+    pub(crate) fn push(&mut self, key: String, item: LayoutItem) {
         self.0.push((key, item));
     }
 
     /// Returns the text of the whole file.
     pub(crate) fn into_text(self) -> String {
         let mut text = String::new();
-        write_item(&mut text, &Item::Object(self), 0);
+        write_item(&mut text, &LayoutItem::Object(self), 0);
         text.push('\n');
         text
     }
@@ -72,10 +72,10 @@ pub(crate) fn one_line(value: &Value) -> String {
     text
 }
 
-fn write_item(text: &mut String, item: &Item, indent: usize) {
+fn write_item(text: &mut String, item: &LayoutItem, indent: usize) {
     match item {
-        Item::Value(value) => write_value(text, value, indent),
-        Item::Object(OrderedObject(members)) => {
+        LayoutItem::Value(value) => write_value(text, value, indent),
+        LayoutItem::Object(OrderedObject(members)) => {
             let members = members.iter().map(|(key, item)| (key.as_str(), item));
             write_members(text, members, indent, write_item);
         }

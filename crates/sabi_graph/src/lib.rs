@@ -60,7 +60,7 @@ pub use flatten::{
     flatten_and_find, takes_values,
 };
 pub use format::{FormatKey, FormatObject, UnknownKey, UnknownKeys, format_objects, format_schema, unknown_keys};
-pub use graph::{Exposed, Frame, Graph, Node};
+pub use graph::{ExposedParameter, Frame, Graph, Node};
 pub use history::{History, UNDO_STEPS};
 pub use id::{NodeId, OutputRef, SlotRef};
 pub use knob_curve::KnobCurve;

@@ -5,7 +5,7 @@ mod fields;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use body::{Body, read_body};
+use body::{BodyContent, read_body};
 use fields::Fields;
 
 use crate::document::{Description, Fit, GroupDef, LibrarySource, Preview, SavedView};
@@ -47,7 +47,7 @@ fn read(text: &str) -> Result<Document, ReadError> {
     let seed = fields.whole("seed")?.unwrap_or(0);
     let groups = fields.map("groups")?;
     let group_names: BTreeSet<String> = groups.iter().map(|member| member.key.clone()).collect();
-    let Body { graph, inputs, outputs } = read_body(&mut fields, &group_names)?;
+    let BodyContent { graph, inputs, outputs } = read_body(&mut fields, &group_names)?;
     let mut document = Document {
         name,
         description,
@@ -75,7 +75,7 @@ fn read_group(json: Json, group_names: &BTreeSet<String>) -> Result<GroupDef, Re
     let description = read_description(&mut fields)?;
     let library = fields.take("library").map(read_library).transpose()?;
     let fit = fields.take("fit").map(read_fit).transpose()?;
-    let Body { graph, inputs, outputs } = read_body(&mut fields, group_names)?;
+    let BodyContent { graph, inputs, outputs } = read_body(&mut fields, group_names)?;
     Ok(GroupDef {
         name,
         description,

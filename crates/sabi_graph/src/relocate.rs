@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::document::{GroupDef, Preview};
-use crate::graph::Exposed;
+use crate::graph::ExposedParameter;
 use crate::validate::is_group_file;
 use crate::{Body, Document, Edit, GROUP_KIND, Graph, Node, SlotRef, Value};
 
@@ -119,7 +119,7 @@ impl PathRewriter<'_> {
         }
     }
 
-    fn knob(&self, body: &Body, knob: &mut Exposed) {
+    fn knob(&self, body: &Body, knob: &mut ExposedParameter) {
         let is_file = knob.to.iter().any(|slot| self.is_file(body, slot));
         if let Some(value) = &mut knob.default {
             self.value(value, is_file);

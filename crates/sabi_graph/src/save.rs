@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::document::{Description, Document, Fit, GroupDef, GroupInput, LibrarySource, Preview, SavedView};
 use crate::format;
-use crate::graph::{Exposed, Frame};
-use crate::layout::{Item, OrderedObject};
+use crate::graph::{ExposedParameter, Frame};
+use crate::layout::{LayoutItem, OrderedObject};
 use crate::migrate::NEWEST;
 use crate::{Graph, KnobCurve, Node, NodeId, NodeRows, Note, OutputRef, SlotRef, Value};
 
@@ -31,7 +31,7 @@ impl Document {
     }
 }
 
-fn group_item(group: &GroupDef) -> Item {
+fn group_item(group: &GroupDef) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put_some("name", group.name.as_deref());
     put_description(&mut object, &group.description);
@@ -43,7 +43,7 @@ fn group_item(group: &GroupDef) -> Item {
     put_ports(&mut object, &group.inputs, &group.outputs);
     put_nodes(&mut object, &group.graph);
     object.put_extra(&group.extra, |key| format::GROUP.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
 fn put_description(object: &mut OrderedObject, description: &Description) {
@@ -57,18 +57,18 @@ fn put_texts(object: &mut OrderedObject, key: &str, texts: &[String]) {
     object.put_some(key, Some(texts).filter(|texts| !texts.is_empty()));
 }
 
-fn library_item(library: &LibrarySource) -> Item {
+fn library_item(library: &LibrarySource) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put("file", library.file.as_str());
     object.put("digest", library.digest.as_str());
     object.put_extra(&library.extra, |key| format::LIBRARY.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
 fn put_exposed(object: &mut OrderedObject, graph: &Graph) {
     object.put_map("exposed", &graph.exposed, exposed_item);
     object.put_map("variants", &graph.variants, |values| {
-        Item::Value(Value::Object(values.clone()))
+        LayoutItem::Value(Value::Object(values.clone()))
     });
     object.put_map("frames", &graph.frames, frame_item);
     object.put_map("notes", &graph.notes, note_item);
@@ -87,13 +87,13 @@ fn put_nodes(object: &mut OrderedObject, graph: &Graph) {
     object.put_object("nodes", nodes);
 }
 
-fn node_item(node: &Node, inputs: &BTreeMap<&str, &OutputRef>) -> Item {
+fn node_item(node: &Node, inputs: &BTreeMap<&str, &OutputRef>) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put("kind", node.kind.as_str());
     object.put_some("group", node.group.as_deref());
     object.put_some("label", node.label.as_deref());
     object.put_map("inputs", inputs, |from| reference_item(from));
-    object.put_map("params", &node.params, |value| Item::Value(value.clone()));
+    object.put_map("params", &node.params, |value| LayoutItem::Value(value.clone()));
     object.put("pos", node.pos.map(f64::from).to_vec());
     object.put_some("muted", node.muted.then_some(true));
     let rows = NodeRows::NAMES.iter().find(|(rows, _)| *rows == node.display.rows);
@@ -101,14 +101,14 @@ fn node_item(node: &Node, inputs: &BTreeMap<&str, &OutputRef>) -> Item {
     object.put_some("rows", rows.map(|(_, name)| *name));
     object.put_some("named_wires", node.display.has_named_wires.then_some(true));
     object.put_extra(&node.extra, |key| format::NODE.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
-fn reference_item(from: &OutputRef) -> Item {
-    Item::Value(Value::Text(from.to_string()))
+fn reference_item(from: &OutputRef) -> LayoutItem {
+    LayoutItem::Value(Value::Text(from.to_string()))
 }
 
-fn preview_item(preview: &Preview) -> Item {
+fn preview_item(preview: &Preview) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put_some("mesh", preview.mesh.as_deref());
     object.put_some("textures", preview.textures.as_deref());
@@ -119,10 +119,10 @@ fn preview_item(preview: &Preview) -> Item {
     object.put_some("variant", preview.variant.as_deref());
     object.put_map("views", &preview.views, view_item);
     object.put_extra(&preview.extra, |key| format::PREVIEW.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
-fn view_item(view: &SavedView) -> Item {
+fn view_item(view: &SavedView) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put("target", view.target.to_vec());
     object.put("yaw", view.yaw);
@@ -130,10 +130,10 @@ fn view_item(view: &SavedView) -> Item {
     object.put("distance", view.distance);
     object.put_some("parallel", view.is_parallel.then_some(true));
     object.put_extra(&view.extra, |key| format::VIEW.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
-fn exposed_item(knob: &Exposed) -> Item {
+fn exposed_item(knob: &ExposedParameter) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put("to", slots(&knob.to));
     object.put_map("curves", &knob.curves, curve_item);
@@ -144,43 +144,43 @@ fn exposed_item(knob: &Exposed) -> Item {
     object.put_some("range", knob.range.map(|ends| ends.to_vec()));
     object.put_some("default", knob.default.clone());
     object.put_extra(&knob.extra, |key| format::EXPOSED.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
-fn curve_item(curve: &KnobCurve) -> Item {
+fn curve_item(curve: &KnobCurve) -> LayoutItem {
     let points = curve
         .points()
         .iter()
         .map(|point| Value::List(point.map(Value::Number).to_vec()));
-    Item::Value(Value::List(points.collect()))
+    LayoutItem::Value(Value::List(points.collect()))
 }
 
-fn input_item(input: &GroupInput) -> Item {
+fn input_item(input: &GroupInput) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put("to", slots(&input.to));
     object.put_some("type", input.ty.map(|ty| ty.to_string()));
     object.put_some("label", input.label.as_deref());
     object.put_extra(&input.extra, |key| format::INPUT.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
-fn frame_item(frame: &Frame) -> Item {
+fn frame_item(frame: &Frame) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put_some("title", frame.title.as_deref());
     object.put_some("color", frame.color.as_deref());
     object.put("nodes", frame.nodes.iter().map(NodeId::as_str).collect::<Vec<_>>());
     object.put_extra(&frame.extra, |key| format::FRAME.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
-fn note_item(note: &Note) -> Item {
+fn note_item(note: &Note) -> LayoutItem {
     let mut object = OrderedObject::default();
     object.put("text", note.text.as_str());
     object.put("pos", note.pos.map(f64::from).to_vec());
     object.put("width", f64::from(note.width));
     object.put_some("color", note.color.as_deref());
     object.put_extra(&note.extra, |key| format::NOTE.has(key));
-    Item::Object(object)
+    LayoutItem::Object(object)
 }
 
 fn slots(slots: &[SlotRef]) -> Vec<String> {

@@ -2,13 +2,13 @@
 
 mod edits;
 mod errors;
-mod exposed;
+mod exposed_knobs;
 mod finding;
 mod fits;
 mod flat;
 mod group_files;
 mod instance_values;
-mod moved;
+mod moved_documents;
 mod random;
 mod round_trip;
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::document::{Fit, GroupDef, GroupInput, SavedView};
-use crate::graph::Exposed;
+use crate::graph::ExposedParameter;
 use crate::id_text::check_port_name;
 use crate::name::{NOT_IN_KNOBS, check_name};
 use crate::problem::{Problem, hint, quoted};
@@ -37,7 +37,7 @@ pub(crate) fn kind_and_group<'a>(
 }
 
 /// Checks the name and the range of a knob, and that it sets parameters of existing nodes.
-pub(crate) fn knob(graph: &Graph, name: &str, knob: &Exposed) -> Result<(), Problem> {
+pub(crate) fn knob(graph: &Graph, name: &str, knob: &ExposedParameter) -> Result<(), Problem> {
     check_name("knob", name, NOT_IN_KNOBS)?;
     slots(graph, &knob.to)?;
     if let Some(slot) = knob.curves.keys().find(|slot| !knob.to.contains(slot)) {

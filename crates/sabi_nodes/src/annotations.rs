@@ -9,7 +9,7 @@ use crate::words::{list, nearest};
 
 /// A word of an annotation and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Word {
+pub(crate) struct AnnotationWord {
     pub(crate) text: String,
     pub(crate) range: Range<usize>,
 }
@@ -21,7 +21,7 @@ pub(crate) struct Annotation {
     pub(crate) name: String,
     /// Place of `@name`.
     pub(crate) range: Range<usize>,
-    pub(crate) words: Vec<Word>,
+    pub(crate) words: Vec<AnnotationWord>,
 }
 
 impl Annotation {
@@ -187,7 +187,7 @@ pub(crate) fn unknown_annotation(text: Text<'_>, annotation: &Annotation, known:
 }
 
 /// Splits a line into words with their places.
-fn words(line: &DocLine) -> Vec<Word> {
+fn words(line: &DocLine) -> Vec<AnnotationWord> {
     let mut words = Vec::new();
     let mut rest = line.text.as_str();
     let mut at = line.start;
@@ -198,7 +198,7 @@ fn words(line: &DocLine) -> Vec<Word> {
             return words;
         }
         let length = trimmed.find(char::is_whitespace).unwrap_or(trimmed.len());
-        words.push(Word {
+        words.push(AnnotationWord {
             text: trimmed[..length].to_owned(),
             range: at..at + length,
         });
@@ -208,6 +208,6 @@ fn words(line: &DocLine) -> Vec<Word> {
 }
 
 /// Reads a finite number.
-pub(crate) fn number(word: &Word) -> Option<f32> {
+pub(crate) fn number(word: &AnnotationWord) -> Option<f32> {
     word.text.parse::<f32>().ok().filter(|number| number.is_finite())
 }

@@ -95,7 +95,7 @@ impl Expression {
     pub fn read(text: &str, start: usize, syntax: Syntax) -> Result<Expression, SyntaxError> {
         // Word processors replace hyphens by minus signs.
         let letters = text.chars().map(|letter| if letter == '−' { '-' } else { letter });
-        let mut reader = Reader {
+        let mut reader = ExpressionReader {
             letters: letters.collect(),
             at: start,
             depth: 0,
@@ -123,17 +123,17 @@ impl Expression {
 }
 
 /// Reads a text from left to right.
-struct Reader {
+struct ExpressionReader {
     letters: Vec<char>,
     at: usize,
     depth: u32,
     syntax: Syntax,
 }
 
-type Read = Result<Expression, SyntaxError>;
+type ExpressionResult = Result<Expression, SyntaxError>;
 
-impl Reader {
-    fn sum(&mut self) -> Read {
+impl ExpressionReader {
+    fn sum(&mut self) -> ExpressionResult {
         let first = self.product()?;
         let mut rest = Vec::new();
         loop {
@@ -142,12 +142,12 @@ impl Reader {
                 Some('-') => Operator::Subtract,
                 _ => return Ok(chain(first, rest)),
             };
-            rest.push((sign, self.after_sign(Reader::product)?));
+            rest.push((sign, self.after_sign(ExpressionReader::product)?));
         }
     }
 
     /// Reads a product. A unit applies to everything in front of it: 1/2 cm is half a centimeter.
-    fn product(&mut self) -> Read {
+    fn product(&mut self) -> ExpressionResult {
         let mut first = self.signed()?;
         let mut rest = Vec::new();
         let mut has_unit = false;
@@ -164,35 +164,35 @@ impl Reader {
                 }
                 _ => return Ok(chain(first, rest)),
             };
-            rest.push((sign, self.after_sign(Reader::signed)?));
+            rest.push((sign, self.after_sign(ExpressionReader::signed)?));
         }
     }
 
     /// Reads a term with a sign. A sign binds more loosely than a power: -2^2 is -4.
-    fn signed(&mut self) -> Read {
+    fn signed(&mut self) -> ExpressionResult {
         match self.peek() {
             Some('-') => {
-                let inner = self.deeper(|reader| reader.after_sign(Reader::signed))?;
+                let inner = self.deeper(|reader| reader.after_sign(ExpressionReader::signed))?;
                 Ok(Expression::Negative(Box::new(inner)))
             }
-            Some('+') => self.deeper(|reader| reader.after_sign(Reader::signed)),
+            Some('+') => self.deeper(|reader| reader.after_sign(ExpressionReader::signed)),
             _ => self.power(),
         }
     }
 
     /// Reads a power. Powers are evaluated from right to left: 2^3^2 is 2^9.
-    fn power(&mut self) -> Read {
+    fn power(&mut self) -> ExpressionResult {
         let base = self.single()?;
         match self.peek() {
             Some('^') => {
-                let exponent = self.deeper(|reader| reader.after_sign(Reader::signed))?;
+                let exponent = self.deeper(|reader| reader.after_sign(ExpressionReader::signed))?;
                 Ok(Expression::Power(Box::new([base, exponent])))
             }
             _ => Ok(base),
         }
     }
 
-    fn single(&mut self) -> Read {
+    fn single(&mut self) -> ExpressionResult {
         match self.peek() {
             None => Err(self.error(SyntaxErrorKind::UnexpectedEnd)),
             Some('(') => self.within_parentheses(),
@@ -202,9 +202,9 @@ impl Reader {
         }
     }
 
-    fn within_parentheses(&mut self) -> Read {
+    fn within_parentheses(&mut self) -> ExpressionResult {
         let opened = self.at;
-        let inside = self.deeper(|reader| reader.after_sign(Reader::sum))?;
+        let inside = self.deeper(|reader| reader.after_sign(ExpressionReader::sum))?;
         self.close(opened)?;
         Ok(inside)
     }
@@ -223,7 +223,7 @@ impl Reader {
         }
     }
 
-    fn number(&mut self) -> Read {
+    fn number(&mut self) -> ExpressionResult {
         let begin = self.at;
         self.take_while(|letter| letter.is_ascii_digit() || letter == '.');
         // An `e` starts an exponent, unless it is the start of a word.
@@ -242,21 +242,21 @@ impl Reader {
         })
     }
 
-    fn named(&mut self) -> Read {
+    fn named(&mut self) -> ExpressionResult {
         let name = self.word();
         if self.peek() != Some('(') {
             return Ok(Expression::Name(name));
         }
         let opened = self.at;
-        let arguments = self.deeper(Reader::arguments)?;
+        let arguments = self.deeper(ExpressionReader::arguments)?;
         self.close(opened)?;
         Ok(Expression::Call(name, arguments))
     }
 
     fn arguments(&mut self) -> Result<Vec<Expression>, SyntaxError> {
-        let mut arguments = vec![self.after_sign(Reader::sum)?];
+        let mut arguments = vec![self.after_sign(ExpressionReader::sum)?];
         while self.peek() == Some(',') {
-            arguments.push(self.after_sign(Reader::sum)?);
+            arguments.push(self.after_sign(ExpressionReader::sum)?);
         }
         Ok(arguments)
     }

@@ -2,13 +2,13 @@
 
 use naga::valid::Capabilities;
 
-use crate::annotations::Word;
+use crate::annotations::AnnotationWord;
 use crate::fault::{Fault, Text};
 use crate::limits;
 use crate::link::LinkedModule;
-use crate::link::given::{SURFACE_GROUP, on_points};
+use crate::link::given_declarations::{SURFACE_GROUP, on_points};
 use crate::link::parse::compile;
-use crate::link::uses::{SharedHeader, Uses};
+use crate::link::uses::{FileUses, SharedHeader};
 use crate::shader_files::{CORE, Libraries, shared_path};
 use crate::source_file::FILE_LIMIT_BYTES;
 
@@ -28,11 +28,11 @@ pub(crate) fn link_with_libraries(node: Text<'_>, used: &[String], libraries: &L
 /// Lists the libraries that a file uses, directly or through others, in the order of first use, without `core`.
 pub(crate) fn used_libraries(
     text: Text<'_>,
-    uses: &[Word],
+    uses: &[AnnotationWord],
     libraries: &Libraries,
     faults: &mut Vec<Fault>,
 ) -> Vec<String> {
-    let mut closure = Uses::new(libraries);
+    let mut closure = FileUses::new(libraries);
     closure.follow(text, uses, false);
     faults.append(&mut closure.faults);
     closure.names.retain(|name| name != CORE);

@@ -1,6 +1,6 @@
 //! Reads the header of a node file: the `//!` lines at its start.
 
-use crate::annotations::{DocComment, HEADER_ANNOTATIONS, Word};
+use crate::annotations::{AnnotationWord, DocComment, HEADER_ANNOTATIONS};
 use crate::fault::{Fault, Text};
 use crate::scan::Scan;
 
@@ -16,7 +16,11 @@ pub(crate) struct Header {
 }
 
 /// Reads the header, and the libraries that it names with `@use`. Returns no header if the label or the summary is missing.
-pub(crate) fn read_header(text: Text<'_>, scan: &Scan, faults: &mut Vec<Fault>) -> (Option<Header>, Vec<Word>) {
+pub(crate) fn read_header(
+    text: Text<'_>,
+    scan: &Scan,
+    faults: &mut Vec<Fault>,
+) -> (Option<Header>, Vec<AnnotationWord>) {
     let comment = DocComment::read(&scan.header);
     let uses = comment
         .all("use")

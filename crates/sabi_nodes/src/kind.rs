@@ -7,7 +7,7 @@ mod param;
 mod param_type;
 mod role;
 mod source_param;
-mod written;
+mod written_value;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -23,8 +23,8 @@ pub use param::Param;
 pub use param_type::ParamType;
 pub(crate) use param_type::shortest_decimal;
 pub use role::Role;
-pub(crate) use written::UNUSED_STOP;
-pub use written::{Written, WrittenStop};
+pub(crate) use written_value::UNUSED_STOP;
+pub use written_value::{WrittenStop, WrittenValue};
 
 /// A kind of node, read from its file and checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,7 @@ pub struct Kind {
     /// Documented functions whose results are output ports.
     pub outputs: Vec<Output>,
     /// Functions marked `@shared`. Outputs that have an argument with the name of such a function receive its result.
-    pub shared: Vec<Shared>,
+    pub shared: Vec<SharedFunction>,
     /// Functions marked `@pass`, in order of the pass number. Later functions read the stored result through an argument
     /// with the name of the pass.
     pub passes: Vec<Pass>,
@@ -220,7 +220,7 @@ pub struct Pass {
 
 /// A function marked `@shared`: evaluated once for each place, for all outputs that receive its result.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shared {
+pub struct SharedFunction {
     /// Name of the function.
     pub name: String,
     /// Arguments of the function in order.

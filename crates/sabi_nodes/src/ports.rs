@@ -6,7 +6,7 @@ mod functions;
 mod inputs;
 mod passes;
 mod rays;
-mod shared;
+mod shared_functions;
 mod survey;
 #[cfg(test)]
 mod tests;
@@ -19,18 +19,18 @@ use sabi_graph::PortType;
 
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
-use crate::kind::{Argument, INPUT_LIMIT, Input, MATERIAL_INPUT_LIMIT, Output, Param, Pass, Rays, Shared};
+use crate::kind::{Argument, INPUT_LIMIT, Input, MATERIAL_INPUT_LIMIT, Output, Param, Pass, Rays, SharedFunction};
 use crate::scan::{Item, Member, Scan};
 use functions::FunctionAnnotations;
 use inputs::InputAnnotations;
-use shared::SharedType;
+use shared_functions::SharedType;
 
 /// Outputs, passes, inputs and rays of a file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ports {
     pub(crate) inputs: Vec<Input>,
     pub(crate) outputs: Vec<Output>,
-    pub(crate) shared: Vec<Shared>,
+    pub(crate) shared: Vec<SharedFunction>,
     /// Passes, in ascending order of their numbers.
     pub(crate) passes: Vec<Pass>,
     pub(crate) rays: Option<Rays>,
@@ -80,7 +80,7 @@ fn is_u32(ty: &Type) -> bool {
 }
 
 /// A documented function before its arguments are read.
-struct Draft<'a> {
+struct FunctionDraft<'a> {
     item: &'a Item,
     function: &'a Function,
     annotations: FunctionAnnotations,
@@ -98,7 +98,7 @@ enum Gives {
     Shared,
 }
 
-impl Draft<'_> {
+impl FunctionDraft<'_> {
     /// Returns the port type of the result, if a port can carry it.
     fn port(&self) -> Option<PortType> {
         match self.gives {
@@ -134,7 +134,7 @@ pub(crate) fn read_ports(
         has_survey: false,
     };
     let drafts = reader.drafts();
-    reader.has_rays = drafts.iter().any(Draft::is_ray);
+    reader.has_rays = drafts.iter().any(FunctionDraft::is_ray);
     reader.has_survey = drafts.iter().any(survey::takes_survey);
     reader.check_passes(&drafts);
     reader.find_shared(&drafts);
@@ -187,7 +187,7 @@ impl<'a> PortReader<'a> {
     }
 
     /// Reads a function and adds it to the ports according to its result and annotations.
-    fn add_function(&mut self, draft: &Draft<'a>, ports: &mut Ports) {
+    fn add_function(&mut self, draft: &FunctionDraft<'a>, ports: &mut Ports) {
         let ty = match draft.gives {
             Gives::Port(ty) => ty,
             Gives::Ray => {
@@ -212,7 +212,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    fn arguments(&mut self, draft: &Draft<'a>) -> Vec<Argument> {
+    fn arguments(&mut self, draft: &FunctionDraft<'a>) -> Vec<Argument> {
         let mut arguments = Vec::new();
         for (member, argument) in draft.item.members.iter().zip(&draft.function.arguments) {
             if let Ok(ty) = self.module.types.get_handle(argument.ty) {
@@ -222,7 +222,7 @@ impl<'a> PortReader<'a> {
         arguments
     }
 
-    fn output(&mut self, draft: &Draft<'a>, ty: PortType) -> Output {
+    fn output(&mut self, draft: &FunctionDraft<'a>, ty: PortType) -> Output {
         let arguments = self.arguments(draft);
         self.check_repeat(draft, &arguments);
         let of_rays = [
@@ -270,7 +270,13 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    fn argument(&mut self, draft: &Draft<'a>, member: &Member, handle: Handle<Type>, ty: &Type) -> Option<Argument> {
+    fn argument(
+        &mut self,
+        draft: &FunctionDraft<'a>,
+        member: &Member,
+        handle: Handle<Type>,
+        ty: &Type,
+    ) -> Option<Argument> {
         let name = member.name.as_str();
         match (name, ty.name.as_deref()) {
             ("at", Some("Surface")) => return Some(Argument::At),

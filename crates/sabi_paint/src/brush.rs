@@ -3,10 +3,10 @@
 use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
+use crate::brush_limits::BrushLimits;
 use crate::dynamics::Jitter;
 use crate::fade::Fade;
-use crate::limits::Limits;
-use crate::pen::{PenEffects, Pose};
+use crate::pen::{PenEffects, PenPose};
 use crate::picture::PictureTip;
 use crate::tips::Tip;
 
@@ -47,8 +47,8 @@ pub struct Brush {
     pub spacing: f32,
     /// Direction that the tip follows. The direction of the stroke is not written to files, so that strokes from before
     /// this choice existed keep their bytes and thus the names of their versions.
-    #[serde(skip_serializing_if = "Turn::is_along_stroke")]
-    pub turn: Turn,
+    #[serde(skip_serializing_if = "TipDirection::is_along_stroke")]
+    pub turn: TipDirection,
     /// Rotation of the tip from that direction, in degrees counter-clockwise as seen from outside.
     pub angle_degrees: f32,
     /// Random differences between stamps.
@@ -60,7 +60,7 @@ pub struct Brush {
     /// Height that is added, in model units. A negative height carves.
     pub height: f32,
     /// Places that the brush does not change.
-    pub limits: Limits,
+    pub limits: BrushLimits,
     /// Angle between triangles at which the side that a fill covers ends, in degrees. 30 is not written to files.
     #[serde(skip_serializing_if = "is_usual_side")]
     pub side_degrees: f32,
@@ -81,7 +81,7 @@ pub struct Brush {
 /// Direction of the x axis of a tip on the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Turn {
+pub enum TipDirection {
     /// Along the stroke.
     #[default]
     Stroke,
@@ -91,12 +91,16 @@ pub enum Turn {
     Pen,
 }
 
-impl Turn {
+impl TipDirection {
     /// All directions with their titles.
-    pub const ALL: [(Turn, &'static str); 3] = [(Turn::Stroke, "Stroke"), (Turn::Down, "Down"), (Turn::Pen, "Pen")];
+    pub const ALL: [(TipDirection, &'static str); 3] = [
+        (TipDirection::Stroke, "Stroke"),
+        (TipDirection::Down, "Down"),
+        (TipDirection::Pen, "Pen"),
+    ];
 
     fn is_along_stroke(&self) -> bool {
-        *self == Turn::Stroke
+        *self == TipDirection::Stroke
     }
 }
 
@@ -170,13 +174,13 @@ impl Default for Brush {
             flow: 1.0,
             opacity: 1.0,
             spacing: 0.15,
-            turn: Turn::Stroke,
+            turn: TipDirection::Stroke,
             angle_degrees: 0.0,
             jitter: Jitter::default(),
             value: 1.0,
             color: [0.5; 3],
             height: 0.0,
-            limits: Limits::default(),
+            limits: BrushLimits::default(),
             side_degrees: SIDE_DEGREES,
             tolerance: TOLERANCE,
             symmetry: Symmetry::default(),
@@ -214,7 +218,7 @@ impl Brush {
             value: share(self.value, usual.value),
             color: self.color.map(|value| within(value, 0.0, 0.0, 1.0)),
             height: within(self.height, usual.height, -1e9, 1e9),
-            limits: Limits {
+            limits: BrushLimits {
                 angle_degrees: within(self.limits.angle_degrees, usual.limits.angle_degrees, 0.0, 180.0),
                 ..self.limits
             },
@@ -231,7 +235,7 @@ impl Brush {
     }
 
     /// Returns the factor for a property of the brush that both effects of the pen change, each by its amount.
-    fn share_at(&self, pose: &Pose, amount: impl Fn(&PenEffects) -> f32) -> f64 {
+    fn share_at(&self, pose: &PenPose, amount: impl Fn(&PenEffects) -> f32) -> f64 {
         let by_pressure = self.pressure.share(amount(&self.pressure), pose.pressure);
         let by_tilt = |tilt: f32| self.tilt.share(amount(&self.tilt), tilt);
         // A mouse has no tilt.
@@ -239,27 +243,27 @@ impl Brush {
     }
 
     /// Returns the radius for a pose of the pen in model units; at least a fiftieth of the full radius.
-    pub(crate) fn radius_at(&self, pose: &Pose) -> f64 {
+    pub(crate) fn radius_at(&self, pose: &PenPose) -> f64 {
         f64::from(self.radius) * self.share_at(pose, |effects| effects.radius).max(0.02)
     }
 
     /// Returns the strength of a stamp for a pose of the pen, 0 to 1.
-    pub(crate) fn strength_at(&self, pose: &Pose) -> f64 {
+    pub(crate) fn strength_at(&self, pose: &PenPose) -> f64 {
         self.share_at(pose, |effects| effects.flow)
     }
 
     /// Returns the distance of stamps from the way for a pose of the pen, as a share of the radius.
-    pub(crate) fn scatter_at(&self, pose: &Pose) -> f64 {
+    pub(crate) fn scatter_at(&self, pose: &PenPose) -> f64 {
         f64::from(self.jitter.place) * self.share_at(pose, |effects| effects.scatter)
     }
 
     /// Returns the share of the radius that has the full strength, for a pose of the pen.
-    pub(crate) fn hardness_at(&self, pose: &Pose) -> f64 {
+    pub(crate) fn hardness_at(&self, pose: &PenPose) -> f64 {
         f64::from(self.hardness) * self.share_at(pose, |effects| effects.hardness)
     }
 
     /// Returns the rotation of the tip for a pose of the pen, in degrees counter-clockwise.
-    pub(crate) fn turn_at(&self, pose: &Pose) -> f64 {
+    pub(crate) fn turn_at(&self, pose: &PenPose) -> f64 {
         let by_tilt = pose.lean.map_or(0.0, |lean| self.tilt.turn(lean.tilt));
         f64::from(self.angle_degrees) + self.pressure.turn(pose.pressure) + by_tilt
     }

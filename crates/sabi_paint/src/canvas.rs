@@ -1,28 +1,28 @@
 //! Canvases: the paint that strokes leave on an atlas.
 
 mod adjust;
+mod brush_shape;
 mod fills;
 mod grid;
-mod growing;
-mod left;
 mod outlines;
 mod painter;
 mod patches;
+mod remaining_paint;
 mod ribbon;
-mod shape;
 mod sight;
 mod similar;
 mod stamps;
 mod strengths;
+mod stroke_growth;
 #[cfg(test)]
 mod tests;
 mod texels;
 mod used_brush;
 
-pub use growing::Growth;
-pub(crate) use growing::can_grow;
 pub use painter::Painter;
 pub use strengths::LaidStroke;
+pub use stroke_growth::Growth;
+pub(crate) use stroke_growth::can_grow;
 
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ use crate::supplies::bounded;
 
 /// Layers that a canvas stores for each texel in addition to the cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Layers {
+pub struct CanvasLayers {
     /// The value of a mask.
     pub value: bool,
     /// The color.
@@ -43,10 +43,10 @@ pub struct Layers {
     pub direction: bool,
 }
 
-impl Layers {
+impl CanvasLayers {
     /// Returns the layers that are in at least one of the two.
-    pub fn and(self, other: Layers) -> Layers {
-        Layers {
+    pub fn and(self, other: CanvasLayers) -> CanvasLayers {
+        CanvasLayers {
             value: self.value || other.value,
             color: self.color || other.color,
             height: self.height || other.height,
@@ -55,7 +55,7 @@ impl Layers {
     }
 
     /// Returns true if all layers of `other` are among these.
-    pub fn contain(self, other: Layers) -> bool {
+    pub fn contain(self, other: CanvasLayers) -> bool {
         (self.value || !other.value)
             && (self.color || !other.color)
             && (self.height || !other.height)
@@ -84,7 +84,7 @@ pub struct CanvasTexel {
 }
 
 /// Paint that a stroke puts on a texel.
-struct Laid {
+struct TexelPaint {
     /// Share of the texel, 0 to 1.
     strength: f32,
     /// Value of the mask.
@@ -112,7 +112,7 @@ struct Channels {
 /// painted on, so that a stroke costs only the tiles that it touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canvas {
-    layers: Layers,
+    layers: CanvasLayers,
     channels: Channels,
     texels: usize,
     /// Numbers of the texels of each tile, texel by texel; `None` for tiles without paint.
@@ -120,7 +120,7 @@ pub struct Canvas {
 }
 
 impl Channels {
-    fn of(layers: Layers) -> Channels {
+    fn of(layers: CanvasLayers) -> Channels {
         let mut count = 1;
         let mut place = |is_kept: bool, numbers: usize| {
             is_kept.then(|| {
@@ -150,7 +150,7 @@ fn is_same(one: &Option<Arc<Vec<f32>>>, other: &Option<Arc<Vec<f32>>>) -> bool {
 
 impl Canvas {
     /// An empty canvas for an atlas of that many texels.
-    pub fn empty(texels: usize, layers: Layers) -> Canvas {
+    pub fn empty(texels: usize, layers: CanvasLayers) -> Canvas {
         Canvas {
             channels: Channels::of(layers),
             tiles: vec![None; texels.div_ceil(TILE)],
@@ -165,7 +165,7 @@ impl Canvas {
     }
 
     /// Returns the layers that the canvas stores.
-    pub fn layers(&self) -> Layers {
+    pub fn layers(&self) -> CanvasLayers {
         self.layers
     }
 
@@ -335,7 +335,7 @@ impl Canvas {
     }
 
     /// Puts paint on a texel, or removes paint from it.
-    fn lay(&mut self, texel: usize, erases: bool, paint: &Laid) {
+    fn lay(&mut self, texel: usize, erases: bool, paint: &TexelPaint) {
         let left = 1.0 - paint.strength;
         let laid = if erases { 0.0 } else { paint.strength };
         let channels = self.channels;

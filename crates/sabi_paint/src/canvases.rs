@@ -1,15 +1,15 @@
 //! Kept canvases, with which a further stroke or a step back repaints little.
 
-mod layered;
+mod layered_canvas;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use layered::{Layered, share_layer};
+use layered_canvas::{LayeredCanvas, share_layer};
 use rayon::prelude::*;
 use sabi_surface::atlas::Atlas;
 
-use crate::canvas::{Canvas, Growth, LaidStroke, Layers, Painter, can_grow};
+use crate::canvas::{Canvas, CanvasLayers, Growth, LaidStroke, Painter, can_grow};
 use crate::list::StrokeList;
 use crate::stroke::Stroke;
 use crate::supplies::Supplies;
@@ -40,7 +40,7 @@ struct KeptCanvas {
     atlas: [u8; 32],
     strokes: Vec<Arc<Stroke>>,
     /// The canvas to which further strokes are added.
-    layered: Layered,
+    layered: LayeredCanvas,
     /// The canvas as it is shown.
     shown: Arc<Canvas>,
     lost: LostPlaces,
@@ -51,7 +51,7 @@ type LostPlaces = BTreeMap<Version, usize>;
 
 /// Result of painting a list of strokes.
 #[derive(Clone)]
-pub struct Painted {
+pub struct PaintedStrokes {
     /// The canvas.
     pub canvas: Arc<Canvas>,
     /// Number of points that the model no longer has, for each stroke with such points.
@@ -69,9 +69,9 @@ impl Canvases {
         key: [u8; 32],
         list: &StrokeList,
         supplies: Supplies<'_>,
-        layers: Layers,
+        layers: CanvasLayers,
         budget: usize,
-    ) -> Painted {
+    ) -> PaintedStrokes {
         // Includes the layers of the earlier canvas of these strokes, since the outputs of a node are requested one after another.
         let before = self
             .kept
@@ -86,7 +86,7 @@ impl Canvases {
         let (mut canvas, known, mut lost) = match best {
             Some(best) => (best.layered.clone(), best.strokes.len(), best.lost.clone()),
             None => (
-                Layered::new(Canvas::empty(atlas.owners.len(), layers)),
+                LayeredCanvas::new(Canvas::empty(atlas.owners.len(), layers)),
                 0,
                 LostPlaces::new(),
             ),
@@ -120,7 +120,7 @@ impl Canvases {
         }
         if surface.is_stopped() {
             self.growing.clear();
-            return Painted {
+            return PaintedStrokes {
                 canvas: Arc::new(canvas.shown(None)),
                 lost,
             };
@@ -130,7 +130,7 @@ impl Canvases {
 
     /// Returns the kept canvas with these layers and the most strokes of a list. It is marked as used last, so that it is
     /// kept while a stroke on top of it is drawn.
-    fn best(&mut self, atlas: [u8; 32], list: &StrokeList, layers: Layers) -> Option<&KeptCanvas> {
+    fn best(&mut self, atlas: [u8; 32], list: &StrokeList, layers: CanvasLayers) -> Option<&KeptCanvas> {
         let fits =
             |kept: &KeptCanvas| kept.atlas == atlas && kept.shown.layers().contain(layers) && starts_with(list, kept);
         let all = (0..self.kept.len()).filter(|index| fits(&self.kept[*index]));
@@ -182,7 +182,7 @@ impl Canvases {
         &mut self,
         atlas: [u8; 32],
         strokes: &[Arc<Stroke>],
-        layered: Layered,
+        layered: LayeredCanvas,
         lost: &LostPlaces,
         budget: usize,
     ) -> &KeptCanvas {
@@ -217,8 +217,8 @@ impl Canvases {
 }
 
 impl KeptCanvas {
-    fn painted(&self) -> Painted {
-        Painted {
+    fn painted(&self) -> PaintedStrokes {
+        PaintedStrokes {
             canvas: Arc::clone(&self.shown),
             lost: self.lost.clone(),
         }

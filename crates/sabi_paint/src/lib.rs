@@ -13,13 +13,13 @@
 //! Lengths are model units; colors are linear.
 
 mod brush;
+mod brush_limits;
 mod canvas;
 mod canvases;
 mod dynamics;
 mod fade;
 pub mod file;
 mod index;
-mod limits;
 mod list;
 mod octahedral;
 mod path;
@@ -39,13 +39,13 @@ mod tips;
 mod version;
 mod way;
 
-pub use brush::{Brush, Symmetry, SymmetryCopy, Turn};
-pub use canvas::{Canvas, CanvasTexel, Growth, LaidStroke, Layers, Painter};
-pub use canvases::{Canvases, Painted};
+pub use brush::{Brush, Symmetry, SymmetryCopy, TipDirection};
+pub use brush_limits::{BrushLimits, Eye};
+pub use canvas::{Canvas, CanvasLayers, CanvasTexel, Growth, LaidStroke, Painter};
+pub use canvases::{Canvases, PaintedStrokes};
 pub use dynamics::Jitter;
 pub use fade::{Fade, FadeCurve};
 pub use index::SurfaceIndex;
-pub use limits::{Eye, Limits};
 pub use list::{StrokeBook, StrokeList};
 pub use path::{Bend, EdgeKind, Knot, Path};
 pub use path_form::PathForm;
@@ -59,7 +59,7 @@ pub use stencil::Stencil;
 pub use stroke::{Action, Area, CopyOf, Step, Stroke, StrokeGroup, StrokePoint};
 pub use stroke_text::{NoStrokes, is_text_of_strokes, strokes_as_text, strokes_from_text};
 pub use supplies::{InputColors, Supplies};
-pub use surface::{PaintSurface, Stop, rightward};
+pub use surface::{PaintSurface, StopCheck, rightward};
 pub use swatch::{stamp_swatch, swatch};
 pub use tips::Tip;
 pub use version::Version;

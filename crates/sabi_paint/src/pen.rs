@@ -95,8 +95,8 @@ impl Touch {
     }
 
     /// Returns the pose of the pen over a surface. `normal` returns the unit normal of the surface.
-    pub(crate) fn over(self, normal: impl FnOnce() -> DVec3) -> Pose {
-        Pose {
+    pub(crate) fn over(self, normal: impl FnOnce() -> DVec3) -> PenPose {
+        PenPose {
             pressure: self.pressure,
             lean: self.shaft.map(|shaft| Lean::of(shaft.direction(), normal())),
         }
@@ -105,7 +105,7 @@ impl Touch {
 
 /// Pose of a pen relative to the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Pose {
+pub(crate) struct PenPose {
     /// Pressure, 0 to 1.
     pub(crate) pressure: f32,
     pub(crate) lean: Option<Lean>,
@@ -131,9 +131,9 @@ impl Lean {
     }
 }
 
-impl Pose {
+impl PenPose {
     /// Returns the pose at a share of the way from one pose to another.
-    pub(crate) fn between([from, to]: [Pose; 2], share: f32) -> Pose {
+    pub(crate) fn between([from, to]: [PenPose; 2], share: f32) -> PenPose {
         let lean = match (from.lean, to.lean) {
             (Some(one), Some(other)) => Some(Lean {
                 tilt: one.tilt + share * (other.tilt - one.tilt),
@@ -141,14 +141,14 @@ impl Pose {
             }),
             (one, other) => one.or(other),
         };
-        Pose {
+        PenPose {
             pressure: from.pressure + share * (to.pressure - from.pressure),
             lean,
         }
     }
 
     /// Returns true if the pose differs from another pose by less than `least`.
-    pub(crate) fn is_near(&self, other: &Pose, least: f32) -> bool {
+    pub(crate) fn is_near(&self, other: &PenPose, least: f32) -> bool {
         let leans = match (self.lean, other.lean) {
             (Some(one), Some(other)) => {
                 (one.tilt - other.tilt).abs() < least && one.toward.distance(other.toward) < least

@@ -1,6 +1,6 @@
 //! Pictures that brushes stamp: their names, and their pixels at any size.
 
-mod level;
+mod mip_level;
 mod name;
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use glam::DVec2;
 use sabi_image::{DeclaredColorSpace, ImageError, Picture, Pixels, decode};
 use serde::{Deserialize, Serialize};
 
-use level::Level;
+use mip_level::MipLevel;
 pub use name::{NoPictureName, PictureName};
 
 /// Largest side of a picture in pixels. Larger pictures are halved until they fit.
@@ -70,14 +70,14 @@ pub enum StampPictureError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct StampPicture {
     /// Copies from the full size to a single pixel, each half as large as the one before.
-    levels: Vec<Level>,
+    levels: Vec<MipLevel>,
     /// The part that the artist most likely wants to stamp.
     likely: PicturePart,
 }
 
 /// Left and right ends of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Ends {
+pub(crate) enum PictureEnds {
     /// Nothing is stamped beyond the ends.
     Cut,
     /// The picture is repeated beyond the ends.
@@ -95,7 +95,7 @@ pub struct SwatchPixel {
 
 /// Strength and color of a stamp at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Stamped {
+pub(crate) struct StampSample {
     /// 0 to 1.
     pub(crate) strength: f64,
     /// Linear color; `None` if the brush's color is stamped.
@@ -122,7 +122,7 @@ impl StampPicture {
             DeclaredColorSpace::Linear => false,
             DeclaredColorSpace::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
         };
-        let mut level = Level::new(picture, is_coded);
+        let mut level = MipLevel::new(picture, is_coded);
         let likely = level.likely_part();
         while level.size.iter().any(|side| *side > SIDE_LIMIT as usize) {
             level = level.halved();
@@ -160,7 +160,7 @@ impl StampPicture {
     /// Returns the stamp of a part of the picture with its width and height, pixel by pixel from the upper left one. The
     /// largest copy whose sides have at most `side` pixels is used.
     pub fn shown(&self, part: PicturePart, side: usize) -> ([usize; 2], Vec<SwatchPixel>) {
-        let fits = |level: &&Level| level.size.iter().all(|own| *own <= side.max(1));
+        let fits = |level: &&MipLevel| level.size.iter().all(|own| *own <= side.max(1));
         let Some(level) = self.levels.iter().find(fits) else {
             return ([0, 0], Vec::new());
         };
@@ -182,20 +182,20 @@ impl StampPicture {
 
     /// Returns the picture at a position: x from −1 (left) to 1 (right), y from −1 (bottom) to 1 (top). `width` is that of
     /// a texel, in the same units along the longer side. Nothing is stamped outside, except if the ends are joined.
-    pub(crate) fn at(&self, place: DVec2, width: f64, part: PicturePart, ends: Ends) -> Stamped {
+    pub(crate) fn at(&self, place: DVec2, width: f64, part: PicturePart, ends: PictureEnds) -> StampSample {
         // The border is one texel wide, independent of the number of pixels of the picture.
         let inside = (1.0 - place.abs()) * self.half_sides() / width + 0.5;
         let inside = inside.clamp(DVec2::ZERO, DVec2::ONE);
         let inside = match ends {
-            Ends::Cut => inside.x * inside.y,
-            Ends::Joined => inside.y,
+            PictureEnds::Cut => inside.x * inside.y,
+            PictureEnds::Joined => inside.y,
         };
         let pixels = self.filtered(place, width, ends);
         part_of(pixels.map(|channel| channel * inside), part)
     }
 
     /// Returns the channels at a position, interpolated between the two copies whose pixel widths are nearest to that of a texel.
-    fn filtered(&self, place: DVec2, width: f64, ends: Ends) -> [f64; 5] {
+    fn filtered(&self, place: DVec2, width: f64, ends: PictureEnds) -> [f64; 5] {
         let longer = self.size().into_iter().max().unwrap_or(1) as f64; // A size always has two sides.
         let fine = (0.5 * width * longer).max(1.0).log2();
         let last = self.levels.len() - 1;
@@ -211,8 +211,8 @@ impl StampPicture {
 }
 
 /// Returns the stamp of a part of a picture from the channels of a pixel.
-fn part_of([red, green, blue, alpha, light]: [f64; 5], part: PicturePart) -> Stamped {
-    let of_light = |light: f64| Stamped {
+fn part_of([red, green, blue, alpha, light]: [f64; 5], part: PicturePart) -> StampSample {
+    let of_light = |light: f64| StampSample {
         strength: light.clamp(0.0, 1.0),
         color: None,
     };
@@ -220,7 +220,7 @@ fn part_of([red, green, blue, alpha, light]: [f64; 5], part: PicturePart) -> Sta
         PicturePart::Alpha => of_light(alpha),
         PicturePart::Light => of_light(light),
         PicturePart::Dark => of_light(alpha - light),
-        PicturePart::Colors => Stamped {
+        PicturePart::Colors => StampSample {
             color: (alpha > 0.0).then(|| [red, green, blue].map(|channel| (channel / alpha).min(1.0) as f32)),
             ..of_light(alpha)
         },
@@ -248,10 +248,10 @@ mod tests {
     #[test]
     fn a_picture_is_stamped_upright_and_nothing_is_stamped_outside() {
         let halves = picture(2, &[RED, CLEAR, [0, 0, 255, 255], [0, 255, 0, 255]]);
-        let at = |x: f64, y: f64| halves.at(DVec2::new(x, y), 0.01, PicturePart::Colors, Ends::Cut);
+        let at = |x: f64, y: f64| halves.at(DVec2::new(x, y), 0.01, PicturePart::Colors, PictureEnds::Cut);
         assert_eq!(
             at(-0.5, 0.5),
-            Stamped {
+            StampSample {
                 strength: 1.0,
                 color: Some([1.0, 0.0, 0.0])
             }
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn transparent_pixels_do_not_color_their_neighbors() {
-        let edge = picture(2, &[RED, CLEAR]).at(DVec2::ZERO, 0.01, PicturePart::Colors, Ends::Cut);
+        let edge = picture(2, &[RED, CLEAR]).at(DVec2::ZERO, 0.01, PicturePart::Colors, PictureEnds::Cut);
         assert!((edge.strength - 0.5).abs() < 1e-4);
         assert_eq!(edge.color, Some([1.0, 0.0, 0.0]));
     }
@@ -273,7 +273,7 @@ mod tests {
         let board: Vec<[u8; 4]> = (0..64)
             .map(|at| if (at / 8 + at) % 2 == 0 { RED } else { CLEAR })
             .collect();
-        let seen = picture(8, &board).at(DVec2::new(0.1, 0.2), 1.0, PicturePart::Alpha, Ends::Cut);
+        let seen = picture(8, &board).at(DVec2::new(0.1, 0.2), 1.0, PicturePart::Alpha, PictureEnds::Cut);
         assert!((seen.strength - 0.5).abs() < 1e-3);
     }
 
@@ -289,7 +289,7 @@ mod tests {
     #[test]
     fn light_and_dark_parts_add_up_to_the_alpha() {
         let gray = picture(1, &[[128, 128, 128, 255]]);
-        let of = |part| gray.at(DVec2::ZERO, 0.1, part, Ends::Cut).strength;
+        let of = |part| gray.at(DVec2::ZERO, 0.1, part, PictureEnds::Cut).strength;
         assert!((of(PicturePart::Light) - 128.0 / 255.0).abs() < 1e-4);
         assert!((of(PicturePart::Light) + of(PicturePart::Dark) - 1.0).abs() < 1e-4);
     }

@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use sabi_surface::patch::Site;
 
 use crate::brush::{Symmetry, SymmetryCopy};
-use crate::limits::Eye;
+use crate::brush_limits::Eye;
 use crate::path::Path;
 use crate::pen::Touch;
 use crate::stroke::{Stroke, StrokePoint};

@@ -1,6 +1,6 @@
 //! Settings of a brush that suit each tip.
 
-use crate::brush::{Brush, Turn};
+use crate::brush::{Brush, TipDirection};
 use crate::dynamics::Jitter;
 use crate::tips::Tip;
 
@@ -16,7 +16,7 @@ pub struct Stamps {
     /// As [`Brush::jitter`].
     pub jitter: Jitter,
     /// As [`Brush::turn`].
-    pub turn: Turn,
+    pub turn: TipDirection,
 }
 
 impl Tip {
@@ -64,8 +64,8 @@ impl Tip {
                 ..Jitter::default()
             },
             turn: match self {
-                Tip::Drips | Tip::Leaks => Turn::Down,
-                _ => Turn::Stroke,
+                Tip::Drips | Tip::Leaks => TipDirection::Down,
+                _ => TipDirection::Stroke,
             },
         }
     }

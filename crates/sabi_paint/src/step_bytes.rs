@@ -7,7 +7,7 @@ use sabi_surface::patch::Site;
 use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
-use crate::limits::Eye;
+use crate::brush_limits::Eye;
 use crate::octahedral::{from_octahedral, octahedral};
 use crate::path_form::PathForm;
 use crate::pen::Shaft;
@@ -28,7 +28,7 @@ const START_BIT: u16 = 1 << 15;
 /// Description of a step.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum Description {
+pub(crate) enum StepDescription {
     Add {
         #[serde(default, skip_serializing_if = "String::is_empty")]
         name: String,
@@ -112,9 +112,9 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
 }
 
 /// Returns the description of a step: everything except its points.
-pub(crate) fn description_of(step: &Step) -> Description {
+pub(crate) fn description_of(step: &Step) -> StepDescription {
     match step {
-        Step::Add(stroke) => Description::Add {
+        Step::Add(stroke) => StepDescription::Add {
             name: stroke.name.clone(),
             action: stroke.action,
             area: stroke.area,
@@ -128,7 +128,7 @@ pub(crate) fn description_of(step: &Step) -> Description {
             group: stroke.group.as_ref().map(|group| group.bounded()),
             shafts: have_shafts(stroke.source.iter().chain(&stroke.points)),
         },
-        Step::Group { strokes, group } => Description::Group {
+        Step::Group { strokes, group } => StepDescription::Group {
             strokes: strokes.iter().map(Version::to_string).collect(),
             group: group.as_ref().map(|group| group.bounded()),
         },
@@ -138,14 +138,14 @@ pub(crate) fn description_of(step: &Step) -> Description {
             eye,
             stencil,
             points,
-        } => Description::Place {
+        } => StepDescription::Place {
             shafts: have_shafts(points),
             stroke: stroke.to_string(),
             path: path.clone(),
             eye: eye.filter(Eye::is_finite),
             stencil: written(stencil),
         },
-        Step::Remove(strokes) => Description::Remove {
+        Step::Remove(strokes) => StepDescription::Remove {
             strokes: strokes.iter().map(Version::to_string).collect(),
         },
         Step::Change {
@@ -153,13 +153,13 @@ pub(crate) fn description_of(step: &Step) -> Description {
             name,
             brush,
             is_hidden,
-        } => Description::Change {
+        } => StepDescription::Change {
             stroke: stroke.to_string(),
             name: name.clone(),
             brush: Box::new(brush.bounded()),
             hidden: *is_hidden,
         },
-        Step::Move { stroke, to } => Description::Move {
+        Step::Move { stroke, to } => StepDescription::Move {
             stroke: stroke.to_string(),
             to: *to,
         },
@@ -184,15 +184,15 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
     let id = |text: &str| text.parse::<Version>().ok();
     let ids = |texts: &[String]| texts.iter().map(|text| id(text)).collect::<Option<Vec<Version>>>();
     Some(match serde_json::from_slice(text).ok()? {
-        description @ Description::Add { shafts, .. } => {
+        description @ StepDescription::Add { shafts, .. } => {
             Step::Add(Arc::new(added(description, points_of(points, shafts)?, version)?))
         }
-        Description::Remove { strokes } => Step::Remove(ids(&strokes)?),
-        Description::Group { strokes, group } => Step::Group {
+        StepDescription::Remove { strokes } => Step::Remove(ids(&strokes)?),
+        StepDescription::Group { strokes, group } => Step::Group {
             strokes: ids(&strokes)?,
             group: group.map(|group| Arc::new(group.bounded())),
         },
-        Description::Change {
+        StepDescription::Change {
             stroke,
             name,
             brush,
@@ -203,11 +203,11 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             brush: Box::new(brush.bounded()),
             is_hidden: hidden,
         },
-        Description::Move { stroke, to } => Step::Move {
+        StepDescription::Move { stroke, to } => Step::Move {
             stroke: id(&stroke)?,
             to,
         },
-        Description::Place {
+        StepDescription::Place {
             stroke,
             eye,
             path,
@@ -224,8 +224,8 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
 }
 
 /// Returns the stroke that a description adds; `None` for other descriptions. If the stroke has a source, it is the first of the points.
-pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: Version) -> Option<Stroke> {
-    let Description::Add {
+pub(crate) fn added(description: StepDescription, mut points: Vec<StrokePoint>, id: Version) -> Option<Stroke> {
+    let StepDescription::Add {
         name,
         action,
         area,

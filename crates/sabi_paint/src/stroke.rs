@@ -6,7 +6,7 @@ use sabi_surface::patch::Site;
 use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
-use crate::limits::Eye;
+use crate::brush_limits::Eye;
 use crate::path_form::PathForm;
 use crate::pen::{Shaft, Touch};
 use crate::picture::PictureName;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::pen::Shaft;
-use crate::step_bytes::{Description, POINTS_LIMIT, added, description_of};
+use crate::step_bytes::{POINTS_LIMIT, StepDescription, added, description_of};
 use crate::stroke::{Step, Stroke, StrokePoint};
 use crate::version::Version;
 use glam::DVec3;
@@ -30,14 +30,14 @@ pub enum NoStrokes {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Text {
+struct StrokesText {
     sabi_strokes: u32,
     strokes: Vec<StrokeText>,
 }
 
 #[derive(Serialize, Deserialize)]
 struct StrokeText {
-    step: Description,
+    step: StepDescription,
     points: Vec<PointText>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     shafts: Vec<Option<Shaft>>,
@@ -53,7 +53,7 @@ pub fn strokes_as_text(strokes: &[Arc<Stroke>]) -> String {
         points: stroke.source.iter().chain(&stroke.points).map(text_of).collect(),
         shafts: shafts_of(stroke),
     });
-    let text = Text {
+    let text = StrokesText {
         sabi_strokes: FORMAT,
         strokes: texts.collect(),
     };
@@ -78,7 +78,7 @@ pub fn strokes_from_text(text: &str) -> Result<Vec<Stroke>, NoStrokes> {
         Some(_) => {}
         None => return Err(NoStrokes::Other),
     }
-    let text: Text = serde_json::from_value(value).map_err(|_| NoStrokes::Other)?;
+    let text: StrokesText = serde_json::from_value(value).map_err(|_| NoStrokes::Other)?;
     let strokes = text.strokes.into_iter().map(|stroke| {
         if stroke.points.len() > POINTS_LIMIT {
             return None;

@@ -22,11 +22,11 @@ pub struct PaintSurface<'a> {
     mesh: &'a Mesh,
     index: &'a SurfaceIndex,
     by_key: OnceLock<BTreeMap<u32, u32>>,
-    stop: Option<&'a Stop<'a>>,
+    stop: Option<&'a StopCheck<'a>>,
 }
 
 /// Function that is called many times while strokes are painted. If it returns true, the work ends early, and its result must not be used.
-pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+pub type StopCheck<'a> = dyn Fn() -> bool + Sync + 'a;
 
 impl<'a> PaintSurface<'a> {
     /// Creates the surface of a mesh from the mesh's index.
@@ -41,7 +41,7 @@ impl<'a> PaintSurface<'a> {
 
     /// Returns the surface for work that can be stopped, since strokes may have millions of points.
     #[must_use]
-    pub fn stopped_by(self, stop: &'a Stop<'a>) -> PaintSurface<'a> {
+    pub fn stopped_by(self, stop: &'a StopCheck<'a>) -> PaintSurface<'a> {
         PaintSurface {
             stop: Some(stop),
             ..self

@@ -6,10 +6,10 @@ use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
 
 use crate::brush::{Brush, Symmetry};
-use crate::canvas::{Canvas, Layers, Painter};
+use crate::brush_limits::BrushLimits;
+use crate::canvas::{Canvas, CanvasLayers, Painter};
 use crate::dynamics::Jitter;
 use crate::index::SurfaceIndex;
-use crate::limits::Limits;
 use crate::picture::{PicturePart, StampPictures, SwatchPixel};
 use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::supplies::Supplies;
@@ -103,12 +103,12 @@ fn painted(
     let brush = Brush {
         radius: radius as f32,
         symmetry: Symmetry::default(),
-        limits: Limits::default(),
+        limits: BrushLimits::default(),
         ..brush.clone()
     };
-    let layers = Layers {
+    let layers = CanvasLayers {
         color: matches!(&brush.picture, Some(tip) if tip.part == PicturePart::Colors),
-        ..Layers::default()
+        ..CanvasLayers::default()
     };
     let stroke = Stroke {
         area,

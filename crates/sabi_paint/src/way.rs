@@ -3,7 +3,7 @@
 use glam::DVec3;
 use sabi_surface::patch::{Site, walk};
 
-use crate::pen::{Pose, Touch};
+use crate::pen::{PenPose, Touch};
 use crate::stroke::StrokePoint;
 use crate::surface::PaintSurface;
 
@@ -23,7 +23,7 @@ const EVEN: f32 = 0.02;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WayPoint {
     pub(crate) site: Site,
-    pub(crate) pose: Pose,
+    pub(crate) pose: PenPose,
     /// True if a way leads here from the place before.
     pub(crate) is_joined: bool,
     /// True where the stroke starts or jumps. Otherwise a place that is not joined lies beyond a joint, as on the next board.
@@ -147,15 +147,15 @@ fn curve(places: [DVec3; 4], share: f64) -> DVec3 {
 }
 
 /// The pen over the surface at a site.
-fn posed(surface: &PaintSurface<'_>, site: Site, touch: Touch) -> Pose {
+fn posed(surface: &PaintSurface<'_>, site: Site, touch: Touch) -> PenPose {
     touch.over(|| surface.smooth_normal_at(site))
 }
 
 /// Places along a way, `spacing` apart by the length of the way, the first one at its start. `spacing` gives the distance to
 /// the next place from the pen, model units.
-pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(&Pose) -> f64) -> Vec<WayPoint> {
+pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(&PenPose) -> f64) -> Vec<WayPoint> {
     let least = length_of(way.iter().map(|point| point.site.position)) / PLACES_LIMIT;
-    let spacing = |pose: &Pose| spacing(pose).max(least);
+    let spacing = |pose: &PenPose| spacing(pose).max(least);
     let mut stamps: Vec<WayPoint> = Vec::new();
     let mut left = 0.0;
     for (index, point) in way.iter().enumerate() {
@@ -171,7 +171,7 @@ pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(&Pose) -> f64) -> Vec<Wa
             let share = passed / length;
             // Parts of the way are short, so the nearer end's triangle holds the place closely enough.
             let near = if share < 0.5 { before } else { point };
-            let pose = Pose::between([before.pose, point.pose], share as f32);
+            let pose = PenPose::between([before.pose, point.pose], share as f32);
             stamps.push(WayPoint {
                 site: Site {
                     triangle: near.site.triangle,

@@ -4,20 +4,20 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_nodes::link::Plane;
 
-use crate::fuse::Value;
+use crate::fuse::ResultRef;
 use crate::keys::result_key;
 use crate::level::Level;
 use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, SourceStep, Step, SurveyStep};
 use crate::request::{Mode, Target};
-use crate::resources::{Content, Resource, UnassignedStep};
+use crate::resources::{Resource, TextureContent, UnassignedStep};
 use crate::slots::SlotPool;
 use crate::step_builder::StepBuilder;
 
 impl StepBuilder<'_, '_> {
     /// Assigns a slot to every stored plane, free again after the last step that reads it.
-    pub(crate) fn assign_slots(&self, unassigned_steps: Vec<UnassignedStep>, wanted: Vec<(Target, Value)>) -> Plan {
+    pub(crate) fn assign_slots(&self, unassigned_steps: Vec<UnassignedStep>, wanted: Vec<(Target, ResultRef)>) -> Plan {
         let keep_all = self.planner.mode == Mode::Interactive;
-        let wanted_values: BTreeSet<Value> = wanted.iter().map(|(_, value)| *value).collect();
+        let wanted_values: BTreeSet<ResultRef> = wanted.iter().map(|(_, value)| *value).collect();
         let mut last_use: BTreeMap<(Resource, Plane), usize> = BTreeMap::new();
         for (at, unassigned) in unassigned_steps.iter().enumerate() {
             for plane in unassigned
@@ -30,7 +30,7 @@ impl StepBuilder<'_, '_> {
                 last_use.insert(*plane, at);
             }
         }
-        let is_wanted = |resource: &Resource| matches!(&resource.content, Content::Result(value) if resource.level == Level::FINEST && wanted_values.contains(value));
+        let is_wanted = |resource: &Resource| matches!(&resource.content, TextureContent::Result(value) if resource.level == Level::FINEST && wanted_values.contains(value));
         let mut dead_after: Vec<Vec<(Resource, Plane)>> = unassigned_steps.iter().map(|_| Vec::new()).collect();
         for (plane, at) in last_use {
             if !keep_all && !is_wanted(&plane.0) {
@@ -77,7 +77,7 @@ impl StepBuilder<'_, '_> {
     fn result(
         &self,
         target: Target,
-        (node, output): Value,
+        (node, output): ResultRef,
         slot_of: &BTreeMap<(Resource, Plane), SlotRef>,
     ) -> PlannedResult {
         let stored = self.stored((node, output));

@@ -3,10 +3,10 @@
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Channel, ChannelWrite, ParamValue};
 
-use crate::resolved::{Behavior, Resolved, ResolvedNode};
+use crate::resolved_graph::{Behavior, ResolvedGraph, ResolvedNode};
 
 /// Returns the channels that each result sets: color and surface always, others if the node writes them or passes them on.
-pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<Vec<Channel>> {
+pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &ResolvedGraph<'_>) -> Vec<Vec<Channel>> {
     match node.behavior {
         Behavior::Source(kind) | Behavior::Sink(kind) => {
             kind.outputs.iter().map(|output| output.channels.clone()).collect()

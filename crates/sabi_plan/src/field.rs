@@ -5,13 +5,13 @@ use sabi_nodes::formula::{Formula, Variables};
 use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, Reads, Role};
 use sabi_nodes::link::{Binding, Convert, Domain, Operand, Plane};
 
-use crate::fuse::Value;
+use crate::fuse::ResultRef;
 use crate::kernel_builder::{KernelBuilder, Repetition};
 use crate::keys::result_key;
 use crate::level::Level;
 use crate::plan::{MoveStep, Step};
-use crate::resolved::{Behavior, ResolvedInput, ResolvedNode};
-use crate::resources::{Content, Resource, UnassignedStep};
+use crate::resolved_graph::{Behavior, ResolvedInput, ResolvedNode};
+use crate::resources::{Resource, TextureContent, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 /// Maximum number of runs of a repeated function.
@@ -32,7 +32,7 @@ impl StepBuilder<'_, '_> {
             (
                 function,
                 Resource {
-                    content: Content::Pass(node, pass),
+                    content: TextureContent::Pass(node, pass),
                     level,
                 },
             )
@@ -130,7 +130,7 @@ impl StepBuilder<'_, '_> {
             PortType::Mask
         };
         let resource = Resource {
-            content: Content::Converted(node, index),
+            content: TextureContent::Converted(node, index),
             level: Level::FINEST,
         };
         kernel.store_resource(Operand::Load(load, input.convert), resource, ty);
@@ -176,7 +176,7 @@ impl StepBuilder<'_, '_> {
             run_count,
             load,
             scratch: Resource {
-                content: Content::Scratch(node, index),
+                content: TextureContent::Scratch(node, index),
                 level: resource.level,
             },
         });
@@ -197,7 +197,7 @@ impl StepBuilder<'_, '_> {
         let loads: Vec<Option<usize>> = (0..kind.passes.len())
             .map(|pass| {
                 (is_read(pass) && self.is_needed(node, kind, pass))
-                    .then(|| kernel.load_resource(Content::Pass(node, pass), kind.passes[pass].function.ty))
+                    .then(|| kernel.load_resource(TextureContent::Pass(node, pass), kind.passes[pass].function.ty))
             })
             .collect();
         let first = function.arguments.iter().find_map(|argument| match argument {
@@ -231,7 +231,7 @@ impl StepBuilder<'_, '_> {
                     Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert))
                 }
                 Some(input) if is_read && input.convert != Convert::None => {
-                    Binding::Field(kernel.load_resource(Content::Converted(node, index), kind.inputs[index].ty))
+                    Binding::Field(kernel.load_resource(TextureContent::Converted(node, index), kind.inputs[index].ty))
                 }
                 Some(input) if is_read => Binding::Field(kernel.load((input.node, input.output))),
                 _ => Binding::Default,
@@ -262,14 +262,14 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Moves all planes of a result to the finest level.
-    pub(crate) fn result_moves(&self, value: Value, level: Level) -> Vec<UnassignedStep> {
+    pub(crate) fn result_moves(&self, value: ResultRef, level: Level) -> Vec<UnassignedStep> {
         let (name, _) = self.output(value);
         let key = result_key(self.node(value.0), name);
         let planes = self.stored(value).planes().into_iter();
         let moved = |plane| {
             self.level_move(
                 value.0,
-                Content::Result(value),
+                TextureContent::Result(value),
                 plane,
                 [level, Level::FINEST],
                 Some((key, plane)),
@@ -281,7 +281,7 @@ impl StepBuilder<'_, '_> {
     fn level_move(
         &self,
         node: usize,
-        content: Content,
+        content: TextureContent,
         plane: Plane,
         levels: [Level; 2],
         result: Option<([u8; 32], Plane)>,
@@ -306,7 +306,7 @@ impl StepBuilder<'_, '_> {
 /// Stores the result of the only call: for a material, all planes that it sets.
 fn store_result(kernel: &mut KernelBuilder<'_, '_, '_>, resource: Resource, ty: PortType) {
     match resource.content {
-        Content::Result(value) => kernel.store(0, value),
+        TextureContent::Result(value) => kernel.store(0, value),
         _ => kernel.store_resource(Operand::Call(0, Convert::None), resource, ty),
     }
 }

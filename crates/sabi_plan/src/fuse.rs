@@ -5,17 +5,17 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Cost, Reads, Shape};
-use sabi_nodes::link::Stored;
+use sabi_nodes::link::StoredLayout;
 
 use crate::request::{Limits, Mode};
-use crate::resolved::{Behavior, Resolved};
+use crate::resolved_graph::{Behavior, ResolvedGraph};
 
 /// A result: node, and index of its output.
-pub(crate) type Value = (usize, usize);
+pub(crate) type ResultRef = (usize, usize);
 
 /// Nodes that are evaluated together.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Group {
+pub(crate) enum FusionGroup {
     /// Results filled by the engine.
     Source { node: usize, outputs: Vec<usize> },
     /// A node that reads stored results as textures.
@@ -28,15 +28,15 @@ pub(crate) enum Group {
     Points(Vec<(usize, Vec<usize>)>),
 }
 
-impl Group {
+impl FusionGroup {
     /// Results that this group makes.
-    pub(crate) fn values(&self) -> Vec<Value> {
+    pub(crate) fn values(&self) -> Vec<ResultRef> {
         match self {
-            Group::Source { node, outputs }
-            | Group::Field { node, outputs }
-            | Group::Rays { node, outputs }
-            | Group::Survey { node, outputs } => outputs.iter().map(|output| (*node, *output)).collect(),
-            Group::Points(members) => members
+            FusionGroup::Source { node, outputs }
+            | FusionGroup::Field { node, outputs }
+            | FusionGroup::Rays { node, outputs }
+            | FusionGroup::Survey { node, outputs } => outputs.iter().map(|output| (*node, *output)).collect(),
+            FusionGroup::Points(members) => members
                 .iter()
                 .flat_map(|(node, outputs)| outputs.iter().map(|output| (*node, *output)))
                 .collect(),
@@ -45,11 +45,11 @@ impl Group {
 }
 
 /// For each value, the nodes that read it, once for each input.
-pub(crate) type Readers = BTreeMap<Value, Vec<usize>>;
+pub(crate) type ResultReaders = BTreeMap<ResultRef, Vec<usize>>;
 
 /// Readers of each value in the wanted part of a graph.
-pub(crate) fn readers(resolved: &Resolved<'_>) -> Readers {
-    let mut readers = Readers::new();
+pub(crate) fn readers(resolved: &ResolvedGraph<'_>) -> ResultReaders {
+    let mut readers = ResultReaders::new();
     for node in &resolved.order {
         let inputs = resolved.nodes[*node]
             .iter()
@@ -63,13 +63,13 @@ pub(crate) fn readers(resolved: &Resolved<'_>) -> Readers {
 
 /// Divides the wanted part of a graph into groups, in evaluation order.
 pub(crate) fn groups(
-    resolved: &Resolved<'_>,
-    readers: &Readers,
-    wanted: &[Value],
+    resolved: &ResolvedGraph<'_>,
+    readers: &ResultReaders,
+    wanted: &[ResultRef],
     mode: Mode,
     limits: &Limits,
-) -> Vec<Group> {
-    let needed: BTreeSet<Value> = readers.keys().chain(wanted).copied().collect();
+) -> Vec<FusionGroup> {
+    let needed: BTreeSet<ResultRef> = readers.keys().chain(wanted).copied().collect();
     let outputs_of = |node: usize| {
         needed
             .range((node, 0)..(node + 1, 0))
@@ -84,10 +84,10 @@ pub(crate) fn groups(
         match ready.behavior {
             Behavior::Sink(_) => {}
             _ if outputs.is_empty() => {}
-            Behavior::Source(_) => groups.push(Group::Source { node, outputs }),
-            Behavior::Shader(kind) if kind.shape == Shape::Field => groups.push(Group::Field { node, outputs }),
-            Behavior::Shader(kind) if kind.shape == Shape::Ray => groups.push(Group::Rays { node, outputs }),
-            Behavior::Shader(kind) if kind.shape == Shape::Survey => groups.push(Group::Survey { node, outputs }),
+            Behavior::Source(_) => groups.push(FusionGroup::Source { node, outputs }),
+            Behavior::Shader(kind) if kind.shape == Shape::Field => groups.push(FusionGroup::Field { node, outputs }),
+            Behavior::Shader(kind) if kind.shape == Shape::Ray => groups.push(FusionGroup::Rays { node, outputs }),
+            Behavior::Shader(kind) if kind.shape == Shape::Survey => groups.push(FusionGroup::Survey { node, outputs }),
             Behavior::Shader(_) => points.push((node, outputs)),
         }
     }
@@ -96,11 +96,11 @@ pub(crate) fn groups(
             let single = |(node, outputs): (usize, Vec<usize>)| {
                 outputs
                     .into_iter()
-                    .map(move |output| Group::Points(vec![(node, vec![output])]))
+                    .map(move |output| FusionGroup::Points(vec![(node, vec![output])]))
             };
             groups.extend(points.into_iter().flat_map(single));
         }
-        Mode::Bake { fuse: false } => groups.extend(points.into_iter().map(|point| Group::Points(vec![point]))),
+        Mode::Bake { fuse: false } => groups.extend(points.into_iter().map(|point| FusionGroup::Points(vec![point]))),
         Mode::Bake { fuse: true } => {
             for region in regions(resolved, points) {
                 cut(resolved, readers, region, wanted, limits, &mut groups);
@@ -114,7 +114,7 @@ pub(crate) fn groups(
 ///
 /// Each node gets the largest number of stored results on a path from it to a wanted result. Nodes with the same number
 /// never depend on each other through a texture, so connected nodes with the same number form a region.
-fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec<(usize, Vec<usize>)>> {
+fn regions(resolved: &ResolvedGraph<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec<(usize, Vec<usize>)>> {
     let is_point: BTreeSet<usize> = points.iter().map(|(node, _)| *node).collect();
     let mut distance: BTreeMap<usize, u32> = BTreeMap::new();
     for node in resolved.order.iter().rev() {
@@ -168,7 +168,7 @@ fn regions(resolved: &Resolved<'_>, points: Vec<(usize, Vec<usize>)>) -> Vec<Vec
 /// The resolved nodes, inputs before readers and depth first, those first that make the largest values: a region that has to be cut
 /// follows a material through its layers, and the masks of a layer are not stored while the layers below it are made. Of values of
 /// one size, that one is first which needs most values at once (Sethi and Ullman 1970).
-fn large_first(resolved: &Resolved<'_>) -> Vec<usize> {
+fn large_first(resolved: &ResolvedGraph<'_>) -> Vec<usize> {
     let needs = needed_values(resolved);
     let fresh_inputs = |node: usize, seen: &BTreeSet<usize>| -> Vec<usize> {
         let mut inputs = inputs_of(resolved, node);
@@ -195,7 +195,7 @@ fn large_first(resolved: &Resolved<'_>) -> Vec<usize> {
 }
 
 /// Values that a node reads.
-fn inputs_of(resolved: &Resolved<'_>, node: usize) -> Vec<Value> {
+fn inputs_of(resolved: &ResolvedGraph<'_>, node: usize) -> Vec<ResultRef> {
     let inputs = resolved.nodes[node]
         .iter()
         .flat_map(|ready| ready.inputs.iter().flatten());
@@ -203,7 +203,7 @@ fn inputs_of(resolved: &Resolved<'_>, node: usize) -> Vec<Value> {
 }
 
 /// Number of values that are needed at once to evaluate each node, as if no value had two readers.
-fn needed_values(resolved: &Resolved<'_>) -> Vec<usize> {
+fn needed_values(resolved: &ResolvedGraph<'_>) -> Vec<usize> {
     let mut needs = vec![0_usize; resolved.nodes.len()];
     for node in &resolved.order {
         let inputs: BTreeSet<usize> = inputs_of(resolved, *node).into_iter().map(|(from, _)| from).collect();
@@ -218,22 +218,22 @@ fn needed_values(resolved: &Resolved<'_>) -> Vec<usize> {
 /// Cuts a region that exceeds the limits of a kernel: of the prefixes that fit and are no shorter than half of the longest one, that
 /// which stores fewest bytes, then the rest.
 fn cut(
-    resolved: &Resolved<'_>,
-    readers: &Readers,
+    resolved: &ResolvedGraph<'_>,
+    readers: &ResultReaders,
     mut region: Vec<(usize, Vec<usize>)>,
-    wanted: &[Value],
+    wanted: &[ResultRef],
     limits: &Limits,
-    groups: &mut Vec<Group>,
+    groups: &mut Vec<FusionGroup>,
 ) {
     while !region.is_empty() {
         let fitting = fitting_prefixes(Prefix::new(resolved, readers, wanted), &region, limits);
         let rest = region.split_off(best_length(&fitting, region.len()));
-        groups.push(Group::Points(std::mem::replace(&mut region, rest)));
+        groups.push(FusionGroup::Points(std::mem::replace(&mut region, rest)));
     }
 }
 
 /// Prefix that fits into a kernel.
-struct Fitting {
+struct FittingPrefix {
     /// Number of its nodes.
     length: usize,
     /// Cost of compiling it.
@@ -244,7 +244,7 @@ struct Fitting {
 }
 
 /// Prefixes of a region that fit into a kernel, from the shortest on.
-fn fitting_prefixes(mut kernel: Prefix<'_, '_>, region: &[(usize, Vec<usize>)], limits: &Limits) -> Vec<Fitting> {
+fn fitting_prefixes(mut kernel: Prefix<'_, '_>, region: &[(usize, Vec<usize>)], limits: &Limits) -> Vec<FittingPrefix> {
     let mut fitting = Vec::new();
     for (count, (node, _)) in region.iter().enumerate() {
         kernel.add(*node);
@@ -255,7 +255,7 @@ fn fitting_prefixes(mut kernel: Prefix<'_, '_>, region: &[(usize, Vec<usize>)], 
             break;
         }
         if kernel.stores <= limits.storage_textures {
-            fitting.push(Fitting {
+            fitting.push(FittingPrefix {
                 length: count + 1,
                 cost: kernel.cost,
                 work: kernel.work,
@@ -267,12 +267,12 @@ fn fitting_prefixes(mut kernel: Prefix<'_, '_>, region: &[(usize, Vec<usize>)], 
 }
 
 /// Number of nodes of the best of the prefixes that fit a region of so many nodes.
-fn best_length(fitting: &[Fitting], all: usize) -> usize {
+fn best_length(fitting: &[FittingPrefix], all: usize) -> usize {
     let Some(longest) = fitting.last() else { return 1 };
     if longest.length == all {
         return all;
     }
-    let is_half = |prefix: &&Fitting| {
+    let is_half = |prefix: &&FittingPrefix| {
         let (cost, most) = (prefix.cost, longest.cost);
         2 * cost.all >= most.all && 2 * cost.straight >= most.straight && 2 * prefix.work >= longest.work
     };
@@ -285,13 +285,13 @@ fn best_length(fitting: &[Fitting], all: usize) -> usize {
 
 /// Prefix of a region with the cost and the bindings of its kernel.
 struct Prefix<'a, 'k> {
-    resolved: &'a Resolved<'k>,
-    readers: &'a Readers,
-    wanted: &'a [Value],
+    resolved: &'a ResolvedGraph<'k>,
+    readers: &'a ResultReaders,
+    wanted: &'a [ResultRef],
     inside: BTreeSet<usize>,
-    loaded: BTreeSet<Value>,
+    loaded: BTreeSet<ResultRef>,
     /// Readers of each result that are not in the prefix yet.
-    outside: BTreeMap<Value, usize>,
+    outside: BTreeMap<ResultRef, usize>,
     cost: Cost,
     work: u64,
     block_bytes: u64,
@@ -302,7 +302,7 @@ struct Prefix<'a, 'k> {
 }
 
 impl<'a, 'k> Prefix<'a, 'k> {
-    fn new(resolved: &'a Resolved<'k>, readers: &'a Readers, wanted: &'a [Value]) -> Self {
+    fn new(resolved: &'a ResolvedGraph<'k>, readers: &'a ResultReaders, wanted: &'a [ResultRef]) -> Self {
         Prefix {
             resolved,
             readers,
@@ -360,7 +360,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
 }
 
 /// Cost of compiling a node, for the limit of kernels.
-pub(crate) fn node_cost(resolved: &Resolved<'_>, node: usize) -> Cost {
+pub(crate) fn node_cost(resolved: &ResolvedGraph<'_>, node: usize) -> Cost {
     match resolved.nodes[node].as_ref().map(|ready| ready.behavior) {
         Some(Behavior::Shader(kind)) => kind.cost,
         _ => Cost::default(),
@@ -368,7 +368,7 @@ pub(crate) fn node_cost(resolved: &Resolved<'_>, node: usize) -> Cost {
 }
 
 /// Operations of a node for a texel, for the limit of work.
-fn node_work(resolved: &Resolved<'_>, node: usize) -> u64 {
+fn node_work(resolved: &ResolvedGraph<'_>, node: usize) -> u64 {
     match resolved.nodes[node].as_ref().map(|ready| ready.behavior) {
         Some(Behavior::Shader(kind)) => kind.work,
         _ => 0,
@@ -376,12 +376,12 @@ fn node_work(resolved: &Resolved<'_>, node: usize) -> u64 {
 }
 
 /// Number of textures that a result takes.
-fn planes(resolved: &Resolved<'_>, value: Value) -> usize {
+fn planes(resolved: &ResolvedGraph<'_>, value: ResultRef) -> usize {
     stored(resolved, value).map_or(1, |stored| stored.planes().len().max(1))
 }
 
 /// Bytes of a texel of a result.
-fn bytes(resolved: &Resolved<'_>, value: Value) -> u64 {
+fn bytes(resolved: &ResolvedGraph<'_>, value: ResultRef) -> u64 {
     let planes = stored(resolved, value)
         .map(|stored| stored.planes())
         .unwrap_or_default();
@@ -389,12 +389,12 @@ fn bytes(resolved: &Resolved<'_>, value: Value) -> u64 {
 }
 
 /// A result in storage.
-fn stored(resolved: &Resolved<'_>, (node, output): Value) -> Option<Stored> {
+fn stored(resolved: &ResolvedGraph<'_>, (node, output): ResultRef) -> Option<StoredLayout> {
     let ready = resolved.nodes[node].as_ref()?;
     let (_, ty) = ready.output(output)?;
     let channels = match ty {
         PortType::Material => ready.channels.get(output)?.clone(),
         PortType::Mask | PortType::Color | PortType::Vector => Vec::new(),
     };
-    Some(Stored { ty, channels })
+    Some(StoredLayout { ty, channels })
 }

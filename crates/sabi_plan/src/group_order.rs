@@ -3,11 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::fuse::{Group, Value};
+use crate::fuse::{FusionGroup, ResultRef};
 use crate::memory_use::{MemoryUse, StoredPlane, is_result, weight, written};
 use crate::plan::Step;
 use crate::request::Mode;
-use crate::resources::{Content, UnassignedStep};
+use crate::resources::{TextureContent, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 /// Most attempts to find a better order. Each looks at all steps.
@@ -18,7 +18,12 @@ impl StepBuilder<'_, '_> {
     /// inputs are followed in their order. Otherwise this order is compared with that of Sethi and Ullman ("The generation
     /// of optimal code for arithmetic expressions", 1970), in which the input that needs the most memory in addition to its
     /// result comes first, while little else is stored. The order that needs less memory is used.
-    pub(crate) fn order(&self, groups: &[Group], built: &[Vec<UnassignedStep>], wanted: &[Value]) -> Vec<usize> {
+    pub(crate) fn order(
+        &self,
+        groups: &[FusionGroup],
+        built: &[Vec<UnassignedStep>],
+        wanted: &[ResultRef],
+    ) -> Vec<usize> {
         let inputs: Vec<Vec<usize>> = groups.iter().map(|group| self.producers_of(group)).collect();
         let as_written = self.depth_first(&inputs, wanted);
         if self.planner.mode == Mode::Interactive {
@@ -41,7 +46,7 @@ impl StepBuilder<'_, '_> {
         mut order: Vec<usize>,
         built: &[Vec<UnassignedStep>],
         inputs: &[Vec<usize>],
-        wanted: &[Value],
+        wanted: &[ResultRef],
     ) -> Vec<usize> {
         let mut known = self.memory_use(built, &order, wanted);
         let mut attempts = 0;
@@ -77,7 +82,7 @@ impl StepBuilder<'_, '_> {
     /// Groups that make planes.
     fn makers(&self, planes: &BTreeSet<StoredPlane>) -> BTreeSet<usize> {
         let maker = |(resource, _): &StoredPlane| {
-            let Content::Result(value) = resource.content else {
+            let TextureContent::Result(value) = resource.content else {
                 return None;
             };
             self.producer.get(&value).copied()
@@ -94,7 +99,7 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Returns the groups that produce what a group reads, in the order of inputs.
-    fn producers_of(&self, group: &Group) -> Vec<usize> {
+    fn producers_of(&self, group: &FusionGroup) -> Vec<usize> {
         let nodes: BTreeSet<usize> = group.values().into_iter().map(|(node, _)| node).collect();
         let inputs = nodes.iter().flat_map(|node| self.node(*node).inputs.iter().flatten());
         inputs.map(|input| self.producer[&(input.node, input.output)]).collect()
@@ -102,7 +107,7 @@ impl StepBuilder<'_, '_> {
 
     /// Returns the groups that the wanted values need, each after all groups that it reads. `inputs` lists the groups that
     /// each group reads, in the order in which they are followed.
-    fn depth_first(&self, inputs: &[Vec<usize>], wanted: &[Value]) -> Vec<usize> {
+    fn depth_first(&self, inputs: &[Vec<usize>], wanted: &[ResultRef]) -> Vec<usize> {
         let mut seen = BTreeSet::new();
         let mut order = Vec::new();
         for value in wanted {
@@ -125,9 +130,9 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Memory in use when groups run in an order.
-    fn memory_use(&self, built: &[Vec<UnassignedStep>], order: &[usize], wanted: &[Value]) -> MemoryUse {
+    fn memory_use(&self, built: &[Vec<UnassignedStep>], order: &[usize], wanted: &[ResultRef]) -> MemoryUse {
         let is_wanted = |plane: &StoredPlane| {
-            is_result(plane) && matches!(plane.0.content, Content::Result(value) if wanted.contains(&value))
+            is_result(plane) && matches!(plane.0.content, TextureContent::Result(value) if wanted.contains(&value))
         };
         let steps = order
             .iter()

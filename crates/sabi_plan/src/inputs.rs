@@ -5,9 +5,9 @@ use sabi_nodes::kind::{Input, InputDefault, Reads};
 use sabi_nodes::link::Convert;
 
 use crate::error::Problem;
-use crate::muted::unmuted_origin;
+use crate::muting::unmuted_origin;
 use crate::request::{Planner, SourcePort};
-use crate::resolved::{Behavior, Resolved, ResolvedInput};
+use crate::resolved_graph::{Behavior, ResolvedGraph, ResolvedInput};
 
 /// Links of a node.
 pub(crate) struct LinkedInputs {
@@ -25,7 +25,7 @@ impl<'a> Planner<'a> {
         &self,
         node: &FlatNode,
         behavior: Behavior<'_>,
-        resolved: &Resolved<'a>,
+        resolved: &ResolvedGraph<'a>,
         problems: &mut Vec<Problem>,
     ) -> LinkedInputs {
         let mut linked = LinkedInputs {
@@ -58,7 +58,12 @@ impl<'a> Planner<'a> {
         linked
     }
 
-    fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<InputLink, Problem> {
+    fn resolve_input(
+        &self,
+        node: &FlatNode,
+        port: &KindInput<'_>,
+        resolved: &ResolvedGraph<'a>,
+    ) -> Result<InputLink, Problem> {
         let link = node.inputs.get(port.name);
         let origin = link.and_then(|from| match self.find_output(from) {
             // A missing result is reported even if the node is muted.
@@ -121,7 +126,7 @@ enum InputLink {
 }
 
 /// Input of a kind, whatever its behavior.
-pub(crate) struct Port<'a> {
+pub(crate) struct KindInput<'a> {
     pub(crate) name: &'a str,
     pub(crate) ty: PortType,
     reads: Reads,
@@ -138,8 +143,8 @@ fn masked_param(behavior: Behavior<'_>, name: &str) -> Option<usize> {
     }
 }
 
-fn mask_port(behavior: Behavior<'_>, param: usize) -> Port<'_> {
-    Port {
+fn mask_port(behavior: Behavior<'_>, param: usize) -> KindInput<'_> {
+    KindInput {
         name: &behavior.params()[param].name,
         ty: PortType::Mask,
         reads: Reads::Value,
@@ -149,7 +154,7 @@ fn mask_port(behavior: Behavior<'_>, param: usize) -> Port<'_> {
 }
 
 /// The problem of a link to an input that the kind does not have.
-fn unknown_input(behavior: Behavior<'_>, port: &str, ports: &[Port<'_>]) -> Problem {
+fn unknown_input(behavior: Behavior<'_>, port: &str, ports: &[KindInput<'_>]) -> Problem {
     if behavior.params().iter().any(|param| param.name == port) {
         return Problem::ParamWithoutMask { param: port.to_owned() };
     }
@@ -160,10 +165,10 @@ fn unknown_input(behavior: Behavior<'_>, port: &str, ports: &[Port<'_>]) -> Prob
     }
 }
 
-pub(crate) fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
+pub(crate) fn ports<'a>(behavior: Behavior<'a>) -> Vec<KindInput<'a>> {
     match behavior {
         Behavior::Shader(kind) => {
-            let port = |input: &'a Input| Port {
+            let port = |input: &'a Input| KindInput {
                 name: &input.name,
                 ty: input.ty,
                 reads: input.reads,
@@ -173,7 +178,7 @@ pub(crate) fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
             kind.inputs.iter().map(port).collect()
         }
         Behavior::Source(kind) | Behavior::Sink(kind) => {
-            let port = |input: &'a SourcePort| Port {
+            let port = |input: &'a SourcePort| KindInput {
                 name: &input.name,
                 ty: input.ty,
                 reads: Reads::Value,

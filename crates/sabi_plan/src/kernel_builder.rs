@@ -2,14 +2,14 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Kind, Output};
-use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, Operand, Plane, Store, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, KernelStore, Operand, Plane, StoredLayout};
 
-use crate::fuse::{self, Value};
+use crate::fuse::{self, ResultRef};
 use crate::keys::result_key;
 use crate::level::Level;
 use crate::plan::{BlockValues, Feedback, KernelStep, Step, StepRays};
-use crate::resolved::{Behavior, ResolvedInput};
-use crate::resources::{Content, Resource, UnassignedStep};
+use crate::resolved_graph::{Behavior, ResolvedInput};
+use crate::resources::{Resource, TextureContent, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 /// Repetition of a function in which each run reads the result of the previous run.
@@ -73,7 +73,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     fn add_load(
         &mut self,
         resource: Option<Resource>,
-        stored: Stored,
+        stored: StoredLayout,
         planes: Vec<Option<(Resource, Plane)>>,
     ) -> usize {
         self.spec.loads.push(stored);
@@ -83,8 +83,8 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     }
 
     /// Index of the load of a stored result, shared by all its readers in this kernel.
-    pub(crate) fn load(&mut self, value: Value) -> usize {
-        let resource = self.on_level(Content::Result(value));
+    pub(crate) fn load(&mut self, value: ResultRef) -> usize {
+        let resource = self.on_level(TextureContent::Result(value));
         if let Some(load) = self.loaded.iter().position(|loaded| *loaded == Some(resource)) {
             return load;
         }
@@ -93,7 +93,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     }
 
     /// Content on the level of this kernel.
-    fn on_level(&self, content: Content) -> Resource {
+    fn on_level(&self, content: TextureContent) -> Resource {
         Resource {
             content,
             level: self.level,
@@ -101,9 +101,9 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     }
 
     /// Adds a load of content other than a result, of one plane.
-    pub(crate) fn load_resource(&mut self, content: Content, ty: PortType) -> usize {
+    pub(crate) fn load_resource(&mut self, content: TextureContent, ty: PortType) -> usize {
         let resource = self.on_level(content);
-        let stored = Stored {
+        let stored = StoredLayout {
             ty,
             channels: Vec::new(),
         };
@@ -113,18 +113,18 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     /// Adds a load of one plane that is 0 everywhere: no slot is bound to it.
     pub(crate) fn load_nothing(&mut self, ty: PortType) -> usize {
         let channels = Vec::new();
-        self.add_load(None, Stored { ty, channels }, vec![None])
+        self.add_load(None, StoredLayout { ty, channels }, vec![None])
     }
 
     /// Adds a load of all planes of stored content.
-    fn load_stored(&mut self, resource: Resource, stored: Stored) -> usize {
+    fn load_stored(&mut self, resource: Resource, stored: StoredLayout) -> usize {
         let planes = stored.planes().into_iter();
         let planes = planes.map(|plane| Some((resource, plane))).collect();
         self.add_load(Some(resource), stored, planes)
     }
 
     /// Adds a load of all planes that an input can have; planes that do not exist stay unbound.
-    pub(crate) fn switched_load(&mut self, from: Option<Value>, stored: Stored) -> usize {
+    pub(crate) fn switched_load(&mut self, from: Option<ResultRef>, stored: StoredLayout) -> usize {
         let present = from.map(|value| (value, self.builder.stored(value)));
         let planes = stored.planes().into_iter().map(|plane| {
             let (value, from) = present.as_ref()?;
@@ -142,7 +142,11 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     }
 
     /// Returns the masks that multiply parameters of a node. `made` finds masks that a call of this kernel computes.
-    pub(crate) fn param_masks(&mut self, node: usize, made: impl Fn(Value) -> Option<usize>) -> Vec<(usize, Operand)> {
+    pub(crate) fn param_masks(
+        &mut self,
+        node: usize,
+        made: impl Fn(ResultRef) -> Option<usize>,
+    ) -> Vec<(usize, Operand)> {
         let masks: Vec<_> = self.builder.node(node).param_masks().collect();
         let operand = |(param, mask): (usize, ResolvedInput)| {
             let value = (mask.node, mask.output);
@@ -201,14 +205,18 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     }
 
     /// Stores the result of a call, on the level of this kernel.
-    pub(crate) fn store(&mut self, call: usize, value: Value) {
+    pub(crate) fn store(&mut self, call: usize, value: ResultRef) {
         let made = Operand::Call(call, Convert::None);
-        self.store_planes(made, self.on_level(Content::Result(value)), self.builder.stored(value));
+        self.store_planes(
+            made,
+            self.on_level(TextureContent::Result(value)),
+            self.builder.stored(value),
+        );
     }
 
     /// Stores content other than a result, of one plane.
     pub(crate) fn store_resource(&mut self, value: Operand, resource: Resource, ty: PortType) {
-        let stored = Stored {
+        let stored = StoredLayout {
             ty,
             channels: Vec::new(),
         };
@@ -216,14 +224,14 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     }
 
     /// Stores all planes of a value.
-    fn store_planes(&mut self, value: Operand, resource: Resource, stored: Stored) {
+    fn store_planes(&mut self, value: Operand, resource: Resource, stored: StoredLayout) {
         self.writes
             .extend(stored.planes().into_iter().map(|plane| Some((resource, plane))));
         self.add_store(value, resource, stored);
     }
 
     /// Stores all planes that a result can have; planes that are not set stay unbound.
-    pub(crate) fn store_switched(&mut self, call: usize, value: Value) {
+    pub(crate) fn store_switched(&mut self, call: usize, value: ResultRef) {
         let resource = Resource::result(value);
         let set = self.builder.stored(value);
         let channels = if set.ty == PortType::Material {
@@ -231,16 +239,16 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         } else {
             Vec::new()
         };
-        let stored = Stored { ty: set.ty, channels };
+        let stored = StoredLayout { ty: set.ty, channels };
         let is_set = |plane: Plane| set.planes().contains(&plane).then_some((resource, plane));
         self.writes.extend(stored.planes().into_iter().map(is_set));
         self.add_store(Operand::Call(call, Convert::None), resource, stored);
     }
 
-    fn add_store(&mut self, value: Operand, resource: Resource, stored: Stored) {
+    fn add_store(&mut self, value: Operand, resource: Resource, stored: StoredLayout) {
         let formats = stored.planes().iter().map(|plane| plane.format()).collect();
-        self.spec.stores.push(Store { value, stored, formats });
-        if let Content::Result((node, output)) = resource.content {
+        self.spec.stores.push(KernelStore { value, stored, formats });
+        if let TextureContent::Result((node, output)) = resource.content {
             let (name, _) = self.builder.output((node, output));
             self.keys.push(result_key(self.builder.node(node), name));
         }

@@ -3,11 +3,11 @@
 use sabi_nodes::kind::Kind;
 
 use crate::request::Planner;
-use crate::resolved::{Behavior, Resolved, ResolvedNode};
+use crate::resolved_graph::{Behavior, ResolvedGraph, ResolvedNode};
 
 impl Planner<'_> {
     /// Key of a node's results: source text with its libraries, values, keys of the inputs, surface.
-    pub(crate) fn node_key(&self, index: usize, ready: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> [u8; 32] {
+    pub(crate) fn node_key(&self, index: usize, ready: &ResolvedNode<'_>, resolved: &ResolvedGraph<'_>) -> [u8; 32] {
         let mut hash = blake3::Hasher::new();
         hash.update(&self.surface_key);
         let node = &self.graph.nodes[index];

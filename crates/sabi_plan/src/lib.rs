@@ -54,7 +54,7 @@ mod kernel_builder;
 mod keys;
 mod level;
 mod memory_use;
-mod muted;
+mod muting;
 mod order;
 mod own_slots;
 mod packing;
@@ -64,7 +64,7 @@ mod ray_steps;
 mod rays;
 mod request;
 mod resolve;
-mod resolved;
+mod resolved_graph;
 mod resources;
 mod schedule;
 mod seeds;
@@ -83,7 +83,7 @@ pub use plan::{
 pub use request::{
     FileContents, FileFault, FileFaultKind, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target,
 };
-pub use resolved::{Behavior, Resolved, ResolvedInput, ResolvedNode};
+pub use resolved_graph::{Behavior, ResolvedGraph, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;
 pub use source_values::{NoSuchValue, SourceValues};
 

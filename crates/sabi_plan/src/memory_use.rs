@@ -6,7 +6,7 @@ use sabi_nodes::link::Plane;
 
 use crate::level::Level;
 use crate::plan::{SlotExtent, Step};
-use crate::resources::{Content, Resource, UnassignedStep};
+use crate::resources::{Resource, TextureContent, UnassignedStep};
 
 /// A stored plane on a level.
 pub(crate) type StoredPlane = (Resource, Plane);
@@ -18,7 +18,7 @@ pub(crate) fn written(step: &UnassignedStep) -> impl Iterator<Item = StoredPlane
 
 /// Returns whether a plane belongs to a result of a node, on the level on which others read it.
 pub(crate) fn is_result((resource, _): &StoredPlane) -> bool {
-    matches!(resource.content, Content::Result(_)) && resource.level == Level::FINEST
+    matches!(resource.content, TextureContent::Result(_)) && resource.level == Level::FINEST
 }
 
 /// Memory of a plane: that of a number on the finest level is 2²².

@@ -2,7 +2,7 @@
 
 use sabi_graph::FlatRef;
 
-use crate::muted::unmuted_origin;
+use crate::muting::unmuted_origin;
 use crate::request::{Planner, Target};
 
 impl Planner<'_> {

@@ -3,7 +3,7 @@
 use sabi_nodes::kind::{Kind, ParamValue, Role};
 
 /// Everything that the bytes of a node depend on besides its values.
-pub struct Packing<'a> {
+pub struct ParamPacking<'a> {
     /// Seeds of the document and of the enclosing groups, outermost first.
     pub(crate) seeds: &'a [u32],
     /// Factor from lengths as written in the graph to working units.
@@ -14,7 +14,7 @@ pub struct Packing<'a> {
     pub(crate) extent: &'a dyn Fn([f32; 3]) -> [f32; 2],
 }
 
-impl Packing<'_> {
+impl ParamPacking<'_> {
     /// Factor from artist's units to those of kernels.
     pub(crate) fn factor(&self, role: &Role) -> f64 {
         match role {
@@ -28,7 +28,7 @@ impl Packing<'_> {
 /// The bytes of `struct Params`: angles in radians, lengths in working units, seeds hashed.
 ///
 /// `values` has one entry for each of the kind's parameters, in artist's units.
-pub fn pack_params(kind: &Kind, values: &[ParamValue], packing: &Packing<'_>) -> Vec<u8> {
+pub fn pack_params(kind: &Kind, values: &[ParamValue], packing: &ParamPacking<'_>) -> Vec<u8> {
     let mut bytes = vec![0_u8; kind.params_size as usize];
     for (param, value) in kind.params.iter().zip(values) {
         let words: Vec<[u8; 4]> = match (&param.ty.role, value) {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use sabi_nodes::kind::Finds;
-use sabi_nodes::link::{Domain, Format, KernelSpec, Plane, Stored};
+use sabi_nodes::link::{Domain, Format, KernelSpec, Plane, StoredLayout};
 
 use crate::level::Level;
 use crate::source_values::SourceValues;
@@ -224,7 +224,7 @@ pub struct PlannedResult {
     /// Its origin: node id and result.
     pub from: (String, String),
     /// Its type and channels in storage.
-    pub stored: Stored,
+    pub stored: StoredLayout,
     /// Slots, one for each plane.
     pub slots: Vec<SlotRef>,
     /// Its key.

@@ -6,8 +6,8 @@ use sabi_nodes::link::{Binding, Convert, Domain, Operand};
 
 use crate::kernel_builder::KernelBuilder;
 use crate::level::Level;
-use crate::resolved::Behavior;
-use crate::resources::{Content, Resource, UnassignedStep};
+use crate::resolved_graph::Behavior;
+use crate::resources::{Resource, TextureContent, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 impl StepBuilder<'_, '_> {
@@ -38,7 +38,7 @@ impl StepBuilder<'_, '_> {
             let inputs = self.values(node, &mut kernel);
             let masks = kernel.param_masks(node, |_| None);
             let call = kernel.call_function(node, kind, function, inputs, masks, block);
-            let content = Content::Pass(node, *pass);
+            let content = TextureContent::Pass(node, *pass);
             kernel.store_resource(
                 Operand::Call(call, Convert::None),
                 Resource { content, level },
@@ -80,8 +80,8 @@ impl StepBuilder<'_, '_> {
         means: &[usize],
         level: Level,
     ) -> Vec<UnassignedStep> {
-        let passes = means.iter().map(|pass| Content::Pass(node, *pass));
-        let own = passes.chain([Content::Normals(node)]);
+        let passes = means.iter().map(|pass| TextureContent::Pass(node, *pass));
+        let own = passes.chain([TextureContent::Normals(node)]);
         let own: Vec<Resource> = own.map(|content| Resource { content, level }).collect();
         self.level_moves(node, step, &own)
     }
@@ -99,7 +99,7 @@ impl StepBuilder<'_, '_> {
     fn normals(&self, node: usize, denoise: Denoise, level: Level) -> UnassignedStep {
         let mut kernel = KernelBuilder::new(self, Domain::AllTexels);
         kernel.level = level;
-        let content = Content::Normals(node);
+        let content = TextureContent::Normals(node);
         kernel.store_resource(Operand::Normal(denoise), Resource { content, level }, PortType::Vector);
         kernel.finish()
     }
@@ -109,10 +109,11 @@ impl StepBuilder<'_, '_> {
         let mut kernel = KernelBuilder::new(self, Domain::OwnedTexels);
         kernel.level = level;
         let block = kernel.block(node);
-        let normals = kernel.load_resource(Content::Normals(node), PortType::Vector);
+        let normals = kernel.load_resource(TextureContent::Normals(node), PortType::Vector);
         let mut passes = vec![None; kind.passes.len()];
         for pass in means {
-            passes[*pass] = Some(kernel.load_resource(Content::Pass(node, *pass), kind.passes[*pass].function.ty));
+            passes[*pass] =
+                Some(kernel.load_resource(TextureContent::Pass(node, *pass), kind.passes[*pass].function.ty));
         }
         for output in outputs {
             let inputs = self.values(node, &mut kernel);

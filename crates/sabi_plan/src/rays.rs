@@ -7,7 +7,7 @@ use crate::keys::result_key;
 use crate::level::Level;
 use crate::plan::{Reach, StepRays};
 use crate::request::Planner;
-use crate::resolved::{Behavior, ResolvedNode};
+use crate::resolved_graph::{Behavior, ResolvedNode};
 
 impl Planner<'_> {
     /// Returns the rays of a node that are cast on a level, for some of its results.

@@ -6,11 +6,11 @@ use sabi_nodes::kind::{ParamValue, Shape};
 use crate::channels::channels;
 use crate::error::{PlanError, Problem};
 use crate::inputs::{LinkedInputs, ports};
-use crate::muted::Ports;
-use crate::packing::{Packing, pack_params};
+use crate::muting::NodePorts;
+use crate::packing::{ParamPacking, pack_params};
 use crate::parameter_values::{read_knobs, read_params};
 use crate::request::{Planner, Target};
-use crate::resolved::{Behavior, Resolved, ResolvedNode};
+use crate::resolved_graph::{Behavior, ResolvedGraph, ResolvedNode};
 use crate::source_values::SourceValues;
 
 /// Version of all kinds of the engine.
@@ -18,11 +18,11 @@ const ENGINE_KIND_VERSION: u32 = 1;
 
 impl<'a> Planner<'a> {
     /// Resolves what the targets need.
-    pub fn resolve(&self, targets: &[Target]) -> Resolved<'a> {
+    pub fn resolve(&self, targets: &[Target]) -> ResolvedGraph<'a> {
         let count = self.graph.nodes.len();
-        let mut resolved = Resolved {
+        let mut resolved = ResolvedGraph {
             nodes: (0..count).map(|_| None).collect(),
-            ..Resolved::default()
+            ..ResolvedGraph::default()
         };
         for node in self.evaluation_order(targets) {
             match self.resolve_node(node, &resolved) {
@@ -68,7 +68,11 @@ impl<'a> Planner<'a> {
     }
 
     /// Resolves a node; `Ok(None)` where a node that it depends on has a problem.
-    fn resolve_node(&self, index: usize, resolved: &Resolved<'a>) -> Result<Option<ResolvedNode<'a>>, Vec<PlanError>> {
+    fn resolve_node(
+        &self,
+        index: usize,
+        resolved: &ResolvedGraph<'a>,
+    ) -> Result<Option<ResolvedNode<'a>>, Vec<PlanError>> {
         let node = &self.graph.nodes[index];
         let at_fault = |problem| PlanError {
             node: node.id.clone(),
@@ -113,7 +117,7 @@ impl<'a> Planner<'a> {
     }
 
     fn pack(&self, behavior: Behavior<'_>, node: &FlatNode, values: &[ParamValue]) -> (Vec<u8>, SourceValues) {
-        let packing = Packing {
+        let packing = ParamPacking {
             seeds: &node.seeds,
             working_from_length: self.working_from_length(behavior, node),
             working_from_absolute: self.working_from_absolute(node),
@@ -192,7 +196,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-impl Ports for Planner<'_> {
+impl NodePorts for Planner<'_> {
     fn output(&self, node: usize, port: Option<&str>) -> Option<PortType> {
         self.find_output(&FlatRef {
             node,

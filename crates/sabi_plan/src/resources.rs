@@ -2,22 +2,22 @@
 
 use sabi_nodes::link::Plane;
 
-use crate::fuse::Value;
+use crate::fuse::ResultRef;
 use crate::level::Level;
 use crate::plan::{SlotExtent, Step};
 
 /// Content of a texture on a level of the surface, before it is assigned a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Resource {
-    pub(crate) content: Content,
+    pub(crate) content: TextureContent,
     pub(crate) level: Level,
 }
 
 impl Resource {
     /// A result, which is on the finest level.
-    pub(crate) fn result(value: Value) -> Resource {
+    pub(crate) fn result(value: ResultRef) -> Resource {
         Resource {
-            content: Content::Result(value),
+            content: TextureContent::Result(value),
             level: Level::FINEST,
         }
     }
@@ -25,23 +25,23 @@ impl Resource {
     /// Size of its slot.
     pub(crate) fn extent(self) -> SlotExtent {
         match self.content {
-            Content::Survey(_, false) => SlotExtent::Survey,
-            Content::Survey(_, true) => SlotExtent::GroupSurvey,
-            Content::SurveyPass(_, _, false) => SlotExtent::Single,
-            Content::SurveyPass(_, _, true) => SlotExtent::Groups,
-            Content::Result(_)
-            | Content::Pass(..)
-            | Content::Normals(_)
-            | Content::Scratch(..)
-            | Content::Converted(..) => SlotExtent::Level(self.level),
+            TextureContent::Survey(_, false) => SlotExtent::Survey,
+            TextureContent::Survey(_, true) => SlotExtent::GroupSurvey,
+            TextureContent::SurveyPass(_, _, false) => SlotExtent::Single,
+            TextureContent::SurveyPass(_, _, true) => SlotExtent::Groups,
+            TextureContent::Result(_)
+            | TextureContent::Pass(..)
+            | TextureContent::Normals(_)
+            | TextureContent::Scratch(..)
+            | TextureContent::Converted(..) => SlotExtent::Level(self.level),
         }
     }
 }
 
 /// Content of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Content {
-    Result(Value),
+pub(crate) enum TextureContent {
+    Result(ResultRef),
     /// Result of a pass of a field, or mean of a pass over rays: node and pass.
     Pass(usize, usize),
     /// Normals, for a node whose means over rays are denoised.

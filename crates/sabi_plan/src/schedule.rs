@@ -3,15 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
-use sabi_nodes::link::{Binding, Convert, Domain, Operand, Plane, Stored, channel_bits};
+use sabi_nodes::link::{Binding, Convert, Domain, Operand, Plane, StoredLayout, channel_bits};
 
 use crate::error::{PlanError, Problem};
-use crate::fuse::{self, Group, Value};
+use crate::fuse::{self, FusionGroup, ResultRef};
 use crate::kernel_builder::KernelBuilder;
 use crate::keys::result_key;
 use crate::plan::{Plan, SourceStep, Step};
 use crate::request::{Mode, Planner, Target};
-use crate::resolved::{Behavior, Resolved};
+use crate::resolved_graph::{Behavior, ResolvedGraph};
 use crate::resources::{Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
@@ -20,7 +20,7 @@ impl Planner<'_> {
     pub fn plan(&self, targets: &[Target]) -> (Plan, Vec<PlanError>) {
         let mut resolved = self.resolve(targets);
         let mut errors = std::mem::take(&mut resolved.errors);
-        let mut wanted: Vec<(Target, Value)> = Vec::new();
+        let mut wanted: Vec<(Target, ResultRef)> = Vec::new();
         for target in targets {
             match self.wanted_value(&resolved, target) {
                 Ok(Some(value)) => wanted.push((target.clone(), value)),
@@ -28,7 +28,7 @@ impl Planner<'_> {
                 Err(error) => errors.push(*error),
             }
         }
-        let values: Vec<Value> = wanted.iter().map(|(_, value)| *value).collect();
+        let values: Vec<ResultRef> = wanted.iter().map(|(_, value)| *value).collect();
         let readers = fuse::readers(&resolved);
         let groups = fuse::groups(&resolved, &readers, &values, self.mode, &self.limits);
         let builder = StepBuilder::new(self, &resolved, &groups, readers);
@@ -40,7 +40,7 @@ impl Planner<'_> {
     }
 
     /// Result of a target; `None` where it depends on a node with a problem, or is muted and passes nothing on.
-    fn wanted_value(&self, resolved: &Resolved<'_>, target: &Target) -> Result<Option<Value>, Box<PlanError>> {
+    fn wanted_value(&self, resolved: &ResolvedGraph<'_>, target: &Target) -> Result<Option<ResultRef>, Box<PlanError>> {
         let node = &self.graph.nodes[target.node];
         let Ok(behavior) = self.behavior(node) else {
             return Ok(None);
@@ -99,17 +99,17 @@ fn keep_first_moves(steps: &mut Vec<UnassignedStep>) {
 
 impl StepBuilder<'_, '_> {
     /// Builds the steps of a group.
-    fn steps(&self, group: &Group, wanted: &[Value]) -> Vec<UnassignedStep> {
+    fn steps(&self, group: &FusionGroup, wanted: &[ResultRef]) -> Vec<UnassignedStep> {
         match group {
-            Group::Source { node, outputs } => self.source(*node, outputs),
-            Group::Field { node, outputs } => self.field(*node, outputs),
-            Group::Rays { node, outputs } => self.rays(*node, outputs),
-            Group::Survey { node, outputs } => self.survey(*node, outputs),
-            Group::Points(members) if self.planner.mode == Mode::Interactive => members
+            FusionGroup::Source { node, outputs } => self.source(*node, outputs),
+            FusionGroup::Field { node, outputs } => self.field(*node, outputs),
+            FusionGroup::Rays { node, outputs } => self.rays(*node, outputs),
+            FusionGroup::Survey { node, outputs } => self.survey(*node, outputs),
+            FusionGroup::Points(members) if self.planner.mode == Mode::Interactive => members
                 .iter()
                 .map(|(node, outputs)| self.single(*node, outputs[0]))
                 .collect(),
-            Group::Points(members) => vec![self.points(members, wanted)],
+            FusionGroup::Points(members) => vec![self.points(members, wanted)],
         }
     }
 
@@ -167,7 +167,7 @@ impl StepBuilder<'_, '_> {
         let Behavior::Source(kind) = self.node(node).behavior else {
             return None;
         };
-        let stored = Stored {
+        let stored = StoredLayout {
             ty: kind.inputs.get(input)?.ty,
             channels: Vec::new(),
         };
@@ -175,10 +175,10 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Builds a region of point nodes as one kernel.
-    fn points(&self, members: &[(usize, Vec<usize>)], wanted: &[Value]) -> UnassignedStep {
+    fn points(&self, members: &[(usize, Vec<usize>)], wanted: &[ResultRef]) -> UnassignedStep {
         let group = self.producer[&(members[0].0, members[0].1[0])];
         let mut kernel = KernelBuilder::new(self, Domain::AllTexels);
-        let mut call_of: BTreeMap<Value, usize> = BTreeMap::new();
+        let mut call_of: BTreeMap<ResultRef, usize> = BTreeMap::new();
         for (node, outputs) in members {
             let block = kernel.block(*node);
             for output in outputs {
@@ -221,7 +221,7 @@ impl StepBuilder<'_, '_> {
             };
             let from = input.map(|input| (input.node, input.output));
             inputs.push(Binding::Switch(
-                kernel.switched_load(from, Stored { ty: port.ty, channels }),
+                kernel.switched_load(from, StoredLayout { ty: port.ty, channels }),
             ));
             if let Some(input) = input {
                 flags[0] |= mode_bits(input.ty, port.ty) << (2 * index);

@@ -5,7 +5,7 @@ use std::fmt;
 
 use sabi_nodes::kind::{Param, ParamValue, Role};
 
-use crate::packing::Packing;
+use crate::packing::ParamPacking;
 
 /// Error of a source that reads a parameter that its kind does not declare with that type.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,7 +38,7 @@ pub struct SourceValues(BTreeMap<String, ParamValue>);
 
 impl SourceValues {
     /// `values` has one entry for each of `params`, in artist's units.
-    pub(crate) fn new(params: &[Param], values: &[ParamValue], packing: &Packing<'_>) -> SourceValues {
+    pub(crate) fn new(params: &[Param], values: &[ParamValue], packing: &ParamPacking<'_>) -> SourceValues {
         let named = params.iter().zip(values).map(|(param, value)| {
             let value = match (&param.ty.role, value) {
                 (Role::Seed, ParamValue::Unsigned(seed)) => {

@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
-use sabi_nodes::link::Stored;
+use sabi_nodes::link::StoredLayout;
 
-use crate::fuse::{Group, Readers, Value};
+use crate::fuse::{FusionGroup, ResultReaders, ResultRef};
 use crate::request::Planner;
-use crate::resolved::{Resolved, ResolvedNode};
+use crate::resolved_graph::{ResolvedGraph, ResolvedNode};
 
 /// Builder of the steps of a plan.
 pub(crate) struct StepBuilder<'p, 'a> {
     pub(crate) planner: &'p Planner<'a>,
-    pub(crate) resolved: &'p Resolved<'a>,
+    pub(crate) resolved: &'p ResolvedGraph<'a>,
     /// Index of the group that produces each value.
-    pub(crate) producer: BTreeMap<Value, usize>,
-    readers: Readers,
+    pub(crate) producer: BTreeMap<ResultRef, usize>,
+    readers: ResultReaders,
     /// Channels of materials in kernels that do not depend on links.
     pub(crate) switched_channels: &'static [Channel],
 }
@@ -24,9 +24,9 @@ pub(crate) struct StepBuilder<'p, 'a> {
 impl<'p, 'a> StepBuilder<'p, 'a> {
     pub(crate) fn new(
         planner: &'p Planner<'a>,
-        resolved: &'p Resolved<'a>,
-        groups: &[Group],
-        readers: Readers,
+        resolved: &'p ResolvedGraph<'a>,
+        groups: &[FusionGroup],
+        readers: ResultReaders,
     ) -> StepBuilder<'p, 'a> {
         let made = groups
             .iter()
@@ -57,25 +57,25 @@ impl<'p, 'a> StepBuilder<'p, 'a> {
     }
 
     /// Name and type of a value.
-    pub(crate) fn output(&self, (node, output): Value) -> (&str, PortType) {
+    pub(crate) fn output(&self, (node, output): ResultRef) -> (&str, PortType) {
         self.node(node)
             .output(output)
             .unwrap_or_else(|| unreachable!("'{}' has no result {output}", self.id(node)))
     }
 
     /// Type and stored channels of a value.
-    pub(crate) fn stored(&self, (node, output): Value) -> Stored {
+    pub(crate) fn stored(&self, (node, output): ResultRef) -> StoredLayout {
         let (_, ty) = self.output((node, output));
         let channels = if ty == PortType::Material {
             self.node(node).channels[output].clone()
         } else {
             Vec::new()
         };
-        Stored { ty, channels }
+        StoredLayout { ty, channels }
     }
 
     /// Returns true if a node of another group reads a value.
-    pub(crate) fn is_read_outside(&self, value: Value, group: usize) -> bool {
+    pub(crate) fn is_read_outside(&self, value: ResultRef, group: usize) -> bool {
         let readers = self.readers.get(&value).into_iter().flatten();
         let groups = |reader: &usize| self.producer.range((*reader, 0)..(*reader + 1, 0));
         readers.flat_map(groups).any(|(_, producer)| *producer != group)

@@ -8,8 +8,8 @@ use crate::field::working_value;
 use crate::kernel_builder::KernelBuilder;
 use crate::level::Level;
 use crate::plan::{Grouping, Step, SurveyStep};
-use crate::resolved::Behavior;
-use crate::resources::{Content, Resource, UnassignedStep};
+use crate::resolved_graph::Behavior;
+use crate::resources::{Resource, TextureContent, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
 impl StepBuilder<'_, '_> {
@@ -32,7 +32,7 @@ impl StepBuilder<'_, '_> {
             let passes = kind.passes.iter().enumerate().map(|(index, pass)| {
                 let is_taken = arguments.contains(&Argument::Pass(index));
                 is_taken.then(|| {
-                    let content = Content::SurveyPass(node, index, self.has_groups(node, kind));
+                    let content = TextureContent::SurveyPass(node, index, self.has_groups(node, kind));
                     kernel.load_resource(content, pass.function.ty)
                 })
             });
@@ -60,7 +60,7 @@ impl StepBuilder<'_, '_> {
             resource = converted;
             steps.push(step);
         }
-        let content = Content::Survey(node, self.has_groups(node, kind));
+        let content = TextureContent::Survey(node, self.has_groups(node, kind));
         steps.push(UnassignedStep {
             step: Step::Survey(SurveyStep {
                 node: self.id(node),
@@ -100,7 +100,7 @@ impl StepBuilder<'_, '_> {
         let domain = if has_groups { Domain::Groups } else { Domain::Once };
         let mut kernel = KernelBuilder::new(self, domain);
         let block = kernel.block(node);
-        let survey = kernel.load_resource(Content::Survey(node, has_groups), PortType::Vector);
+        let survey = kernel.load_resource(TextureContent::Survey(node, has_groups), PortType::Vector);
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
@@ -113,7 +113,7 @@ impl StepBuilder<'_, '_> {
             block,
             by_piece: false,
         });
-        let content = Content::SurveyPass(node, pass, has_groups);
+        let content = TextureContent::SurveyPass(node, pass, has_groups);
         let resource = Resource {
             content,
             level: Level::FINEST,

@@ -104,7 +104,7 @@ fn library() -> Library {
 static LIBRARY: OnceLock<Library> = OnceLock::new();
 
 /// A planner for tests: the built-in nodes, one source and the two sinks.
-struct Bench {
+struct TestPlanner {
     library: &'static Library,
     sources: BTreeMap<String, SourceKind>,
     sinks: BTreeMap<String, SourceKind>,
@@ -112,11 +112,11 @@ struct Bench {
     limits: Limits,
 }
 
-impl Bench {
-    fn new() -> Bench {
+impl TestPlanner {
+    fn new() -> TestPlanner {
         let by_id = |kinds: Vec<SourceKind>| kinds.into_iter().map(|kind| (kind.id.clone(), kind)).collect();
         let material = port("material", PortType::Material, &Channel::ALL);
-        Bench {
+        TestPlanner {
             library: LIBRARY.get_or_init(library),
             sources: by_id(vec![kind("source/model", Vec::new(), vec![material.clone()])]),
             sinks: by_id(vec![

@@ -5,7 +5,7 @@
 //! used. A closed body within another one may be a cavity, so its volume does not decide either.
 
 use glam::DVec3;
-use sabi_cancel::{Cancel, Looking as _, look};
+use sabi_cancel::{Cancel, CancelableIterator as _, look};
 
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::bvh::Bvh;

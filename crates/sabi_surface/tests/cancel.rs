@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::thread;
 
-use sabi_cancel::{Cancel, Canceled, cancelable};
+use sabi_cancel::{Cancel, CanceledWork, cancelable};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::load::{LoadOptions, load_bytes};
 use sabi_surface::model::Model;
@@ -94,7 +94,7 @@ fn read(name: &str, bytes: &[u8]) -> Model {
 }
 
 /// Runs work that is canceled before it begins.
-fn at_once(work: impl FnOnce()) -> Result<(), Canceled> {
+fn at_once(work: impl FnOnce()) -> Result<(), CanceledWork> {
     let request = Cancel::new();
     request.cancel();
     cancelable(&request, work)
@@ -110,7 +110,7 @@ fn readers_of_all_formats_hear_a_cancelation() {
         ("it.glb", glb()),
     ] {
         assert!(!read(name, &bytes).mesh.triangles.is_empty(), "{name}");
-        assert_eq!(at_once(|| drop(read(name, &bytes))), Err(Canceled), "{name}");
+        assert_eq!(at_once(|| drop(read(name, &bytes))), Err(CanceledWork), "{name}");
     }
 }
 
@@ -125,7 +125,7 @@ fn a_cancelation_is_heard_after_the_last_file_beside_a_model_was_read() {
         };
         load_bytes("it.obj", &bytes, &mut resolve, &LoadOptions::default()).map(drop)
     });
-    assert_eq!(read, Err(Canceled));
+    assert_eq!(read, Err(CanceledWork));
 }
 
 #[test]
@@ -133,9 +133,9 @@ fn every_step_after_the_reading_hears_a_cancelation() {
     let model = read("it.obj", &obj());
     let bare = read("it.stl", &stl());
     let size = AtlasOptions::new(256);
-    assert_eq!(at_once(|| drop(Atlas::build(&model.mesh, &size))), Err(Canceled));
-    assert_eq!(at_once(|| drop(unwrap_cached(None, &bare.mesh))), Err(Canceled));
-    assert_eq!(at_once(|| drop(Pieces::of(&model.mesh))), Err(Canceled));
+    assert_eq!(at_once(|| drop(Atlas::build(&model.mesh, &size))), Err(CanceledWork));
+    assert_eq!(at_once(|| drop(unwrap_cached(None, &bare.mesh))), Err(CanceledWork));
+    assert_eq!(at_once(|| drop(Pieces::of(&model.mesh))), Err(CanceledWork));
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn work_that_is_canceled_at_any_moment_ends_canceled_or_whole() {
         let built = cancelable(&request, || Atlas::build(&model.mesh, &AtlasOptions::new(256)).unwrap());
         asks.join().unwrap();
         assert!(
-            built == Err(Canceled) || built.as_ref() == Ok(&whole),
+            built == Err(CanceledWork) || built.as_ref() == Ok(&whole),
             "after {spins} turns"
         );
     }

@@ -19,9 +19,9 @@ wgsl_struct! {
 }
 
 wgsl_struct! {
-    "view/frame" Frame:
+    "view/frame" FrameUniforms:
     /// Uniforms of one sample of a picture.
-    pub(crate) struct Frame {
+    pub(crate) struct FrameUniforms {
         clip_from_view: [[f32; 4]; 4],
         view_from_clip: [[f32; 4]; 4],
         eye: [f32; 4],
@@ -47,9 +47,9 @@ const BLUR: f32 = 0.42;
 /// Light of the middle of a studio's backdrop: about 1.5 stops below a gray of 18 % that is lit like the model.
 const BACKDROP: f32 = 0.11;
 
-impl Frame {
+impl FrameUniforms {
     /// Computes the uniforms of one sample of a picture.
-    pub(crate) fn new(scene: &Scene<'_>, shot: &Shot, [width, height]: [u32; 2], sample: u32) -> Frame {
+    pub(crate) fn new(scene: &Scene<'_>, shot: &Shot, [width, height]: [u32; 2], sample: u32) -> FrameUniforms {
         let lights = &lights_of_sample(scene, shot, sample);
         let aspect = width as f32 / height as f32;
         let [jitter_x, jitter_y] = jitter(sample, shot.samples);
@@ -67,7 +67,7 @@ impl Frame {
         }
         let (sin, cos) = shot.environment_turn_degrees.to_radians().sin_cos();
         let last_level = scene.environment.specular_levels().saturating_sub(1) as f32;
-        Frame {
+        FrameUniforms {
             clip_from_view: clip_from_view.to_cols_array_2d(),
             view_from_clip: clip_from_view.inverse().to_cols_array_2d(),
             eye: eye_row(shot),

@@ -31,12 +31,12 @@ mod pick;
 mod pipelines;
 mod placement;
 pub mod relief;
+mod render_target;
 mod renderer;
 mod scene;
 mod shade;
 mod shaders;
 mod shadows;
-mod target;
 mod upload;
 mod viewport;
 
@@ -46,13 +46,13 @@ pub use error::ViewError;
 pub use lights::{STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS};
 pub use mirrors::mirrors;
 pub use model::{ViewModel, ViewModelParts};
-pub use pick::{Picked, pick};
+pub use pick::{PickedPoint, pick};
 pub use placement::Placement;
-pub use renderer::{MissingPipelines, Pose, Renderer};
+pub use render_target::{LONGEST_SIDE, Pixels, RenderTarget};
+pub use renderer::{MissingPipelines, ModelPose, Renderer};
 pub use scene::{
     Background, Light, LightPlace, Lines, MOST_LIGHTS, MaterialLook, Mode, NodeLook, NodeType, Scene, Shot,
     USUAL_BLOOM, ViewTransform,
 };
 pub use shaders::view_modules;
-pub use target::{LONGEST_SIDE, Pixels, Target};
 pub use viewport::{Quality, SceneRevision, Viewport};

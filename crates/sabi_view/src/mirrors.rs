@@ -4,12 +4,12 @@ use sabi_nodes::link::{Mirror, MirrorsWgsl};
 
 use crate::edges::Line;
 use crate::environment::prefilter::{CubePass, GROUP};
-use crate::frame::{Frame, LightRow};
+use crate::frame::{FrameUniforms, LightRow};
 use crate::model::Vertex;
 use crate::pipelines::{Backdrop, MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches, Transform};
-use crate::renderer::Display;
+use crate::renderer::DisplayUniforms;
 use crate::renderer::bloom::BloomPass;
-use crate::renderer::bound::{LineStyle, Material};
+use crate::renderer::bound_scene::{BoundMaterial, LineStyle};
 use crate::renderer::passes::Caster;
 use crate::scene::Mode;
 use crate::upload::CHART_BITS;
@@ -21,12 +21,12 @@ pub fn mirrors() -> Vec<Mirror> {
         BloomPass::mirror(),
         Caster::mirror(),
         CubePass::mirror(),
-        Display::mirror(),
-        Frame::mirror(),
+        DisplayUniforms::mirror(),
+        FrameUniforms::mirror(),
         LightRow::mirror(),
         Line::mirror(),
         LineStyle::mirror(),
-        Material::mirror(),
+        BoundMaterial::mirror(),
         Vertex::mirror(),
         Mirror::constant("CHART_BITS", "view/maps", "CHART_BITS", [CHART_BITS]),
         Mirror::constant("SHOWN_COLOR", "view/switches", "SHOWN_COLOR", [SHOWN_COLOR]),

@@ -18,7 +18,7 @@ use sabi_surface::openness::Openness as ModelOpenness;
 use crate::edges::{HalfEdge, Line, displaced_half_edges, half_edges, lines};
 use crate::error::ViewError;
 use crate::placement::Placement;
-use crate::shade::{Ground, Openness, Shade};
+use crate::shade::{GroundShade, OpennessTextures, Shade};
 use crate::upload::{buffer_of, table_of};
 
 wgsl_struct! {
@@ -218,9 +218,11 @@ impl ViewModel {
     ) -> Result<(), ViewError> {
         if self.shade.get().is_none() {
             let ground = ground
-                .map(|ground| Ground::new(gpu, ground, &self.placement))
+                .map(|ground| GroundShade::new(gpu, ground, &self.placement))
                 .transpose()?;
-            let openness = openness.map(|openness| Openness::new(gpu, openness)).transpose()?;
+            let openness = openness
+                .map(|openness| OpennessTextures::new(gpu, openness))
+                .transpose()?;
             self.shade.get_or_init(|| Shade { ground, openness });
         }
         Ok(())
@@ -232,12 +234,12 @@ impl ViewModel {
     }
 
     /// Returns the ground below the model, once it has been computed.
-    pub(crate) fn ground(&self) -> Option<&Ground> {
+    pub(crate) fn ground(&self) -> Option<&GroundShade> {
         self.shade.get()?.ground.as_ref()
     }
 
     /// Returns the openness of the model's surface, once it has been computed.
-    pub(crate) fn openness(&self) -> Option<&Openness> {
+    pub(crate) fn openness(&self) -> Option<&OpennessTextures> {
         self.shade.get()?.openness.as_ref()
     }
 

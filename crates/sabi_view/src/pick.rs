@@ -15,7 +15,7 @@ const MODEL_RADIUS: f64 = 1.0;
 
 /// First hit of a ray with the surface, from either side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Picked {
+pub struct PickedPoint {
     /// Triangle, an index into [`Mesh::triangles`].
     pub triangle: u32,
     /// Barycentric coordinates. They are not negative, and their sum is 1.
@@ -49,7 +49,7 @@ pub struct Picked {
 }
 
 /// Returns the first hit of a ray in view space with a mesh. The hierarchy, the atlas and the placement are those of the mesh.
-pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placement) -> Option<Picked> {
+pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placement) -> Option<PickedPoint> {
     let origin = ray.origin.as_dvec3();
     let direction = ray.direction.as_dvec3().try_normalize()?;
     // The start is moved along the ray to near the model, since single precision is coarse far away from it.
@@ -73,7 +73,7 @@ pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placeme
     let chart = *atlas.triangle_chart.get(triangle)?;
     let face_normal = face_normal(corners);
     let normal = Vec3::from(interpolated(mesh, triangle, &mesh.normals, barycentric));
-    Some(Picked {
+    Some(PickedPoint {
         triangle: hit.triangle,
         barycentric,
         uv,

@@ -12,10 +12,10 @@ use sabi_gpu::{Gpu, GpuError, shader_module};
 
 use crate::edges::Line;
 use crate::model::Vertex;
+use crate::render_target::{LIGHT_FORMAT, PICTURE_FORMAT, SUM_FORMAT, VISIBILITY_FORMAT};
 use crate::shaders::ViewShader;
 use crate::shadows::SHADOW_FORMAT;
-use crate::target::{LIGHT_FORMAT, PICTURE_FORMAT, SUM_FORMAT, VISIBILITY_FORMAT};
-pub(crate) use keys::{Backdrop, Backing, BloomStep, Development, PipelineKey, Shading, Transform};
+pub(crate) use keys::{Backdrop, BackgroundKey, BloomStep, Development, PipelineKey, Shading, Transform};
 pub(crate) use layouts::Layouts;
 use options::{
     LINE_ATTRIBUTES, POSITION_ATTRIBUTE, PipelineOptions, VERTEX_ATTRIBUTES, depth, pipeline, vertex_buffer,
@@ -200,7 +200,12 @@ impl Pipelines {
         )
     }
 
-    fn background(&self, device: &wgpu::Device, module: &wgpu::ShaderModule, backing: Backing) -> wgpu::RenderPipeline {
+    fn background(
+        &self,
+        device: &wgpu::Device,
+        module: &wgpu::ShaderModule,
+        backing: BackgroundKey,
+    ) -> wgpu::RenderPipeline {
         let Backdrop(backdrop) = backing.backdrop;
         let mut switches = vec![
             ("BACKDROP", f64::from(backdrop)),

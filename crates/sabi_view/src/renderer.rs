@@ -1,30 +1,30 @@
 //! Drawing of scenes.
 
 pub(crate) mod bloom;
-pub(crate) mod bound;
+pub(crate) mod bound_scene;
 mod choice;
 mod light;
 pub(crate) mod passes;
 mod pose;
 
-use bound::Bound;
+use bound_scene::BoundScene;
 use bytemuck::Pod;
-pub(crate) use passes::Part;
+pub(crate) use passes::PixelRect;
 use passes::{draw_light, draw_raster, for_parts, part_attachment};
 use sabi_gpu::Gpu;
 use sabi_nodes::wgsl_struct;
 
 use crate::dfg::dfg_texture;
 use crate::error::ViewError;
-use crate::frame::Frame;
+use crate::frame::FrameUniforms;
 use crate::pipelines::{Development, Layouts, PipelineKey, Pipelines, Transform};
+use crate::render_target::{LIGHT_FORMAT, RenderTarget, SUM_FORMAT};
 use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shade::GROUND_FORMAT;
 use crate::shadows::ShadowMaps;
-use crate::target::{LIGHT_FORMAT, SUM_FORMAT, Target};
 use crate::upload::{buffer_of, texture};
 pub use choice::MissingPipelines;
-pub use pose::Pose;
+pub use pose::ModelPose;
 
 /// Draws scenes on one device.
 pub struct Renderer {
@@ -45,9 +45,9 @@ pub struct Renderer {
 }
 
 wgsl_struct! {
-    "view/display" Display:
+    "view/display" DisplayUniforms:
     /// Constants of the conversion of light to a picture.
-    pub(crate) struct Display {
+    pub(crate) struct DisplayUniforms {
         backdrop: [f32; 4],
         exposure: f32,
         samples: f32,
@@ -57,15 +57,15 @@ wgsl_struct! {
 }
 
 /// Resources shared by all samples of a picture.
-pub(crate) struct Prepared {
+pub(crate) struct PictureResources {
     shadows: ShadowMaps,
-    bound: Bound,
+    bound: BoundScene,
     visibility: wgpu::BindGroup,
 }
 
 /// A sample of a picture.
 #[derive(Clone, Copy)]
-pub(crate) struct Sample {
+pub(crate) struct PictureSample {
     /// Number, from 0.
     pub(crate) number: u32,
     /// True if the samples so far are encoded as a picture.
@@ -109,11 +109,11 @@ impl Renderer {
     }
 
     /// Draws a shot of a scene with all of its samples.
-    pub fn draw(&self, gpu: &Gpu, target: &mut Target, scene: &Scene<'_>, shot: &Shot) -> Result<(), ViewError> {
+    pub fn draw(&self, gpu: &Gpu, target: &mut RenderTarget, scene: &Scene<'_>, shot: &Shot) -> Result<(), ViewError> {
         let mut prepared = self.prepare(gpu, target, scene, shot, None)?;
         let samples = shot.samples.max(1);
         for sample in 0..samples {
-            let next = Sample {
+            let next = PictureSample {
                 number: sample,
                 is_shown: sample + 1 == samples,
             };
@@ -131,13 +131,13 @@ impl Renderer {
     pub(crate) fn prepare(
         &self,
         gpu: &Gpu,
-        target: &Target,
+        target: &RenderTarget,
         scene: &Scene<'_>,
         shot: &Shot,
-        before: Option<Prepared>,
-    ) -> Result<Prepared, ViewError> {
+        before: Option<PictureResources>,
+    ) -> Result<PictureResources, ViewError> {
         let bound = self.bound(gpu, target.size, scene, shot)?;
-        Ok(Prepared {
+        Ok(PictureResources {
             shadows: self.shadow_maps(gpu, scene, shot, &bound, before.map(|before| before.shadows))?,
             bound,
             visibility: self.visibility_group(gpu, &target.visibility, scene),
@@ -148,19 +148,19 @@ impl Renderer {
     pub(crate) fn add_sample(
         &self,
         gpu: &Gpu,
-        target: &mut Target,
+        target: &mut RenderTarget,
         scene: &Scene<'_>,
         shot: &Shot,
-        prepared: &mut Prepared,
-        sample: Sample,
+        prepared: &mut PictureResources,
+        sample: PictureSample,
     ) -> Result<(), ViewError> {
-        let Prepared {
+        let PictureResources {
             shadows,
             bound,
             visibility,
         } = prepared;
         self.cast_again(gpu, scene, shot, sample.number, bound, shadows)?;
-        let values = Frame::new(scene, shot, target.size, sample.number);
+        let values = FrameUniforms::new(scene, shot, target.size, sample.number);
         let frame = self.frame_group(gpu, shadows, scene, &values)?;
         let mut encoder = gpu
             .device()
@@ -186,19 +186,19 @@ impl Renderer {
     pub(crate) fn draw_part(
         &self,
         gpu: &Gpu,
-        target: &mut Target,
+        target: &mut RenderTarget,
         scene: &Scene<'_>,
         shot: &Shot,
-        prepared: &mut Prepared,
-        parts: &[Part],
+        prepared: &mut PictureResources,
+        parts: &[PixelRect],
         is_rastered: bool,
     ) -> Result<(), ViewError> {
-        let Prepared {
+        let PictureResources {
             shadows,
             bound,
             visibility,
         } = prepared;
-        let values = Frame::new(scene, shot, target.size, 0);
+        let values = FrameUniforms::new(scene, shot, target.size, 0);
         let frame = self.frame_group(gpu, shadows, scene, &values)?;
         let mut encoder = gpu
             .device()
@@ -241,12 +241,12 @@ impl Renderer {
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        target: &mut Target,
+        target: &mut RenderTarget,
         shot: &Shot,
-        Sample {
+        PictureSample {
             number: sample,
             is_shown,
-        }: Sample,
+        }: PictureSample,
     ) -> Result<(), ViewError> {
         if sample == 0 && shot.has_bloom() {
             self.spread_light(gpu, encoder, target, shot)?;
@@ -336,7 +336,7 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         key: PipelineKey,
         [light, earlier, spread, target]: [&wgpu::TextureView; 4],
-        values: Display,
+        values: DisplayUniforms,
         within: Option<ModelParts<'_>>,
     ) -> Result<(), ViewError> {
         let uniform = self.uniform(gpu, &values)?;
@@ -373,7 +373,7 @@ impl Renderer {
 /// Parts of a picture that are drawn again for the pixels that show the model.
 #[derive(Clone, Copy)]
 struct ModelParts<'a> {
-    parts: &'a [Part],
+    parts: &'a [PixelRect],
     /// Depth of the picture. Its stencil is 0 for pixels that do not show the model.
     depth: &'a wgpu::TextureView,
 }
@@ -396,14 +396,14 @@ fn transform(shot: &Shot) -> Transform {
     }
 }
 
-fn display(shot: &Shot, samples: u32) -> Display {
+fn display(shot: &Shot, samples: u32) -> DisplayUniforms {
     let backdrop = match shot.background {
         Background::Plain([r, g, b]) => [r, g, b, 1.0],
         Background::Clear => [0.0; 4],
         // Modes other than the lit material have a uniform gray behind the model.
         Background::Environment | Background::Blurred | Background::Studio => [0.05, 0.05, 0.05, 1.0],
     };
-    Display {
+    DisplayUniforms {
         backdrop,
         exposure: shot.exposure_stops.exp2(),
         samples: samples as f32,

@@ -7,7 +7,7 @@ use sabi_gpu::DeviceMaps;
 use crate::camera::Camera;
 use crate::environment::Environment;
 use crate::model::ViewModel;
-use crate::shade::Ground;
+use crate::shade::GroundShade;
 
 /// Bloom of pictures that do not set their own: it is visible only around highlights and emission.
 pub const USUAL_BLOOM: f32 = 0.1;
@@ -30,7 +30,7 @@ pub struct Scene<'a> {
 
 impl Scene<'_> {
     /// Returns the ground of a shot that shows it.
-    pub(crate) fn ground(&self, shot: &Shot) -> Option<&Ground> {
+    pub(crate) fn ground(&self, shot: &Shot) -> Option<&GroundShade> {
         self.model.ground().filter(|_| shot.has_ground)
     }
 }

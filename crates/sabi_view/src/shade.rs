@@ -13,12 +13,12 @@ pub(crate) const GROUND_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Uno
 
 /// Shade of a model. Parts that could not be computed are left out.
 pub(crate) struct Shade {
-    pub(crate) ground: Option<Ground>,
-    pub(crate) openness: Option<Openness>,
+    pub(crate) ground: Option<GroundShade>,
+    pub(crate) openness: Option<OpennessTextures>,
 }
 
 /// Ground that shows the shade of a model, in view space.
-pub(crate) struct Ground {
+pub(crate) struct GroundShade {
     /// Height of the ground.
     pub(crate) height: f32,
     /// Radius around the vertical axis at which the shade has faded out.
@@ -28,7 +28,7 @@ pub(crate) struct Ground {
 }
 
 /// Openness of the model's surface, on its own atlas.
-pub(crate) struct Openness {
+pub(crate) struct OpennessTextures {
     /// Texels per unit of UV.
     pub(crate) size: f32,
     /// Mean open direction, −1..1 stored as 0..1, and the open share.
@@ -37,8 +37,8 @@ pub(crate) struct Openness {
     pub(crate) charts: wgpu::TextureView,
 }
 
-impl Ground {
-    pub(crate) fn new(gpu: &Gpu, ground: &ModelGround, placement: &Placement) -> Result<Ground, ViewError> {
+impl GroundShade {
+    pub(crate) fn new(gpu: &Gpu, ground: &ModelGround, placement: &Placement) -> Result<GroundShade, ViewError> {
         let side = ground.side as u32;
         let texture = texture(gpu, "the ground below the model", [side, side, 1], GROUND_FORMAT)?;
         let codes: Vec<u8> = ground
@@ -48,7 +48,7 @@ impl Ground {
             .collect();
         write(gpu, &texture, &codes);
         let height = (f64::from(ground.height) - placement.center[1]) * placement.scale;
-        Ok(Ground {
+        Ok(GroundShade {
             height: height as f32,
             radius: (f64::from(ground.radius) * placement.scale) as f32,
             openness: texture.create_view(&wgpu::TextureViewDescriptor::default()),
@@ -56,15 +56,15 @@ impl Ground {
     }
 }
 
-impl Openness {
-    pub(crate) fn new(gpu: &Gpu, openness: &ModelOpenness) -> Result<Openness, ViewError> {
+impl OpennessTextures {
+    pub(crate) fn new(gpu: &Gpu, openness: &ModelOpenness) -> Result<OpennessTextures, ViewError> {
         let [width, height] = openness.page_size;
         let size = [width, height, openness.pages];
         let texture = texture(gpu, "the openness of the model", size, wgpu::TextureFormat::Rgba8Unorm)?;
         write(gpu, &texture, openness.texels.as_flattened());
         let row = |[u, v, page]: &[i32; 3]| [*u as f32, *v as f32, *page as f32, 0.0];
         let rows: Vec<[f32; 4]> = openness.charts.iter().map(row).collect();
-        Ok(Openness {
+        Ok(OpennessTextures {
             size: openness.size as f32,
             texels: texture.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2Array),

@@ -6,9 +6,9 @@ use glam::Vec3;
 use sabi_gpu::{AdapterKind, Gpu};
 
 use crate::error::ViewError;
-use crate::renderer::{MissingPipelines, Part, Prepared, Renderer, Sample};
+use crate::render_target::RenderTarget;
+use crate::renderer::{MissingPipelines, PictureResources, PictureSample, PixelRect, Renderer};
 use crate::scene::{Mode, Scene, Shot};
-use crate::target::Target;
 
 /// Limits of the work for a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +54,7 @@ struct PictureInputs {
 /// Progress of the last picture.
 struct PictureProgress {
     inputs: PictureInputs,
-    prepared: Prepared,
+    prepared: PictureResources,
     /// Number of samples drawn.
     samples: u32,
     /// True if the pixels show the model as in the first sample.
@@ -76,7 +76,7 @@ pub struct Viewport {
     renderer: Arc<Renderer>,
     /// Limits of the work for a picture.
     pub quality: Quality,
-    target: Option<Target>,
+    target: Option<RenderTarget>,
     progress: Option<PictureProgress>,
 }
 
@@ -105,7 +105,7 @@ impl Viewport {
     }
 
     /// Returns the picture; `None` before the first one.
-    pub fn picture(&self) -> Option<&Target> {
+    pub fn picture(&self) -> Option<&RenderTarget> {
         self.target.as_ref()
     }
 
@@ -130,7 +130,7 @@ impl Viewport {
         }
         let mut target = match self.target.take().filter(|target| target.size() == inputs.size) {
             Some(target) => target,
-            None => Target::new(gpu, inputs.size)?,
+            None => RenderTarget::new(gpu, inputs.size)?,
         };
         // The progress is taken, so that after a failure no older picture seems to be current.
         let mut progress = match self.progress.take() {
@@ -148,7 +148,7 @@ impl Viewport {
         let shot = &progress.inputs.shot;
         let is_unfinished = progress.samples < shot.samples;
         if is_unfinished {
-            let sample = Sample {
+            let sample = PictureSample {
                 number: progress.samples,
                 is_shown: true,
             };
@@ -243,7 +243,7 @@ fn changed_parts(
     revision: &SceneRevision,
     before: &PictureInputs,
     shot: &Shot,
-) -> Option<Vec<Part>> {
+) -> Option<Vec<PixelRect>> {
     // Relief shifts the visible points, and transparent places show what is behind them.
     let is_plain = !shot.has_relief && scene.looks.iter().all(|look| look.is_opaque);
     let known = revision.changed.iter().find(|(number, _)| *number == before.revision);

@@ -25,9 +25,9 @@ const OPENING: Duration = Duration::from_secs(120);
 const BETWEEN: Duration = Duration::from_millis(150);
 
 /// A running program with its window, ended when it is dropped.
-struct Running(Child);
+struct RunningProgram(Child);
 
-impl Drop for Running {
+impl Drop for RunningProgram {
     fn drop(&mut self) {
         // Both fail only where the process has ended already.
         let _ = self.0.kill();
@@ -81,7 +81,7 @@ fn program(project: &Project, given: Option<&String>) -> Result<PathBuf, TaskErr
 }
 
 /// Starts a display in memory. The server chooses a free number and writes it to its standard output.
-fn server() -> Result<(Running, String), TaskError> {
+fn server() -> Result<(RunningProgram, String), TaskError> {
     let size = format!("{}x{}x24", SIZE[0], SIZE[1]);
     let mut server = Command::new("Xvfb")
         .args(["-noreset", "-displayfd", "1", "-screen", "0", &size, "-nolisten", "tcp"])
@@ -95,7 +95,7 @@ fn server() -> Result<(Running, String), TaskError> {
             .read_line(&mut number)
             .map_err(|error| TaskError::failed(format!("Xvfb did not name its display: {error}.")))?;
     }
-    Ok((Running(server), format!(":{}", number.trim())))
+    Ok((RunningProgram(server), format!(":{}", number.trim())))
 }
 
 /// A soak: its program, its folder, its graph and its display.
@@ -143,7 +143,7 @@ impl Soak<'_> {
     }
 
     /// Opens the window and waits for it.
-    fn open(&self, hands: &Hands) -> Result<Running, TaskError> {
+    fn open(&self, hands: &Hands) -> Result<RunningProgram, TaskError> {
         let log = self.folder.join("log.txt");
         let output = File::create(&log).map_err(|error| not_written(&log, &error))?;
         let mut command = self.project.command(&self.program)?;
@@ -162,7 +162,7 @@ impl Soak<'_> {
         let child = command
             .spawn()
             .map_err(|error| TaskError::failed(format!("{} cannot be started: {error}.", self.program.display())))?;
-        let window = Running(child);
+        let window = RunningProgram(child);
         let began = Instant::now();
         while !hands.take_window() {
             if began.elapsed() > OPENING {

@@ -112,7 +112,7 @@ pub(crate) struct BakeArguments {
     pub(crate) embed: bool,
     /// Padding around charts, texels, or 'infinite' [default: 16 at size 2048]
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
-    pub(crate) padding: Option<Padding>,
+    pub(crate) padding: Option<PaddingArgument>,
     /// Differences of heights and normals between the two sides of a seam: erased, by changing the texels beside it, or kept
     #[arg(long, value_enum, default_value_t = SeamsChoice::Erase, help_heading = "Maps")]
     pub(crate) seams: SeamsChoice,
@@ -150,8 +150,8 @@ impl BakeArguments {
     /// Padding around charts, texels; none for padding without limit.
     pub(crate) fn padding_texels(&self) -> Option<u32> {
         match self.padding {
-            Some(Padding::Infinite) => None,
-            Some(Padding::Texels(texels)) => Some(texels),
+            Some(PaddingArgument::Infinite) => None,
+            Some(PaddingArgument::Texels(texels)) => Some(texels),
             None => Some(default_padding(self.maps.size)),
         }
     }
@@ -175,17 +175,17 @@ impl From<SeamsChoice> for Seams {
 
 /// Padding around charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Padding {
+pub(crate) enum PaddingArgument {
     Infinite,
     Texels(u32),
 }
 
-fn padding(text: &str) -> Result<Padding, String> {
+fn padding(text: &str) -> Result<PaddingArgument, String> {
     if text == "infinite" {
-        return Ok(Padding::Infinite);
+        return Ok(PaddingArgument::Infinite);
     }
     match text.parse::<u32>() {
-        Ok(texels) if texels <= 8192 => Ok(Padding::Texels(texels)),
+        Ok(texels) if texels <= 8192 => Ok(PaddingArgument::Texels(texels)),
         _ => Err("it takes 0 to 8192 texels, or 'infinite'".to_owned()),
     }
 }

@@ -77,8 +77,8 @@ impl ReadingArguments {
 #[derive(Debug, Args)]
 pub(crate) struct ModelArguments {
     /// Axis of the file that points up; FBX and Collada files say it themselves, and are turned by this on top of that
-    #[arg(long, value_enum, default_value_t = Axis::Y, help_heading = "Model")]
-    pub(crate) up: Axis,
+    #[arg(long, value_enum, default_value_t = AxisArgument::Y, help_heading = "Model")]
+    pub(crate) up: AxisArgument,
     /// Multiply all lengths of the file
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = above_zero, help_heading = "Model")]
     pub(crate) scale: f32,
@@ -129,9 +129,9 @@ impl ModelArguments {
             trusted: self.reading.trusted(trusted).with_file(&path),
             uv: self.uv,
             up: match self.up {
-                Axis::X => Up::X,
-                Axis::Y => Up::Y,
-                Axis::Z => Up::Z,
+                AxisArgument::X => Up::X,
+                AxisArgument::Y => Up::Y,
+                AxisArgument::Z => Up::Z,
             },
             scale: self.scale,
             scene: self.scene,
@@ -282,7 +282,7 @@ impl EvaluationArguments {
 
 /// Axis of a model file.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Axis {
+pub(crate) enum AxisArgument {
     Y,
     Z,
     X,

@@ -7,30 +7,30 @@ use sabi_engine::baking::recorded::{FinishedBake, RecordedBake};
 use sabi_files::TrustedPaths;
 
 use crate::arguments::BakeArguments;
-use crate::asked_bake::{AskedBake, Baked};
 use crate::exit::{Exit, Failure};
 use crate::failed_bake::FailedBake;
 use crate::failure_report::FailureReport;
 use crate::report_file::ReportFile;
+use crate::requested_bake::{BakeOutcome, RequestedBake};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &BakeArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
-    let asked = AskedBake::of(arguments)?;
+    let asked = RequestedBake::of(arguments)?;
     let report_file = match &arguments.report {
         Some(path) => Some(ReportFile::create(path, &arguments.output, &asked.inputs(arguments))?),
         None => None,
     };
     match asked.bake(arguments, trusted, terminal) {
-        Ok(Baked::Now(report)) => {
+        Ok(BakeOutcome::Now(report)) => {
             tell(arguments, &report, report_file, terminal)?;
             summarize(arguments, &asked, &report, started, terminal);
             Ok(match &asked {
-                AskedBake::New { .. } => Exit::Done,
-                AskedBake::Recorded { bake, .. } => compare(bake, &report, terminal),
+                RequestedBake::New { .. } => Exit::Done,
+                RequestedBake::Recorded { bake, .. } => compare(bake, &report, terminal),
             })
         }
-        Ok(Baked::Before(finished)) => {
+        Ok(BakeOutcome::Before(finished)) => {
             tell_finished(arguments, &finished, report_file, terminal)?;
             Ok(Exit::Done)
         }
@@ -108,7 +108,7 @@ fn compare(recorded: &RecordedBake, report: &BakeReport, terminal: &Terminal) ->
 }
 
 /// Adds the bake to a failure, and writes it as the report. If the user stopped the bake, an earlier report stays as it is, like the maps.
-fn reported(mut failure: Failure, asked: &AskedBake<'_>, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
+fn reported(mut failure: Failure, asked: &RequestedBake<'_>, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
     failure.bake = Some(Box::new(FailedBake::new(&asked.graph(), &asked.mesh())));
     if let Some(file) = file.filter(|file| !file.is_stdout() && failure.exit != Exit::Interrupted) {
         let report = FailureReport::new(&failure, terminal.command());
@@ -125,7 +125,7 @@ fn counted(count: usize, one: &str, many: &str) -> String {
 
 fn summarize(
     arguments: &BakeArguments,
-    asked: &AskedBake<'_>,
+    asked: &RequestedBake<'_>,
     report: &BakeReport,
     started: Instant,
     terminal: &Terminal,

@@ -1,7 +1,7 @@
 //! `sabi paint`: files of strokes.
 
 use sabi_engine::opening::stroke_report::{StrokeReport, describe_strokes};
-use sabi_engine::stroke_chores::{FlattenReport, ReprojectReport, flatten_strokes, reproject_strokes};
+use sabi_engine::stroke_maintenance::{FlattenReport, ReprojectReport, flatten_strokes, reproject_strokes};
 use sabi_files::TrustedPaths;
 
 use crate::arguments::{

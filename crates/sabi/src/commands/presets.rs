@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use sabi_engine::baking::preset_description::{PresetDescription, PresetDocument, PresetFile, describe_preset};
+use sabi_engine::baking::preset_description::{
+    PresetDescription, PresetDocument, PresetFileDescription, describe_preset,
+};
 use sabi_engine::baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
 use serde::Serialize;
 
@@ -21,7 +23,7 @@ pub(crate) fn run(arguments: &PresetsArguments, terminal: &Terminal) -> Result<E
 
 /// A preset in the JSON of the list.
 #[derive(Serialize)]
-struct Listed {
+struct PresetListing {
     name: String,
     /// File of a preset that the user wrote.
     file: Option<PathBuf>,
@@ -35,7 +37,7 @@ fn list(json: bool, terminal: &Terminal) -> Result<Exit, Failure> {
     let folder = default_preset_folder();
     let found = export_presets(folder.as_deref());
     if json {
-        let listed: Vec<Listed> = found.into_iter().map(listed).collect();
+        let listed: Vec<PresetListing> = found.into_iter().map(listed).collect();
         terminal.json(&listed)?;
         return Ok(Exit::Done);
     }
@@ -51,12 +53,12 @@ fn list(json: bool, terminal: &Terminal) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-fn listed(found: ListedPreset) -> Listed {
+fn listed(found: ListedPreset) -> PresetListing {
     let (preset, fault) = match found.preset {
         Ok(preset) => (Some(describe_preset(&preset)), None),
         Err(fault) => (None, Some(fault)),
     };
-    Listed {
+    PresetListing {
         name: found.name,
         file: found.file,
         fault,
@@ -111,7 +113,7 @@ fn table(preset: &PresetDescription) -> Page {
     page
 }
 
-fn row(file: &PresetFile) -> [String; 4] {
+fn row(file: &PresetFileDescription) -> [String; 4] {
     let map = file
         .map
         .clone()

@@ -1,6 +1,6 @@
 //! `sabi render`: a lit picture of the model.
 
-use sabi_engine::rendering::{RenderRequest, Triangles, render, render_graph};
+use sabi_engine::rendering::{RenderRequest, TriangleLimit, render, render_graph};
 use sabi_files::TrustedPaths;
 
 use crate::arguments::RenderArguments;
@@ -42,8 +42,8 @@ pub(crate) fn run(arguments: &RenderArguments, trusted: &TrustedPaths, terminal:
         lines: arguments.lines.iter().map(|lines| (*lines).into()).collect(),
         has_relief: arguments.relief,
         displace: arguments.displace.map(|triangles| match triangles {
-            Some(count) => Triangles::AtMost(count as usize),
-            None => Triangles::Fitting,
+            Some(count) => TriangleLimit::AtMost(count as usize),
+            None => TriangleLimit::Fitting,
         }),
         samples: arguments.samples,
         turntable: arguments.turntable,

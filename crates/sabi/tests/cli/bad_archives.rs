@@ -2,11 +2,11 @@
 
 use std::fs;
 
-use crate::place::{CLOUDS, Place, graph};
+use crate::cli_folder::{CLOUDS, CliFolder, graph};
 
 /// Method of an entry that is stored without compression.
 #[derive(Clone, Copy)]
-struct Entry<'a> {
+struct StoredEntry<'a> {
     name: &'a str,
     bytes: &'a [u8],
     /// Kind of file and permissions, as Unix has them.
@@ -16,7 +16,7 @@ struct Entry<'a> {
     claimed: Option<u32>,
 }
 
-const PLAIN: Entry<'_> = Entry {
+const PLAIN: StoredEntry<'_> = StoredEntry {
     name: "a",
     bytes: b"content",
     mode: 0o100_644,
@@ -30,7 +30,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 }
 
 /// Returns an archive of these entries, whose headers may be false.
-fn archive(entries: &[Entry<'_>]) -> Vec<u8> {
+fn archive(entries: &[StoredEntry<'_>]) -> Vec<u8> {
     let (mut bytes, mut directory) = (Vec::new(), Vec::new());
     for entry in entries {
         let offset = bytes.len() as u32;
@@ -60,7 +60,7 @@ fn archive(entries: &[Entry<'_>]) -> Vec<u8> {
 
 /// Unpacks an archive, and expects that it is refused with this sentence and no file is written.
 #[track_caller]
-fn refuses(place: &Place, bytes: &[u8], words: &str) {
+fn refuses(place: &CliFolder, bytes: &[u8], words: &str) {
     place.write("bad.zip", bytes);
     let before = place.listing(".");
     let run = place.sabi(&["unpack", "bad.zip", "-o", "out"]).fails(65);
@@ -71,7 +71,7 @@ fn refuses(place: &Place, bytes: &[u8], words: &str) {
 
 #[test]
 fn an_archive_with_names_that_lead_out_or_that_some_system_cannot_hold_is_refused() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for (name, why) in [
         ("../escaped", "its name leads out of the folder"),
         ("a/../../escaped", "its name leads out of the folder"),
@@ -89,7 +89,7 @@ fn an_archive_with_names_that_lead_out_or_that_some_system_cannot_hold_is_refuse
     ] {
         let mode = if name.ends_with('/') { 0o040_755 } else { PLAIN.mode };
         let bytes = if name.ends_with('/') { b"" } else { PLAIN.bytes };
-        let odd = Entry {
+        let odd = StoredEntry {
             name,
             mode,
             bytes,
@@ -102,9 +102,9 @@ fn an_archive_with_names_that_lead_out_or_that_some_system_cannot_hold_is_refuse
 
 #[test]
 fn an_archive_with_links_devices_or_doubled_names_is_refused() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for mode in [0o120_777, 0o020_666, 0o010_644, 0o040_755] {
-        let link = Entry {
+        let link = StoredEntry {
             name: "link",
             bytes: b"/etc/passwd",
             mode,
@@ -119,30 +119,30 @@ fn an_archive_with_links_devices_or_doubled_names_is_refused() {
         "the archive holds two files of one name",
     );
     let words = "the archive cannot hold 'A': 'a' is in the archive as well, and many disks take both names for one";
-    refuses(&place, &archive(&[PLAIN, Entry { name: "A", ..PLAIN }]), words);
+    refuses(&place, &archive(&[PLAIN, StoredEntry { name: "A", ..PLAIN }]), words);
     let words = "the archive cannot hold 'a/b': 'a' is in the archive as well, and many disks take both names for one";
-    refuses(&place, &archive(&[PLAIN, Entry { name: "a/b", ..PLAIN }]), words);
-    let locked = Entry { flags: 1, ..PLAIN };
+    refuses(&place, &archive(&[PLAIN, StoredEntry { name: "a/b", ..PLAIN }]), words);
+    let locked = StoredEntry { flags: 1, ..PLAIN };
     refuses(&place, &archive(&[locked]), "'a' in the archive is encrypted");
 }
 
 #[test]
 fn an_archive_that_is_larger_than_it_claims_or_than_a_graph_can_be_is_refused() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for claimed in [3, 30] {
         let claimed = Some(claimed);
-        place.write("bad.zip", archive(&[Entry { claimed, ..PLAIN }]));
+        place.write("bad.zip", archive(&[StoredEntry { claimed, ..PLAIN }]));
         let run = place.sabi(&["unpack", "bad.zip", "-o", "out"]).fails(65);
         let words = "error: 'a' in the archive is damaged: ";
         assert!(run.stderr.starts_with(words), "{}", run.stderr);
         assert!(!place.path("out").exists());
         fs::remove_file(place.path("bad.zip")).unwrap();
-        assert_eq!(place.listing("."), Place::new().listing("."));
+        assert_eq!(place.listing("."), CliFolder::new().listing("."));
     }
     let names: Vec<String> = (0..10_001).map(|number| number.to_string()).collect();
-    let many: Vec<Entry<'_>> = names
+    let many: Vec<StoredEntry<'_>> = names
         .iter()
-        .map(|name| Entry {
+        .map(|name| StoredEntry {
             name,
             bytes: b"",
             ..PLAIN
@@ -153,9 +153,9 @@ fn an_archive_that_is_larger_than_it_claims_or_than_a_graph_can_be_is_refused() 
         &archive(&many),
         "the archive has 10001 entries, and at most 10000 are taken",
     );
-    let huge: Vec<Entry<'_>> = many[..9]
+    let huge: Vec<StoredEntry<'_>> = many[..9]
         .iter()
-        .map(|entry| Entry {
+        .map(|entry| StoredEntry {
             claimed: Some(u32::MAX - 1),
             ..*entry
         })
@@ -169,7 +169,7 @@ fn an_archive_that_is_larger_than_it_claims_or_than_a_graph_can_be_is_refused() 
 
 #[test]
 fn an_archive_brings_nothing_that_other_programs_act_on() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let dotted =
         |name: &str| format!("'{name}' begins with a dot, as settings of other programs do, which no bake reads");
     let strange = || "it is no graph, node, model or picture, nor data of a model".to_owned();
@@ -187,17 +187,17 @@ fn an_archive_brings_nothing_that_other_programs_act_on() {
         ("half.wgsl", "node files are in folders of nodes/ alone".to_owned()),
     ] {
         let archive = archive(&[
-            Entry {
+            StoredEntry {
                 name: "clouds.sabi",
                 bytes: text.as_bytes(),
                 ..PLAIN
             },
-            Entry {
+            StoredEntry {
                 name: "pack.json",
                 bytes: manifest,
                 ..PLAIN
             },
-            Entry { name, ..PLAIN },
+            StoredEntry { name, ..PLAIN },
         ]);
         refuses(
             &place,
@@ -205,7 +205,7 @@ fn an_archive_brings_nothing_that_other_programs_act_on() {
             &format!("'{name}' in the archive is not unpacked: {why}"),
         );
     }
-    let turned = Entry {
+    let turned = StoredEntry {
         name: "photo_\u{202e}gnp.exe",
         ..PLAIN
     };
@@ -216,9 +216,9 @@ fn an_archive_brings_nothing_that_other_programs_act_on() {
 
 #[test]
 fn a_manifest_that_is_too_large_is_not_said_to_be_missing() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let bytes = [&[b' '; 70_000][..], b"{}"].concat();
-    let large = Entry {
+    let large = StoredEntry {
         name: "pack.json",
         bytes: &bytes,
         ..PLAIN
@@ -229,11 +229,11 @@ fn a_manifest_that_is_too_large_is_not_said_to_be_missing() {
 
 #[test]
 fn a_damaged_archive_and_one_of_another_program_are_refused() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let no_graph = |why: &str| format!("bad.zip is no packed graph: {why}");
     refuses(&place, &archive(&[PLAIN]), &no_graph("it has no pack.json"));
     let named = |json: &str| {
-        let manifest = Entry {
+        let manifest = StoredEntry {
             name: "pack.json",
             bytes: json.as_bytes(),
             ..PLAIN
@@ -280,10 +280,10 @@ fn a_damaged_archive_and_one_of_another_program_are_refused() {
 
 #[test]
 fn an_archive_in_place_of_a_graph_is_told_what_it_is() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write(
         "clouds.zip",
-        archive(&[Entry {
+        archive(&[StoredEntry {
             bytes: graph(CLOUDS).as_bytes(),
             ..PLAIN
         }]),

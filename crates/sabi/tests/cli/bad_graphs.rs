@@ -2,7 +2,7 @@
 
 use std::fs::File;
 
-use crate::place::{CLOUDS, Place, graph};
+use crate::cli_folder::{CLOUDS, CliFolder, graph};
 
 const OUT: &str = r#"    "out": { "kind": "output/mask", "inputs": { "source": "clouds" } }"#;
 
@@ -11,18 +11,18 @@ fn with(clouds: &str) -> String {
     graph(&format!("    {clouds},\n{OUT}"))
 }
 
-fn refused(place: &Place, content: impl AsRef<[u8]>, words: &str) {
+fn refused(place: &CliFolder, content: impl AsRef<[u8]>, words: &str) {
     refused_with(place, content, &[], words);
 }
 
-fn refused_with(place: &Place, content: impl AsRef<[u8]>, more: &[&str], words: &str) {
+fn refused_with(place: &CliFolder, content: impl AsRef<[u8]>, more: &[&str], words: &str) {
     place.write("bad.sabi", content);
     place.refuses("bad.sabi", "cube.glb", more, 65, words);
 }
 
 #[test]
 fn links_that_go_wrong_are_shown_in_the_file() {
-    let place = Place::new();
+    let place = CliFolder::new();
     refused(
         &place,
         with(
@@ -56,7 +56,7 @@ fn links_that_go_wrong_are_shown_in_the_file() {
 
 #[test]
 fn kinds_and_values_that_nobody_knows_are_named() {
-    let place = Place::new();
+    let place = CliFolder::new();
     refused(
         &place,
         with(r#""clouds": { "kind": "noise/simplx" }"#),
@@ -81,7 +81,7 @@ fn kinds_and_values_that_nobody_knows_are_named() {
 
 #[test]
 fn all_faults_are_told_before_the_model_is_looked_at() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write(
         "bad.sabi",
         graph(
@@ -105,7 +105,7 @@ fn all_faults_are_told_before_the_model_is_looked_at() {
 
 #[test]
 fn a_group_file_that_is_not_there_ends_with_66_and_a_damaged_one_with_65() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let text = with(r#""clouds": { "kind": "graph/group", "group": "group.sabi" }"#)
         .replace(r#": "clouds" }"#, r#": "clouds.mask" }"#);
     place.write("bad.sabi", text);
@@ -131,7 +131,7 @@ fn a_group_file_that_is_not_there_ends_with_66_and_a_damaged_one_with_65() {
 
 #[test]
 fn a_graph_whose_outputs_are_muted_says_so() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let text = graph(CLOUDS).replace(r#""kind": "output/mask","#, r#""kind": "output/mask", "muted": true,"#);
     refused(
         &place,
@@ -148,7 +148,7 @@ fn a_graph_whose_outputs_are_muted_says_so() {
 
 #[test]
 fn an_unknown_parameter_is_kept_and_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let text = with(r#""clouds": { "kind": "noise/simplex", "params": { "octavs": 3 } }"#);
     place.write("newer.sabi", &text);
     let run = place.bake("newer.sabi", "cube.glb", &[]).good();
@@ -165,7 +165,7 @@ fn an_unknown_parameter_is_kept_and_told() {
 
 #[test]
 fn files_that_are_no_graphs_are_refused() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let whole = graph(CLOUDS);
     refused(
         &place,
@@ -202,7 +202,7 @@ fn files_that_are_no_graphs_are_refused() {
 
 #[test]
 fn a_huge_file_is_refused_before_it_is_read() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let file = File::create(place.path("huge.sabi")).unwrap();
     file.set_len(3 << 40).or_else(|_| file.set_len(65 << 20)).unwrap();
     let run = place.bake("huge.sabi", "cube.glb", &[]).fails(65);
@@ -216,7 +216,7 @@ fn a_huge_file_is_refused_before_it_is_read() {
 
 #[test]
 fn a_graph_that_is_not_there_ends_with_66() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let words = "none.sabi: there is no such file; check the path";
     place.refuses("none.sabi", "cube.glb", &[], 66, words);
     place.refuses(".", "cube.glb", &[], 66, ".: this is a folder; name a .sabi file");

@@ -1,10 +1,10 @@
 //! Models and their pictures that are missing or damaged.
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 #[test]
 fn a_model_that_cannot_be_read_is_a_sentence() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let cube = place.read("cube.glb");
     place.write("cut.glb", &cube[..300]);
     place.write("empty.glb", "");
@@ -83,7 +83,7 @@ const TEXTURED: &str = r#"{
 
 #[test]
 fn a_picture_that_cannot_be_read_is_a_warning_and_its_factor_is_used() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let numbers: [f32; 15] = [0., 0., 0., 1., 0., 0., 0., 1., 0., 0.1, 0.9, 0.9, 0.9, 0.1, 0.1];
     let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
     place.write("model.gltf", TEXTURED);

@@ -3,11 +3,11 @@
 use std::fs;
 use std::process::{Command, Stdio};
 
-use crate::place::{Place, done};
+use crate::cli_folder::{CliFolder, done};
 
 #[test]
 fn a_folder_that_cannot_be_made_is_found_before_the_work() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("file", "mine");
     let advice = "choose another folder with -o";
     place.refuses(
@@ -29,7 +29,7 @@ fn a_folder_that_cannot_be_made_is_found_before_the_work() {
 
 #[test]
 fn somebody_elses_folder_is_refused_unless_forced() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir(place.path("photos")).unwrap();
     place.write("photos/holiday.png", "mine");
     place.refuses(
@@ -54,7 +54,7 @@ fn somebody_elses_folder_is_refused_unless_forced() {
 
 #[test]
 fn a_report_that_cannot_be_written_is_found_before_the_work() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let refuse = |report: &str, words: &str| {
         place.refuses("clouds.sabi", "cube.glb", &["--report", report], 73, words);
     };
@@ -83,7 +83,7 @@ fn a_report_that_cannot_be_written_is_found_before_the_work() {
 #[cfg(unix)]
 #[test]
 fn a_disk_that_fills_up_leaves_the_earlier_maps_as_they_were() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("rust.sabi", "sphere.glb", &["--no-cache"]).good();
     let maps = place.listing("out");
     let before: Vec<Vec<u8>> = maps.iter().map(|map| place.read(&format!("out/{map}"))).collect();
@@ -120,7 +120,7 @@ fn a_disk_that_fills_up_leaves_the_earlier_maps_as_they_were() {
 fn a_listener_that_hangs_up_is_no_error_and_a_full_one_is() {
     use std::fs::File;
 
-    let place = Place::new();
+    let place = CliFolder::new();
     let mut child = place
         .command(&["nodes", "--json"])
         .stdout(Stdio::piped())

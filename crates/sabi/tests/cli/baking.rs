@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 const MAPS: [&str; 5] = [
     "cube_base_color.png",
@@ -18,7 +18,7 @@ fn json(text: &[u8]) -> Json {
 
 #[test]
 fn a_bake_writes_the_maps_and_prints_their_paths() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.bake("rust.sabi", "cube.glb", &[]).good();
     let mut paths: Vec<&str> = run.stdout.lines().collect();
     paths.sort_unstable();
@@ -41,7 +41,7 @@ fn a_bake_writes_the_maps_and_prints_their_paths() {
 
 #[test]
 fn two_bakes_give_the_same_bytes() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("rust.sabi", "sphere.glb", &["-o", "one"]).good();
     place
         .bake("rust.sabi", "sphere.glb", &["-o", "two", "--no-cache"])
@@ -57,7 +57,7 @@ fn two_bakes_give_the_same_bytes() {
 
 #[test]
 fn the_report_file_and_json_say_the_same() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.bake(
         "rust.sabi",
         "cube.glb",
@@ -94,7 +94,7 @@ fn the_report_file_and_json_say_the_same() {
 
 #[test]
 fn a_constant_channel_gets_a_map_on_request() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("rust.sabi", "cube.glb", &["--all-maps"]).good();
     for channel in ["opacity", "metallic", "occlusion", "emission"] {
         place.read(&format!("out/cube_{channel}.png"));
@@ -103,7 +103,7 @@ fn a_constant_channel_gets_a_map_on_request() {
 
 #[test]
 fn fused_and_unfused_bakes_write_the_same_files() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let report = |more: &[&str]| json(place.bake("rust.sabi", "cube.glb", more).good().stdout.as_bytes());
     let (fused, apart) = (report(&["--json"]), report(&["--json", "--no-fuse"]));
     assert!(fused["passes"].as_u64() < apart["passes"].as_u64());
@@ -116,7 +116,7 @@ fn fused_and_unfused_bakes_write_the_same_files() {
 
 #[test]
 fn an_earlier_bake_is_replaced_and_what_else_is_there_stays() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("rust.sabi", "cube.glb", &[]).good();
     let before = place.read("out/cube_base_color.png");
     place.write("out/notes.txt", "mine");
@@ -129,7 +129,7 @@ fn an_earlier_bake_is_replaced_and_what_else_is_there_stays() {
 
 #[test]
 fn seams_of_heights_and_normals_are_erased_unless_they_are_to_be_kept() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let maps = |more: &[&str]| {
         place.bake("rust.sabi", "sphere.glb", more).good();
         ["height.exr", "normal.png", "base_color.png", "roughness.png"]
@@ -143,7 +143,7 @@ fn seams_of_heights_and_normals_are_erased_unless_they_are_to_be_kept() {
 
 #[test]
 fn how_a_model_is_taken_changes_the_maps() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let map = |more: &[&str]| {
         place.bake("clouds.sabi", "cube.glb", more).good();
         let map = place.read("out/cube_mask.png");
@@ -175,7 +175,7 @@ const RAMP: &str = r##"    "base": { "kind": "source/material" },
 
 #[test]
 fn heights_are_in_the_units_of_the_models_file_under_the_fit() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("ramp.sabi", graph(RAMP));
     let span = |more: &[&str]| {
         let run = place
@@ -208,7 +208,7 @@ fn heights_are_in_the_units_of_the_models_file_under_the_fit() {
 
 #[test]
 fn only_the_material_asked_for_is_baked() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.refuses(
         "clouds.sabi",
         "cube.glb",
@@ -221,7 +221,7 @@ fn only_the_material_asked_for_is_baked() {
 
 #[test]
 fn a_node_file_beside_the_graph_is_a_kind_of_its_own() {
-    let place = Place::new();
+    let place = CliFolder::new();
     std::fs::create_dir_all(place.path("nodes/own")).unwrap();
     place.write(
         "nodes/own/half.wgsl",

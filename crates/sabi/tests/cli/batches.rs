@@ -5,33 +5,33 @@ use std::process::Stdio;
 
 use serde_json::{Value as Json, json};
 
-use crate::place::{CLOUDS, Done, Place, graph, software_adapter};
+use crate::cli_folder::{CLOUDS, CliFolder, RunOutput, graph, software_adapter};
 use crate::planning::planned;
 
 const MATRIX: &str = "version = 1\nout = \"out/$mesh/$graph\"\n[[bake]]\nmodels = \"*.glb\"\ngraphs = [\"clouds.sabi\", \"rust.sabi\"]\nsizes = \
     32\n";
 
 /// Creates a folder with a plan of four items.
-fn place() -> Place {
+fn place() -> CliFolder {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("matrix.toml", MATRIX);
     assert_eq!(planned(&place).len(), 4);
     place
 }
 
-fn run(place: &Place, more: &[&str]) -> Done {
+fn run(place: &CliFolder, more: &[&str]) -> RunOutput {
     place.sabi(&[&["run", "plan.jsonl", "--adapter", "cpu"], more].concat())
 }
 
 /// Returns the output of a run, with paths relative to the folder of the plan.
-fn placed(place: &Place, text: &str) -> String {
+fn placed(place: &CliFolder, text: &str) -> String {
     let folder = fs::canonicalize(place.path("")).unwrap();
     text.replace(&format!("{}/", folder.display()), "")
 }
 
 /// Returns the numbers of the items with a status in a summary.
-fn with_status(run: &Done, status: &str) -> Vec<u64> {
+fn with_status(run: &RunOutput, status: &str) -> Vec<u64> {
     let summary: Json = serde_json::from_str(&run.stdout).unwrap();
     let items = summary["items"].as_array().unwrap().iter();
     let found: Vec<u64> = items
@@ -163,7 +163,7 @@ fn a_plan_moves_with_its_folder() {
 #[test]
 fn maps_may_be_beside_the_folder_of_the_plan() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir(place.path("bake")).unwrap();
     place.write(
         "bake/matrix.toml",
@@ -184,7 +184,7 @@ fn maps_may_be_beside_the_folder_of_the_plan() {
 
 #[test]
 fn a_bake_into_a_folder_named_with_detours_remembers_its_inputs() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir(place.path("below")).unwrap();
     place.bake("rust.sabi", "cube.glb", &["-o", "below/../out"]).good();
     place.sabi(&["verify", "out"]).good();
@@ -192,7 +192,7 @@ fn a_bake_into_a_folder_named_with_detours_remembers_its_inputs() {
 
 #[test]
 fn what_is_no_plan_is_refused_with_its_line() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("matrix.toml", MATRIX);
     planned(&place);
     let text = String::from_utf8(place.read("plan.jsonl")).unwrap();

@@ -4,7 +4,7 @@
 use sabi_image::{Pixels, decode};
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 /// Every source whose data is read by triangle, with an output for each.
 const SOURCES: &str = r#"    "model": { "kind": "source/model" },
@@ -42,7 +42,7 @@ const MATERIALS: &str =
     "newmtl red\nKd 1 0 0\nPm 1\nPr 0.2\nnewmtl blue\nKd 0 0 1\nPm 0\nPr 0.9\nnewmtl plain\nKd 1 1 1\n";
 
 /// Returns the pixels of a map as integers, each with its channels.
-fn codes(place: &Place, file: &str) -> (u32, Vec<Vec<u16>>) {
+fn codes(place: &CliFolder, file: &str) -> (u32, Vec<Vec<u16>>) {
     let image = decode(file, &place.read(file)).unwrap();
     let channels = usize::from(image.channels);
     let values: Vec<u16> = match image.pixels {
@@ -64,8 +64,8 @@ fn pictures(report: &Json) -> Vec<String> {
 }
 
 /// Bakes all maps of the fold and some of its mesh, with padding everywhere; also returns the names of the files.
-fn baked(materials: [&str; 2], mesh_maps: &[&str]) -> (Place, Vec<String>) {
-    let place = Place::new();
+fn baked(materials: [&str; 2], mesh_maps: &[&str]) -> (CliFolder, Vec<String>) {
+    let place = CliFolder::new();
     place.write("fold.obj", fold(materials));
     place.write("fold.mtl", MATERIALS);
     place.write("sources.sabi", sources());
@@ -142,7 +142,7 @@ fn squares(places: &[([f32; 2], f32)]) -> String {
 
 #[test]
 fn two_equal_bolts_in_two_tiles_leave_a_model_its_tiles() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let bolts = [
         ([0.1, 0.1], 0.5),
         ([0.8, 0.8], 0.1),
@@ -160,7 +160,7 @@ fn two_equal_bolts_in_two_tiles_leave_a_model_its_tiles() {
 
 #[test]
 fn a_model_in_tiles_is_described_tile_by_tile_as_a_bake_takes_it() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let bolts = [
         ([0.1, 0.1], 0.5),
         ([0.8, 0.8], 0.1),
@@ -213,7 +213,7 @@ fn a_model_in_tiles_is_described_tile_by_tile_as_a_bake_takes_it() {
 
 #[test]
 fn tiles_that_are_taken_for_a_texture_that_repeats_are_told_with_the_way_out() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write(
         "alike.obj",
         squares(&[([0.1, 0.1], 0.5), ([1.1, 0.1], 0.5), ([2.2, 0.3], 0.3)]),
@@ -230,7 +230,7 @@ fn tiles_that_are_taken_for_a_texture_that_repeats_are_told_with_the_way_out() {
 
 #[test]
 fn udim_that_is_asked_for_is_refused_where_a_tile_has_no_number() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("left.obj", squares(&[([0.1, 0.1], 0.5), ([-0.8, 0.1], 0.6)]));
     place.refuses(
         "rust.sabi",
@@ -246,7 +246,7 @@ fn udim_that_is_asked_for_is_refused_where_a_tile_has_no_number() {
 
 #[test]
 fn a_surface_whose_uvs_repeat_often_is_unwrapped_unless_its_own_uvs_are_kept() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("brick.obj", squares(&[([0.0, 0.0], 5.0), ([-3.0, 2.0], 2.0)]));
     let run = place.sabi(&["mesh", "brick.obj", "--json", "--no-cache"]).good();
     let report: Json = serde_json::from_str(&run.stdout).unwrap();

@@ -2,11 +2,11 @@
 
 use serde_json::Value as Json;
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 #[test]
 fn a_copy_of_the_model_lies_beside_the_maps_and_in_the_report() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.bake("rust.sabi", "cube.glb", &["--model", "--json"]).good();
     let report: Json = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!(report["model"]["path"], "cube.glb");
@@ -29,7 +29,7 @@ fn a_copy_of_the_model_lies_beside_the_maps_and_in_the_report() {
 
 #[test]
 fn a_copy_never_takes_the_place_of_the_model() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let before = place.read("cube.glb");
     let run = place
         .bake("rust.sabi", "cube.glb", &["--model", "-o", ".", "--force"])
@@ -41,7 +41,7 @@ fn a_copy_never_takes_the_place_of_the_model() {
 }
 
 /// Document of a GLB file.
-fn glb_document(place: &Place, file: &str) -> Json {
+fn glb_document(place: &CliFolder, file: &str) -> Json {
     let glb = place.read(file);
     let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
     serde_json::from_slice(&glb[20..20 + length]).unwrap()
@@ -49,7 +49,7 @@ fn glb_document(place: &Place, file: &str) -> Json {
 
 #[test]
 fn a_model_in_udim_tiles_gets_a_material_for_each_in_its_copy() {
-    let place = Place::new();
+    let place = CliFolder::new();
     // The last triangle extends into the tile on the right.
     let tiles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\n\
                  vt 1.1 0.1\nvt 1.9 0.9\nvt 1.1 0.9\nvt 0.5 0.9\nvt 0.6 0.9\nvt 1.1 0.95\nusemtl wood\n\
@@ -85,7 +85,7 @@ fn a_model_in_udim_tiles_gets_a_material_for_each_in_its_copy() {
 
 #[test]
 fn an_embedded_copy_names_no_file() {
-    let place = Place::new();
+    let place = CliFolder::new();
     unlit(&place);
     place.bake("rust.sabi", "unlit.gltf", &["--embed"]).fails(2);
     let run = place
@@ -109,7 +109,7 @@ fn an_embedded_copy_names_no_file() {
 
 /// Writes a tetrahedron without UVs whose four triangles share its vertices, shown by two nodes, and an animation; its bytes. Its
 /// weights are bytes.
-fn bare(place: &Place) -> Vec<u8> {
+fn bare(place: &CliFolder) -> Vec<u8> {
     let corners = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     let indices = [0_u16, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
     let mut bytes = corners.map(f32::to_le_bytes).as_flattened().to_vec();
@@ -135,7 +135,7 @@ fn bare(place: &Place) -> Vec<u8> {
 
 #[test]
 fn a_copy_of_an_unwrapped_model_keeps_its_animations_and_its_own_attributes() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let bytes = bare(&place);
     let run = place.bake("rust.sabi", "bare.gltf", &["--model"]).good();
     assert!(!run.stderr.contains("made from the loaded mesh"), "{}", run.stderr);
@@ -180,7 +180,7 @@ fn a_copy_of_an_unwrapped_model_keeps_its_animations_and_its_own_attributes() {
 
 #[test]
 fn outputs_for_materials_on_one_sheet_share_its_maps() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write(
         "two.obj",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nusemtl wood\nf 1 2 3\nusemtl steel\nf 2 4 3\n",
@@ -207,7 +207,7 @@ fn outputs_for_materials_on_one_sheet_share_its_maps() {
 
 #[test]
 fn a_copy_of_a_model_far_away_stands_where_the_model_does() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let corners = "v 4000 0 -9000\nv 4001 0 -9000\nv 4000 1 -9000\n";
     place.write("far.obj", format!("{corners}vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));
     place.bake("rust.sabi", "far.obj", &["--model"]).good();
@@ -223,7 +223,7 @@ fn a_copy_of_a_model_far_away_stands_where_the_model_does() {
 }
 
 /// A colored triangle without light.
-fn unlit(place: &Place) {
+fn unlit(place: &CliFolder) {
     let floats = [
         [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].as_slice(),
         &[0.1, 0.1, 0.9, 0.1, 0.1, 0.9],
@@ -254,7 +254,7 @@ fn unlit(place: &Place) {
 
 #[test]
 fn the_look_of_a_model_does_not_hide_the_maps_of_its_copy_unless_it_is_kept() {
-    let place = Place::new();
+    let place = CliFolder::new();
     unlit(&place);
     let changes = |options: &[&str]| {
         let run = place.bake("rust.sabi", "unlit.gltf", options).good();

@@ -28,7 +28,7 @@ pub(crate) struct Display {
 }
 
 /// Screenshot.
-pub(crate) struct Screen {
+pub(crate) struct Screenshot {
     pub(crate) size: [usize; 2],
     /// Red, green and blue of each pixel, row by row.
     pub(crate) pixels: Vec<[u8; 3]>,
@@ -145,7 +145,7 @@ impl Display {
     }
 
     /// Takes a screenshot from the X window dump that the server keeps in a file.
-    pub(crate) fn screen(&self) -> Screen {
+    pub(crate) fn screen(&self) -> Screenshot {
         let file: PathBuf = self.folder.path().join("Xvfb_screen0");
         let bytes = fs::read(file).expect("the server's memory");
         let word = |at: usize| u32::from_be_bytes(bytes[4 * at..4 * at + 4].try_into().unwrap()) as usize;
@@ -154,7 +154,7 @@ impl Display {
         let rows = (0..height).map(|row| &bytes[first + row * line..first + row * line + 4 * width]);
         // Four bytes per pixel, blue first.
         let pixels = rows.flat_map(|row| row.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]));
-        Screen {
+        Screenshot {
             size: [width, height],
             pixels: pixels.collect(),
         }
@@ -168,7 +168,7 @@ impl Drop for Display {
     }
 }
 
-impl Screen {
+impl Screenshot {
     /// Number of colors in a part of the screen: `[left, top, right, bottom]`.
     pub(crate) fn colors(&self, part: [usize; 4]) -> usize {
         self.part(part).collect::<std::collections::BTreeSet<_>>().len()

@@ -8,7 +8,7 @@ use std::{env, fs};
 
 use serde_json::Value as Json;
 
-use crate::place::{CLOUDS, Done, Place, done, graph, software_adapter};
+use crate::cli_folder::{CLOUDS, CliFolder, RunOutput, done, graph, software_adapter};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -69,8 +69,8 @@ const MATRIX: &str = "version = 1\nout = \"export/$mesh/$graph(_$variant)_$seed\
                       sizes = 32\nvariants = [\"\", \"desert\"]\nseed = [1, 2, 3, 4]\n";
 
 /// Creates a folder with the files that the documentation names.
-fn place() -> Place {
-    let place = Place::new();
+fn place() -> CliFolder {
+    let place = CliFolder::new();
     for folder in ["graphs/examples", "assets/meshes", "bake"] {
         fs::create_dir_all(place.path(folder)).unwrap();
     }
@@ -91,7 +91,7 @@ fn place() -> Place {
 }
 
 /// Runs a shell line, with the program in the path.
-fn shell(place: &Place, line: &str) -> Done {
+fn shell(place: &CliFolder, line: &str) -> RunOutput {
     software_adapter();
     let program = Path::new(env!("CARGO_BIN_EXE_sabi"));
     let folders = env::var_os("PATH").unwrap_or_default();
@@ -200,8 +200,8 @@ fn the_commands_about_presets_documents_and_farms_do_what_they_say() {
 }
 
 /// Creates a project folder whose models have the names of a matrix in the documentation.
-fn project(models: &[(&str, &str)]) -> Place {
-    let place = Place::new();
+fn project(models: &[(&str, &str)]) -> CliFolder {
+    let place = CliFolder::new();
     place.write("sabi.toml", "");
     for folder in ["meshes", "graphs", "bake"] {
         fs::create_dir_all(place.path(folder)).unwrap();
@@ -278,7 +278,7 @@ fn the_script_of_a_build_server_bakes_graphs_with_and_without_variants() {
 
 #[test]
 fn the_graph_that_the_page_of_the_format_shows_is_one() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("worn.sabi", block("docs/graph-file.md", "\"format\": \"sabi\""));
     let run = place.sabi(&["check", "--strict", "worn.sabi"]).good();
     assert!(run.stdout.starts_with("worn.sabi: good, 2 nodes in "), "{run:?}");

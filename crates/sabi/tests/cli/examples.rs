@@ -7,7 +7,7 @@ use std::thread;
 
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 fn examples() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs");
@@ -26,7 +26,7 @@ fn examples() -> Vec<PathBuf> {
 
 #[test]
 fn every_example_is_good() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for graph in examples() {
         let run = place.sabi(&["check", graph.to_str().unwrap()]).good();
         assert!(run.stdout.contains(": good, ") && run.stderr.is_empty(), "{run:?}");
@@ -46,7 +46,7 @@ fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
 
 /// Bakes all variants of some graphs.
 fn variants_look_different(graphs: &[PathBuf]) {
-    let place = Place::new();
+    let place = CliFolder::new();
     for graph in graphs {
         let text = fs::read_to_string(graph).unwrap();
         let document: Json = serde_json::from_str(&text).unwrap();

@@ -2,16 +2,16 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::place::{CLOUDS, Done, Place, graph, software_adapter};
+use crate::cli_folder::{CLOUDS, CliFolder, RunOutput, graph, software_adapter};
 
-fn error(run: &Done) -> Json {
+fn error(run: &RunOutput) -> Json {
     let document: Json = serde_json::from_str(&run.stdout).unwrap_or_else(|error| panic!("{error}: {run:?}"));
     document["error"].clone()
 }
 
 #[test]
 fn with_json_a_failure_is_one_object_on_standard_output() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("faulty.sabi", graph(&CLOUDS.replace("simplex", "simplx")));
     place.write("cut.sabi", &graph(CLOUDS)[..90]);
     let cases: [(&[&str], i32, &str); 5] = [
@@ -47,7 +47,7 @@ fn with_json_a_failure_is_one_object_on_standard_output() {
 
 #[test]
 fn several_sentences_are_a_list_and_remedies_name_flags() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let nodes = CLOUDS.replace("\"kind\": \"noise/simplex\"", "\"kind\": \"noise/simplx\"");
     let nodes =
         format!("{nodes},\n    \"rust\": {{ \"kind\": \"output/mask\", \"params\": {{ \"name\": \"mask\" }} }}");
@@ -71,7 +71,7 @@ fn several_sentences_are_a_list_and_remedies_name_flags() {
 
 #[test]
 fn a_command_line_that_makes_no_sense_is_json_where_it_asks_for_json() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.sabi(&["info", "a.sabi", "--json", "--colour"]).fails(2);
     let found = error(&run);
     assert_eq!(found["kind"], "usage");
@@ -86,7 +86,7 @@ fn a_command_line_that_makes_no_sense_is_json_where_it_asks_for_json() {
 
 #[test]
 fn a_bake_that_fails_writes_its_report() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let more = ["--set", "amout=1", "--report", "out/report.json"];
     let run = place.bake("clouds.sabi", "cube.glb", &more).fails(2);
     assert_eq!(run.stdout, "");
@@ -122,7 +122,7 @@ fn a_bake_that_fails_writes_its_report() {
 
 #[test]
 fn the_report_of_a_failure_replaces_reports_only() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("letter.txt", "dear reader");
     let run = place
         .bake("clouds.sabi", "none.glb", &["--report", "letter.txt"])
@@ -145,14 +145,14 @@ fn a_machine_without_an_adapter_is_described_once() {
     if !cfg!(target_os = "linux") {
         return;
     }
-    let place = Place::new();
+    let place = CliFolder::new();
     let nowhere = place.path("no_driver.json");
     let without = |arguments: &[&str]| {
         let mut command = place.command(arguments);
         command
             .env("VK_DRIVER_FILES", &nowhere)
             .env("VK_ICD_FILENAMES", &nowhere);
-        crate::place::done(command.output().unwrap()).fails(4)
+        crate::cli_folder::done(command.output().unwrap()).fails(4)
     };
     let doctor: Json = serde_json::from_str(&without(&["doctor", "--json"]).stdout).unwrap();
     assert_eq!((&doctor["usable"], &doctor["error"]), (&json!(false), &Json::Null));

@@ -1,10 +1,10 @@
 //! The help, and command lines that cannot be understood.
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 #[test]
 fn every_help_starts_from_examples() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for command in [
         "", "bake", "edit", "preview", "render", "check", "info", "nodes", "mesh", "pack", "unpack", "doctor", "plan",
         "run",
@@ -26,7 +26,7 @@ fn every_help_starts_from_examples() {
 
 #[test]
 fn the_examples_of_the_help_are_command_lines_that_are_understood() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for command in [
         "bake", "edit", "preview", "render", "check", "info", "nodes", "mesh", "pack", "unpack", "doctor", "plan",
         "run",
@@ -49,7 +49,7 @@ fn the_examples_of_the_help_are_command_lines_that_are_understood() {
 
 #[test]
 fn a_command_line_that_makes_no_sense_ends_with_2() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let bake = ["bake", "clouds.sabi", "--mesh", "cube.glb", "-o", "out"];
     let wrong: [&[&str]; 10] = [
         &["--size", "15"],
@@ -76,14 +76,14 @@ fn a_command_line_that_makes_no_sense_ends_with_2() {
 
 #[test]
 fn a_word_that_is_no_command_is_taken_for_a_graph() {
-    let run = Place::new().sabi(&["rust"]).fails(66);
+    let run = CliFolder::new().sabi(&["rust"]).fails(66);
     assert_eq!(run.stderr, "error: rust: there is no such file; check the path\n");
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn without_a_display_the_editor_says_what_can_be_done() {
-    let run = Place::new().sabi(&[]).fails(4);
+    let run = CliFolder::new().sabi(&[]).fails(4);
     assert_eq!(
         run.stderr,
         "error: there is no display to open a window on: neither WAYLAND_DISPLAY nor DISPLAY is set; use sabi bake, preview \
@@ -93,6 +93,6 @@ fn without_a_display_the_editor_says_what_can_be_done() {
 
 #[test]
 fn the_version_is_data() {
-    let version = Place::new().sabi(&["--version"]).good();
+    let version = CliFolder::new().sabi(&["--version"]).good();
     assert_eq!(version.stdout, format!("sabi {}\n", env!("CARGO_PKG_VERSION")));
 }

@@ -8,10 +8,10 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
-use crate::place::{CLOUDS, Done, Place, done, graph, software_adapter};
+use crate::cli_folder::{CLOUDS, CliFolder, RunOutput, done, graph, software_adapter};
 
 /// Returns the binary with a limit on its address space, in KiB.
-fn within(place: &Place, most_kib: u64, arguments: &[&str]) -> Done {
+fn within(place: &CliFolder, most_kib: u64, arguments: &[&str]) -> RunOutput {
     let plain = place.command(arguments);
     let mut limited = Command::new("sh");
     limited
@@ -77,7 +77,7 @@ fn polygons(faces: usize, corners: usize) -> String {
 
 #[test]
 fn a_model_that_takes_more_memory_than_it_may_is_refused_by_a_sentence() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("nodes.glb", triangles(50_000, 1));
     place.write("primitives.glb", triangles(1, 200_000));
     place.write("large.glb", triangles(100, 1));
@@ -109,7 +109,7 @@ fn a_model_that_takes_more_memory_than_it_may_is_refused_by_a_sentence() {
 
 #[test]
 fn a_picture_that_takes_more_memory_than_it_may_is_refused_by_a_sentence() {
-    let place = Place::new();
+    let place = CliFolder::new();
     // A compressed bitmap (RLE8) whose few bytes claim 16384 × 16384 pixels.
     let mut bytes = b"BM".to_vec();
     for word in [1078, 0, 1078, 40, 16384, 16384, 1 | 8 << 16, 1, 0, 0, 0, 256, 0] {
@@ -147,7 +147,7 @@ fn a_picture_that_takes_more_memory_than_it_may_is_refused_by_a_sentence() {
 
 #[test]
 fn very_many_faults_of_a_file_are_told_in_part() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let keys: String = (0..100_000).map(|key| format!("\"k{key}\": 1, ")).collect();
     let head = r#""format": "sabi", "version": 1"#;
     let out = r#""a": { "kind": "noise/simplex" }, "out": { "kind": "output/mask", "inputs": { "source": "a" } }"#;
@@ -168,7 +168,7 @@ fn very_many_faults_of_a_file_are_told_in_part() {
 
 #[test]
 fn groups_in_a_name_that_are_in_each_other_end_in_a_sentence() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let names = format!("{}$map{}", "(".repeat(100_000), ")".repeat(100_000));
     let map = "[[map]]\nname = \"M\"\ngray = \"roughness\"\nformat = \"png8\"\n";
     let preset = format!("version = 1\nname = \"deep\"\nabout = \"Deep.\"\nnames = \"{names}\"\n{map}");
@@ -179,7 +179,7 @@ fn groups_in_a_name_that_are_in_each_other_end_in_a_sentence() {
 
 #[test]
 fn a_face_of_many_corners_without_coordinates_is_laid_flat() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("round.obj", polygons(1, 30_000));
     let arguments = ["mesh", "round.obj", "--size", "64", "--no-cache", "--json"];
     let read = within(&place, 4_000_000, &arguments).good();
@@ -196,7 +196,7 @@ fn a_face_of_many_corners_without_coordinates_is_laid_flat() {
 
 #[test]
 fn node_files_that_are_links_are_neither_shown_nor_packed() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir_all(place.path("graph/nodes/own")).unwrap();
     fs::create_dir_all(place.path("private/own")).unwrap();
     place.write("private/key", "BEGIN SECRET KEY");
@@ -226,7 +226,7 @@ fn node_files_that_are_links_are_neither_shown_nor_packed() {
 
 #[test]
 fn text_from_files_neither_controls_a_terminal_nor_speaks_for_the_program() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let evil = "\u{1b}[2J\r\nopenjd_env: PATH=/evil\n::error::forged ##vso[task.x] \u{202e}gnp";
     let nodes = json!({
         (evil): { "kind": evil, "params": { (evil): evil } },
@@ -287,7 +287,7 @@ fn text_from_files_neither_controls_a_terminal_nor_speaks_for_the_program() {
 
 #[test]
 fn links_and_pipes_in_an_output_folder_lead_nowhere() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir_all(place.path("elsewhere")).unwrap();
     let refused = |what: &str, words: &str| {
         let run = place.bake("clouds.sabi", "cube.glb", &[]).fails(73);
@@ -324,7 +324,7 @@ fn links_and_pipes_in_an_output_folder_lead_nowhere() {
 #[test]
 fn a_bake_says_that_it_waits_for_another_one_and_hears_a_signal_then() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir_all(place.path("out/.sabi")).unwrap();
     let lock = File::create(place.path("out/.sabi/lock")).unwrap();
     lock.lock().unwrap();
@@ -360,7 +360,7 @@ fn a_bake_says_that_it_waits_for_another_one_and_hears_a_signal_then() {
 
 #[test]
 fn a_record_that_names_another_computer_is_not_followed() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("clouds.sabi", "cube.glb", &[]).good();
     let good = String::from_utf8(place.read("out/.sabi/bakes.json")).unwrap();
     place.sabi(&["verify", "out"]).good();
@@ -381,7 +381,7 @@ fn a_record_that_names_another_computer_is_not_followed() {
 
 #[test]
 fn a_name_with_a_line_break_is_no_second_command() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write(
         "matrix.toml",
         "version = 1\nout = \"out\"\n[[bake]]\nmodels = \"cube.glb\"\ngraphs = \"clouds.sabi\"\n",
@@ -399,7 +399,7 @@ fn a_name_with_a_line_break_is_no_second_command() {
 
 #[test]
 fn a_pattern_that_names_the_whole_disk_again_and_again_is_walked_once() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir_all(place.path("models/deep/deeper")).unwrap();
     fs::copy(place.path("cube.glb"), place.path("models/deep/deeper/cube.glb")).unwrap();
     symlink("..", place.path("models/deep/up")).unwrap();

@@ -1,6 +1,6 @@
 //! Pictures that a graph names: their paths, and errors if they cannot be read.
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 /// Returns a picture of 2 by 2 pixels, all with the same gray.
 fn bmp(gray: u8) -> Vec<u8> {
@@ -22,7 +22,7 @@ fn image(file: &str) -> String {
 }
 
 /// Returns the value of a constant map.
-fn constant(place: &Place, graph: &str, more: &[&str]) -> f64 {
+fn constant(place: &CliFolder, graph: &str, more: &[&str]) -> f64 {
     let run = place
         .bake(graph, "cube.glb", &[more, &["--json", "--force"]].concat())
         .good();
@@ -34,7 +34,7 @@ fn constant(place: &Place, graph: &str, more: &[&str]) -> f64 {
 
 #[test]
 fn a_picture_is_found_from_the_file_that_names_it() {
-    let place = Place::new();
+    let place = CliFolder::new();
     std::fs::create_dir_all(place.path("group/art")).unwrap();
     place.write("plain.bmp", bmp(51));
     place.write("group/art/inner.bmp", bmp(102));
@@ -56,7 +56,7 @@ fn a_picture_is_found_from_the_file_that_names_it() {
 
 #[test]
 fn a_picture_that_cannot_be_had_is_named_with_node_path_and_advice() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("damaged.bmp", &bmp(9)[..60]);
     place.write("text.png", "no picture");
     let words = |file: &str| match file {
@@ -93,7 +93,7 @@ fn a_picture_that_cannot_be_had_is_named_with_node_path_and_advice() {
 #[test]
 #[cfg(unix)]
 fn a_device_is_no_picture_and_no_group() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("image.sabi", image("/dev/null"));
     let check = place.sabi(&["check", "image.sabi"]).fails(65);
     let words = "/dev/null is a device or a pipe, which files never open";
@@ -108,7 +108,7 @@ fn a_device_is_no_picture_and_no_group() {
 
 #[test]
 fn a_picture_that_is_read_is_never_written_over() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let texture = bmp(77);
     place.write("cube_mask.png", &texture);
     place.write("image.sabi", image("cube_mask.png"));
@@ -126,7 +126,7 @@ fn a_picture_that_is_read_is_never_written_over() {
 
 #[test]
 fn a_layer_of_an_openexr_file_is_chosen_by_rule_or_by_name() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let pixel = |value: f32| vec![value; 4];
     let (beauty, mask, depth) = (pixel(0.8), pixel(0.25), pixel(0.5));
     let channels: [(&str, &[f32]); 7] = [

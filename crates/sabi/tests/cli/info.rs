@@ -2,7 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::place::{CLOUDS, Place, graph};
+use crate::cli_folder::{CLOUDS, CliFolder, graph};
 
 /// A graph with knobs of several sorts, a group, a picture and a node of its own.
 const PANEL: &str = r##"{
@@ -38,8 +38,8 @@ const FACING: &str = "//! Facing\n//! Selects what faces up.\n\nstruct Params {\
     /// @angle @range 0 180 @default 60\n    reach: f32,\n}\n\n/// How much it faces up.\n\
     fn mask(at: Surface, params: Params) -> f32 {\n    return at.normal.y * params.reach;\n}\n";
 
-fn panel() -> Place {
-    let place = Place::new();
+fn panel() -> CliFolder {
+    let place = CliFolder::new();
     std::fs::create_dir_all(place.path("nodes/own")).unwrap();
     std::fs::create_dir_all(place.path("pictures")).unwrap();
     place.write("nodes/own/facing.wgsl", FACING);
@@ -48,7 +48,7 @@ fn panel() -> Place {
     place
 }
 
-fn described(place: &Place, name: &str) -> Json {
+fn described(place: &CliFolder, name: &str) -> Json {
     let run = place.sabi(&["info", name, "--json"]).good();
     serde_json::from_str(&run.stdout).unwrap()
 }
@@ -155,7 +155,7 @@ fn the_files_of_a_graph_are_listed_with_whether_they_exist() {
 
 #[test]
 fn a_graph_without_one_of_its_group_files_is_described_as_far_as_it_can_be() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let nodes = format!("{CLOUDS},\n    \"g\": {{ \"kind\": \"graph/group\", \"group\": \"none.sabi\" }}");
     place.write("lacks.sabi", graph(&nodes));
     let found = described(&place, "lacks.sabi");
@@ -178,7 +178,7 @@ fn a_graph_without_one_of_its_group_files_is_described_as_far_as_it_can_be() {
 
 #[test]
 fn people_get_the_same_as_a_table() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let page = place.sabi(&["info", "clouds.sabi"]).good();
     assert_eq!(page.stderr, "");
     let expected = "\

@@ -4,7 +4,7 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
-use crate::place::{Place, graph, software_adapter};
+use crate::cli_folder::{CliFolder, graph, software_adapter};
 
 /// Twelve noises of sixteen octaves: enough work for an interruption.
 fn long_work() -> String {
@@ -27,7 +27,7 @@ fn long_work() -> String {
 }
 
 /// Starts a long bake, and returns the process and the rest of its standard error once it evaluates.
-fn started(place: &Place) -> (Child, impl BufRead + use<>) {
+fn started(place: &CliFolder) -> (Child, impl BufRead + use<>) {
     software_adapter();
     place.write("long.sabi", long_work());
     let arguments = [
@@ -73,7 +73,7 @@ fn interrupt(child: &Child) {
 
 #[test]
 fn ctrl_c_leaves_no_half_file_and_the_earlier_maps_as_they_were() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("clouds.sabi", "sphere.glb", &[]).good();
     place.write("report.json", "earlier");
     let before = (place.listing("out"), place.read("out/sphere_mask.png"));
@@ -98,7 +98,7 @@ fn ctrl_c_leaves_no_half_file_and_the_earlier_maps_as_they_were() {
 #[test]
 fn a_run_that_the_system_ends_cleans_up_and_leaves_no_process() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("long.sabi", long_work());
     let matrix = "version = 1\nout = \"out/$size\"\n[[bake]]\nmodels = \"sphere.glb\"\ngraphs = \"long.sabi\"\nsizes = [4096, 2048]\n";
     place.write("matrix.toml", matrix);
@@ -135,7 +135,7 @@ fn a_run_that_the_system_ends_cleans_up_and_leaves_no_process() {
 
 #[test]
 fn a_second_ctrl_c_does_not_wait() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let (mut child, mut words) = started(&place);
     interrupt(&child);
     let mut line = String::new();

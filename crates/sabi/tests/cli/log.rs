@@ -1,11 +1,11 @@
 //! Log of internal events, started by `SABI_LOG` or `--log`.
 
-use crate::place::{Place, done, software_adapter};
+use crate::cli_folder::{CliFolder, done, software_adapter};
 
 #[test]
 fn the_log_names_the_steps_of_a_bake_with_their_times() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     let arguments = [
         "bake",
         "rust.sabi",
@@ -39,7 +39,7 @@ fn the_log_names_the_steps_of_a_bake_with_their_times() {
 
 #[test]
 fn a_filter_that_cannot_be_read_is_refused_by_the_name_it_was_given_by() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.command(&["nodes"]).env("SABI_LOG", "sabi=loud").output().unwrap();
     let refused = done(run).fails(2).stderr;
     assert!(

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::place::{CLOUDS, Place, graph, software_adapter};
+use crate::cli_folder::{CLOUDS, CliFolder, graph, software_adapter};
 
 fn json(text: &str) -> Json {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
@@ -10,7 +10,7 @@ fn json(text: &str) -> Json {
 
 #[test]
 fn nodes_are_listed_one_a_line_and_described_by_id() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let table = place.sabi(&["nodes"]).good().stdout;
     let all = json(&place.sabi(&["nodes", "--json"]).good().stdout);
     let all = all.as_array().unwrap();
@@ -40,7 +40,7 @@ fn nodes_are_listed_one_a_line_and_described_by_id() {
 
 #[test]
 fn a_model_is_described() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.sabi(&["mesh", "cube.glb", "--size", "64", "--json"]).good();
     let mesh = json(&run.stdout);
     assert_eq!((&mesh["triangles"], &mesh["charts"]), (&Json::from(12), &Json::from(6)));
@@ -63,7 +63,7 @@ fn a_model_is_described() {
 
 #[test]
 fn all_graphs_are_checked_whatever_is_wrong_with_the_first() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let faulty = CLOUDS.replace("simplex", "simplx");
     place.write("faulty.sabi", graph(&faulty));
     place.write("cut.sabi", &graph(CLOUDS)[..90]);
@@ -94,7 +94,7 @@ fn all_graphs_are_checked_whatever_is_wrong_with_the_first() {
 
 #[test]
 fn doctor_tells_how_to_get_an_adapter_where_there_is_none() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let found = json(&place.sabi(&["doctor", "--json"]).good().stdout);
     assert_eq!(found["usable"], true);
@@ -108,7 +108,7 @@ fn doctor_tells_how_to_get_an_adapter_where_there_is_none() {
         command
             .env("VK_DRIVER_FILES", &nowhere)
             .env("VK_ICD_FILENAMES", &nowhere);
-        crate::place::done(command.output().unwrap()).fails(4)
+        crate::cli_folder::done(command.output().unwrap()).fails(4)
     };
     let advice = "error: no Vulkan, Metal or Direct3D 12 driver was found; on Debian or Ubuntu run `apt-get install \
                   mesa-vulkan-drivers libvulkan1`, which works without a graphics card\n";
@@ -121,7 +121,7 @@ fn doctor_tells_how_to_get_an_adapter_where_there_is_none() {
 
 #[test]
 fn any_result_can_be_looked_at() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let preview = |node: &str, file: &str| {
         place.sabi(&[
@@ -183,7 +183,7 @@ fn any_result_can_be_looked_at() {
 
 #[test]
 fn a_muted_node_that_passes_nothing_on_is_told_before_the_model_is_looked_at() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let muted = graph(CLOUDS).replace(r#""noise/simplex""#, r#""noise/simplex", "muted": true"#);
     place.write("muted.sabi", muted);
     let run = place.sabi(&[
@@ -204,7 +204,7 @@ fn a_muted_node_that_passes_nothing_on_is_told_before_the_model_is_looked_at() {
 
 #[test]
 fn a_machine_without_a_desktop_hears_no_error_of_the_driver() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let mut command = place.command(&["doctor"]);
     command.env_remove("XDG_RUNTIME_DIR").env_remove("NODEVICE_SELECT");
     let output = command.output().unwrap();
@@ -216,7 +216,7 @@ fn a_machine_without_a_desktop_hears_no_error_of_the_driver() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_machine_without_a_home_folder_keeps_compiled_kernels_with_other_results() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("clouds.sabi", "sphere.glb", &["--no-cache"]).good();
     assert!(
         !place.path(".cache/kernels").exists(),
@@ -245,7 +245,7 @@ fn a_machine_without_a_home_folder_keeps_compiled_kernels_with_other_results() {
 
 #[test]
 fn nodes_are_found_by_the_words_that_artists_use() {
-    let place = Place::new();
+    let place = CliFolder::new();
     assert!(
         place
             .sabi(&["nodes", "perlin"])
@@ -265,7 +265,7 @@ fn nodes_are_found_by_the_words_that_artists_use() {
 
 #[test]
 fn a_file_of_strokes_is_described_and_anything_else_is_refused() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let strokes = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../sabi_assets/src/reference/specimen.paint/crate.strokes"

@@ -2,7 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 /// A material with values that few materials have, and with emission up to 4.
 const FINISH: &str = r##"    "base": { "kind": "source/material", "params": { "color": "#3c5a6e" } },
@@ -13,13 +13,13 @@ const FINISH: &str = r##"    "base": { "kind": "source/material", "params": { "c
         "subsurface": "#804020", "subsurface_transmission": 0.7, "emission": "#ffffff", "emission_on": true,
         "emission_strength": 4 } }"##;
 
-fn place() -> Place {
-    let place = Place::new();
+fn place() -> CliFolder {
+    let place = CliFolder::new();
     place.write("finish.sabi", graph(FINISH));
     place
 }
 
-fn baked(place: &Place, graph: &str, more: &[&str]) -> (Json, String) {
+fn baked(place: &CliFolder, graph: &str, more: &[&str]) -> (Json, String) {
     let more = [more, &["--json"]].concat();
     let run = place.bake(graph, "cube.glb", &more).good();
     (serde_json::from_str(&run.stdout).unwrap(), run.stderr)

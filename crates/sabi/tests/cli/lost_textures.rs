@@ -2,16 +2,16 @@
 
 use std::fs;
 
+use crate::cli_folder::CliFolder;
 use crate::packing::bmp;
-use crate::place::Place;
 
 const MODEL: &str =
     "mtllib truck.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl paint\nf 1/1 2/2 3/3\n";
 const LOOK: &str = "newmtl paint\nmap_Kd C:\\art\\2019\\Wood.bmp\n";
 const GONE: &str = "`Wood.bmp` is not where the model says";
 
-fn place() -> Place {
-    let place = Place::new();
+fn place() -> CliFolder {
+    let place = CliFolder::new();
     for folder in ["models", "pictures/deep"] {
         fs::create_dir_all(place.path(folder)).unwrap();
     }
@@ -29,7 +29,7 @@ fn graph(preview: &str) -> String {
 }
 
 /// Returns whether a bake of the graph has a map of base color, which only the picture makes vary, and what it told.
-fn bake(place: &Place, graph: &str, more: &[&str]) -> (bool, String) {
+fn bake(place: &CliFolder, graph: &str, more: &[&str]) -> (bool, String) {
     let _ = fs::remove_dir_all(place.path("out"));
     let done = place
         .bake(graph, "models/truck.obj", &[&["--report", "r.json"], more].concat())
@@ -72,7 +72,7 @@ fn the_folder_of_lost_pictures_is_kept_by_a_graph_and_by_a_report() {
 
 #[test]
 fn a_graph_may_not_look_for_pictures_where_it_may_open_nothing() {
-    let (place, outside) = (place(), Place::new());
+    let (place, outside) = (place(), CliFolder::new());
     outside.write("wood.bmp", bmp(10));
     let folder = outside.path("").display().to_string().replace('\\', "/");
     place.write(

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 /// A triangle that faces +Z, with two UV sets.
 const SHEET: &str = r#"{
@@ -20,8 +20,8 @@ const SHEET: &str = r#"{
 /// Legs of the triangle in either UV set.
 const LEGS: [f32; 2] = [0.96, 0.48];
 
-fn with_sheet() -> Place {
-    let place = Place::new();
+fn with_sheet() -> CliFolder {
+    let place = CliFolder::new();
     let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     let uvs = LEGS.map(|leg| {
         let (low, high) = (0.5 - leg / 2.0, 0.5 + leg / 2.0);
@@ -34,7 +34,7 @@ fn with_sheet() -> Place {
     place
 }
 
-fn described(place: &Place, more: &[&str]) -> Json {
+fn described(place: &CliFolder, more: &[&str]) -> Json {
     let run = place.sabi(&[&["mesh", "sheet.gltf", "--size", "256", "--json"], more].concat());
     serde_json::from_str(&run.good().stdout).unwrap()
 }

@@ -1,6 +1,6 @@
 //! Tests that the results of a bake never replace files that it reads.
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 /// A graph that writes `<material>_mask.png`.
 const MASK: &str = r#""n": { "kind": "noise/simplex" },
@@ -8,7 +8,7 @@ const MASK: &str = r#""n": { "kind": "noise/simplex" },
 
 #[test]
 fn a_report_never_replaces_the_graph_or_the_model() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for own in ["clouds.sabi", "cube.glb"] {
         let before = place.read(own);
         let more = ["-o", ".", "--force", "--report", own];
@@ -24,7 +24,7 @@ fn a_report_never_replaces_the_graph_or_the_model() {
 #[cfg(unix)]
 #[test]
 fn a_report_replaces_files_only() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let _listening = std::os::unix::net::UnixListener::bind(place.path("socket")).unwrap();
     let run = place.bake("clouds.sabi", "cube.glb", &["--report", "socket"]).fails(73);
     assert_eq!(
@@ -35,7 +35,7 @@ fn a_report_replaces_files_only() {
 
 #[test]
 fn maps_never_replace_a_texture_of_the_model_being_baked() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let model = r#"{ "asset": { "version": "2.0" }, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "material": 0 }] }],
         "materials": [{ "name": "m", "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }],
@@ -63,7 +63,7 @@ fn maps_never_replace_a_texture_of_the_model_being_baked() {
 
 #[test]
 fn a_group_and_a_bend_of_a_wire_can_be_looked_at() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let text = r#"{ "format": "sabi", "version": 1, "groups": { "g": {
         "outputs": { "wear": "n" }, "nodes": { "n": { "kind": "noise/simplex" } } } }, "nodes": {
         "look": { "kind": "graph/group", "group": "g" },
@@ -92,7 +92,7 @@ fn a_group_and_a_bend_of_a_wire_can_be_looked_at() {
 
 #[test]
 fn a_node_file_with_a_fault_is_named_where_it_is_used_and_only_counted_elsewhere() {
-    let place = Place::new();
+    let place = CliFolder::new();
     std::fs::create_dir_all(place.path("nodes/own")).unwrap();
     place.write(
         "nodes/own/bad.wgsl",

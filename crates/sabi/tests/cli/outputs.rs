@@ -1,6 +1,6 @@
 //! Assignment of outputs to the materials of the model.
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 /// Two triangles, one of wood and one of steel.
 const PLATES: &str = "\
@@ -30,15 +30,15 @@ fn output(id: &str, material: &str, materials: &str) -> String {
     )
 }
 
-fn place(outputs: &[String]) -> Place {
-    let place = Place::new();
+fn place(outputs: &[String]) -> CliFolder {
+    let place = CliFolder::new();
     place.write("plates.obj", PLATES);
     place.write("plates.sabi", graph(&format!("{BASES}{}", outputs.concat())));
     place
 }
 
 /// The base colors that a bake reports, by material.
-fn colors(place: &Place, more: &[&str]) -> (Vec<String>, String) {
+fn colors(place: &CliFolder, more: &[&str]) -> (Vec<String>, String) {
     let run = place
         .bake("plates.sabi", "plates.obj", &[more, &["--json"]].concat())
         .good();
@@ -131,7 +131,7 @@ fn a_bake_that_would_write_nothing_is_refused() {
 #[test]
 fn a_preview_says_which_of_several_sets_it_shows() {
     let place = place(&[output("out", "blue", "*")]);
-    crate::place::software_adapter();
+    crate::cli_folder::software_adapter();
     let preview = |node: &str, more: &[&str]| {
         let arguments = "preview plates.sabi --mesh plates.obj --size 64 --adapter cpu -o a.png --node";
         let arguments: Vec<&str> = arguments.split(' ').chain([node]).chain(more.iter().copied()).collect();

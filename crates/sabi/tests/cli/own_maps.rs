@@ -3,7 +3,7 @@
 use sabi_image::{Pixels, decode};
 use serde_json::{Value as Json, json};
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 /// A color above 1 in places, a vector and a mask, each with an output.
 const OUTPUTS: &str = r##"    "clouds": { "kind": "noise/simplex" },
@@ -13,7 +13,7 @@ const OUTPUTS: &str = r##"    "clouds": { "kind": "noise/simplex" },
     "out_flow": { "kind": "output/vector", "params": { "name": "flow" }, "inputs": { "source": "place.position" } },
     "out_wear": { "kind": "output/mask", "params": { "name": "wear" }, "inputs": { "source": "clouds" } }"##;
 
-fn report(place: &Place, graph: &str, more: &[&str]) -> Json {
+fn report(place: &CliFolder, graph: &str, more: &[&str]) -> Json {
     let run = place.bake(graph, "cube.glb", &[more, &["--json"]].concat()).good();
     serde_json::from_str(&run.stdout).unwrap()
 }
@@ -33,7 +33,7 @@ fn maps(report: &Json) -> Vec<(String, u64, String)> {
 
 #[test]
 fn masks_colors_and_vectors_are_exported_and_packed_by_name() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("outputs.sabi", graph(OUTPUTS));
     let raw = report(&place, "outputs.sabi", &[]);
     let expected = [
@@ -83,7 +83,7 @@ fn masks_colors_and_vectors_are_exported_and_packed_by_name() {
 }
 
 /// Returns the 16-bit values of a map, divided by their greatest value, pixel by pixel.
-fn shares(place: &Place, name: &str) -> Vec<Vec<f64>> {
+fn shares(place: &CliFolder, name: &str) -> Vec<Vec<f64>> {
     let picture = decode(name, &place.read(&format!("out/{name}"))).unwrap();
     let Pixels::U16(codes) = picture.pixels else {
         panic!("{name} has 16 bits")
@@ -96,7 +96,7 @@ fn shares(place: &Place, name: &str) -> Vec<Vec<f64>> {
 
 #[test]
 fn maps_of_the_model_need_no_node() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let report = report(
         &place,
         "clouds.sabi",
@@ -152,7 +152,7 @@ fn maps_of_the_model_need_no_node() {
 
 #[test]
 fn the_report_and_the_summary_tell_the_memory_in_an_engine() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.bake("rust.sabi", "cube.glb", &["--report", "out.json"]).good();
     let report: Json = serde_json::from_slice(&place.read("out.json")).unwrap();
     let of = |channel: &str| {
@@ -185,7 +185,7 @@ fn the_report_and_the_summary_tell_the_memory_in_an_engine() {
 
 #[test]
 fn dithered_maps_are_the_same_on_any_number_of_threads_and_others_with_another_seed() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let baked = |threads: &str, seed: &str, out: &str| {
         let mut command = place.command(&[
             "bake",

@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::packing::bmp;
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 const OBJECT: &str = "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nvt 0.9 0.9\n\
                       usemtl one\nf 1/1 2/2 3/3\nusemtl two\nf 2/2 4/4 3/3\n";
@@ -11,8 +11,8 @@ const GRAPH: &str = r#"{ "format": "sabi", "version": 1, "nodes": { "model": { "
     "out": { "kind": "output/material", "inputs": { "material": "model" } } } }"#;
 
 /// A graph and a model of two materials with these textures.
-fn with_textures([one, two]: [&str; 2]) -> Place {
-    let place = Place::new();
+fn with_textures([one, two]: [&str; 2]) -> CliFolder {
+    let place = CliFolder::new();
     for folder in ["models", "one", "two"] {
         fs::create_dir_all(place.path(folder)).unwrap();
     }
@@ -23,7 +23,7 @@ fn with_textures([one, two]: [&str; 2]) -> Place {
     place
 }
 
-fn refusal(place: &Place) -> String {
+fn refusal(place: &CliFolder) -> String {
     let arguments = ["pack", "plain.sabi", "-o", "plain.zip", "--mesh", "models/model.obj"];
     let run = place.sabi(&arguments).fails(65);
     assert!(!place.path("plain.zip").exists());

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value as Json;
 
-use crate::place::{CLOUDS, Place, graph};
+use crate::cli_folder::{CLOUDS, CliFolder, graph};
 
 /// A picture of one pixel.
 const BMP: &[u8] = b"BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\x18\0\0\0\0\0\x04\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x50\x50\x50\0";
@@ -23,7 +23,7 @@ fn images(files: &[&str]) -> String {
 }
 
 /// Packs a graph without a model and unpacks it to `out`; returns the files that its image nodes name.
-fn packed(place: &Place, graph: &str) -> Vec<String> {
+fn packed(place: &CliFolder, graph: &str) -> Vec<String> {
     place
         .sabi(&["pack", graph, "--no-mesh", "-o", "packed.zip", "--force"])
         .good();
@@ -40,7 +40,7 @@ fn packed(place: &Place, graph: &str) -> Vec<String> {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_picture_whose_name_some_system_cannot_hold_gets_another_one() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir(place.path("art")).unwrap();
     let files = ["art/a:b.bmp", "art/A.bmp", "art/a.bmp", "art/nul.bmp", "art/c.bmp"];
     for file in files {
@@ -67,7 +67,7 @@ fn a_picture_whose_name_some_system_cannot_hold_gets_another_one() {
 
 #[test]
 fn a_path_that_is_given_to_a_group_file_is_kept_or_refused() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("sabi.toml", "");
     fs::create_dir_all(place.path("shot/groups")).unwrap();
     fs::create_dir_all(place.path("far")).unwrap();
@@ -110,7 +110,7 @@ fn a_path_that_is_given_to_a_group_file_is_kept_or_refused() {
 
 #[test]
 fn strokes_of_a_group_file_go_where_it_goes() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("sabi.toml", "");
     for folder in ["shot", "library/worn.paint/pictures"] {
         fs::create_dir_all(place.path(folder)).unwrap();
@@ -146,7 +146,7 @@ fn strokes_of_a_group_file_go_where_it_goes() {
 
 #[test]
 fn a_model_below_the_folder_of_the_graph_stays_there_and_the_packed_graph_names_it() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir(place.path("models")).unwrap();
     fs::rename(place.path("cube.glb"), place.path("models/cube.glb")).unwrap();
     place

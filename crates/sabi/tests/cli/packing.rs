@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 /// A picture of two by two pixels, of which the lower two are of this gray.
 pub(crate) fn bmp(gray: u8) -> Vec<u8> {
@@ -23,8 +23,8 @@ fn repository(name: &str) -> std::path::PathBuf {
 
 /// A folder `shot` with a graph that is painted by hand, and that uses a picture and a group file from other folders, an own node and its
 /// library from the user's folder, one from the folder beside it, and a model from another folder.
-fn shot() -> Place {
-    let place = Place::new();
+fn shot() -> CliFolder {
+    let place = CliFolder::new();
     for folder in [
         "shot/worn.paint",
         "shot/art",
@@ -71,7 +71,7 @@ fn shot() -> Place {
 }
 
 /// The graph of [`shot`].
-fn worn(place: &Place) -> String {
+fn worn(place: &CliFolder) -> String {
     let painted = fs::read_to_string(repository("graphs/thesis/scratched-column.sabi")).unwrap();
     let painted: Json = serde_json::from_str(&painted).unwrap();
     let strokes = &painted["nodes"]["hand"]["params"]["strokes"];
@@ -104,7 +104,7 @@ fn worn(place: &Place) -> String {
 }
 
 /// Returns the maps of a bake, by name.
-fn maps(place: &Place, graph: &str, model: &str, variant: Option<&str>) -> Vec<(String, Vec<u8>)> {
+fn maps(place: &CliFolder, graph: &str, model: &str, variant: Option<&str>) -> Vec<(String, Vec<u8>)> {
     let out = format!("maps-{}", variant.unwrap_or("own"));
     let more = variant.map_or(vec![], |variant| vec!["--variant", variant]);
     let run = place
@@ -119,7 +119,7 @@ fn maps(place: &Place, graph: &str, model: &str, variant: Option<&str>) -> Vec<(
 }
 
 /// Returns all files below a folder, with their contents.
-fn contents(place: &Place, folder: &str) -> Vec<(String, Vec<u8>)> {
+fn contents(place: &CliFolder, folder: &str) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for name in place.listing(folder) {
         let name = format!("{folder}/{name}");
@@ -142,7 +142,7 @@ fn a_packed_graph_gives_the_same_maps_elsewhere() {
         contents(&here, "shot") == before,
         "packing writes nothing but the archive"
     );
-    let there = Place::new();
+    let there = CliFolder::new();
     there.write("worn.zip", here.read("worn.zip"));
     let model = here.read("models/column.glb");
     let own = maps(&here, "shot/worn.sabi", "models/column.glb", None);
@@ -330,7 +330,7 @@ const TRIANGLE: &str = r#"{ "asset": { "version": "2.0" }, "scenes": [{ "nodes":
 
 #[test]
 fn a_model_is_packed_with_its_buffers_and_textures_as_they_lie_to_each_other() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("sabi.toml", "");
     for folder in ["work", "assets/models", "assets/tex"] {
         fs::create_dir_all(place.path(folder)).unwrap();

@@ -5,15 +5,15 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::place::{Place, software_adapter};
+use crate::cli_folder::{CliFolder, software_adapter};
 
 fn json(text: &str) -> Json {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
 /// Creates a folder with a column, a barrel, and a graph that was painted on the column.
-fn painted() -> Place {
-    let place = Place::new();
+fn painted() -> CliFolder {
+    let place = CliFolder::new();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     for model in ["column.glb", "barrel.glb"] {
         fs::copy(root.join("assets/meshes").join(model), place.path(model)).unwrap();
@@ -40,7 +40,7 @@ fn painted() -> Place {
 }
 
 /// Returns the pixels of the mask of the painted node, and the messages.
-fn mask(place: &Place, model: &str, more: &[&str]) -> (Vec<u8>, String) {
+fn mask(place: &CliFolder, model: &str, more: &[&str]) -> (Vec<u8>, String) {
     software_adapter();
     let usual = [
         "preview",

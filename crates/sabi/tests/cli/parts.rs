@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
-use crate::place::{CLOUDS, Place, graph, software_adapter};
+use crate::cli_folder::{CLOUDS, CliFolder, graph, software_adapter};
 
 /// Squares of side 1 beside each other, each a part with a material of its own; the hull is a hundred times as large.
 const PARTS: [&str; 4] = ["Rock_LOD0", "Rock_LOD1", "UCX_Rock", "Moss"];
@@ -62,14 +62,14 @@ fn cube(turned: &[usize]) -> String {
     text
 }
 
-fn with_models() -> Place {
-    let place = Place::new();
+fn with_models() -> CliFolder {
+    let place = CliFolder::new();
     place.write("rock.obj", rock());
     place.write("cube.obj", cube(&[1, 4]));
     place
 }
 
-fn described(place: &Place, model: &str, more: &[&str]) -> Json {
+fn described(place: &CliFolder, model: &str, more: &[&str]) -> Json {
     let run = place.sabi(&[&["mesh", model, "--size", "64", "--json"], more].concat());
     serde_json::from_str(&run.good().stdout).unwrap()
 }

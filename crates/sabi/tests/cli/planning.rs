@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
-use crate::place::{CLOUDS, Place, graph};
+use crate::cli_folder::{CLOUDS, CliFolder, graph};
 
 /// Returns a matrix with these keys in its only table.
 fn matrix(row: &str) -> String {
@@ -14,14 +14,14 @@ fn matrix(row: &str) -> String {
 }
 
 /// Creates a folder with a matrix of this table.
-fn place_with(row: &str) -> Place {
-    let place = Place::new();
+fn place_with(row: &str) -> CliFolder {
+    let place = CliFolder::new();
     place.write("matrix.toml", matrix(row));
     place
 }
 
 /// Plans the matrix and returns the items of the plan.
-pub(crate) fn planned(place: &Place) -> Vec<Json> {
+pub(crate) fn planned(place: &CliFolder) -> Vec<Json> {
     place.sabi(&["plan", "matrix.toml"]).good();
     items(&String::from_utf8(place.read("plan.jsonl")).unwrap())
 }
@@ -83,7 +83,7 @@ fn a_matrix_becomes_a_line_for_each_combination() {
 #[test]
 fn a_seed_per_model_stays_when_models_are_added() {
     let place = place_with("models = [\"sphere.glb\"]\ngraphs = \"clouds.sabi\"\nseed = [\"per model\", 7]");
-    let seeds = |place: &Place| -> Vec<Json> {
+    let seeds = |place: &CliFolder| -> Vec<Json> {
         planned(place)
             .iter()
             .map(|item| item["recipe"]["seed"].clone())
@@ -230,7 +230,7 @@ fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
 #[test]
 fn too_many_items_are_refused_unless_they_are_meant() {
     let row = "models = \"*.glb\"\ngraphs = \"clouds.sabi\"\nsizes = [16, 32, 64]";
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("matrix.toml", format!("limit = 5\n{}", matrix(row)));
     let run = place.sabi(&["plan", "matrix.toml"]).fails(65);
     assert_eq!(

@@ -2,11 +2,11 @@
 
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 #[test]
 fn presets_are_listed_shown_and_a_copy_of_one_is_baked_with() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let listed = place.sabi(&["presets", "list"]).good();
     for name in ["raw", "gltf", "unreal", "unity", "godot", "blender", "materialx", "usd"] {
         assert!(
@@ -38,7 +38,7 @@ fn presets_are_listed_shown_and_a_copy_of_one_is_baked_with() {
 
 #[test]
 fn a_preset_that_cannot_be_used_is_told_before_anything_is_read() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("odd.toml", "version = 1\nname = \"odd\"\nabout = \"Odd.\"\n");
     let checked = place.sabi(&["presets", "check", "odd.toml"]);
     assert_eq!(checked.code, Some(65));
@@ -60,7 +60,7 @@ fn a_preset_that_cannot_be_used_is_told_before_anything_is_read() {
 
 #[test]
 fn the_report_says_what_each_component_of_a_packed_map_is() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place
         .bake("rust.sabi", "cube.glb", &["--preset", "unreal", "--json"])
         .good();
@@ -76,7 +76,7 @@ fn the_report_says_what_each_component_of_a_packed_map_is() {
 
 #[test]
 fn documents_are_shown_written_beside_the_maps_and_listed() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let shown = place.sabi(&["presets", "show", "usd"]).good().stdout;
     assert!(
         shown.contains("(model)                     usdz        the same with its PNG maps in one file\n"),
@@ -128,7 +128,7 @@ fn documents_are_shown_written_beside_the_maps_and_listed() {
 
 #[test]
 fn documents_of_a_part_never_replace_complete_ones() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let some = place
         .bake(
             "rust.sabi",

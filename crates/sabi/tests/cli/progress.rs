@@ -2,10 +2,10 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::place::{Done, Place, software_adapter};
+use crate::cli_folder::{CliFolder, RunOutput, software_adapter};
 
 /// Returns the lines of standard error that are JSON.
-fn events(run: &Done) -> Vec<Json> {
+fn events(run: &RunOutput) -> Vec<Json> {
     let lines = run.stderr.lines().filter(|line| line.starts_with('{'));
     lines
         .map(|line| serde_json::from_str(line).unwrap_or_else(|error| panic!("{error}: {line}")))
@@ -14,7 +14,7 @@ fn events(run: &Done) -> Vec<Json> {
 
 #[test]
 fn events_tell_each_phase_to_its_end_and_the_exit_code() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place
         .bake("rust.sabi", "cube.glb", &["--progress", "json", "--quiet"])
         .good();
@@ -44,7 +44,7 @@ fn events_tell_each_phase_to_its_end_and_the_exit_code() {
 
 #[test]
 fn a_command_that_fails_tells_its_exit_code_last() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.sabi(&["info", "none.sabi", "--progress", "json"]).fails(66);
     let words = "error: none.sabi: there is no such file; check the path\n{\"event\":\"done\",\"exit\":66}\n";
     assert_eq!(run.stderr, words);
@@ -52,7 +52,7 @@ fn a_command_that_fails_tells_its_exit_code_last() {
 
 #[test]
 fn plain_progress_is_lines_of_phases() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.bake("rust.sabi", "cube.glb", &["--progress", "plain"]).good();
     for phase in ["Reading 1/1", "Preparing UV seams 0/1", "Evaluating ", "Writing maps "] {
         assert!(
@@ -68,7 +68,7 @@ fn plain_progress_is_lines_of_phases() {
 #[test]
 fn progress_is_chosen_on_the_command_line_before_the_variable() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     let preview = |variable: &str, more: &[&str]| {
         let fixed = [
             "preview",
@@ -85,7 +85,7 @@ fn progress_is_chosen_on_the_command_line_before_the_variable() {
             "a.png",
         ];
         let mut command = place.command(&[&fixed, more].concat());
-        crate::place::done(command.env("SABI_PROGRESS", variable).output().unwrap())
+        crate::cli_folder::done(command.env("SABI_PROGRESS", variable).output().unwrap())
     };
     assert!(preview("plain", &[]).good().stderr.starts_with("Reading 1/1\n"));
     assert_eq!(preview("plain", &["--progress", "none"]).good().stderr, "");

@@ -1,6 +1,6 @@
 //! Settings of rays and filters that make no sense: each a sentence, before any ray is shot.
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 /// A node whose parameter has a value, and an output that reads it.
 fn with(kind: &str, param: &str, value: &str) -> String {
@@ -18,7 +18,7 @@ fn with(kind: &str, param: &str, value: &str) -> String {
 
 #[test]
 fn no_rays_and_lengths_of_nothing_are_refused_with_what_is_taken() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let rays = "a whole number from 1 to 1024";
     let length = "a number from 0.00001 to 1000";
     let cases = [

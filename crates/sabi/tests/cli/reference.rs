@@ -10,7 +10,7 @@ use std::{fs, io};
 
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 /// Kept small, since every clone brings them along.
 const MOST_BYTES_OF_A_PICTURE: u64 = 25 * 1024;
@@ -42,7 +42,7 @@ fn files() -> io::Result<Vec<(String, u64)>> {
 
 #[test]
 fn the_reference_is_what_the_nodes_say() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let nodes: Vec<Json> = serde_json::from_str(&place.sabi(&["nodes", "--json"]).good().stdout).unwrap();
     let pages = pages::pages(&nodes, &|path| root().join(path).is_file());
     let mut stale: BTreeSet<String> = BTreeSet::new();

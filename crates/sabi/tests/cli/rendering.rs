@@ -2,7 +2,7 @@
 
 use sabi_image::{Pixels, decode};
 
-use crate::place::{Done, Place, graph, software_adapter};
+use crate::cli_folder::{CliFolder, RunOutput, graph, software_adapter};
 
 const SMALL: [&str; 12] = [
     "--mesh",
@@ -19,7 +19,7 @@ const SMALL: [&str; 12] = [
     "30",
 ];
 
-fn render(place: &Place, more: &[&str]) -> Done {
+fn render(place: &CliFolder, more: &[&str]) -> RunOutput {
     let arguments = [&["render", "rust.sabi"], &SMALL[..], more].concat();
     place.sabi(&arguments)
 }
@@ -32,7 +32,7 @@ fn header(png: &[u8]) -> (u32, u32, u8) {
 
 #[test]
 fn a_lit_picture_is_written_and_comes_out_the_same_again() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let run = render(&place, &["-o", "one.png"]).good();
     assert_eq!((run.stdout.as_str(), run.stderr.as_str()), ("one.png\n", ""));
@@ -61,7 +61,7 @@ fn a_lit_picture_is_written_and_comes_out_the_same_again() {
 
 #[test]
 fn highlights_glow_as_much_as_bloom_says() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let bright = |name: &str, more: &[&str]| {
         render(&place, &[&["--exposure", "4", "-o", name], more].concat()).good();
@@ -81,7 +81,7 @@ fn highlights_glow_as_much_as_bloom_says() {
 
 #[test]
 fn maps_are_as_large_as_the_picture_needs_and_smaller_ones_are_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let fitting = |name: &str, more: &[&str]| {
         let own = [
@@ -113,7 +113,7 @@ fn maps_are_as_large_as_the_picture_needs_and_smaller_ones_are_told() {
 
 #[test]
 fn a_model_of_flat_faces_is_smoothed_when_asked() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let arguments = |name: &'static str| ["render", "rust.sabi", "--mesh", "sphere.glb", "-o", name];
     let sizes = [
@@ -147,7 +147,7 @@ fn a_model_of_flat_faces_is_smoothed_when_asked() {
 
 #[test]
 fn a_clear_background_has_alpha() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     render(&place, &["-o", "clear.png", "--transparent"]).good();
     assert_eq!(header(&place.read("clear.png")), (48, 32, 6));
@@ -155,7 +155,7 @@ fn a_clear_background_has_alpha() {
 
 #[test]
 fn a_turntable_is_numbered_frames_of_which_the_first_is_the_picture() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     render(&place, &["-o", "still.png"]).good();
     let run = render(&place, &["-o", "turn.png", "--turntable", "3"]).good();
@@ -192,7 +192,7 @@ const SWOLLEN: &str = r#"    "base": { "kind": "source/material" },
 
 #[test]
 fn a_displaced_model_has_another_outline_and_keeps_its_lines() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     place.write("swollen.sabi", graph(SWOLLEN));
     let alphas = |name: &str, more: &[&str]| -> Vec<u8> {
@@ -234,7 +234,7 @@ fn a_displaced_model_has_another_outline_and_keeps_its_lines() {
 
 #[test]
 fn a_model_that_nothing_raises_is_drawn_as_it_is_and_the_artist_told_why() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let run = render(&place, &["-o", "mask.png", "--view", "node:clouds", "--displace"]).good();
     assert_eq!(
@@ -246,7 +246,7 @@ fn a_model_that_nothing_raises_is_drawn_as_it_is_and_the_artist_told_why() {
 
 #[test]
 fn the_light_of_a_picture_is_linear_and_twice_as_much_a_stop_brighter() {
-    let place = Place::new();
+    let place = CliFolder::new();
     software_adapter();
     let light = |name: &str, more: &[&str]| -> Vec<f32> {
         render(&place, &[&["-o", name, "--background", "plain"], more].concat()).good();
@@ -269,7 +269,7 @@ fn the_light_of_a_picture_is_linear_and_twice_as_much_a_stop_brighter() {
 
 #[test]
 fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("broken.hdr", b"#?RADIANCE\nnothing more");
     for (more, code, told) in [
         (
@@ -322,7 +322,7 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
 
 #[test]
 fn an_option_that_makes_no_sense_is_named() {
-    let place = Place::new();
+    let place = CliFolder::new();
     for more in [
         &["--camera", "above"][..],
         &["--camera", "1,2,3,4"],

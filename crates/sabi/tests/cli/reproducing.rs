@@ -4,11 +4,11 @@ use std::fs;
 
 use serde_json::Value as Json;
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 const MAPS: [&str; 2] = ["cube_base_color.png", "cube_roughness.png"];
 
-fn maps(place: &Place, folder: &str) -> Vec<String> {
+fn maps(place: &CliFolder, folder: &str) -> Vec<String> {
     let mut names = place.listing(folder);
     names.retain(|name| name.ends_with(".png") || name.ends_with(".exr"));
     names
@@ -16,7 +16,7 @@ fn maps(place: &Place, folder: &str) -> Vec<String> {
 
 #[test]
 fn a_report_makes_its_maps_again_from_another_place_and_to_the_same_bytes() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("look.toml", "[set]\namount = 0.25\n");
     let settings = [
         "--set-file",
@@ -73,7 +73,7 @@ fn a_report_makes_its_maps_again_from_another_place_and_to_the_same_bytes() {
 
 #[test]
 fn a_graph_from_standard_input_is_in_its_report() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let text = place.read("rust.sabi");
     let arguments = [
         "bake",
@@ -103,7 +103,7 @@ fn a_graph_from_standard_input_is_in_its_report() {
 
 #[test]
 fn what_has_changed_since_a_report_is_named_and_not_baked() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("rust.sabi", "cube.glb", &["--report", "report.json"]).good();
     let text = String::from_utf8(place.read("rust.sabi")).unwrap();
     place.write("rust.sabi", text.replace("0.01", "0.02"));
@@ -120,7 +120,7 @@ fn what_has_changed_since_a_report_is_named_and_not_baked() {
 
 #[test]
 fn maps_that_differ_from_the_report_are_named_and_end_with_3() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("rust.sabi", "cube.glb", &["--report", "report.json"]).good();
     let mut report: Json = serde_json::from_slice(&place.read("report.json")).unwrap();
     report["outputs"][0]["blake3"] = "0".repeat(64).into();
@@ -138,7 +138,7 @@ fn maps_that_differ_from_the_report_are_named_and_end_with_3() {
 
 #[test]
 fn what_is_no_report_to_bake_from_is_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("old.json", r#"{ "sabi": "0.1.0", "graph": "a.sabi" }"#);
     place.write("new.json", r#"{ "version": 99 }"#);
     place.write("failed.json", r#"{ "error": {} }"#);
@@ -177,7 +177,7 @@ fn what_is_no_report_to_bake_from_is_told() {
 
 #[test]
 fn the_same_bake_again_does_nothing_until_something_changes() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let bake = |more: &[&str]| place.bake("rust.sabi", "cube.glb", more).good();
     let is_done = |more: &[&str]| bake(more).stderr.contains("Baked rust.sabi");
     assert!(is_done(&[]));
@@ -208,7 +208,7 @@ fn the_same_bake_again_does_nothing_until_something_changes() {
 
 #[test]
 fn a_changed_color_encodes_only_the_map_that_hangs_on_it() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let cached = |more: &[&str]| {
         let run = place
             .bake("rust.sabi", "cube.glb", &[&["--json"], more].concat())
@@ -241,15 +241,15 @@ fn a_changed_color_encodes_only_the_map_that_hangs_on_it() {
 
 #[test]
 fn a_size_of_the_cache_that_is_no_number_is_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let mut command = place.command(&["bake", "rust.sabi", "--mesh", "cube.glb", "--size", "64", "-o", "out"]);
-    let told = crate::place::done(command.env("SABI_CACHE_MIB", "many").output().unwrap()).fails(2);
+    let told = crate::cli_folder::done(command.env("SABI_CACHE_MIB", "many").output().unwrap()).fails(2);
     assert_eq!(told.stderr, "error: SABI_CACHE_MIB takes a number of MiB, not 'many'\n");
 }
 
 #[test]
 fn verify_finds_damage_staleness_strangers_and_what_is_left_over() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place
         .bake("rust.sabi", "cube.glb", &["--report", "out/report.json"])
         .good();
@@ -293,7 +293,7 @@ fn verify_finds_damage_staleness_strangers_and_what_is_left_over() {
 
 #[test]
 fn a_folder_without_a_manifest_is_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir(place.path("maps")).unwrap();
     let told = place.sabi(&["verify", "maps"]).fails(66);
     assert!(
@@ -315,7 +315,7 @@ fn a_folder_without_a_manifest_is_told() {
 
 #[test]
 fn bakes_into_one_folder_are_all_remembered_until_their_files_are_replaced() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let verified = || place.sabi(&["verify", "out"]);
     place.bake("rust.sabi", "cube.glb", &[]).good();
     place.bake("clouds.sabi", "sphere.glb", &[]).good();

@@ -1,9 +1,9 @@
 //! Values from files: `--set-file`.
 
-use crate::place::{Place, software_adapter};
+use crate::cli_folder::{CliFolder, software_adapter};
 
 /// The exact values of the clouds of `clouds.sabi`, evaluated with these options.
-fn clouds(place: &Place, more: &[&str]) -> Vec<u8> {
+fn clouds(place: &CliFolder, more: &[&str]) -> Vec<u8> {
     let fixed = [
         "preview",
         "clouds.sabi",
@@ -25,7 +25,7 @@ fn clouds(place: &Place, more: &[&str]) -> Vec<u8> {
 #[test]
 fn the_command_line_wins_over_files_later_files_over_earlier_ones_and_values_over_the_variant() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("heavy.toml", "variant = \"heavy\"\n");
     place.write(
         "light.toml",
@@ -78,7 +78,7 @@ fn the_command_line_wins_over_files_later_files_over_earlier_ones_and_values_ove
 #[test]
 fn a_color_and_a_word_are_written_as_texts_and_vectors_as_lists() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     let look = "[set]\n\"base.color\" = \"#ff0000\"\nrust.height = 0.02\nclouds.mode = \"billow\"\nclouds.stretch = [1, 2.5, 1]\n";
     place.write("look.toml", look);
     place
@@ -109,7 +109,7 @@ fn a_color_and_a_word_are_written_as_texts_and_vectors_as_lists() {
 
 #[test]
 fn a_file_of_values_that_makes_no_sense_is_refused_with_its_place() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let cases = [
         (
             "varient = \"heavy\"",
@@ -158,7 +158,7 @@ fn a_file_of_values_that_makes_no_sense_is_refused_with_its_place() {
 
 #[test]
 fn a_report_never_replaces_a_file_of_values() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("look.toml", "seed = 1\n");
     let more = ["--set-file", "look.toml", "--report", "look.toml"];
     let words = "cannot write the report look.toml: this very bake reads it; name another file";

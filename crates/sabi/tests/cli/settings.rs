@@ -1,10 +1,10 @@
 //! Values set on the command line.
 
-use crate::place::Place;
+use crate::cli_folder::CliFolder;
 
 #[test]
 fn a_wrong_setting_is_refused_and_the_nearest_name_is_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let cases = [
         (
             "amout=1",
@@ -59,7 +59,7 @@ fn a_wrong_setting_is_refused_and_the_nearest_name_is_told() {
 
 #[test]
 fn the_last_setting_wins_over_the_variant_and_the_file() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let map = |more: &[&str]| {
         place.bake("clouds.sabi", "cube.glb", more).good();
         place.read("out/cube_mask.png")
@@ -76,7 +76,7 @@ fn the_last_setting_wins_over_the_variant_and_the_file() {
 
 #[test]
 fn a_number_below_its_range_is_answered_with_the_range() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let cases = [
         (["--seed", "-1"], "it takes a whole number from 0 to 4294967295"),
         (["--seed", "abc"], "it takes a whole number from 0 to 4294967295"),
@@ -95,7 +95,7 @@ fn a_text_of_digits_alone_is_set_as_it_was_typed() {
         ("out.name=true", "cube_true.png"),
         ("out.name=1,2", "cube_1,2.png"),
     ] {
-        let place = Place::new();
+        let place = CliFolder::new();
         place.bake("clouds.sabi", "cube.glb", &["--set", setting]).good();
         assert!(place.path("out").join(file).is_file(), "{setting}");
     }

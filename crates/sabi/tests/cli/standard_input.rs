@@ -2,12 +2,12 @@
 
 use std::fs;
 
-use crate::place::{CLOUDS, Place, RUST, graph, software_adapter};
+use crate::cli_folder::{CLOUDS, CliFolder, RUST, graph, software_adapter};
 
 #[test]
 fn a_graph_from_standard_input_is_evaluated_like_its_file() {
     software_adapter();
-    let place = Place::new();
+    let place = CliFolder::new();
     let text = graph(RUST);
     place.bake("rust.sabi", "cube.glb", &["-o", "file"]).good();
     let fixed = ["--mesh", "cube.glb", "--adapter", "cpu"];
@@ -38,7 +38,7 @@ fn a_graph_from_standard_input_is_evaluated_like_its_file() {
 
 #[test]
 fn a_graph_from_standard_input_is_checked_and_described() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let check = place.sabi_reading(&["check", "-", "rust.sabi"], graph(CLOUDS)).good();
     let lines: Vec<&str> = check.stdout.lines().collect();
     assert_eq!(lines[0], "standard input: good, 2 nodes in 1 pass");
@@ -49,7 +49,7 @@ fn a_graph_from_standard_input_is_checked_and_described() {
 
 #[test]
 fn paths_in_a_graph_from_standard_input_start_from_the_current_folder() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir_all(place.path("groups")).unwrap();
     let group = r#"{ "format": "sabi", "version": 1, "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/simplex" } } }"#;
     place.write("groups/wear.sabi", group);
@@ -62,7 +62,7 @@ fn paths_in_a_graph_from_standard_input_start_from_the_current_folder() {
 
 #[test]
 fn what_is_wrong_with_standard_input_is_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let faulty = CLOUDS.replace("simplex", "simplx");
     let cases = [
         (
@@ -93,7 +93,7 @@ fn what_is_wrong_with_standard_input_is_told() {
 
 #[test]
 fn a_graph_from_standard_input_that_is_too_large_is_refused_before_all_of_it_is_read() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.sabi_reading(&["info", "-"], vec![b' '; (65 << 20) + 1]).fails(65);
     assert_eq!(
         run.stderr,
@@ -103,7 +103,7 @@ fn a_graph_from_standard_input_that_is_too_large_is_refused_before_all_of_it_is_
 
 #[test]
 fn commands_that_need_the_folder_of_a_graph_refuse_standard_input() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let cases: [(&[&str], &str); 4] = [
         (
             &["pack", "-", "-o", "a.zip"],

@@ -4,11 +4,11 @@ use std::fs;
 
 use serde_json::{Value as Json, json};
 
-use crate::place::{Place, graph};
+use crate::cli_folder::{CliFolder, graph};
 
 #[test]
 fn all_wrong_values_of_a_command_line_are_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let run = place.bake(
         "rust.sabi",
         "cube.glb",
@@ -56,7 +56,7 @@ fn all_wrong_values_of_a_command_line_are_told() {
 
 #[test]
 fn all_wrong_values_of_a_matrix_are_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let plan = |matrix: &str| {
         place.write("matrix.toml", matrix);
         let run = place.sabi(&["plan", "matrix.toml"]).fails(65);
@@ -86,7 +86,7 @@ fn all_wrong_values_of_a_matrix_are_told() {
 
 #[test]
 fn a_pattern_of_variants_may_fit_none_of_one_graph_but_not_of_all() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("plain.sabi", "{ \"format\": \"sabi\", \"version\": 1, \"nodes\": { \"n\": { \"kind\": \"noise/simplex\" }, \"o\": { \"kind\": \
                                \"output/mask\", \"inputs\": { \"source\": \"n\" } } } }");
     let plan = |variants: &str| {
@@ -122,7 +122,7 @@ fn a_pattern_of_variants_may_fit_none_of_one_graph_but_not_of_all() {
 
 #[test]
 fn all_folders_are_verified_though_one_has_no_record() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.bake("clouds.sabi", "cube.glb", &[]).good();
     fs::create_dir(place.path("empty")).unwrap();
     place.bake("clouds.sabi", "cube.glb", &["-o", "bad"]).good();
@@ -150,7 +150,7 @@ fn all_folders_are_verified_though_one_has_no_record() {
 
 #[test]
 fn a_mistyped_command_is_told_whatever_follows_it() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let sentence = |word: &str, meant: &str| {
         format!("error: there is no file '{word}' to edit, and no such command; did you mean 'sabi {meant}'?\n")
     };
@@ -174,7 +174,7 @@ fn a_mistyped_command_is_told_whatever_follows_it() {
 
 #[test]
 fn a_node_that_is_not_there_is_told_with_those_that_are_most_alike() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let nodes: Vec<String> = (0..200)
         .map(|at| format!("    \"grain_{at:03}\": {{ \"kind\": \"noise/simplex\" }},"))
         .collect();
@@ -211,7 +211,7 @@ fn a_node_that_is_not_there_is_told_with_those_that_are_most_alike() {
 
 #[test]
 fn a_file_that_is_no_report_is_called_so() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("notes.json", "not JSON");
     let run = place.sabi(&["bake", "--from", "notes.json", "-o", "out"]).fails(65);
     assert!(
@@ -224,7 +224,7 @@ fn a_file_that_is_no_report_is_called_so() {
 
 #[test]
 fn a_path_that_nothing_may_open_is_told_without_advice_to_trust_it() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let picture = |path: &str| {
         graph(&format!(
             "    \"clouds\": {{ \"kind\": \"noise/simplex\" }},\n    \"photo\": {{ \"kind\": \"source/image\", \"params\": {{ \"file\": \
@@ -247,7 +247,7 @@ fn a_path_that_nothing_may_open_is_told_without_advice_to_trust_it() {
 
 #[test]
 fn names_that_differ_by_capital_letters_alone_are_both_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let masks = "    \"clouds\": { \"kind\": \"noise/simplex\" },\n    \"a\": { \"kind\": \"output/mask\", \"inputs\": { \"source\": \"clouds\" }, \
                  \"params\": { \"name\": \"wear\" } },\n    \"b\": { \"kind\": \"output/mask\", \"inputs\": { \"source\": \"clouds\" }, \"params\": { \
                  \"name\": \"Wear\" } }";
@@ -262,7 +262,7 @@ fn names_that_differ_by_capital_letters_alone_are_both_told() {
 
 #[test]
 fn info_warns_of_every_file_that_is_not_there() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let graph = "{ \"format\": \"sabi\", \"version\": 1, \"preview\": { \"mesh\": \"gone.glb\" }, \"nodes\": { \"p\": { \"kind\": \"source/paint\", \
                  \"params\": { \"strokes\": \"0123456789abcdef\" } }, \"o\": { \"kind\": \"output/mask\", \"inputs\": { \"source\": \"p\" } } } }";
     place.write("shown.sabi", graph);
@@ -288,7 +288,7 @@ fn info_warns_of_every_file_that_is_not_there() {
 
 #[test]
 fn a_broken_node_of_ones_own_is_told_once() {
-    let place = Place::new();
+    let place = CliFolder::new();
     fs::create_dir_all(place.path("nodes/own")).unwrap();
     place.write("nodes/own/odd.wgsl", "//! Odd\n//! Is broken.\n\nfn mask( -> f32 {\n");
     place.write("own.sabi", graph("    \"clouds\": { \"kind\": \"own/odd\" },\n    \"out\": { \"kind\": \"output/mask\", \"inputs\": { \"source\": \"clouds\" } }"));
@@ -305,7 +305,7 @@ fn a_broken_node_of_ones_own_is_told_once() {
 
 #[test]
 fn keys_that_nothing_reads_are_told_by_check_info_and_bake_and_fail_a_strict_check() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write(
         "odd.sabi",
         graph(

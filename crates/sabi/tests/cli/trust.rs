@@ -4,11 +4,11 @@ use std::fs;
 
 use serde_json::json;
 
-use crate::place::{Done, Place};
+use crate::cli_folder::{CliFolder, RunOutput};
 
 /// A folder with `private/secret.txt`, and `shared/` for what came from elsewhere.
-fn with_secret() -> Place {
-    let place = Place::new();
+fn with_secret() -> CliFolder {
+    let place = CliFolder::new();
     for folder in ["private", "shared"] {
         fs::create_dir(place.path(folder)).unwrap();
     }
@@ -47,11 +47,11 @@ fn shows(picture: &str) -> String {
 }
 
 /// The canonical path of a file, as sentences show it.
-fn shown(place: &Place, name: &str) -> String {
+fn shown(place: &CliFolder, name: &str) -> String {
     place.path(name).canonicalize().unwrap().display().to_string()
 }
 
-fn outside(place: &Place, name: &str) -> String {
+fn outside(place: &CliFolder, name: &str) -> String {
     format!(
         "{} is outside of the folder of the file that names it and of the folders that you trust",
         shown(place, name)
@@ -59,7 +59,7 @@ fn outside(place: &Place, name: &str) -> String {
 }
 
 #[track_caller]
-fn says(done: &Done, words: &str) {
+fn says(done: &RunOutput, words: &str) {
     assert!(done.stderr.contains(words), "{words}\n{}", done.stderr);
 }
 

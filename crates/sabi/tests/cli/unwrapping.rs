@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::place::{Place, done, graph};
+use crate::cli_folder::{CliFolder, done, graph};
 
 /// A cube of two materials without texture coordinates; of the second, one face has some.
 const BARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
@@ -22,7 +22,7 @@ fn json(text: &str) -> Json {
 
 #[test]
 fn a_model_without_uvs_is_baked_onto_one_sheet_for_all_its_materials() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("bare.obj", BARE);
     let run = place
         .bake("rust.sabi", "bare.obj", &["--report", "out/report.json"])
@@ -78,7 +78,7 @@ fn a_model_without_uvs_is_baked_onto_one_sheet_for_all_its_materials() {
 
 #[test]
 fn pairs_beyond_those_that_are_counted_are_told() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let quad = |at: u32| {
         let corners = ["0 0", "1 0", "1 1", "0 1"].map(|corner| format!("v {corner} {at}\n"));
         corners.concat() + "f -4/1 -3/2 -2/3 -1/4\n"
@@ -99,7 +99,7 @@ fn pairs_beyond_those_that_are_counted_are_told() {
 
 #[test]
 fn a_material_without_uvs_is_unwrapped_onto_a_sheet_of_its_own_and_the_rest_keeps_its_uvs() {
-    let place = Place::new();
+    let place = CliFolder::new();
     let wood = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
         vt 0.1 0.1\nvt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\nusemtl wood\nf 4/1 3/2 2/3 1/4\n";
     let steel = "usemtl steel\nf 5 6 7 8\nf 1 2 6 5\n";
@@ -144,7 +144,7 @@ fn a_material_without_uvs_is_unwrapped_onto_a_sheet_of_its_own_and_the_rest_keep
 
 #[test]
 fn charts_that_share_a_place_get_the_first_result_their_mean_or_places_of_their_own() {
-    let place = Place::new();
+    let place = CliFolder::new();
     place.write("stacked.obj", STACKED);
     place.write(
         "front.sabi",

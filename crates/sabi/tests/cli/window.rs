@@ -4,8 +4,8 @@ use std::process::{Child, Command};
 
 use serde_json::Value;
 
+use crate::cli_folder::{CliFolder, software_adapter};
 use crate::display::Display;
-use crate::place::{Place, software_adapter};
 
 const EMPTY: &str = r#"{ "format": "sabi", "version": 1, "name": "", "nodes": {} }"#;
 /// Places of the panels of a new installation on a screen of 1600 × 900.
@@ -19,17 +19,17 @@ const FIRST_INPUT: [i32; 2] = [0, 28 + 9];
 const FIRST_KNOB: [i32; 2] = [100, 28 + 19 + 9];
 
 /// The program with its window.
-struct Window {
+struct WindowProcess {
     child: Child,
 }
 
-impl Window {
-    fn open(place: &Place, display: &Display, arguments: &[&str]) -> Window {
+impl WindowProcess {
+    fn open(place: &CliFolder, display: &Display, arguments: &[&str]) -> WindowProcess {
         software_adapter();
         let mut command: Command = place.command(&[&["edit", "--adapter", "cpu"], arguments].concat());
         display.on(&mut command);
         command.env("XDG_CONFIG_HOME", place.path(".config"));
-        let window = Window {
+        let window = WindowProcess {
             child: command.spawn().unwrap(),
         };
         display.take_window();
@@ -44,7 +44,7 @@ impl Window {
     }
 }
 
-impl Drop for Window {
+impl Drop for WindowProcess {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -70,15 +70,15 @@ fn until_pictures(display: &Display, shades: usize) {
     display.until("pictures on the nodes", || display.screen().colors(GRAPH) > shades);
 }
 
-fn saved(place: &Place, name: &str) -> Value {
+fn saved(place: &CliFolder, name: &str) -> Value {
     serde_json::from_slice(&place.read(name)).unwrap()
 }
 
 #[test]
 fn a_window_takes_mouse_and_keys_saves_what_was_made_and_opens_it_again() {
-    let (place, display) = (Place::new(), Display::new());
+    let (place, display) = (CliFolder::new(), Display::new());
     place.write("new.sabi", EMPTY);
-    let window = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
+    let window = WindowProcess::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
     let [clouds, levels] = [[690, 120], [1000, 200]];
     add(&display, clouds, "clouds");
     add(&display, levels, "levels");
@@ -103,7 +103,7 @@ fn a_window_takes_mouse_and_keys_saves_what_was_made_and_opens_it_again() {
     let black = node["params"]["black"].as_f64();
     assert!(black.is_some_and(|black| black > 0.05), "{graph:#}");
     drop(window);
-    let _again = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
+    let _again = WindowProcess::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
     until_pictures(&display, 60);
     display.key("ctrl+s");
     assert_eq!(place.read("new.sabi"), text, "what is opened and saved is the same");
@@ -111,15 +111,15 @@ fn a_window_takes_mouse_and_keys_saves_what_was_made_and_opens_it_again() {
 
 #[test]
 fn what_was_not_saved_when_the_program_was_killed_is_offered_and_comes_back() {
-    let (place, display) = (Place::new(), Display::new());
+    let (place, display) = (CliFolder::new(), Display::new());
     place.write("new.sabi", EMPTY);
-    let window = Window::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
+    let window = WindowProcess::open(&place, &display, &["new.sabi", "--mesh", "cube.glb"]);
     add(&display, [800, 300], "clouds");
     let kept = place.path(".config/sabi/unsaved");
     let is_kept = || std::fs::read_dir(&kept).is_ok_and(|mut files| files.next().is_some());
     display.until("a copy of what is not saved", is_kept);
     window.kill();
-    let _again = Window::open(&place, &display, &["--mesh", "cube.glb"]);
+    let _again = WindowProcess::open(&place, &display, &["--mesh", "cube.glb"]);
     // Recovered work is at the top of the start page.
     display.key("Tab");
     display.key("space");
@@ -134,8 +134,8 @@ fn what_was_not_saved_when_the_program_was_killed_is_offered_and_comes_back() {
 
 #[test]
 fn an_example_of_the_project_is_shown_with_its_model_and_a_picture_on_every_node() {
-    let (place, display) = (Place::new(), Display::new());
+    let (place, display) = (CliFolder::new(), Display::new());
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/graphs/rusty-metal.sabi");
-    let _window = Window::open(&place, &display, &[example]);
+    let _window = WindowProcess::open(&place, &display, &[example]);
     until_pictures(&display, 400);
 }

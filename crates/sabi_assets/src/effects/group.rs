@@ -65,7 +65,7 @@ const BASES: &[(&str, &str)] = &[
 const USUAL_BASE: &str = "painted_metal";
 
 /// A group of the library.
-pub(super) struct Group {
+pub(super) struct LibraryGroup {
     pub(super) category: String,
     pub(super) stem: String,
     pub(super) path: PathBuf,
@@ -73,7 +73,7 @@ pub(super) struct Group {
 }
 
 /// Lists the groups by category and name.
-pub(super) fn groups(root: &Path) -> Result<Vec<Group>, TaskError> {
+pub(super) fn groups(root: &Path) -> Result<Vec<LibraryGroup>, TaskError> {
     let mut groups = Vec::new();
     for (category, _) in CATEGORIES {
         let folder = root.join(GROUPS).join(category);
@@ -86,7 +86,7 @@ pub(super) fn groups(root: &Path) -> Result<Vec<Group>, TaskError> {
             let text = fs::read_to_string(&path).map_err(|error| unreadable(&error))?;
             let document = serde_json::from_str(&text).map_err(|error| unreadable(&error))?;
             let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-            groups.push(Group {
+            groups.push(LibraryGroup {
                 category: category.to_owned(),
                 stem: stem.unwrap_or_default(), // A file with an ending has a stem.
                 path,
@@ -97,14 +97,14 @@ pub(super) fn groups(root: &Path) -> Result<Vec<Group>, TaskError> {
     Ok(groups)
 }
 
-impl Group {
+impl LibraryGroup {
     pub(super) fn models(&self) -> [&'static str; 3] {
         let own = MODELS.iter().find(|(stem, _)| *stem == self.stem);
         own.map_or(USUAL_MODELS, |(_, models)| *models)
     }
 
     /// Group that it lies over in pictures; none for a base material.
-    fn base<'g>(&self, groups: &'g [Group]) -> Option<&'g Group> {
+    fn base<'g>(&self, groups: &'g [LibraryGroup]) -> Option<&'g LibraryGroup> {
         if self.category == "base" {
             return None;
         }
@@ -125,7 +125,7 @@ impl Group {
     }
 
     /// A graph that shows the group over its base.
-    pub(super) fn shown(&self, groups: &[Group], variant: Option<&str>) -> Value {
+    pub(super) fn shown(&self, groups: &[LibraryGroup], variant: Option<&str>) -> Value {
         let mut nodes = Map::new();
         let mut instance = json!({ "kind": "graph/group", "group": self.path });
         if let Some(variant) = variant {

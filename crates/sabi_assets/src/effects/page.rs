@@ -5,10 +5,10 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use super::CATEGORIES;
-use super::group::Group;
+use super::group::LibraryGroup;
 
 /// The page about all groups.
-pub(super) fn page(groups: &[Group]) -> String {
+pub(super) fn page(groups: &[LibraryGroup]) -> String {
     let mut page = String::from(
         "# The effect library\n\nWritten by `cargo xtask library` from `graphs/library`. Each group is drawn on three models with the \
          same parameters, and in its variants on the first of them; all but base materials lie over one. Every group has the \

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use super::group::Group;
+use super::group::LibraryGroup;
 use xtask::project::{Project, TaskError, create_folder, finish, write_file};
 
 /// Model that is baked: the largest of the program's own.
@@ -14,7 +14,7 @@ const MODEL: &str = "assets/meshes/figure.glb";
 const SIZE: &str = "2048";
 
 /// Bakes each group over its base, and the base alone, and writes the table of times.
-pub(super) fn measure(project: &Project, groups: &[Group], work: &Path, page: &Path) -> Result<(), TaskError> {
+pub(super) fn measure(project: &Project, groups: &[LibraryGroup], work: &Path, page: &Path) -> Result<(), TaskError> {
     let mut text = format!(
         "# Times of the effect library\n\nWritten by `cargo xtask library --times`. Each group is baked once over its base material with \
          `sabi bake --size {SIZE} --adapter cpu` on the [figure](../../{MODEL}): from the start of the program to all maps on \
@@ -47,7 +47,13 @@ pub(super) fn measure(project: &Project, groups: &[Group], work: &Path, page: &P
     write_file(page, text)
 }
 
-fn bake(project: &Project, groups: &[Group], group: &Group, work: &Path, cache: &Path) -> Result<Duration, TaskError> {
+fn bake(
+    project: &Project,
+    groups: &[LibraryGroup],
+    group: &LibraryGroup,
+    work: &Path,
+    cache: &Path,
+) -> Result<Duration, TaskError> {
     let graph = work.join(format!("{}_times.sabi", group.stem));
     write_file(&graph, group.shown(groups, None).to_string())?;
     let maps = work.join("maps");

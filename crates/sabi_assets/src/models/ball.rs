@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use glam::{DVec2, DVec3, dvec2};
 
-use super::shape::{Corner, Shape, place_key};
+use super::charted_mesh::{ChartedMesh, Corner, place_key};
 
 /// Right, up and outward of each face of a cube; right × up is outward.
 pub(crate) const FACES: [[DVec3; 3]; 6] = [
@@ -23,8 +23,8 @@ fn direction([right, up, out]: [DVec3; 3], at: DVec2) -> DVec3 {
 }
 
 /// A ball about the origin: six charts of `steps`² quads, exact normals.
-pub(crate) fn ball(radius: f64, steps: usize) -> Shape {
-    let mut shape = Shape::default();
+pub(crate) fn ball(radius: f64, steps: usize) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
     let side = radius * 2.0 * FRAC_PI_4;
     for face in FACES {
         let at = |i: usize| 2.0 * i as f64 / steps as f64 - 1.0;
@@ -103,8 +103,8 @@ impl Skin {
     }
 
     /// The shape, each face one chart.
-    pub(crate) fn shape(&self, rounds: usize) -> Shape {
-        let mut shape = Shape::default();
+    pub(crate) fn shape(&self, rounds: usize) -> ChartedMesh {
+        let mut shape = ChartedMesh::default();
         for (rows, sheet) in self.faces.iter().zip(self.sheets(rounds)) {
             let corners: Vec<Vec<Corner>> = rows
                 .iter()

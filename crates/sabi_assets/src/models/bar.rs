@@ -5,9 +5,9 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
+use super::charted_mesh::{ChartedMesh, Corner, place_key};
 use super::outline::{Outline, rectangle};
-use super::shape::{Corner, Shape, place_key};
-use super::sweep::{Ends, Station, end_cap, seam_to_seam};
+use super::sweep::{Station, SweepEnds, end_cap, seam_to_seam};
 
 /// Path of a section along x, centered on the origin.
 #[derive(Clone, Copy, Debug)]
@@ -57,8 +57,8 @@ impl Bar {
 
 /// The outline (its x toward −z, its y toward y) drawn along a bar. The wall is laid flat as it is, so that a slanted
 /// cut stays slanted on its chart; ends are of one ring, a plain bevel.
-pub(crate) fn bar(outline: &Outline, along: &Bar, ends: Ends) -> Shape {
-    let mut shape = Shape::default();
+pub(crate) fn bar(outline: &Outline, along: &Bar, ends: SweepEnds) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
     let points = &outline.points;
     let bent = edge_normals(points);
     let narrowing = (along.taper[1] - along.taper[0]) / along.length;
@@ -131,8 +131,8 @@ fn edge_normals(points: &[DVec2]) -> Vec<DVec2> {
 }
 
 /// A bar of wood or stone with `width` along z, `height` along y and every edge broken.
-pub(crate) fn timber(width: f64, height: f64, edge: f64, along: &Bar) -> Shape {
-    let ends = Ends {
+pub(crate) fn timber(width: f64, height: f64, edge: f64, along: &Bar) -> ChartedMesh {
+    let ends = SweepEnds {
         radius: edge * 0.7,
         segments: 1,
     };
@@ -140,8 +140,8 @@ pub(crate) fn timber(width: f64, height: f64, edge: f64, along: &Bar) -> Shape {
 }
 
 /// As [`timber`] with a plain bevel, for what there are many of.
-pub(crate) fn block(width: f64, height: f64, edge: f64, along: &Bar) -> Shape {
-    let ends = Ends {
+pub(crate) fn block(width: f64, height: f64, edge: f64, along: &Bar) -> ChartedMesh {
+    let ends = SweepEnds {
         radius: edge * 0.9,
         segments: 1,
     };

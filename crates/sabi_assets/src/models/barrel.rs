@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};
 
+use super::charted_mesh::{ChartedMesh, Corner, ModelPart, part};
 use super::fixings::{chance, head, standing_on};
 use super::glb::{Material, Model};
 use super::hoop::{circle_path, hoop};
-use super::outline::{Outline, Turn, rectangle, rounded};
-use super::shape::{Corner, Part, Shape, part};
-use super::sweep::{Ends, Station, end_cap, sweep, turned};
+use super::outline::{Outline, OutlineCorner, rectangle, rounded};
+use super::sweep::{Station, SweepEnds, end_cap, sweep, turned};
 
 const WOOD: usize = 0;
 const IRON: usize = 1;
@@ -25,11 +25,11 @@ const CHIME: f64 = 0.05;
 
 /// The barrel.
 pub(crate) fn barrel() -> Model {
-    let mut parts: Vec<Part> = (0..STAVES).map(stave).collect();
+    let mut parts: Vec<ModelPart> = (0..STAVES).map(stave).collect();
     for (name, y) in [("bottom", CHIME), ("top", HEIGHT - CHIME)] {
         parts.extend(barrel_head(name, y));
     }
-    let mut rivets = Shape::default();
+    let mut rivets = ChartedMesh::default();
     for (number, y) in [0.035, 0.165, 0.3, 0.6, 0.735, 0.865].into_iter().enumerate() {
         let broad = if number % 5 == 0 { 0.046 } else { 0.038 };
         parts.push(iron(format!("hoop_{number}"), iron_hoop(y, broad)));
@@ -67,14 +67,14 @@ fn slope_at(y: f64) -> f64 {
     -4.0 * (RADII[1] - RADII[0]) / HEIGHT * ((y / HEIGHT) * 2.0 - 1.0)
 }
 
-fn wood(name: String, translation: DVec3, rotation: DQuat, shape: Shape) -> Part {
+fn wood(name: String, translation: DVec3, rotation: DQuat, shape: ChartedMesh) -> ModelPart {
     part(name, WOOD, translation, rotation, shape)
 }
 
-fn iron(name: String, shape: Shape) -> Part {
-    Part {
+fn iron(name: String, shape: ChartedMesh) -> ModelPart {
+    ModelPart {
         material: IRON,
-        ..Part::new(name, shape)
+        ..ModelPart::new(name, shape)
     }
 }
 
@@ -82,7 +82,7 @@ fn iron(name: String, shape: Shape) -> Part {
 fn stave_outline() -> Outline {
     let half = TAU / STAVES as f64 / 2.0 * RADII[1] - 0.0006;
     let bulge = |x: f64| -x * x / (2.0 * RADII[1]);
-    let turn = |x: f64, y: f64, radius: f64, seam: bool| Turn {
+    let turn = |x: f64, y: f64, radius: f64, seam: bool| OutlineCorner {
         at: dvec2(x, y + bulge(x)),
         radius,
         seam,
@@ -101,7 +101,7 @@ fn stave_outline() -> Outline {
 }
 
 /// One stave, bent and narrowed toward its ends; its x points up.
-fn stave(number: usize) -> Part {
+fn stave(number: usize) -> ModelPart {
     let outline = stave_outline();
     let lot = number as u32 * 3;
     let length = HEIGHT + 0.003 * chance(lot);
@@ -134,9 +134,9 @@ fn stave(number: usize) -> Part {
 }
 
 /// A sweep whose section narrows only along its x; the wall's chart narrows with it.
-fn tapered(outline: &Outline, path: &[Station]) -> Shape {
-    let mut shape = Shape::default();
-    let ends = Ends {
+fn tapered(outline: &Outline, path: &[Station]) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
+    let ends = SweepEnds {
         radius: 0.002,
         segments: 1,
     };
@@ -180,7 +180,7 @@ fn tapered(outline: &Outline, path: &[Station]) -> Shape {
 }
 
 /// Four boards side by side, cut round.
-fn barrel_head(name: &str, y: f64) -> Vec<Part> {
+fn barrel_head(name: &str, y: f64) -> Vec<ModelPart> {
     let radius = radius_at(y) - STAVE + 0.004;
     let (boards, thick) = (4, 0.02);
     let broad = 2.0 * radius / f64::from(boards);
@@ -201,7 +201,7 @@ fn barrel_head(name: &str, y: f64) -> Vec<Part> {
                 side: DVec3::X,
                 up: DVec3::NEG_Z,
             };
-            let ends = Ends {
+            let ends = SweepEnds {
                 radius: 0.0025,
                 segments: 1,
             };
@@ -214,7 +214,7 @@ fn barrel_head(name: &str, y: f64) -> Vec<Part> {
 }
 
 /// A band that leans with the staves it holds.
-fn iron_hoop(y: f64, broad: f64) -> Shape {
+fn iron_hoop(y: f64, broad: f64) -> ChartedMesh {
     let mut outline = rectangle(0.0042, broad, 0.0012, 1, 1);
     // Its chart border runs along the lower edge of the inner face, which is hardly visible.
     outline.seams = vec![7];
@@ -223,7 +223,7 @@ fn iron_hoop(y: f64, broad: f64) -> Shape {
 }
 
 /// The wooden stopper in the widest place of a stave.
-fn bung() -> Part {
+fn bung() -> ModelPart {
     let line = [
         dvec2(0.0, 0.012),
         dvec2(0.02, 0.0115),

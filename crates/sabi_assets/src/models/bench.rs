@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DQuat, DVec2, DVec3, dvec2, dvec3};
 
+use super::charted_mesh::{self, ChartedMesh, ModelPart};
 use super::glb::{Material, Model};
-use super::outline::{Outline, Turn, circle, rounded, rounded_rectangle};
-use super::shape::{self, Part, Shape};
-use super::sweep::{Ends, Station, sweep, turned};
+use super::outline::{Outline, OutlineCorner, circle, rounded, rounded_rectangle};
+use super::sweep::{Station, SweepEnds, sweep, turned};
 
 /// Distance of the stone sides from the middle, in meters.
 const SIDE_X: f64 = 0.56;
@@ -43,7 +43,7 @@ pub(crate) fn bench() -> Model {
 }
 
 /// A plank's place in the side view.
-struct Row {
+struct PlankPlace {
     /// Middle of the face that rests on the stone.
     foot: DVec2,
     /// Away from the stone, unit length.
@@ -56,7 +56,7 @@ struct Row {
 }
 
 /// Four planks to sit on, three to lean on. No two are quite alike.
-fn rows() -> Vec<Row> {
+fn rows() -> Vec<PlankPlace> {
     let seat = (CREASE - SEAT_FRONT).normalize_or_zero();
     let back = (BACK_TOP - CREASE).normalize_or_zero();
     let mut rows = Vec::new();
@@ -64,7 +64,7 @@ fn rows() -> Vec<Row> {
     let sags = [0.004, 0.006, 0.005, 0.003, 0.001, 0.0015, 0.001];
     for i in 0..4 {
         let foot = SEAT_FRONT + seat * (0.036 + 0.108 * f64::from(i));
-        rows.push(Row {
+        rows.push(PlankPlace {
             foot,
             away: seat.perp(),
             width: 0.098,
@@ -74,7 +74,7 @@ fn rows() -> Vec<Row> {
     }
     for i in 0..3 {
         let foot = CREASE + back * (0.132 + 0.126 * f64::from(i));
-        rows.push(Row {
+        rows.push(PlankPlace {
             foot,
             away: back.perp(),
             width: 0.114,
@@ -99,16 +99,16 @@ fn turn_to(away: DVec2) -> DQuat {
     DQuat::from_mat3(&DMat3::from_cols(DVec3::X, y, DVec3::X.cross(y)))
 }
 
-fn part(name: String, translation: DVec3, rotation: DQuat, shape: Shape, smooth_below: f64) -> Part {
-    Part {
+fn part(name: String, translation: DVec3, rotation: DQuat, shape: ChartedMesh, smooth_below: f64) -> ModelPart {
+    ModelPart {
         smooth_below,
-        ..shape::part(name, 0, translation, rotation, shape)
+        ..charted_mesh::part(name, 0, translation, rotation, shape)
     }
 }
 
 /// A side: its outline, drawn through its thickness, every edge broken by a mason's chisel.
-fn stone(name: &str, x: f64) -> Part {
-    let turn = |x: f64, y: f64, radius: f64, seam: bool| Turn {
+fn stone(name: &str, x: f64) -> ModelPart {
+    let turn = |x: f64, y: f64, radius: f64, seam: bool| OutlineCorner {
         at: dvec2(x, y),
         radius,
         seam,
@@ -147,7 +147,7 @@ fn stone(name: &str, x: f64) -> Part {
     let shape = sweep(
         &outline,
         &path,
-        Ends {
+        SweepEnds {
             radius: 0.012,
             segments: 2,
         },
@@ -156,7 +156,7 @@ fn stone(name: &str, x: f64) -> Part {
 }
 
 /// A plank along x with its resting face at y = 0, sunk a little in its middle.
-fn plank(number: usize, row: &Row) -> Part {
+fn plank(number: usize, row: &PlankPlace) -> ModelPart {
     let outline = rounded_rectangle(row.width, PLANK, 0.008, 2);
     let pieces = 6;
     let path: Vec<Station> = (0..=pieces)
@@ -181,7 +181,7 @@ fn plank(number: usize, row: &Row) -> Part {
     let shape = sweep(
         &outline,
         &path,
-        Ends {
+        SweepEnds {
             radius: 0.006,
             segments: 2,
         },
@@ -196,14 +196,14 @@ fn plank(number: usize, row: &Row) -> Part {
 }
 
 /// Flat iron over the planks: up the front edge, along the seat, up the back.
-fn strap(name: &str, x: f64) -> Part {
+fn strap(name: &str, x: f64) -> ModelPart {
     let seat = (CREASE - SEAT_FRONT).normalize_or_zero();
     let back = (BACK_TOP - CREASE).normalize_or_zero();
     let above = PLANK + STRAP / 2.0 - 0.0015;
     let front = SEAT_FRONT + seat * (-0.013 - STRAP / 2.0) + seat.perp() * above;
     let (seat_line, back_line) = (SEAT_FRONT + seat.perp() * above, CREASE + back.perp() * above);
     let along_seat = (back_line - seat_line).perp_dot(back) / seat.perp_dot(back);
-    let turn = |at: DVec2, radius: f64| Turn {
+    let turn = |at: DVec2, radius: f64| OutlineCorner {
         at,
         radius,
         seam: false,
@@ -226,7 +226,7 @@ fn strap(name: &str, x: f64) -> Part {
     part(name.into(), dvec3(x, 0.0, 0.0), DQuat::IDENTITY, shape, 50.0)
 }
 
-const STRAP_ENDS: Ends = Ends {
+const STRAP_ENDS: SweepEnds = SweepEnds {
     radius: 0.0015,
     segments: 1,
 };
@@ -249,7 +249,7 @@ fn path_in_side_view(line: &Outline) -> Vec<Station> {
 }
 
 /// A round bolt head on a strap.
-fn bolt(name: &str, row: &Row, x: f64) -> Part {
+fn bolt(name: &str, row: &PlankPlace, x: f64) -> ModelPart {
     let dome = (0..=3).map(|i| {
         let t = f64::from(i) / 3.0;
         dvec2(0.016 * t, 0.0015 + 0.0085 * (1.0 - t * t).sqrt())
@@ -267,7 +267,7 @@ fn bolt(name: &str, row: &Row, x: f64) -> Part {
 }
 
 /// The cast plate with a nut's dome that holds the tie rod, on the outer face of a side.
-fn rosette(name: &str, x: f64) -> Part {
+fn rosette(name: &str, x: f64) -> ModelPart {
     let line = [
         dvec2(0.0, 0.022),
         dvec2(0.008, 0.021),
@@ -292,7 +292,7 @@ fn rosette(name: &str, x: f64) -> Part {
 }
 
 /// The rod between the sides, its ends inside the stone.
-fn tie_rod() -> Part {
+fn tie_rod() -> ModelPart {
     let path: Vec<Station> = (0..=8)
         .map(|i| Station {
             center: DVec3::X * (f64::from(i) / 4.0 - 1.0) * (SIDE_X - 0.06),
@@ -303,7 +303,7 @@ fn tie_rod() -> Part {
     let shape = sweep(
         &circle(0.013, 16),
         &path,
-        Ends {
+        SweepEnds {
             radius: 0.002,
             segments: 1,
         },

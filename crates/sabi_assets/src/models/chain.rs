@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DQuat, DVec3, dvec3};
 
+use super::charted_mesh::{self, ChartedMesh, ModelPart};
 use super::glb::{Material, Model};
 use super::hoop::{circle_path, hoop, link_path};
 use super::outline::circle;
-use super::shape::{self, Part, Shape};
 
 const LINKS: usize = 11;
 /// Radius of the wire, and of a link's bends along the middle of the wire.
@@ -65,10 +65,10 @@ pub(crate) fn chain() -> Model {
     }
 }
 
-fn part(name: String, translation: DVec3, rotation: DQuat, shape: Shape) -> Part {
-    Part {
+fn part(name: String, translation: DVec3, rotation: DQuat, shape: ChartedMesh) -> ModelPart {
+    ModelPart {
         smooth_below: 180.0,
-        ..shape::part(name, 0, translation, rotation, shape)
+        ..charted_mesh::part(name, 0, translation, rotation, shape)
     }
 }
 

@@ -4,12 +4,12 @@ use glam::{DMat3, DQuat, DVec2, DVec3, dvec2, dvec3};
 
 use super::ball::Skin;
 use super::bar::{Bar, timber};
+use super::charted_mesh::{ModelPart, part};
 use super::fixings::lying_along;
 use super::glb::{Material, Model};
 use super::hoop::hoop;
-use super::outline::{Turn, circle, rectangle, rounded};
-use super::shape::{Part, part};
-use super::sweep::{Ends, Station, sweep};
+use super::outline::{OutlineCorner, circle, rectangle, rounded};
+use super::sweep::{Station, SweepEnds, sweep};
 
 const WOOD: usize = 0;
 const LEATHER: usize = 1;
@@ -60,7 +60,7 @@ fn post_share(y: f64) -> f64 {
 }
 
 /// A back leg that continues as a post of the back.
-fn post(name: &str, side: f64) -> Part {
+fn post(name: &str, side: f64) -> ModelPart {
     let pieces = 14;
     let station = |i: usize| {
         let share = f64::from(i as u32) / f64::from(pieces as u32);
@@ -81,7 +81,7 @@ fn post(name: &str, side: f64) -> Part {
         }
     };
     let path: Vec<Station> = (0..=pieces).map(station).collect();
-    let ends = Ends {
+    let ends = SweepEnds {
         radius: 0.004,
         segments: 2,
     };
@@ -101,7 +101,7 @@ fn unit_ends(mut path: Vec<Station>) -> Vec<Station> {
 }
 
 /// A tapered leg, splayed a little to the front and to its side.
-fn front_leg(name: &str, side: f64) -> Part {
+fn front_leg(name: &str, side: f64) -> ModelPart {
     let foot = dvec3((LEG_X + 0.012) * side, 0.0, LEG_Z + 0.016);
     let hip = dvec3(LEG_X * side, SEAT - 0.022, LEG_Z);
     let up = (hip - foot).normalize_or_zero();
@@ -120,7 +120,7 @@ fn front_leg(name: &str, side: f64) -> Part {
 
 /// The seat's plan, wider in front, some of it cut off all around; x to the right, −z up.
 fn seat_plan(inset: f64) -> super::outline::Outline {
-    let turn = |x: f64, y: f64, radius: f64| Turn {
+    let turn = |x: f64, y: f64, radius: f64| OutlineCorner {
         at: dvec2(x, y),
         radius: radius - inset * 0.4,
         seam: false,
@@ -145,13 +145,13 @@ fn seat_plan(inset: f64) -> super::outline::Outline {
     outline
 }
 
-fn seat() -> Part {
+fn seat() -> ModelPart {
     let station = |y: f64| Station {
         center: DVec3::Y * y,
         side: DVec3::X,
         up: DVec3::NEG_Z,
     };
-    let ends = Ends {
+    let ends = SweepEnds {
         radius: 0.008,
         segments: 3,
     };
@@ -160,7 +160,7 @@ fn seat() -> Part {
 }
 
 /// A pillow: a ball flattened, squared and sunk where one sits.
-fn cushion() -> Part {
+fn cushion() -> ModelPart {
     let mut skin = Skin::new(14);
     for point in &mut skin.points {
         let round = (point.x.powi(4) + point.z.powi(4)).sqrt() + point.y.powi(2);
@@ -171,14 +171,14 @@ fn cushion() -> Part {
         point.y -= 0.008 * (-3.0 * sat).exp() * (full.y + 1.0).clamp(0.0, 1.0);
     }
     let shape = skin.shape(120);
-    Part {
+    ModelPart {
         smooth_below: 180.0,
         ..part("cushion", LEATHER, DVec3::Y * (SEAT + 0.022), DQuat::IDENTITY, shape)
     }
 }
 
 /// The cord sewn around the cushion.
-fn piping() -> Part {
+fn piping() -> ModelPart {
     let count = 56;
     let at = |i: usize| {
         let around = DVec2::from_angle(-std::f64::consts::TAU * i as f64 / f64::from(count as u32));
@@ -196,14 +196,14 @@ fn piping() -> Part {
     };
     let path: Vec<Station> = (0..count).map(station).collect();
     let shape = hoop(&circle(0.0052, 8), &path, 4);
-    Part {
+    ModelPart {
         smooth_below: 180.0,
         ..part("piping", LEATHER, DVec3::Y * (SEAT + 0.022), DQuat::IDENTITY, shape)
     }
 }
 
 /// Three slats and a top rail between the posts, bent to the back.
-fn slats() -> Vec<Part> {
+fn slats() -> Vec<ModelPart> {
     let bent = |name: &str, y: f64, height: f64, thick: f64| {
         let share = post_share(y);
         let at = post_at(share);
@@ -220,7 +220,7 @@ fn slats() -> Vec<Part> {
             }
         };
         let path: Vec<Station> = (0..=pieces).map(station).collect();
-        let ends = Ends {
+        let ends = SweepEnds {
             radius: 0.002,
             segments: 1,
         };
@@ -237,7 +237,7 @@ fn slats() -> Vec<Part> {
 }
 
 /// Four boards below the seat.
-fn rails() -> Vec<Part> {
+fn rails() -> Vec<ModelPart> {
     let back_z = post_at(post_share(SEAT - 0.05)).x;
     let rail = |name: &str, from: DVec3, to: DVec3| {
         let y = SEAT - 0.052;
@@ -262,7 +262,7 @@ fn rails() -> Vec<Part> {
 }
 
 /// Turned rods between the legs, thicker in their middle.
-fn stretchers() -> Vec<Part> {
+fn stretchers() -> Vec<ModelPart> {
     let rod = |name: &str, from: DVec3, to: DVec3| {
         let pieces = 8;
         let length = from.distance(to);
@@ -280,7 +280,7 @@ fn stretchers() -> Vec<Part> {
             }
         };
         let path: Vec<Station> = (0..=pieces).map(station).collect();
-        let ends = Ends {
+        let ends = SweepEnds {
             radius: 0.002,
             segments: 1,
         };

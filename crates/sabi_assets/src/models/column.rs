@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, dvec2};
 
 use super::bar::{Bar, timber};
+use super::charted_mesh::{ChartedMesh, ModelPart};
 use super::glb::{Material, Model};
-use super::lathe::{Turned, arc, even_angles, lathe};
-use super::shape::{Part, Shape};
+use super::lathe::{LatheSolid, arc, even_angles, lathe};
 
 /// Flutes around the shaft, and points across one of them, its fillet included.
 const FLUTES: usize = 20;
@@ -39,16 +39,16 @@ pub(crate) fn column() -> Model {
     }
 }
 
-fn part(name: &str, translation: DVec3, shape: Shape) -> Part {
-    Part {
+fn part(name: &str, translation: DVec3, shape: ChartedMesh) -> ModelPart {
+    ModelPart {
         translation,
         smooth_below: 38.0,
-        ..Part::new(name, shape)
+        ..ModelPart::new(name, shape)
     }
 }
 
 /// Two tori with a hollow between them.
-fn base() -> Shape {
+fn base() -> ChartedMesh {
     let mut line = arc(dvec2(0.196, 0.132), dvec2(0.036, 0.036), -90.0, 90.0, 8);
     line.push(dvec2(0.204, 0.176));
     line.extend(
@@ -66,7 +66,7 @@ fn base() -> Shape {
 }
 
 /// A ring below the neck, a hollow, three fillets and the cushion that carries the abacus.
-fn capital() -> Shape {
+fn capital() -> ChartedMesh {
     let mut line = vec![dvec2(0.142, 2.205)];
     line.extend(arc(dvec2(0.146, 2.22), dvec2(0.013, 0.013), -90.0, 90.0, 6));
     line.push(dvec2(0.139, 2.235));
@@ -86,9 +86,9 @@ fn capital() -> Shape {
 }
 
 /// Turned without flutes, in four charts.
-fn plain(line: &[DVec2], around: usize) -> Shape {
+fn plain(line: &[DVec2], around: usize) -> ChartedMesh {
     let angles = even_angles(around);
-    lathe(&Turned {
+    lathe(&LatheSolid {
         line,
         angles: &angles,
         strips: 4,
@@ -103,7 +103,7 @@ fn radius_at(y: f64) -> f64 {
 }
 
 /// The shaft: flutes that end in round niches, drums with a worn joint between them.
-fn shaft() -> Shape {
+fn shaft() -> ChartedMesh {
     // Radius beyond the shaft's own, height, and how deep the flutes are there.
     let mut rows: Vec<(f64, f64, f64)> = vec![(0.02, FOOT, 0.0), (0.02, FOOT + 0.02, 0.0), (0.013, FOOT + 0.023, 0.0)];
     rows.extend([(0.005, FOOT + 0.035, 0.0), (0.0, FOOT + 0.055, 0.0)]);
@@ -145,7 +145,7 @@ fn shaft() -> Shape {
         let across = PI * (i % POINTS) as f64 / (POINTS - 1) as f64;
         rows[k].2 * 0.34 * line[k].x * TAU / FLUTES as f64 * across.sin()
     };
-    lathe(&Turned {
+    lathe(&LatheSolid {
         line: &line,
         angles: &angles,
         strips: 4,

@@ -5,9 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DMat3, DQuat, DVec3, dvec3};
 
 use super::bar::{Bar, timber};
+use super::charted_mesh::{ChartedMesh, ModelPart, part};
 use super::fixings::{chance, head, lying_along, standing_on};
 use super::glb::{Material, Model};
-use super::shape::{Part, Shape, part};
 
 const WOOD: usize = 0;
 const IRON: usize = 1;
@@ -24,13 +24,13 @@ const SKID: f64 = 0.045;
 
 /// Parts and nails while the crate is built.
 #[derive(Default)]
-struct Work {
-    parts: Vec<Part>,
-    nails: Shape,
+struct CrateParts {
+    parts: Vec<ModelPart>,
+    nails: ChartedMesh,
 }
 
-impl Work {
-    fn part(&mut self, name: String, translation: DVec3, rotation: DQuat, shape: Shape) {
+impl CrateParts {
+    fn part(&mut self, name: String, translation: DVec3, rotation: DQuat, shape: ChartedMesh) {
         self.parts.push(part(name, WOOD, translation, rotation, shape));
     }
 
@@ -41,16 +41,16 @@ impl Work {
 
 /// The crate.
 pub(crate) fn crate_box() -> Model {
-    let mut work = Work::default();
+    let mut work = CrateParts::default();
     for (number, name) in ["front", "right", "back", "left"].into_iter().enumerate() {
         side(&mut work, name, number);
     }
     bottom(&mut work);
     lid(&mut work);
-    let Work { mut parts, nails } = work;
-    parts.push(Part {
+    let CrateParts { mut parts, nails } = work;
+    parts.push(ModelPart {
         material: IRON,
-        ..Part::new("nails", nails)
+        ..ModelPart::new("nails", nails)
     });
     Model {
         name: "crate",
@@ -66,7 +66,7 @@ fn upright() -> DQuat {
 }
 
 /// One side in the plane of x and y, facing z, then turned into place: four boards, a frame of battens, a brace.
-fn side(work: &mut Work, name: &str, number: usize) {
+fn side(work: &mut CrateParts, name: &str, number: usize) {
     let turn = DQuat::from_rotation_y(FRAC_PI_2 * number as f64);
     let is_narrow = number % 2 == 1;
     let inner = WIDTH - 2.0 * BATTEN - if is_narrow { 2.0 * BOARD } else { 0.0 };
@@ -123,7 +123,7 @@ fn side(work: &mut Work, name: &str, number: usize) {
 }
 
 /// Boards between the sides, and two skids below.
-fn bottom(work: &mut Work) {
+fn bottom(work: &mut CrateParts) {
     let inner = WIDTH - 2.0 * BATTEN - 2.0 * BOARD;
     let broad = inner / 4.0;
     for i in 0..4 {
@@ -144,7 +144,7 @@ fn bottom(work: &mut Work) {
 }
 
 /// Five boards along x, the last one pried loose, and two battens across them.
-fn lid(work: &mut Work) {
+fn lid(work: &mut CrateParts) {
     let top = SKID + HEIGHT;
     let broad = WIDTH / 5.0;
     for i in 0..5 {

@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec2, DVec3, dvec3};
 
 use super::ball::Skin;
+use super::charted_mesh::{ChartedMesh, Corner, ModelPart};
 use super::glb::{Material, Model};
-use super::shape::{Corner, Part, Shape};
 
 /// Height of the figure without its ears, in meters; the solids below are for a height of 1.
 const SCALE: f64 = 0.4;
@@ -40,10 +40,10 @@ fn melted(a: f64, b: f64, melt: f64) -> f64 {
 }
 
 /// Center, radii, turn about x and z in degrees, melt.
-type Row = ([f64; 3], [f64; 3], [f64; 2], f64);
+type EllipsoidRow = ([f64; 3], [f64; 3], [f64; 2], f64);
 
 /// Body, belly, head, tail and beak, in the order in which they melt together with what comes between.
-const MIDDLE: [Row; 5] = [
+const MIDDLE: [EllipsoidRow; 5] = [
     ([0.0, 0.36, 0.0], [0.27, 0.38, 0.235], [0.0, 0.0], 0.1),
     ([0.0, 0.34, 0.07], [0.2, 0.28, 0.2], [0.0, 0.0], 0.05),
     ([0.0, 0.745, 0.02], [0.25, 0.19, 0.2], [0.0, 0.0], 0.1),
@@ -51,7 +51,7 @@ const MIDDLE: [Row; 5] = [
     ([0.0, 0.72, 0.215], [0.04, 0.07, 0.06], [-14.0, 0.0], 0.035),
 ];
 /// Wing, foot, ear, eye ring and eye of the right side; the left side is its mirror.
-const SIDE: [Row; 5] = [
+const SIDE: [EllipsoidRow; 5] = [
     ([0.235, 0.4, -0.03], [0.085, 0.26, 0.175], [8.0, 4.0], 0.045),
     ([0.12, 0.03, 0.16], [0.095, 0.075, 0.13], [0.0, 0.0], 0.11),
     ([0.165, 0.905, 0.02], [0.07, 0.13, 0.055], [0.0, -26.0], 0.08),
@@ -60,7 +60,7 @@ const SIDE: [Row; 5] = [
 ];
 
 fn lumps() -> Vec<Lump> {
-    let lump = |&(center, radii, degrees, melt): &Row, side: f64| Lump {
+    let lump = |&(center, radii, degrees, melt): &EllipsoidRow, side: f64| Lump {
         center: DVec3::from(center) * dvec3(side, 1.0, 1.0),
         radii: radii.into(),
         turn: DQuat::from_rotation_x(degrees[0].to_radians())
@@ -142,11 +142,11 @@ pub(crate) fn million() -> Model {
 }
 
 /// Every quad cut into `pieces`² and brought onto the owl again; texture coordinates stay where they were.
-pub(crate) fn subdivided(pieces: usize) -> Shape {
+pub(crate) fn subdivided(pieces: usize) -> ChartedMesh {
     let lumps = lumps();
     let skin = skin(&lumps);
     let sheets = scaled(skin.clone()).sheets(UNROLL_ROUNDS);
-    let mut shape = Shape::default();
+    let mut shape = ChartedMesh::default();
     for (rows, sheet) in skin.faces.iter().zip(&sheets) {
         let corner = |x: usize, y: usize| {
             let (i, j) = ((x / pieces).min(STEPS - 1), (y / pieces).min(STEPS - 1));
@@ -185,10 +185,10 @@ fn scaled(mut skin: Skin) -> Skin {
     skin
 }
 
-fn model(name: &'static str, shape: Shape) -> Model {
-    let part = Part {
+fn model(name: &'static str, shape: ChartedMesh) -> Model {
+    let part = ModelPart {
         smooth_below: 180.0,
-        ..Part::new("owl", shape)
+        ..ModelPart::new("owl", shape)
     };
     Model {
         name,

@@ -2,11 +2,11 @@
 
 use glam::{DQuat, DVec2, DVec3, dvec2};
 
-use super::shape::Shape;
+use super::charted_mesh::ChartedMesh;
 use super::sweep::turned;
 
 /// A flat dome about the y axis that sits on y = 0, its underside a little below: the head of a nail, rivet or bolt.
-pub(crate) fn head(radius: f64, height: f64, segments: usize) -> Shape {
+pub(crate) fn head(radius: f64, height: f64, segments: usize) -> ChartedMesh {
     let dome = [(0.0, 1.0), (0.55, 0.86), (0.9, 0.45), (1.0, 0.1)];
     let mut line: Vec<DVec2> = dome.iter().map(|&(out, up)| dvec2(out * radius, up * height)).collect();
     line.extend([dvec2(radius, -0.2 * height), dvec2(0.0, -0.2 * height)]);

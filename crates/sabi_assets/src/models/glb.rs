@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use serde_json::{Value, json};
 
+use super::charted_mesh::{ModelPart, corner_normals};
 use super::pack::pack;
-use super::shape::{Part, corner_normals};
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_BYTE: u32 = 5121;
@@ -25,7 +25,7 @@ pub(crate) struct Model {
     /// Materials of its parts; all share one sheet of texture coordinates.
     pub(crate) materials: Vec<Material>,
     /// Its pieces.
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<ModelPart>,
 }
 
 /// Material of a part.
@@ -65,7 +65,7 @@ impl Material {
 
 /// A part as the file holds it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Indexed {
+pub(crate) struct IndexedMesh {
     /// In meters.
     pub(crate) positions: Vec<[f32; 3]>,
     /// Unit length.
@@ -77,12 +77,12 @@ pub(crate) struct Indexed {
 }
 
 /// Every part with its charts placed and equal corners joined.
-pub(crate) fn index(model: &Model) -> Vec<Indexed> {
+pub(crate) fn index(model: &Model) -> Vec<IndexedMesh> {
     let places = pack(&model.parts);
     let parts = model.parts.iter().zip(&places);
     parts
         .map(|(part, places)| {
-            let mut indexed = Indexed::default();
+            let mut indexed = IndexedMesh::default();
             let mut numbers: BTreeMap<[u32; 8], u32> = BTreeMap::new();
             for (triangle, normals) in part.shape.triangles.iter().zip(corner_normals(part)) {
                 for (corner, normal) in triangle.corners.iter().zip(normals) {
@@ -223,7 +223,7 @@ pub(crate) fn encode(model: &Model) -> Vec<u8> {
     container(&document.to_string(), &tables.bytes)
 }
 
-fn node(part: &Part, mesh: usize) -> Value {
+fn node(part: &ModelPart, mesh: usize) -> Value {
     let mut node = json!({ "name": part.name, "mesh": mesh });
     if part.translation != DVec3::ZERO {
         node["translation"] = json!(rounded(part.translation));

@@ -4,14 +4,14 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3, dvec2};
 
+use super::charted_mesh::{ChartedMesh, Corner};
 use super::outline::Outline;
-use super::shape::{Corner, Shape};
 use super::sweep::{Station, seam_to_seam};
 
 /// Draws a counter-clockwise outline along a closed path; each run from seam to seam is cut across into `pieces` charts,
 /// each as long as that run is on average.
-pub(crate) fn hoop(outline: &Outline, path: &[Station], pieces: usize) -> Shape {
-    let mut shape = Shape::default();
+pub(crate) fn hoop(outline: &Outline, path: &[Station], pieces: usize) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
     let count = outline.points.len();
     for range in seam_to_seam(outline) {
         let place = |j: usize, i: usize| path[j % path.len()].place(outline.points[i % count]);

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
-use super::shape::{Corner, Shape};
+use super::charted_mesh::{ChartedMesh, Corner};
 
 /// Profile and divisions of a turned solid.
-pub(crate) struct Turned<'a> {
+pub(crate) struct LatheSolid<'a> {
     /// (distance from the axis, height) from the lower end to the upper one, along the outside.
     pub(crate) line: &'a [DVec2],
     /// Angles of its points around the axis, in radians, ascending over one turn without its end.
@@ -24,8 +24,8 @@ pub(crate) fn even_angles(count: usize) -> Vec<f64> {
 }
 
 /// Turns it about the y axis.
-pub(crate) fn lathe(what: &Turned) -> Shape {
-    let mut shape = Shape::default();
+pub(crate) fn lathe(what: &LatheSolid) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
     let count = what.angles.len();
     let around = |i: usize| DVec2::from_angle(what.angles[i % count]);
     let place = |k: usize, i: usize| {

@@ -6,7 +6,7 @@ use glam::{DVec2, dvec2};
 
 /// A corner of an outline before rounding.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn {
+pub(crate) struct OutlineCorner {
     /// Position in meters.
     pub(crate) at: DVec2,
     /// Radius of its rounding, in meters; 0 keeps it sharp.
@@ -25,7 +25,7 @@ pub(crate) struct Outline {
 }
 
 /// Rounds every corner with an arc of `segments` pieces.
-pub(crate) fn rounded(turns: &[Turn], segments: usize, closed: bool) -> Outline {
+pub(crate) fn rounded(turns: &[OutlineCorner], segments: usize, closed: bool) -> Outline {
     let count = turns.len();
     let mut outline = Outline::default();
     for (i, turn) in turns.iter().enumerate() {
@@ -69,13 +69,13 @@ pub(crate) fn rounded_rectangle(width: f64, height: f64, radius: f64, spans: usi
 /// A [`rounded_rectangle`] with a choice of how many pieces each corner's arc has; 1 is a plain bevel.
 pub(crate) fn rectangle(width: f64, height: f64, radius: f64, spans: usize, segments: usize) -> Outline {
     let (x, y) = (width / 2.0, height / 2.0);
-    let corner = |x: f64, y: f64| Turn {
+    let corner = |x: f64, y: f64| OutlineCorner {
         at: dvec2(x, y),
         radius,
         seam: false,
     };
     let mut turns = vec![
-        Turn {
+        OutlineCorner {
             at: dvec2(0.0, -y),
             radius: 0.0,
             seam: true,
@@ -85,7 +85,7 @@ pub(crate) fn rectangle(width: f64, height: f64, radius: f64, spans: usize, segm
     ];
     let flat = width - 2.0 * radius;
     for i in 1..spans {
-        turns.push(Turn {
+        turns.push(OutlineCorner {
             at: dvec2(flat / 2.0 - flat * i as f64 / spans as f64, y),
             radius: 0.0,
             seam: false,

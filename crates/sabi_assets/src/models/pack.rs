@@ -2,7 +2,7 @@
 
 use glam::{DVec2, dvec2};
 
-use super::shape::Part;
+use super::charted_mesh::ModelPart;
 
 /// The sheet that gaps are promised for, in texels.
 pub(crate) const SHEET_PX: i32 = 1024;
@@ -11,7 +11,7 @@ pub(crate) const GAP_PX: i32 = 8;
 
 /// Position of a chart on the packed sheet.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct PackedPlace {
     /// The chart's lowest sheet coordinates, in meters.
     low: DVec2,
     /// Its height before turning, in meters.
@@ -24,7 +24,7 @@ pub(crate) struct Place {
     density: f64,
 }
 
-impl Place {
+impl PackedPlace {
     /// The glTF texture coordinate (v downward) of a sheet coordinate.
     pub(crate) fn uv_from_sheet(&self, sheet: DVec2) -> [f32; 2] {
         let own = sheet - self.low;
@@ -40,7 +40,7 @@ impl Place {
 }
 
 /// Places every chart of every part, at the highest density at which all of them fit.
-pub(crate) fn pack(parts: &[Part]) -> Vec<Vec<Place>> {
+pub(crate) fn pack(parts: &[ModelPart]) -> Vec<Vec<PackedPlace>> {
     let bounds: Vec<(DVec2, DVec2)> = parts.iter().flat_map(chart_bounds).collect();
     let sizes: Vec<DVec2> = bounds.iter().map(|(low, high)| *high - *low).collect();
     let area: f64 = sizes.iter().map(|size| size.x * size.y).sum();
@@ -54,7 +54,7 @@ pub(crate) fn pack(parts: &[Part]) -> Vec<Vec<Place>> {
     let mut places = bounds
         .iter()
         .zip(corners)
-        .map(|(&(low, high), (corner_px, turned))| Place {
+        .map(|(&(low, high), (corner_px, turned))| PackedPlace {
             low,
             height: high.y - low.y,
             corner_px,
@@ -67,7 +67,7 @@ pub(crate) fn pack(parts: &[Part]) -> Vec<Vec<Place>> {
         .collect()
 }
 
-fn chart_bounds(part: &Part) -> Vec<(DVec2, DVec2)> {
+fn chart_bounds(part: &ModelPart) -> Vec<(DVec2, DVec2)> {
     let mut bounds = vec![(DVec2::INFINITY, DVec2::NEG_INFINITY); part.shape.charts];
     for triangle in &part.shape.triangles {
         for corner in triangle.corners {

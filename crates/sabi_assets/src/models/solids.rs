@@ -3,8 +3,8 @@
 use glam::{DVec2, dvec2};
 
 use super::ball::{FACES, ball};
+use super::charted_mesh::{ChartedMesh, Corner, ModelPart};
 use super::glb::{Material, Model};
-use super::shape::{Corner, Part, Shape};
 
 /// A ball of one meter across, in six charts.
 pub(crate) fn sphere() -> Model {
@@ -28,7 +28,7 @@ const AWKWARD: [(f64, f64, bool); 6] = [
 
 /// A cube of one meter: the seam torture test. Each face is a chart of its own turn, density and handedness.
 pub(crate) fn cube() -> Model {
-    let mut shape = Shape::default();
+    let mut shape = ChartedMesh::default();
     for ([right, up, out], (degrees, density, mirrored)) in FACES.into_iter().zip(AWKWARD) {
         let turn = DVec2::from_angle(f64::to_radians(degrees));
         let corner = |x: f64, y: f64| {
@@ -58,9 +58,9 @@ pub(crate) fn cube() -> Model {
     }
 }
 
-fn part(name: &str, shape: Shape) -> Part {
-    Part {
+fn part(name: &str, shape: ChartedMesh) -> ModelPart {
+    ModelPart {
         smooth_below: 30.0,
-        ..Part::new(name, shape)
+        ..ModelPart::new(name, shape)
     }
 }

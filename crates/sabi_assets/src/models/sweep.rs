@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
+use super::charted_mesh::{ChartedMesh, Corner};
 use super::outline::{Outline, fill, offset};
-use super::shape::{Corner, Shape};
 
 /// A place on a path, with the plane the outline lies in; the path goes along `side × up`.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ impl Station {
 
 /// Rounding of the two ends of a swept solid.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ends {
+pub(crate) struct SweepEnds {
     /// In meters, less than the outline's own corner radii.
     pub(crate) radius: f64,
     /// Pieces of the quarter circle; 1 is a plain bevel.
@@ -41,8 +41,8 @@ pub(crate) struct Ends {
 
 /// Draws a counter-clockwise outline along a path and closes both ends. The wall is one chart from seam to seam, each
 /// end with its rounding is one more.
-pub(crate) fn sweep(outline: &Outline, path: &[Station], ends: Ends) -> Shape {
-    let mut shape = Shape::default();
+pub(crate) fn sweep(outline: &Outline, path: &[Station], ends: SweepEnds) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
     for range in seam_to_seam(outline) {
         wall(&mut shape, outline, path, range, ends.radius);
     }
@@ -66,7 +66,7 @@ pub(crate) fn seam_to_seam(outline: &Outline) -> Vec<RangeInclusive<usize>> {
 }
 
 /// One chart of the wall: the outline's points of a range, along the whole path short of the rounded ends.
-fn wall(shape: &mut Shape, outline: &Outline, path: &[Station], range: RangeInclusive<usize>, end_radius: f64) {
+fn wall(shape: &mut ChartedMesh, outline: &Outline, path: &[Station], range: RangeInclusive<usize>, end_radius: f64) {
     let count = outline.points.len();
     let mut rows = Vec::new();
     let mut y = 0.0;
@@ -101,11 +101,11 @@ fn wall(shape: &mut Shape, outline: &Outline, path: &[Station], range: RangeIncl
 /// An end: rings of the rounding and the flat fill, as one chart; the rings lie on the sheet at their true distance.
 /// `inward` leads from the end into the solid, by one meter of depth.
 pub(crate) fn end_cap(
-    shape: &mut Shape,
+    shape: &mut ChartedMesh,
     outline: &[DVec2],
     station: &Station,
     inward: DVec3,
-    ends: Ends,
+    ends: SweepEnds,
     is_start: bool,
 ) {
     let chart = shape.begin_chart();
@@ -156,8 +156,8 @@ pub(crate) fn end_cap(
 
 /// Turns a line of (distance from the axis, height) from the top of the y axis to its foot about that axis. The top
 /// with its rim is one round chart, the underside (everything from `under` on) another.
-pub(crate) fn turned(line: &[DVec2], under: usize, segments: usize) -> Shape {
-    let mut shape = Shape::default();
+pub(crate) fn turned(line: &[DVec2], under: usize, segments: usize) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
     let mut disc = |line: &[DVec2], faces_down: bool| {
         let chart = shape.begin_chart();
         let mut from_axis = 0.0;

@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};
 
 use super::bar::{Bar, timber};
+use super::charted_mesh::{ChartedMesh, ModelPart, part};
 use super::fixings::{chance, head, lying_along, standing_on};
 use super::glb::{Material, Model};
-use super::outline::{Turn, rectangle, rounded};
-use super::shape::{Part, Shape, part};
-use super::sweep::{Ends, Station, sweep};
+use super::outline::{OutlineCorner, rectangle, rounded};
+use super::sweep::{Station, SweepEnds, sweep};
 
 const WOOD: usize = 0;
 const IRON: usize = 1;
@@ -44,7 +44,7 @@ pub(crate) fn table() -> Model {
 }
 
 /// Five planks along x and two battens below them across; the outermost plank has warped and lies a little askew.
-fn top() -> Vec<Part> {
+fn top() -> Vec<ModelPart> {
     let mut parts = Vec::new();
     let width = 0.152;
     for (row, length) in [1.4, 1.392, 1.4, 1.386, 1.397].into_iter().enumerate() {
@@ -80,7 +80,7 @@ fn top() -> Vec<Part> {
 }
 
 /// A leg that narrows toward its foot and stands flat on the floor.
-fn leg(name: &str, side: DVec3) -> Part {
+fn leg(name: &str, side: DVec3) -> ModelPart {
     let (foot, hip) = (FOOT * side, HIP * side);
     let up = (hip - foot).normalize_or_zero();
     // Its faces stay square to the table's as far as the splay lets them.
@@ -103,7 +103,7 @@ fn axis_at(y: f64) -> DVec3 {
 }
 
 /// Four rails from leg to leg below the top.
-fn rails() -> Vec<Part> {
+fn rails() -> Vec<ModelPart> {
     let corner = axis_at(RAIL_Y);
     let rail = |name: &str, direction: DVec3, length: f64, out: DVec3| {
         let shape = timber(
@@ -133,7 +133,7 @@ fn rails() -> Vec<Part> {
 }
 
 /// A stretcher between each pair of legs, a beam between the stretchers, and two braces from the beam up to the top.
-fn braces() -> Vec<Part> {
+fn braces() -> Vec<ModelPart> {
     let low = axis_at(0.2);
     let along = |from: DVec3, to: DVec3, name: &str, width: f64, height: f64, bar: &dyn Fn(f64) -> Bar| {
         let shape = timber(width, height, 0.005, &bar(from.distance(to)));
@@ -171,11 +171,11 @@ fn braces() -> Vec<Part> {
 }
 
 /// A bent strip of iron around a corner of the rails, and its bolts.
-fn angle_iron(name: &str, side: DVec3) -> Vec<Part> {
+fn angle_iron(name: &str, side: DVec3) -> Vec<ModelPart> {
     let corner = axis_at(RAIL_Y);
     let (x, z) = (corner.x + 0.042, corner.z + 0.042);
     let (reach, thick) = (0.13, 0.005);
-    let turn = |x: f64, z: f64, radius: f64| Turn {
+    let turn = |x: f64, z: f64, radius: f64| OutlineCorner {
         at: dvec2(x, z),
         radius,
         seam: false,
@@ -188,9 +188,9 @@ fn angle_iron(name: &str, side: DVec3) -> Vec<Part> {
         turn(x, z - 0.06, 0.0),
         turn(x, z - reach, 0.0),
     ];
-    let mirrored: Vec<Turn> = line
+    let mirrored: Vec<OutlineCorner> = line
         .iter()
-        .map(|turn| Turn {
+        .map(|turn| OutlineCorner {
             at: turn.at * dvec2(side.x, side.z),
             ..*turn
         })
@@ -207,13 +207,13 @@ fn angle_iron(name: &str, side: DVec3) -> Vec<Part> {
         }
     };
     let path: Vec<Station> = (0..points.len()).map(station).collect();
-    let ends = Ends {
+    let ends = SweepEnds {
         radius: 0.0012,
         segments: 1,
     };
     let strip = sweep(&rectangle(0.056, thick, 0.0015, 2, 2), &path, ends);
     let mut parts = vec![part(format!("angle_{name}"), IRON, DVec3::ZERO, DQuat::IDENTITY, strip)];
-    let mut bolts = Shape::default();
+    let mut bolts = ChartedMesh::default();
     for from_corner in [0.062, 0.112] {
         for (at, normal) in [
             (dvec3(x - from_corner, RAIL_Y + 0.002, z), DVec3::Z),

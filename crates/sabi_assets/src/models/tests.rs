@@ -7,9 +7,9 @@ use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
+use super::charted_mesh::{ModelPart, Triangle, place_key};
 use super::glb::{Model, encode, index};
 use super::pack::{GAP_PX, SHEET_PX, pack};
-use super::shape::{Part, Triangle, place_key};
 use super::{MAKERS, figure};
 
 /// Made once: the figure takes a while.
@@ -322,7 +322,7 @@ fn parts_have_names_of_their_own_and_materials_that_exist() {
 #[test]
 fn each_link_hangs_in_the_next() {
     let chain = MODELS.iter().find(|model| model.name == "chain").unwrap();
-    let points = |part: &Part| -> Vec<DVec3> {
+    let points = |part: &ModelPart| -> Vec<DVec3> {
         let corners = part.shape.triangles.iter().flat_map(|triangle| triangle.corners);
         corners
             .map(|corner| part.translation + part.rotation * corner.position)

@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};
 
 use super::bar::{Bar, bar, block, miter};
+use super::charted_mesh::{self, ChartedMesh, ModelPart};
 use super::fixings::chance;
 use super::glb::{Material, Model};
-use super::outline::{Turn, offset, rounded};
-use super::shape::{self, Part, Shape};
-use super::sweep::{Ends, Station, sweep};
+use super::outline::{OutlineCorner, offset, rounded};
+use super::sweep::{Station, SweepEnds, sweep};
 
 const BRICK: usize = 0;
 const MORTAR: usize = 1;
@@ -57,12 +57,12 @@ fn damp(place: DVec3) -> [f64; 3] {
 /// The model's middle is over the origin.
 const SHIFT: DVec3 = dvec3(-REACH / 2.0, 0.0, REACH / 2.0);
 
-fn part(name: &str, material: usize, shape: Shape) -> Part {
-    shape::part(name, material, SHIFT, DQuat::IDENTITY, shape)
+fn part(name: &str, material: usize, shape: ChartedMesh) -> ModelPart {
+    charted_mesh::part(name, material, SHIFT, DQuat::IDENTITY, shape)
 }
 
 /// The walls' plan drawn upward, made larger or smaller all around.
-fn plan_solid(by: f64, from: f64, to: f64, edge: f64) -> Shape {
+fn plan_solid(by: f64, from: f64, to: f64, edge: f64) -> ChartedMesh {
     // Seen from above: x to the right, −z up the page.
     let plan = [
         dvec2(0.0, 0.0),
@@ -72,9 +72,9 @@ fn plan_solid(by: f64, from: f64, to: f64, edge: f64) -> Shape {
         dvec2(THICK, REACH),
         dvec2(0.0, REACH),
     ];
-    let turns: Vec<Turn> = offset(&plan, by)
+    let turns: Vec<OutlineCorner> = offset(&plan, by)
         .into_iter()
-        .map(|at| Turn {
+        .map(|at| OutlineCorner {
             at,
             radius: edge,
             seam: true,
@@ -86,7 +86,7 @@ fn plan_solid(by: f64, from: f64, to: f64, edge: f64) -> Shape {
         side: DVec3::X,
         up: DVec3::NEG_Z,
     };
-    let ends = Ends {
+    let ends = SweepEnds {
         radius: edge * 0.9,
         segments: 2,
     };
@@ -94,8 +94,8 @@ fn plan_solid(by: f64, from: f64, to: f64, edge: f64) -> Shape {
 }
 
 /// The bricks of the front wall (0) or the left one (1): each laid by hand.
-fn bricks(wall: usize) -> Shape {
-    let mut shape = Shape::default();
+fn bricks(wall: usize) -> ChartedMesh {
+    let mut shape = ChartedMesh::default();
     for course in 0..COURSES {
         // The walls take turns in having the corner.
         let has_corner = course % 2 == wall;
@@ -135,7 +135,7 @@ fn molding() -> super::outline::Outline {
         (half + 0.052, 0.062, 0.003),
         (half + 0.054, 0.112, 0.006),
     ];
-    let turn = |at: DVec2, radius: f64, seam: bool| Turn { at, radius, seam };
+    let turn = |at: DVec2, radius: f64, seam: bool| OutlineCorner { at, radius, seam };
     let mut turns = vec![turn(DVec2::ZERO, 0.0, true)];
     turns.extend(side.iter().map(|&(x, y, radius)| turn(dvec2(x, y), radius, false)));
     turns.push(turn(dvec2(0.0, 0.13), 0.0, true));
@@ -149,32 +149,32 @@ fn molding() -> super::outline::Outline {
 
 /// Half the joint at the miter, so that the two stones do not share their edges.
 const MITER_GAP: f64 = 0.0006;
-const CORNICE_ENDS: Ends = Ends {
+const CORNICE_ENDS: SweepEnds = SweepEnds {
     radius: 0.0016,
     segments: 1,
 };
 
 /// From the miter at the corner to beyond the front wall's end.
-fn cornice_front(y: f64) -> Part {
+fn cornice_front(y: f64) -> ModelPart {
     let (from, to) = (THICK / 2.0 + MITER_GAP, REACH + 0.04);
     let along = Bar {
         cuts: [miter(-1.0, -1.0), DVec3::X],
         ..Bar::of(to - from)
     };
-    Part {
+    ModelPart {
         translation: SHIFT + dvec3((from + to) / 2.0, y, -THICK / 2.0),
         ..part("cornice_front", STONE, bar(&molding(), &along, CORNICE_ENDS))
     }
 }
 
 /// The same along the left wall; its x runs toward the front.
-fn cornice_left(y: f64) -> Part {
+fn cornice_left(y: f64) -> ModelPart {
     let (from, to) = (THICK / 2.0 + MITER_GAP, REACH + 0.04);
     let along = Bar {
         cuts: [DVec3::NEG_X, miter(1.0, -1.0)],
         ..Bar::of(to - from)
     };
-    Part {
+    ModelPart {
         translation: SHIFT + dvec3(THICK / 2.0, y, -(from + to) / 2.0),
         rotation: DQuat::from_rotation_y(-90f64.to_radians()),
         ..part("cornice_left", STONE, bar(&molding(), &along, CORNICE_ENDS))

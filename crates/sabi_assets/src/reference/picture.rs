@@ -2,16 +2,16 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::small_png::Picture;
+use crate::small_png::RgbPicture;
 
 /// Texture of 8 bits a channel.
 #[derive(Clone, Debug)]
-pub(crate) struct Texture(pub(crate) Picture);
+pub(crate) struct Texture(pub(crate) RgbPicture);
 
 impl Texture {
     /// Interpolates the codes, 0 to 1, of the four texels nearest to a texture coordinate (v downward).
     pub(crate) fn sample(&self, uv: DVec2) -> DVec3 {
-        let Picture {
+        let RgbPicture {
             size: [width, height],
             pixels,
         } = &self.0;

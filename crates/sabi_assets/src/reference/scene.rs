@@ -13,7 +13,7 @@ const BACKDROP: [u8; 3] = [236, 234, 230];
 
 /// Appearance of one material of a model.
 #[derive(Clone, Debug)]
-pub(crate) enum Look {
+pub(crate) enum ReferenceLook {
     /// Values to be seen as they are, in light that hides nothing.
     Flat(Texture),
     /// A material to be judged.
@@ -29,14 +29,14 @@ pub(crate) enum Look {
 
 /// A corner of a triangle: where it is seen (x right, y down, z toward the eye, in samples), its frame and texture place.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+struct ScreenCorner {
     seen: DVec3,
     normal: DVec3,
     uv: DVec2,
 }
 
 /// Renders a model; one look a material.
-pub(crate) fn render(model: &Model, looks: &[Look]) -> Vec<[u8; 3]> {
+pub(crate) fn render(model: &Model, looks: &[ReferenceLook]) -> Vec<[u8; 3]> {
     let side = SIDE * SAMPLES;
     let mut colors = vec![DVec3::from(BACKDROP.map(|code| linear_from_srgb(f64::from(code) / 255.0))); side * side];
     let mut depths = vec![f64::NEG_INFINITY; side * side];
@@ -59,7 +59,7 @@ pub(crate) fn render(model: &Model, looks: &[Look]) -> Vec<[u8; 3]> {
 }
 
 /// All triangles with the number of their material, turned toward the eye and scaled to fill the picture.
-fn triangles(model: &Model, side: f64) -> Vec<([Corner; 3], usize)> {
+fn triangles(model: &Model, side: f64) -> Vec<([ScreenCorner; 3], usize)> {
     let view = DQuat::from_rotation_x(22f64.to_radians()) * DQuat::from_rotation_y(36f64.to_radians());
     let mut all = Vec::new();
     for (part, indexed) in model.parts.iter().zip(index(model)) {
@@ -67,7 +67,7 @@ fn triangles(model: &Model, side: f64) -> Vec<([Corner; 3], usize)> {
         let corner = |&i: &u32| {
             let i = i as usize;
             let own = DVec3::from(indexed.positions[i].map(f64::from));
-            Corner {
+            ScreenCorner {
                 seen: view * part.translation + turn * own,
                 normal: turn * DVec3::from(indexed.normals[i].map(f64::from)),
                 uv: DVec2::from(indexed.uvs[i].map(f64::from)),
@@ -94,7 +94,7 @@ fn triangles(model: &Model, side: f64) -> Vec<([Corner; 3], usize)> {
     all
 }
 
-fn draw(corners: &[Corner; 3], look: &Look, side: usize, colors: &mut [DVec3], depths: &mut [f64]) {
+fn draw(corners: &[ScreenCorner; 3], look: &ReferenceLook, side: usize, colors: &mut [DVec3], depths: &mut [f64]) {
     let at = corners.map(|corner| corner.seen.truncate());
     let area = (at[1] - at[0]).perp_dot(at[2] - at[0]);
     // y points down, so what faces the eye turns the other way.
@@ -128,15 +128,15 @@ fn draw(corners: &[Corner; 3], look: &Look, side: usize, colors: &mut [DVec3], d
 const KEY: DVec3 = dvec3(-0.48, 0.66, 0.58);
 const FILL: DVec3 = dvec3(0.8, 0.15, 0.58);
 
-fn shade(look: &Look, normal: DVec3, uv: DVec2, corners: &[Corner; 3]) -> DVec3 {
+fn shade(look: &ReferenceLook, normal: DVec3, uv: DVec2, corners: &[ScreenCorner; 3]) -> DVec3 {
     match look {
-        Look::Flat(texture) => {
+        ReferenceLook::Flat(texture) => {
             let color = texture.sample(uv).to_array().map(linear_from_srgb);
             let light = 0.6 + 0.34 * normal.dot(KEY).max(0.0) + 0.1 * normal.dot(FILL).max(0.0);
             // Black would show no shape at all.
             (DVec3::from(color) * 0.975 + 0.025) * light
         }
-        Look::Lit {
+        ReferenceLook::Lit {
             base_color,
             roughness,
             metallic,
@@ -150,7 +150,7 @@ fn shade(look: &Look, normal: DVec3, uv: DVec2, corners: &[Corner; 3]) -> DVec3 
 }
 
 /// A tangent-space normal in the picture's space.
-fn bent_normal(own: DVec3, normal: DVec3, corners: &[Corner; 3]) -> DVec3 {
+fn bent_normal(own: DVec3, normal: DVec3, corners: &[ScreenCorner; 3]) -> DVec3 {
     let place = corners.map(|corner| corner.seen * dvec3(1.0, -1.0, 1.0));
     let (one, other) = (place[1] - place[0], place[2] - place[0]);
     let (du, dv) = (corners[1].uv - corners[0].uv, corners[2].uv - corners[0].uv);

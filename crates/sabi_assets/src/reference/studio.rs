@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::pages::pictures_of;
 use super::picture::Texture;
-use super::scene::{Look, SIDE, render};
+use super::scene::{ReferenceLook, SIDE, render};
 use super::specimen::{Specimen, specimen};
 use crate::models::glb::Model;
 use crate::models::model;
@@ -85,7 +85,7 @@ impl Studio<'_> {
         let model = &self.models[&specimen.mesh];
         let graph = self.work_folder.join("specimen.sabi");
         fs::write(&graph, format!("{:#}\n", specimen.graph)).map_err(|error| error.to_string())?;
-        let looks: Result<Vec<Look>, String> = model
+        let looks: Result<Vec<ReferenceLook>, String> = model
             .materials
             .iter()
             .map(|material| {
@@ -122,14 +122,14 @@ impl Studio<'_> {
         }
     }
 
-    fn preview(&self, graph: &Path, mesh: &str, material: &str, target: &str) -> Result<Look, String> {
+    fn preview(&self, graph: &Path, mesh: &str, material: &str, target: &str) -> Result<ReferenceLook, String> {
         let file = self.work_folder.join("preview.png");
         let path = file.display().to_string();
         self.sabi("preview", graph, mesh, material, &["--node", target, "-o", &path])?;
-        read(&file).map(|picture| Look::Flat(Texture(picture)))
+        read(&file).map(|picture| ReferenceLook::Flat(Texture(picture)))
     }
 
-    fn bake(&self, graph: &Path, mesh: &str, material: &str) -> Result<Look, String> {
+    fn bake(&self, graph: &Path, mesh: &str, material: &str) -> Result<ReferenceLook, String> {
         let folder = self.work_folder.join("bake");
         let _ = fs::remove_dir_all(&folder);
         let path = folder.display().to_string();
@@ -149,7 +149,7 @@ impl Studio<'_> {
             read(file).map(Texture)
         };
         let [base_color, roughness, metallic, normal] = MAPS.map(map);
-        Ok(Look::Lit {
+        Ok(ReferenceLook::Lit {
             base_color: base_color?,
             roughness: roughness?,
             metallic: metallic?,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use sabi_graph::{NodeId, NodeRows, SlotRef, Value};
 
-use crate::arrangement::{Align, Axis};
+use crate::arrangement::{Align, DistributionAxis};
 use crate::connections::PendingWire;
 use crate::dropped_layers::DroppedOn;
 use crate::hand_layers::HandLayer;
@@ -128,7 +128,7 @@ pub enum ArrangeCommand {
     /// Align the selected nodes.
     Align(Align),
     /// Distribute the selected nodes evenly.
-    Distribute(Axis),
+    Distribute(DistributionAxis),
     /// Move the selected nodes up or down until the wires between them are horizontal.
     Straighten,
     /// Lay out the selected nodes from left to right, or all nodes if none is selected.

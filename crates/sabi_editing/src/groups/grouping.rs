@@ -4,7 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{
-    Body, Edit, Exposed, GROUP_KIND, GroupDef, GroupInput, INSTANCE_KNOBS, KnobCurve, Node, NodeId, OutputRef, SlotRef,
+    Body, Edit, ExposedParameter, GROUP_KIND, GroupDef, GroupInput, INSTANCE_KNOBS, KnobCurve, Node, NodeId, OutputRef,
+    SlotRef,
 };
 
 use crate::duplication::frames_around;
@@ -142,7 +143,7 @@ struct Boundary {
     /// Names of the group's outputs, for each form in which wires refer to an output.
     output_names: BTreeMap<OutputRef, String>,
     /// Exposed knobs of the new group.
-    knobs: BTreeMap<String, Exposed>,
+    knobs: BTreeMap<String, ExposedParameter>,
     /// Name of the group's knob for each exposed knob of the enclosing graph.
     knob_names: BTreeMap<String, String>,
 }
@@ -229,7 +230,7 @@ impl Boundary {
     }
 
     /// Exposes in the group the knobs of nodes inside that an exposed knob outside controls.
-    fn add_knob(&mut self, exposed: &str, knob: &Exposed, ids: &BTreeSet<NodeId>) {
+    fn add_knob(&mut self, exposed: &str, knob: &ExposedParameter, ids: &BTreeSet<NodeId>) {
         let to: Vec<SlotRef> = knob
             .to
             .iter()

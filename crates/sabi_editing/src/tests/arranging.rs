@@ -47,7 +47,7 @@ fn distributed_nodes_have_equal_spaces_and_the_ends_stay() {
     };
     let before = ends(&document);
     step(&mut document, |document| {
-        arrangement::distribute(document, Axis::Vertical)
+        arrangement::distribute(document, DistributionAxis::Vertical)
     });
     let [first, middle, last] = ends(&document);
     assert_eq!((first, last), (before[0], before[2]));
@@ -57,7 +57,7 @@ fn distributed_nodes_have_equal_spaces_and_the_ends_stay() {
     );
     select(&mut document, &["n", "w"]);
     let said = refused(&mut document, |document| {
-        arrangement::distribute(document, Axis::Horizontal)
+        arrangement::distribute(document, DistributionAxis::Horizontal)
     });
     assert_eq!(said, "select three or more nodes to distribute them");
 }

@@ -233,7 +233,7 @@ fn trying_a_variant_gives_the_same_result_as_showing_it_and_changes_nothing() {
     exposed_values::set_default(&mut document, "size", number(0.25));
     let before = document.session.text().to_owned();
     let tried = |document: &OpenDocument, name| {
-        let graph = variants::tried(document, None, name).expect("a graph");
+        let graph = variants::graph_with_variant(document, None, name).expect("a graph");
         let flat = graph.flatten(&Overrides::of_preview(&graph.document)).expect("a graph");
         flat.nodes.into_iter().map(|node| node.params).collect::<Vec<_>>()
     };
@@ -243,7 +243,7 @@ fn trying_a_variant_gives_the_same_result_as_showing_it_and_changes_nothing() {
     variants::show(&mut document, Some("fine"));
     assert_eq!(fine, shown(&document));
     assert_ne!(fine, own);
-    assert!(variants::tried(&document, Some(&id("gone")), None).is_none());
+    assert!(variants::graph_with_variant(&document, Some(&id("gone")), None).is_none());
 }
 
 #[test]
@@ -255,7 +255,7 @@ fn an_instance_with_a_variant_keeps_only_values_that_no_variant_sets() {
             "nodes": { "n": { "kind": "noise/simplex" } } } },"#,
         r#""g": { "kind": "graph/group", "group": "Spots", "params": { "octaves": 2, "size": 0.4, "variant": "fine" } }"#,
     );
-    let tried = variants::tried(&document, Some(&id("g")), Some("coarse")).expect("a graph");
+    let tried = variants::graph_with_variant(&document, Some(&id("g")), Some("coarse")).expect("a graph");
     step(&mut document, |document| {
         instance_variants::choose(document, &id("g"), Some("coarse"))
     });

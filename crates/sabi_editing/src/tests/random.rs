@@ -2,21 +2,21 @@
 //! evaluated.
 
 mod actions;
-mod dice;
 mod kills;
+mod split_mix;
 
 use sabi_engine::catalog::Interfaces;
 use sabi_graph::UNDO_STEPS;
 
 use super::*;
-use actions::Hands;
-use dice::Dice;
+use actions::RandomActions;
+use split_mix::SplitMix64;
 
 /// Total number of random edits, and number of graphs that they are spread over.
 const EDITS: usize = 10_000;
 const GRAPHS: usize = 25;
 
-impl Hands {
+impl RandomActions {
     /// Checks the invariants that hold after every edit.
     fn check(&mut self) {
         let text = self.document.session.text().to_owned();
@@ -77,9 +77,9 @@ fn ten_thousand_random_edits_can_be_undone_and_redone() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         std::fs::create_dir_all(folder.path().join("deep/er")).expect("a writable folder");
         let session = Session::new(Some(&folder.path().join("kept")));
-        let mut actions = Hands {
+        let mut actions = RandomActions {
             document: document_with(session, graph as u64),
-            dice: Dice(graph as u64),
+            dice: SplitMix64(graph as u64),
             clipboard: String::new(),
             kinds: kinds.clone(),
             safe: Vec::new(),

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use sabi_graph::{Body, Document, Edit, Node, NodeId, OutputRef, Value};
 
 /// A kind of node, one knob of it with its range, its inputs, and whether it gives a material.
-type Kind = (&'static str, &'static str, [f64; 2], &'static [&'static str], bool);
+type WalkKind = (&'static str, &'static str, [f64; 2], &'static [&'static str], bool);
 
-const KINDS: [Kind; 8] = [
+const KINDS: [WalkKind; 8] = [
     ("noise/simplex", "size", [0.05, 0.5], &[], false),
     ("surface/direction", "reach", [10.0, 170.0], &[], false),
     ("adjust/threshold", "at", [0.0, 1.0], &["source"], false),
@@ -34,7 +34,7 @@ pub(crate) const FIRST: &str = r##"{ "format": "sabi", "version": 1, "preview": 
     "out": { "kind": "output/material", "inputs": { "material": "rust" } } } }"##;
 
 /// Step of a walk.
-pub(crate) enum Step {
+pub(crate) enum WalkStep {
     /// An edit, which may be refused.
     Edit(Box<Edit>),
     /// Undo of the last step.
@@ -69,17 +69,17 @@ impl Walk {
     }
 
     /// Chooses the next step for a graph.
-    pub(crate) fn next(&mut self, document: &Document) -> Step {
+    pub(crate) fn next(&mut self, document: &Document) -> WalkStep {
         let ids: Vec<NodeId> = document.graph.ids().cloned().collect();
         let edit = match self.below(20) {
             0..10 => self.turn(document, &ids),
             10..14 => self.tie(document, &ids),
             14 | 15 => self.come_or_go(document, &ids),
             16 => self.mute(document, &ids),
-            17 | 18 => return Step::Undo,
-            _ => return Step::Redo,
+            17 | 18 => return WalkStep::Undo,
+            _ => return WalkStep::Redo,
         };
-        edit.map_or(Step::Undo, |edit| Step::Edit(Box::new(edit)))
+        edit.map_or(WalkStep::Undo, |edit| WalkStep::Edit(Box::new(edit)))
     }
 
     fn turn(&mut self, document: &Document, ids: &[NodeId]) -> Option<Edit> {
@@ -156,7 +156,7 @@ impl Walk {
     }
 }
 
-fn kind_of(document: &Document, id: &NodeId) -> Option<&'static Kind> {
+fn kind_of(document: &Document, id: &NodeId) -> Option<&'static WalkKind> {
     let node = document.graph.node(id.as_str())?;
     KINDS.iter().find(|(kind, ..)| *kind == node.kind)
 }

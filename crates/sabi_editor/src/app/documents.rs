@@ -25,20 +25,20 @@ use crate::builtin_models::{builtin_name, model_of};
 use crate::evaluation::Evaluation;
 use crate::files::examples;
 use crate::kinds_reading::KindsReading;
-use crate::library::Library;
+use crate::library::GroupLibrary;
 use crate::model_row::ModelRow;
 use crate::paths::{canonical_if_present, in_canonical_folder};
 use crate::saved_pictures::SavedPictures;
 use crate::search::{Candidate, LibraryGroup, candidates};
 use crate::settings::{ModelStrip, Settings};
-use crate::watching::{WatchedFiles, Watching};
+use crate::window_watcher::{WatchedFiles, WindowWatcher};
 
 /// Time between two autosaves.
 const AUTOSAVE_EVERY: Duration = Duration::from_secs(3);
 
 /// Folders of the program on this machine; `None` where the system has no such folder.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Folders {
+pub(crate) struct ProgramFolders {
     pub(crate) settings: Option<PathBuf>,
     pub(crate) cache: Option<PathBuf>,
     /// Graphs that are not saved yet.
@@ -51,7 +51,7 @@ pub(crate) struct Folders {
     pub(crate) examples: Option<PathBuf>,
 }
 
-impl Folders {
+impl ProgramFolders {
     /// Writes the built-in model that new graphs are shown on, if it is missing, and returns its file.
     ///
     /// # Errors
@@ -76,16 +76,16 @@ impl Folders {
 /// The open graph with everything that belongs to it.
 pub(crate) struct Documents {
     pub(crate) document: OpenDocument,
-    pub(crate) folders: Folders,
+    pub(crate) folders: ProgramFolders,
     /// Graphs and node files that were not saved when the program ended.
     pub(crate) recoveries: Recoveries,
     /// Models on the strip above the viewport.
     pub(crate) models: ModelStrip,
-    pub(crate) library: Library,
+    pub(crate) library: GroupLibrary,
     pub(crate) pictures: SavedPictures,
     /// Brushes that are kept.
     pub(crate) brushes: BrushShelf,
-    pub(crate) watching: Watching,
+    pub(crate) watching: WindowWatcher,
     pub(crate) kinds_reading: KindsReading,
     /// True once the user has chosen a model for the open graph, which it names from then on.
     pub(crate) is_model_chosen: bool,
@@ -147,13 +147,18 @@ impl Autosave {
 
 impl Documents {
     /// Creates the state of an open graph. With `has_recoveries`, unsaved work that can be recovered is looked up.
-    pub(crate) fn new(document: OpenDocument, folders: Folders, watching: Watching, has_recoveries: bool) -> Documents {
+    pub(crate) fn new(
+        document: OpenDocument,
+        folders: ProgramFolders,
+        watching: WindowWatcher,
+        has_recoveries: bool,
+    ) -> Documents {
         let recovery = folders.recovery.as_deref().filter(|_| has_recoveries);
         Documents {
             document,
             recoveries: Recoveries::in_folder(recovery),
             models: ModelStrip::default(),
-            library: Library::default(),
+            library: GroupLibrary::default(),
             pictures: SavedPictures::new(folders.cache.clone()),
             brushes: BrushShelf::open(folders.settings.as_deref()),
             watching,

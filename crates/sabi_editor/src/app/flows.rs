@@ -1,8 +1,8 @@
 //! Operations that involve several owners: opening and saving, the model, closing the window, and files that change.
 
-mod dropped;
+mod dropped_files;
 mod models;
-mod recovering;
+mod recovery;
 mod saving;
 mod trust;
 
@@ -99,10 +99,10 @@ impl Editor {
         self.views.canvas = Default::default();
         self.views.export.forget_dialog();
         self.looks.clear();
-        self.node_tips.forget();
+        self.node_brush_tip.forget();
         self.evaluation.drop_nodes();
         self.row.drop_nodes();
-        self.trials.forget_variants();
+        self.choice_previews.forget_variants();
         let shown = canonical_if_present(self.evaluation.model.file());
         match model.filter(|model| canonical_if_present(model) != shown) {
             Some(model) => self.take_model(&model),
@@ -182,7 +182,7 @@ impl Editor {
             });
         };
         let picture = documents.document.selected_one().and_then(|id| {
-            let result = crate::looks::result_of(&documents.document, id, None);
+            let result = crate::shown_results::result_of(&documents.document, id, None);
             self.evaluation.results.thumbnail_pixels(&result).cloned()
         });
         let Some(file) = library::save_group(&mut documents.document, &folder) else {

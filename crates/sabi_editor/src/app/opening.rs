@@ -8,7 +8,7 @@ use sabi_editing::OpenDocument;
 use sabi_engine::Session;
 use sabi_files::TrustedPaths;
 
-use super::documents::{Documents, Folders};
+use super::documents::{Documents, ProgramFolders};
 use crate::builtin_models::model_of;
 use crate::canvas::Canvas;
 use crate::files::key_list::KeyList;
@@ -18,17 +18,17 @@ use crate::flat_view::FlatView;
 use crate::gradient_picker::GradientPicker;
 use crate::model_view::ModelView;
 use crate::panels::export::ExportPanel;
-use crate::panels::history::History;
+use crate::panels::history::HistoryPanel;
 use crate::panels::library::LibraryPanel;
-use crate::panels::page::{DraftEditor, Page};
+use crate::panels::node_page::{DraftEditor, NodePage};
 use crate::panels::parameters::Parameters;
 use crate::panels::problems::Problems;
-use crate::panels::stack::Layers;
+use crate::panels::stack::StackPanel;
 use crate::panels::timing::Timing;
 use crate::paths::in_canonical_folder;
 use crate::settings::Settings;
 use crate::views::Views;
-use crate::watching::Watching;
+use crate::window_watcher::WindowWatcher;
 
 const NOT_WRITTEN: &str = "The textures were not written, since the graphics device was lost; export them again.";
 
@@ -40,7 +40,7 @@ pub(crate) struct InitialState {
     pub(crate) is_model_given: bool,
     /// Paths that the command line trusts.
     pub(crate) trusted: TrustedPaths,
-    pub(crate) folders: Folders,
+    pub(crate) folders: ProgramFolders,
     /// True if the start page is shown.
     pub(crate) is_start: bool,
     /// Called once the window is closed for good and all work is kept, before the device is waited for.
@@ -64,7 +64,7 @@ pub(crate) struct LostWindow {
 pub(crate) type Handover = Arc<Mutex<Option<LostWindow>>>;
 
 /// Parts of a window that depend on how it was opened.
-pub(super) struct Opened {
+pub(super) struct OpenedWindow {
     pub(super) documents: Documents,
     pub(super) views: Views,
     pub(super) model: PathBuf,
@@ -74,11 +74,16 @@ pub(super) struct Opened {
     pub(super) fault: Vec<String>,
 }
 
-impl Opened {
+impl OpenedWindow {
     /// Takes over the state that a window on a lost device left. If there is none, opens the initial state, with the
     /// start page where there is something to recover.
-    pub(super) fn new(initial: InitialState, settings: &Settings, context: &Context, handover: &Handover) -> Opened {
-        let (watching, fault) = Watching::new(context);
+    pub(super) fn new(
+        initial: InitialState,
+        settings: &Settings,
+        context: &Context,
+        handover: &Handover,
+    ) -> OpenedWindow {
+        let (watching, fault) = WindowWatcher::new(context);
         let mut fault: Vec<String> = fault.map(|error| error.to_string()).into_iter().collect();
         let lost = handover.lock().ok().and_then(|mut lost| lost.take());
         let is_new = lost.is_none();
@@ -103,19 +108,19 @@ impl Opened {
             in_canonical_folder(&examples::at_home(examples, model))
         });
         let is_start = is_new && initial.is_start || !documents.recoveries.found.is_empty();
-        Opened {
+        OpenedWindow {
             views: Views {
                 canvas: lost.canvas,
                 model: ModelView::new(&settings.environment, &settings.view),
                 flat: FlatView::default(),
                 parameters: Parameters::default(),
-                layers: Layers::default(),
+                layers: StackPanel::default(),
                 library: LibraryPanel::default(),
                 export: ExportPanel::default(),
-                history: History,
+                history: HistoryPanel,
                 problems: Problems::default(),
                 timing: Timing,
-                page: Page::with_drafts(lost.drafts),
+                page: NodePage::with_drafts(lost.drafts),
                 questions: Questions::default(),
                 gradient_picker: GradientPicker::default(),
                 start: StartPage::new(is_start),

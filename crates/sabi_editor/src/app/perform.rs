@@ -24,7 +24,7 @@ use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, Mo
 use crate::dock::Panel;
 use crate::files::new_graph;
 use crate::knobs::KnobEvent;
-use crate::looks::{ColorTarget, result_of};
+use crate::shown_results::{ColorTarget, result_of};
 
 impl Editor {
     /// Performs the actions of a frame, and what follows from them.

@@ -1,24 +1,24 @@
 //! Tests of the window by clicks and keys, without a screen.
 
 mod answers;
-mod beginning;
 mod brush_tips;
 mod building;
+mod choice_previews;
 mod commands;
 mod dropping;
 mod export;
 mod faults;
 mod gradients;
+mod graph_views;
 mod groups;
 mod hands;
 mod keyboard;
 mod knobs;
 mod layers;
-mod leaving;
 mod library;
-mod linked;
-mod looking;
-mod lost;
+mod linked_groups;
+mod loss_protection;
+mod lost_device;
 mod many;
 mod measures;
 mod menu;
@@ -26,13 +26,13 @@ mod mouse;
 mod moving;
 mod newcomers;
 mod notes;
+mod notices;
 mod paint_paths;
 mod painting;
 mod panels;
 mod param_masks;
 mod paths;
 mod pens;
-mod pictures;
 mod ports;
 mod recovering;
 mod reroutes;
@@ -40,14 +40,14 @@ mod safety;
 mod second_window;
 mod sizes;
 mod snapshots;
+mod start_page;
 mod stencils;
 mod stroke_list;
-mod telling;
-mod trials;
 mod trust;
 mod views;
 mod watching;
 mod whole_graph;
+mod window_painting;
 mod wires;
 
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ use sabi_engine::Session;
 use sabi_files::TrustedPaths;
 use sabi_gpu::{AdapterChoice, Gpu};
 
-use super::{Editor, Folders, Handover, InitialState};
+use super::{Editor, Handover, InitialState, ProgramFolders};
 use crate::dock::Workspace;
 use crate::window::configuration;
 
@@ -98,12 +98,12 @@ impl Window {
         Window::with(|folders| Session::new(folders.recovery.as_deref()))
     }
 
-    fn with(session: impl FnOnce(&Folders) -> Session) -> Window {
+    fn with(session: impl FnOnce(&ProgramFolders) -> Session) -> Window {
         Window::in_folder(tempfile::tempdir().expect("a folder"), session)
     }
 
     /// A window with other folders than usual.
-    fn prepared(prepare: impl FnOnce(&mut Folders), session: impl FnOnce(&Folders) -> Session) -> Window {
+    fn prepared(prepare: impl FnOnce(&mut ProgramFolders), session: impl FnOnce(&ProgramFolders) -> Session) -> Window {
         let folder = tempfile::tempdir().expect("a folder");
         let mut folders = folders_in(folder.path());
         prepare(&mut folders);
@@ -111,12 +111,16 @@ impl Window {
     }
 
     /// A window in the folder of an earlier one.
-    fn in_folder(folder: tempfile::TempDir, session: impl FnOnce(&Folders) -> Session) -> Window {
+    fn in_folder(folder: tempfile::TempDir, session: impl FnOnce(&ProgramFolders) -> Session) -> Window {
         let folders = folders_in(folder.path());
         Window::in_folders(folder, folders, session)
     }
 
-    fn in_folders(folder: tempfile::TempDir, folders: Folders, session: impl FnOnce(&Folders) -> Session) -> Window {
+    fn in_folders(
+        folder: tempfile::TempDir,
+        folders: ProgramFolders,
+        session: impl FnOnce(&ProgramFolders) -> Session,
+    ) -> Window {
         let model = cube(&folders);
         Window::beginning_on(folder, folders, &model, session)
     }
@@ -124,9 +128,9 @@ impl Window {
     /// A window whose first model is not the cube.
     fn beginning_on(
         folder: tempfile::TempDir,
-        folders: Folders,
+        folders: ProgramFolders,
         model: &Path,
-        session: impl FnOnce(&Folders) -> Session,
+        session: impl FnOnce(&ProgramFolders) -> Session,
     ) -> Window {
         let session = session(&folders);
         let handover: Handover = Arc::new(Mutex::new(None));
@@ -216,9 +220,9 @@ fn graph_text(nodes: &str) -> String {
     format!(r#"{{ "format": "sabi", "version": 1, "preview": {{ "size": 64 }}, "nodes": {{ {nodes} }} }}"#)
 }
 
-fn folders_in(folder: &Path) -> Folders {
+fn folders_in(folder: &Path) -> ProgramFolders {
     let at = |name: &str| Some(folder.join(name));
-    Folders {
+    ProgramFolders {
         settings: at("settings"),
         // The cache is by content, and shared by all tests.
         cache: Some(
@@ -234,13 +238,13 @@ fn folders_in(folder: &Path) -> Folders {
 }
 
 /// Parent folder of the folders of a window.
-fn beside(folders: &Folders) -> &Path {
+fn beside(folders: &ProgramFolders) -> &Path {
     let settings = folders.settings.as_deref().and_then(Path::parent);
     settings.expect("a folder for settings")
 }
 
 /// A window on the software driver.
-fn open(session: Session, folders: Folders, model: PathBuf, handover: Handover) -> Harness<'static, Editor> {
+fn open(session: Session, folders: ProgramFolders, model: PathBuf, handover: Handover) -> Harness<'static, Editor> {
     let setup = configuration(&AdapterChoice::Cpu).wgpu_setup;
     let builder = Harness::builder()
         .with_size(vec2(1600.0, 900.0))
@@ -270,7 +274,7 @@ fn open(session: Session, folders: Folders, model: PathBuf, handover: Handover) 
 }
 
 /// A model that is quick to evaluate.
-fn cube(folders: &Folders) -> PathBuf {
+fn cube(folders: &ProgramFolders) -> PathBuf {
     let folder = folders.examples.as_ref().expect("a folder for examples");
     let file = folder.join("cube.glb");
     std::fs::create_dir_all(folder).expect("a folder");

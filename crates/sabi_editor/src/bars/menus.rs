@@ -12,7 +12,7 @@ use crate::command::{
 use crate::context::ViewContext;
 use crate::dock::{Panel, Workspace};
 use crate::paths::file_name;
-use crate::theme::{Shade, space, type_size};
+use crate::theme::{ColorScheme, space, type_size};
 
 /// Entries of the Edit menu; `None` is a line between them.
 pub(crate) const EDIT: &[Option<Command>] = &[
@@ -240,8 +240,8 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
     ui.separator();
     ui.menu_button("Workspace", |ui| {
         for (workspace, title) in Workspace::ALL {
-            let tip = workspace.about();
-            if ui.button(title).on_hover_text(tip).clicked() {
+            let tooltip = workspace.about();
+            if ui.button(title).on_hover_text(tooltip).clicked() {
                 actions.push(Action::Arrange(workspace));
             }
         }
@@ -253,8 +253,8 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
     let (mut shade, mut preset) = (context.settings.shade, context.settings.input_preset);
     ui.horizontal(|ui| {
         ui.label("Colors");
-        ui.selectable_value(&mut shade, Shade::Dark, "Dark");
-        ui.selectable_value(&mut shade, Shade::Light, "Light");
+        ui.selectable_value(&mut shade, ColorScheme::Dark, "Dark");
+        ui.selectable_value(&mut shade, ColorScheme::Light, "Light");
     });
     ui.horizontal(|ui| {
         ui.label("Keys");

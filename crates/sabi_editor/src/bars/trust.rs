@@ -55,8 +55,8 @@ fn refused_files(ui: &mut Ui, context: &ViewContext<'_>) -> Option<TrustAction> 
                 ui.label(RichText::new(sentence).color(context.theme.warning));
                 for folder in folders.into_iter().take(MOST_FOLDERS) {
                     let button = ui.button(format!("Trust {}", folder.display()));
-                    let tip = "All graphs and models may open the files below this folder from now on";
-                    if button.on_hover_text(tip).clicked() {
+                    let tooltip = "All graphs and models may open the files below this folder from now on";
+                    if button.on_hover_text(tooltip).clicked() {
                         trusted = Some(TrustAction::Folder(folder.to_owned()));
                     }
                 }
@@ -79,8 +79,8 @@ fn untrusted_nodes(ui: &mut Ui, context: &ViewContext<'_>) -> Option<TrustAction
                     folder.display()
                 );
                 ui.label(RichText::new(sentence).color(context.theme.warning));
-                let tip = "These nodes are used from now on, in all graphs of this folder";
-                if ui.button("Use these nodes").on_hover_text(tip).clicked() {
+                let tooltip = "These nodes are used from now on, in all graphs of this folder";
+                if ui.button("Use these nodes").on_hover_text(tooltip).clicked() {
                     chosen = Some(TrustAction::Nodes(folder.clone()));
                 }
                 if ui.button("Not now").clicked() {

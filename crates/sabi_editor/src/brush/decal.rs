@@ -7,7 +7,7 @@ use sabi_engine::live::LiveModel;
 use sabi_paint::{Brush, StrokePoint, rightward};
 use sabi_surface::patch::Site;
 
-use super::Canvas;
+use super::PaintView;
 use crate::settings::brush::BrushChoices;
 
 /// Length of a drag below which it is a click, in points.
@@ -30,7 +30,7 @@ pub(super) struct Decal {
 
 impl Decal {
     /// A decal whose middle lies at a place of the model.
-    pub(super) fn new(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint, middle: Pos2) -> Decal {
+    pub(super) fn new(model: &LiveModel, canvas: &impl PaintView, placed: &StrokePoint, middle: Pos2) -> Decal {
         Decal {
             axes: axes_on_screen(model, canvas, placed),
             way: Vec2::ZERO,
@@ -77,7 +77,7 @@ impl Decal {
 pub(super) fn sized(
     brush: &BrushChoices,
     model: &LiveModel,
-    canvas: &impl Canvas,
+    canvas: &impl PaintView,
     placed: &StrokePoint,
 ) -> BrushChoices {
     let axes = axes_on_screen(model, canvas, placed).filter(|_| brush.is_on_screen);
@@ -94,7 +94,7 @@ pub(super) fn sized(
 }
 
 /// Vectors on the screen of one model unit to the right and upward of a decal, in points.
-pub(super) fn axes_on_screen(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint) -> Option<[Vec2; 2]> {
+pub(super) fn axes_on_screen(model: &LiveModel, canvas: &impl PaintView, placed: &StrokePoint) -> Option<[Vec2; 2]> {
     let normal = DVec3::from(placed.normal.map(f64::from));
     let right = rightward(normal);
     let probe = PROBE * model.linked.largest_side;

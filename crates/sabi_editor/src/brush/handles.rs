@@ -10,7 +10,7 @@ use sabi_paint::{Brush, Step, Stroke, carried};
 
 use super::decal::{axes_on_screen, turn_of, wrapped};
 use super::under::{on_surface, point_at};
-use super::{Canvas, PaintSubject};
+use super::{PaintSubject, PaintView};
 use crate::action::{Action, PaintAction};
 
 /// Distance from the middle of a handle within which it is taken, points.
@@ -33,7 +33,7 @@ pub(crate) struct Handles {
 
 /// Part of a decal that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum DecalPart {
     Middle,
     Side,
 }
@@ -45,7 +45,7 @@ pub(super) struct HeldDecal {
     before: String,
     model: Arc<LiveModel>,
     stroke: Arc<Stroke>,
-    part: Part,
+    part: DecalPart,
     /// Half of its width, in radii.
     half_width: f32,
     /// Vector from the pointer to the handle, so that the handle does not jump.
@@ -56,7 +56,7 @@ impl Handles {
     /// The handles of a decal; `None` where the view does not show it. `half_sides` are those of its picture, in radii.
     pub(crate) fn of(
         model: &LiveModel,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         stroke: &Stroke,
         half_sides: [f32; 2],
     ) -> Option<Handles> {
@@ -84,8 +84,8 @@ impl Handles {
     }
 
     /// The part under a place of the screen; the side lies over the middle where both are near.
-    fn part_at(&self, at: Pos2) -> Option<(Part, Vec2)> {
-        let parts = [(Part::Side, self.side), (Part::Middle, self.middle)];
+    fn part_at(&self, at: Pos2) -> Option<(DecalPart, Vec2)> {
+        let parts = [(DecalPart::Side, self.side), (DecalPart::Middle, self.middle)];
         let near = parts.into_iter().find(|(_, handle)| handle.distance(at) <= NEAR);
         near.map(|(part, handle)| (part, handle - at))
     }
@@ -101,7 +101,7 @@ impl HeldDecal {
     pub(super) fn at(
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
     ) -> Option<HeldDecal> {
         let marked = painted.decal.as_ref()?;
@@ -119,10 +119,10 @@ impl HeldDecal {
     }
 
     /// Follows the pointer; returns the action that changes the decal.
-    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl Canvas) -> Option<Action> {
+    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl PaintView) -> Option<Action> {
         let step = match self.part {
-            Part::Middle => self.moved(pointer + self.grip, canvas),
-            Part::Side => self.turned(pointer + self.grip, canvas),
+            DecalPart::Middle => self.moved(pointer + self.grip, canvas),
+            DecalPart::Side => self.turned(pointer + self.grip, canvas),
         }?;
         Some(Action::Paint(PaintAction::Lay(PaintCommand::Steps {
             node: self.node.clone(),
@@ -133,7 +133,7 @@ impl HeldDecal {
         })))
     }
 
-    fn moved(&self, to: Pos2, canvas: &impl Canvas) -> Option<Step> {
+    fn moved(&self, to: Pos2, canvas: &impl PaintView) -> Option<Step> {
         let touch = self.stroke.points.first()?.touch();
         let point = point_at(&self.model, canvas, to, touch, true)?;
         let from = self.stroke.points.first()?;
@@ -149,7 +149,7 @@ impl HeldDecal {
         })
     }
 
-    fn turned(&self, to: Pos2, canvas: &impl Canvas) -> Option<Step> {
+    fn turned(&self, to: Pos2, canvas: &impl PaintView) -> Option<Step> {
         let placed = self.stroke.points.first()?;
         let middle = canvas.place(&self.model, placed.site)?;
         let axes = axes_on_screen(&self.model, canvas, placed)?;

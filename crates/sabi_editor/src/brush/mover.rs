@@ -11,7 +11,7 @@ use sabi_paint::{Brush, Step, Stroke, StrokePoint, carried};
 
 use super::decal::wrapped;
 use super::under::{on_surface, point_at};
-use super::{Canvas, PaintSubject};
+use super::{PaintSubject, PaintView};
 use crate::action::{Action, PaintAction};
 
 /// Distance from the middle of a handle within which it is taken, points.
@@ -53,7 +53,7 @@ pub(super) struct HeldStrokes {
 
 impl Mover {
     /// The handles of some strokes; `None` where the view does not show them. A single decal has its own.
-    pub(crate) fn of(model: &LiveModel, canvas: &impl Canvas, strokes: &[Arc<Stroke>]) -> Option<Mover> {
+    pub(crate) fn of(model: &LiveModel, canvas: &impl PaintView, strokes: &[Arc<Stroke>]) -> Option<Mover> {
         if let [only] = strokes
             && only.area.is_single()
         {
@@ -117,7 +117,7 @@ impl HeldStrokes {
     pub(super) fn at(
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
     ) -> Option<HeldStrokes> {
         let mover = Mover::of(model, canvas, &painted.marked)?;
@@ -133,7 +133,7 @@ impl HeldStrokes {
     }
 
     /// Follows the pointer; returns the action that moves or turns the strokes.
-    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl Canvas) -> Option<Action> {
+    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl PaintView) -> Option<Action> {
         let Mover { held, middle } = &self.mover;
         let (to, turn_degrees) = match self.handle {
             Handle::Move => {

@@ -10,7 +10,7 @@ use sabi_paint::{Action as BrushAction, Area, Eye, Stencil, Stroke, StrokePoint}
 
 use super::decal::{Decal, sized};
 use super::under::touched_at;
-use super::{Canvas, PaintSubject};
+use super::{PaintSubject, PaintView};
 use crate::action::{Action, PaintAction};
 use crate::pen::PenState;
 use crate::settings::brush::BrushChoices;
@@ -85,7 +85,7 @@ impl OpenStroke {
 
     /// Starts the stroke at a point of the model, if the view shows it. The stroke then runs straight on the screen
     /// from there.
-    pub(super) fn begin_at(&mut self, from: Option<StrokePoint>, canvas: &impl Canvas) {
+    pub(super) fn begin_at(&mut self, from: Option<StrokePoint>, canvas: &impl PaintView) {
         let Some((from, place)) = from.and_then(|from| Some((from, canvas.place(&self.model, from.site)?))) else {
             return;
         };
@@ -96,7 +96,7 @@ impl OpenStroke {
     }
 
     /// Adds places of the pointer. Returns the action that lays the stroke, if it has changed.
-    pub(super) fn add(&mut self, places: &[(Pos2, PenState)], canvas: &impl Canvas) -> Option<Action> {
+    pub(super) fn add(&mut self, places: &[(Pos2, PenState)], canvas: &impl PaintView) -> Option<Action> {
         if self.area().is_single() {
             return self.drag_decal(places, canvas);
         }
@@ -129,7 +129,7 @@ impl OpenStroke {
     }
 
     /// Lays a decal at the first place, and turns and sizes it by the drag from there.
-    fn drag_decal(&mut self, places: &[(Pos2, PenState)], canvas: &impl Canvas) -> Option<Action> {
+    fn drag_decal(&mut self, places: &[(Pos2, PenState)], canvas: &impl PaintView) -> Option<Action> {
         let (at, _) = places.last()?;
         if self.points.is_empty() {
             self.look(*at, canvas);
@@ -143,7 +143,7 @@ impl OpenStroke {
     }
 
     /// Adds the surface point under a place of the screen to the stroke.
-    fn look(&mut self, at: Pos2, canvas: &impl Canvas) {
+    fn look(&mut self, at: Pos2, canvas: &impl PaintView) {
         let point = touched_at(&self.model, canvas, at, self.pen, self.starts);
         if let Some(first) = point.as_ref().filter(|_| self.points.is_empty()) {
             self.brush = sized(&self.brush, &self.model, canvas, first);

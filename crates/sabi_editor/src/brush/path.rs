@@ -9,9 +9,9 @@ use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
 use sabi_paint::{Bend, Knot, PaintSurface, Path, Step, Stroke, StrokePoint, relocate};
 
-use super::shown_path::{Part, ShownPath};
+use super::shown_path::{PathPart, ShownPath};
 use super::under::{on_surface, point_at, touched_at};
-use super::{Canvas, PaintSubject};
+use super::{PaintSubject, PaintView};
 use crate::action::{Action, PaintAction};
 use crate::pen::PenState;
 
@@ -29,7 +29,7 @@ pub(super) struct HeldKnot {
     /// True if the stroke is not among those of the node yet.
     pub(super) is_new: bool,
     path: Path,
-    part: Part,
+    part: PathPart,
     pressed: Pos2,
     /// Vector from the pointer to the handle, so that the handle does not jump.
     grip: Vec2,
@@ -64,7 +64,7 @@ impl HeldKnot {
     pub(super) fn begun(
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
         pen: PenState,
         stroke: Stroke,
@@ -84,7 +84,7 @@ impl HeldKnot {
             Arc::new(stroke),
             true,
             path,
-            Part::Pull(0),
+            PathPart::Pull(0),
             at,
             Vec2::ZERO,
         ))
@@ -94,7 +94,7 @@ impl HeldKnot {
     pub(super) fn extended(
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
         pen: PenState,
     ) -> Option<HeldKnot> {
@@ -104,7 +104,7 @@ impl HeldKnot {
             place: touched_at(model, canvas, at, pen, false)?,
             bend: Bend::Smooth,
         });
-        let last = Part::Pull(path.knots.len() - 1);
+        let last = PathPart::Pull(path.knots.len() - 1);
         Some(HeldKnot::new(
             painted,
             model,
@@ -123,7 +123,7 @@ impl HeldKnot {
         stroke: Arc<Stroke>,
         is_new: bool,
         path: Path,
-        part: Part,
+        part: PathPart,
         pressed: Pos2,
         grip: Vec2,
     ) -> HeldKnot {
@@ -150,7 +150,7 @@ impl HeldKnot {
     }
 
     /// Follows the pointer; returns the action that changes the path.
-    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl Canvas) -> Option<Action> {
+    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl PaintView) -> Option<Action> {
         let mut path = self.path.clone();
         let at = pointer + self.grip;
         let model = &self.model;
@@ -158,12 +158,12 @@ impl HeldKnot {
             return None;
         }
         match self.part {
-            Part::Pull(_) if pointer.distance(self.pressed) < PULL => {}
-            Part::Pull(index) => {
+            PathPart::Pull(_) if pointer.distance(self.pressed) < PULL => {}
+            PathPart::Pull(index) => {
                 let handle = point_at(model, canvas, at, 1.0, false)?;
                 path.knots[index].bend = Bend::Handles([mirrored(model, &path.knots[index], &handle)?, handle]);
             }
-            Part::Knot(index) => {
+            PathPart::Knot(index) => {
                 let knot = &mut path.knots[index];
                 let place = point_at(model, canvas, at, knot.place.touch(), false)?;
                 if let Bend::Handles(handles) = knot.bend {
@@ -176,7 +176,7 @@ impl HeldKnot {
                 }
                 knot.place = place;
             }
-            Part::Handle(index, side) => {
+            PathPart::Handle(index, side) => {
                 let handle = point_at(model, canvas, at, 1.0, false)?;
                 let other = mirrored(model, &path.knots[index], &handle)?;
                 path.knots[index].bend = Bend::Handles(if side == 0 { [handle, other] } else { [other, handle] });
@@ -186,7 +186,7 @@ impl HeldKnot {
     }
 
     /// The action that gives the stroke a path.
-    fn laid(&self, path: &Path, canvas: &impl Canvas) -> Action {
+    fn laid(&self, path: &Path, canvas: &impl PaintView) -> Action {
         let (points, form) = path.places();
         let eye = canvas.eye(&self.model);
         let step = if self.is_new {
@@ -221,7 +221,7 @@ impl HeldKnot {
 pub(super) fn press(
     painted: &PaintSubject,
     model: &Arc<LiveModel>,
-    canvas: &impl Canvas,
+    canvas: &impl PaintView,
     at: Pos2,
     PressKind {
         modifiers,
@@ -233,23 +233,24 @@ pub(super) fn press(
     let stroke = painted.path.as_ref()?;
     let shown = ShownPath::of(model, canvas, stroke)?;
     let mut path = shown.path.clone();
-    let held =
-        |path: Path, part: Part, grip: Vec2| HeldKnot::new(painted, model, stroke.clone(), false, path, part, at, grip);
+    let held = |path: Path, part: PathPart, grip: Vec2| {
+        HeldKnot::new(painted, model, stroke.clone(), false, path, part, at, grip)
+    };
     let changed = |path: Path| {
-        let held = held(path.clone(), Part::Knot(0), Vec2::ZERO);
+        let held = held(path.clone(), PathPart::Knot(0), Vec2::ZERO);
         Some(Press::Changed(held.laid(&path, canvas)))
     };
     match shown.part_at(at) {
-        Some((Part::Knot(index), _)) if modifiers.command && path.knots.len() > 1 => {
+        Some((PathPart::Knot(index), _)) if modifiers.command && path.knots.len() > 1 => {
             path.knots.remove(index);
             changed(path)
         }
-        Some((Part::Knot(_), _)) if extends && is_second => Some(Press::End),
-        Some((Part::Knot(0), _)) if extends && !path.is_closed && path.knots.len() > 2 => {
+        Some((PathPart::Knot(_), _)) if extends && is_second => Some(Press::End),
+        Some((PathPart::Knot(0), _)) if extends && !path.is_closed && path.knots.len() > 2 => {
             path.is_closed = true;
             changed(path)
         }
-        Some((Part::Knot(index), _)) if is_second => {
+        Some((PathPart::Knot(index), _)) if is_second => {
             let bend = &mut path.knots[index].bend;
             *bend = if *bend == Bend::Corner {
                 Bend::Smooth
@@ -258,8 +259,8 @@ pub(super) fn press(
             };
             changed(path)
         }
-        Some((Part::Knot(index), _)) if modifiers.shift => {
-            Some(Press::Hold(held(path, Part::Pull(index), Vec2::ZERO).known()))
+        Some((PathPart::Knot(index), _)) if modifiers.shift => {
+            Some(Press::Hold(held(path, PathPart::Pull(index), Vec2::ZERO).known()))
         }
         Some((part, grip)) => Some(Press::Hold(held(path, part, grip).known())),
         None => {
@@ -270,7 +271,7 @@ pub(super) fn press(
                 bend: Bend::Smooth,
             };
             path.knots.insert(span + 1, knot);
-            Some(Press::Hold(held(path, Part::Knot(span + 1), Vec2::ZERO)))
+            Some(Press::Hold(held(path, PathPart::Knot(span + 1), Vec2::ZERO)))
         }
     }
 }

@@ -10,7 +10,7 @@ use sabi_paint::{Action as BrushAction, Area, Path, Step, Stroke, Version};
 use super::decal::sized;
 use super::path::{HeldKnot, Press, PressKind, press};
 use super::under::{on_surface, point_at};
-use super::{BrushTool, Canvas, Held, PaintSubject, action_of, has_ctrl};
+use super::{BrushDrag, BrushTool, PaintSubject, PaintView, action_of, has_ctrl};
 use crate::action::{Action, PaintAction};
 use crate::pen::PenState;
 use crate::settings::brush::Hand;
@@ -23,7 +23,7 @@ const EDGE_REACH: f64 = 0.04;
 
 /// Path that clicks add knots to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Extended {
+pub(super) enum PathToExtend {
     /// No path: a click begins a new one.
     #[default]
     None,
@@ -38,9 +38,9 @@ impl BrushTool {
         let marked = painted.path.as_ref().map(|path| path.id);
         let is_ended = ui.input(|input| input.key_pressed(Key::Enter) || input.key_pressed(Key::Escape));
         self.extended = match (self.extended, marked) {
-            (Extended::New, Some(id)) if !is_ended => Extended::Path(id),
-            (Extended::Path(known), Some(id)) if known == id && !is_ended => Extended::Path(id),
-            _ => Extended::None,
+            (PathToExtend::New, Some(id)) if !is_ended => PathToExtend::Path(id),
+            (PathToExtend::Path(known), Some(id)) if known == id && !is_ended => PathToExtend::Path(id),
+            _ => PathToExtend::None,
         };
     }
 
@@ -57,7 +57,7 @@ impl BrushTool {
         ui: &Ui,
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
         pen: PenState,
         is_second: bool,
@@ -69,7 +69,7 @@ impl BrushTool {
             self.take_source(&painted.brush, model, canvas, at, has_ctrl(modifiers), actions);
             return true;
         }
-        let extends = matches!(self.extended, Extended::Path(_));
+        let extends = matches!(self.extended, PathToExtend::Path(_));
         let kind = PressKind {
             modifiers,
             is_second,
@@ -79,13 +79,13 @@ impl BrushTool {
         let held = match press(painted, model, canvas, at, kind) {
             Some(Press::Hold(held)) => Some(held),
             Some(Press::Changed(action)) => {
-                self.extended = Extended::None;
+                self.extended = PathToExtend::None;
                 let [begin, end] = [PaintAction::Begin, PaintAction::End].map(Action::Paint);
                 actions.extend([begin, action, end]);
                 return true;
             }
             Some(Press::End) => {
-                self.extended = Extended::None;
+                self.extended = PathToExtend::None;
                 return true;
             }
             None if hand == Hand::Path && extends => HeldKnot::extended(painted, model, canvas, at, pen),
@@ -98,7 +98,7 @@ impl BrushTool {
         let Some(held) = held else { return hand == Hand::Path };
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(held.drag(at, canvas));
-        self.held = Some(Held::Knot(Box::new(held)));
+        self.held = Some(BrushDrag::Knot(Box::new(held)));
         self.end_if_lifted(ui, actions);
         true
     }
@@ -108,7 +108,7 @@ impl BrushTool {
         &mut self,
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
         modifiers: Modifiers,
         actions: &mut Vec<Action>,
@@ -154,7 +154,7 @@ impl BrushTool {
         &self,
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
-        canvas: &impl Canvas,
+        canvas: &impl PaintView,
         at: Pos2,
         modifiers: Modifiers,
     ) -> Stroke {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use sabi_engine::live::LiveModel;
 use sabi_paint::{Bend, Path, Stroke, StrokePoint, relocate};
 
-use super::Canvas;
+use super::PaintView;
 use super::under::on_surface;
 
 /// Distance from the middle of a handle within which it is taken, points.
@@ -50,7 +50,7 @@ struct ShownKnot {
 
 /// Part of a path that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum PathPart {
     Knot(usize),
     /// The handle before or behind a knot.
     Handle(usize, usize),
@@ -60,7 +60,7 @@ pub(super) enum Part {
 
 impl ShownPath {
     /// A path as a view shows it; `None` for other strokes.
-    pub(crate) fn of(model: &LiveModel, canvas: &impl Canvas, stroke: &Stroke) -> Option<ShownPath> {
+    pub(crate) fn of(model: &LiveModel, canvas: &impl PaintView, stroke: &Stroke) -> Option<ShownPath> {
         on_surface(model, |surface| {
             let path = relocate(surface, stroke).0.as_path()?;
             let knots = (0..path.knots.len()).map(|index| shown_knot(model, canvas, &path, index));
@@ -87,7 +87,7 @@ impl ShownPath {
     }
 
     /// The part under a place of the screen: handles lie over knots.
-    pub(super) fn part_at(&self, at: Pos2) -> Option<(Part, Vec2)> {
+    pub(super) fn part_at(&self, at: Pos2) -> Option<(PathPart, Vec2)> {
         let seen = || {
             self.knots
                 .iter()
@@ -96,9 +96,9 @@ impl ShownPath {
         };
         let handles = seen().flat_map(|(index, knot)| {
             let handles = knot.handles.into_iter().flatten().enumerate();
-            handles.map(move |(side, place)| (Part::Handle(index, side), place))
+            handles.map(move |(side, place)| (PathPart::Handle(index, side), place))
         });
-        let knots = seen().map(|(index, knot)| (Part::Knot(index), knot.place));
+        let knots = seen().map(|(index, knot)| (PathPart::Knot(index), knot.place));
         let mut parts = handles.chain(knots);
         let near = parts.find(|(_, place)| place.distance(at) <= NEAR)?;
         Some((near.0, near.1 - at))
@@ -143,7 +143,7 @@ impl ShownPath {
     }
 }
 
-fn shown_knot(model: &LiveModel, canvas: &impl Canvas, path: &Path, index: usize) -> Option<ShownKnot> {
+fn shown_knot(model: &LiveModel, canvas: &impl PaintView, path: &Path, index: usize) -> Option<ShownKnot> {
     let knot = &path.knots[index];
     let place = canvas.place(model, knot.place.site)?;
     let seen = canvas.site(model, place)?;
@@ -171,7 +171,7 @@ fn step_of(model: &LiveModel, path: &Path) -> f64 {
 }
 
 /// Returns true if the surface faces the eye at a place; in a view of the texture it always does.
-fn is_toward(model: &LiveModel, canvas: &impl Canvas, point: &StrokePoint) -> bool {
+fn is_toward(model: &LiveModel, canvas: &impl PaintView, point: &StrokePoint) -> bool {
     let normal = DVec3::from(point.normal.map(f64::from));
     canvas
         .eye(model)

@@ -32,7 +32,7 @@ pub(crate) struct PlacedStencil {
 
 /// Part of a stencil that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum StencilPart {
     Middle,
     Side,
 }
@@ -41,7 +41,7 @@ enum Part {
 pub(super) struct HeldStencil {
     choices: StencilChoices,
     view: Rect,
-    part: Part,
+    part: StencilPart,
     /// Half of the picture's width, as a share of half its longer side.
     half_width: f32,
     /// Vector from the pointer to the handle, so that the handle does not jump.
@@ -67,8 +67,8 @@ impl PlacedStencil {
         self.middle + self.axes[0]
     }
 
-    fn part_at(&self, at: Pos2) -> Option<(Part, Vec2)> {
-        let parts = [(Part::Side, self.side()), (Part::Middle, self.middle)];
+    fn part_at(&self, at: Pos2) -> Option<(StencilPart, Vec2)> {
+        let parts = [(StencilPart::Side, self.side()), (StencilPart::Middle, self.middle)];
         let near = parts.into_iter().find(|(_, handle)| handle.distance(at) <= NEAR);
         near.map(|(part, handle)| (part, handle - at))
     }
@@ -118,11 +118,11 @@ impl HeldStencil {
         let at = (pointer + self.grip - self.view.center()) / unit;
         let [x, y] = self.choices.middle;
         let changed = match self.part {
-            Part::Middle => StencilChoices {
+            StencilPart::Middle => StencilChoices {
                 middle: [at.x, -at.y],
                 ..self.choices.clone()
             },
-            Part::Side => {
+            StencilPart::Side => {
                 let way = vec2(at.x - x, -at.y - y);
                 StencilChoices {
                     size: way.length() / self.half_width,

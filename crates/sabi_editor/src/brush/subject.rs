@@ -8,7 +8,7 @@ use sabi_engine::live::LiveModel;
 use sabi_graph::NodeId;
 use sabi_paint::{Stencil, Stroke};
 
-use super::Canvas;
+use super::PaintView;
 use super::stencil::ShownStencil;
 use crate::context::ViewContext;
 use crate::pen::PenPlace;
@@ -65,7 +65,7 @@ impl PaintSubject {
     }
 
     /// The stencil as a stroke keeps it, projected onto a model; `None` in a view of its texture.
-    pub(super) fn stencil_before(&self, model: &LiveModel, canvas: &impl Canvas) -> Option<Arc<Stencil>> {
+    pub(super) fn stencil_before(&self, model: &LiveModel, canvas: &impl PaintView) -> Option<Arc<Stencil>> {
         let shown = self.stencil.as_ref()?;
         let stencil = Stencil {
             picture: shown.choices.picture.clone()?,

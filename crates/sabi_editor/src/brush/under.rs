@@ -5,14 +5,14 @@ use glam::DVec3;
 use sabi_engine::live::LiveModel;
 use sabi_paint::{PaintSurface, Shaft, StrokePoint, SurfaceIndex, Touch, rightward};
 
-use super::Canvas;
+use super::PaintView;
 use super::decal::{axes_on_screen, turn_of};
 use crate::pen::PenState;
 
 /// Point of a stroke under a pen at a place of the screen. With `starts`, a new run starts there.
 pub(super) fn touched_at(
     model: &LiveModel,
-    canvas: &impl Canvas,
+    canvas: &impl PaintView,
     at: Pos2,
     pen: PenState,
     starts: bool,
@@ -27,7 +27,7 @@ pub(super) fn touched_at(
 /// Point of a stroke under a place of the screen, with its touch. With `starts`, a new run starts there.
 pub(super) fn point_at(
     model: &LiveModel,
-    canvas: &impl Canvas,
+    canvas: &impl PaintView,
     at: Pos2,
     touch: impl Into<Touch>,
     starts: bool,
@@ -46,7 +46,12 @@ pub(super) fn on_surface<T>(model: &LiveModel, call: impl FnOnce(&PaintSurface<'
 /// Shaft of a pen over a place of the model, from its tilt on the screen to the right and downward, in degrees. The
 /// tilt is transferred to the surface: a pen that is upright on the screen is along the normal, and a tilted one leans
 /// along the surface in the direction that is seen.
-fn shaft_over(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint, tilt_degrees: [f32; 2]) -> Option<Shaft> {
+fn shaft_over(
+    model: &LiveModel,
+    canvas: &impl PaintView,
+    placed: &StrokePoint,
+    tilt_degrees: [f32; 2],
+) -> Option<Shaft> {
     let (way, angle_degrees) = lean(tilt_degrees)?;
     let turn = axes_on_screen(model, canvas, placed).and_then(|axes| turn_of(axes, way));
     // A surface that is seen from its edge has no such direction.

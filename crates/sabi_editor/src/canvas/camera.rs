@@ -9,7 +9,7 @@ use sabi_graph::NodeId;
 
 use super::node_rect;
 use super::port_refs::{PortRef, room_of_name, shown_ports_of};
-use super::view::View;
+use super::view::CanvasView;
 
 /// Distance from an edge of the panel at which a drag scrolls the canvas, screen points.
 pub(super) const SCROLL_EDGE: f32 = 28.0;
@@ -18,10 +18,10 @@ const SCROLL_SPEED: f32 = 900.0;
 
 /// Camera of the canvas.
 #[derive(Default)]
-pub(crate) struct Camera {
-    pub(super) view: View,
+pub(crate) struct CanvasCamera {
+    pub(super) view: CanvasView,
     /// Views of other graphs, by the instances that lead to them.
-    views: BTreeMap<Vec<NodeId>, View>,
+    views: BTreeMap<Vec<NodeId>, CanvasView>,
     /// Instances that lead to the shown graph.
     path: Vec<NodeId>,
     /// Rectangle of the panel in the last frame.
@@ -29,7 +29,7 @@ pub(crate) struct Camera {
     /// True once the view was fitted to all nodes.
     is_fitted: bool,
     /// View that shows all nodes, with the size of the panel that it was made for.
-    fitted: Option<(View, Vec2)>,
+    fitted: Option<(CanvasView, Vec2)>,
 }
 
 /// Nodes of the shown graph before an edit.
@@ -57,7 +57,7 @@ fn named_rect(document: &OpenDocument, id: &NodeId) -> Option<Rect> {
     Some(rect)
 }
 
-impl Camera {
+impl CanvasCamera {
     /// Begins a frame: restores the view of a graph that is shown again, and fits the view to a graph that is shown for the
     /// first time. Returns whether another graph is shown than in the last frame.
     pub(super) fn begin_frame(&mut self, document: &OpenDocument, panel: Rect) -> bool {
@@ -73,7 +73,7 @@ impl Camera {
             }
         }
         // A fitted view that was not moved since is fitted again when the panel has another size.
-        let is_reshaped = |(view, size): (View, Vec2)| view == self.view && size != panel.size();
+        let is_reshaped = |(view, size): (CanvasView, Vec2)| view == self.view && size != panel.size();
         if !self.is_fitted || !is_other && self.fitted.is_some_and(is_reshaped) {
             self.frame_all(document);
         }

@@ -4,7 +4,7 @@ use egui::{Align2, CornerRadius, FontId, Rect, Response, Ui};
 use egui_phosphor::regular as icon;
 
 use super::sensing::interact_node;
-use super::snapshot::Key;
+use super::snapshot::CanvasNodeId;
 use super::{Canvas, CanvasContext, body, node_rect};
 use crate::theme::space;
 
@@ -16,7 +16,13 @@ const LETTERS: f32 = 26.0;
 const LEAST_WIDTH: f32 = 26.0;
 
 /// Draws a node as a card.
-pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>, key: Key) -> Option<Response> {
+pub(super) fn show(
+    canvas: &Canvas,
+    ui: &Ui,
+    panel: Rect,
+    context: &CanvasContext<'_>,
+    key: CanvasNodeId,
+) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
     let zoom = canvas.camera.view.zoom;
     let rect = canvas

@@ -7,7 +7,7 @@ use sabi_engine::catalog::Interface;
 
 use sabi_graph::NodeId;
 
-use super::camera::{Camera, SCROLL_EDGE};
+use super::camera::{CanvasCamera, SCROLL_EDGE};
 use super::wires::{self, Wire};
 use super::{Canvas, body, node_rect};
 use crate::theme::{Theme, space, type_size};
@@ -31,7 +31,7 @@ impl EdgeScroll {
     }
 
     /// Scrolls the canvas under a drag near its edge.
-    pub(super) fn scroll(&mut self, camera: &mut Camera, ui: &Ui, at: Pos2) {
+    pub(super) fn scroll(&mut self, camera: &mut CanvasCamera, ui: &Ui, at: Pos2) {
         let Some(panel) = camera.panel.filter(|panel| panel.contains(at)) else {
             return;
         };
@@ -94,7 +94,7 @@ pub(super) fn node_at(canvas: &Canvas, document: &OpenDocument, interface: &Inte
 }
 
 /// Wire at a place of the screen that a new node can be inserted into.
-pub(super) fn wire_at(camera: &Camera, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<Wire> {
+pub(super) fn wire_at(camera: &CanvasCamera, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<Wire> {
     let panel = camera.panel.filter(|panel| panel.contains(at))?;
     let wires = wires::visible(document, &camera.view, panel);
     let wire = wires::within(&wires, at, CATCH)?;

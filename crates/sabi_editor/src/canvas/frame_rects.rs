@@ -4,7 +4,7 @@ use egui::{Pos2, Rect, vec2};
 use sabi_editing::OpenDocument;
 use sabi_editing::frames::{FRAME_AROUND, FRAME_STRIP};
 
-use super::camera::Camera;
+use super::camera::CanvasCamera;
 use super::node_rect;
 
 /// Rectangle of a frame on the canvas; `None` where none of its nodes exists.
@@ -16,7 +16,7 @@ pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
 }
 
 /// Frame at a place of the screen that the selected nodes can be dropped into: one that contains none of them yet.
-pub(super) fn under(camera: &Camera, document: &OpenDocument, pointer: Pos2) -> Option<String> {
+pub(super) fn under(camera: &CanvasCamera, document: &OpenDocument, pointer: Pos2) -> Option<String> {
     let panel = camera.panel?;
     let frames = document.graph().frames().iter();
     let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| document.selection().contains(id)));

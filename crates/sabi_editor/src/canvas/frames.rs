@@ -8,7 +8,7 @@ use sabi_editing::frames::FRAME_STRIP;
 
 use super::frame_rects::rect_of;
 use super::gesture::Gesture;
-use super::questions::Renaming;
+use super::questions::ItemRename;
 use super::{Canvas, CanvasContext};
 use crate::action::Action;
 use crate::theme::type_size;
@@ -34,7 +34,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
         let response = ui.interact(strip, ui.id().with(("frame", id)), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("Frame {title}")));
         if response.double_clicked() {
-            canvas.popups.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
+            canvas.popups.renaming = Some(ItemRename::frame(id.clone(), title.to_owned()));
         } else if response.clicked() {
             actions.push(Action::edit(FrameCommand::Select(id.clone())));
         }
@@ -57,7 +57,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
                 actions.push(Action::edit(FrameCommand::Recolor(id.clone())));
             }
             if ui.button("Rename").clicked() {
-                canvas.popups.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
+                canvas.popups.renaming = Some(ItemRename::frame(id.clone(), title.to_owned()));
             }
             if ui.button("Delete the frame, keep its nodes").clicked() {
                 actions.push(Action::edit(FrameCommand::Remove(id.clone())));

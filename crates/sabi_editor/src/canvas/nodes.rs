@@ -15,8 +15,8 @@ use sabi_graph::{NodeId, PortType};
 use super::gesture::{Gesture, begin_move};
 use super::node_summary::RowContext;
 use super::sensing::window_id;
-use super::snapshot::Key;
-use super::{CARD_ZOOM, Canvas, CanvasContext, body, card, node_rect, ports, reroute, sides, tips};
+use super::snapshot::CanvasNodeId;
+use super::{CARD_ZOOM, Canvas, CanvasContext, body, card, node_rect, ports, reroute, sides, tooltips};
 use crate::action::Action;
 use crate::command::{CanvasCommand, Command, GraphCommand, LookCommand, WindowCommand};
 use crate::knobs::KnobEvent;
@@ -75,10 +75,16 @@ pub(super) fn show(
         let title = response
             .rect
             .with_max_y(response.rect.top() + TITLE_HEIGHT * canvas.camera.view.zoom);
-        let tip_area = if is_card || is_reroute { response.rect } else { title };
+        let tooltip_area = if is_card || is_reroute { response.rect } else { title };
         // While a wire or a node is dragged, a tooltip would cover where it goes.
         if matches!(canvas.gesture, Gesture::Idle) {
-            tips::show(ui, context, &canvas.snapshot.graph[key].user_data, &response, tip_area);
+            tooltips::show(
+                ui,
+                context,
+                &canvas.snapshot.graph[key].user_data,
+                &response,
+                tooltip_area,
+            );
         }
         if is_card {
             sides::show(canvas, ui, panel, context, id, actions);
@@ -115,7 +121,7 @@ fn widget(
     ui: &mut Ui,
     panel: Rect,
     context: &CanvasContext<'_>,
-    key: Key,
+    key: CanvasNodeId,
     actions: &mut Vec<Action>,
 ) -> Option<DrawnNode> {
     let zoom = canvas.camera.view.zoom;
@@ -305,19 +311,19 @@ mod tests {
     use egui_node_graph::AnyParameterId;
     use sabi_engine::Session;
 
-    use super::super::snapshot::Snapshot;
+    use super::super::snapshot::GraphSnapshot;
     use super::*;
-    use crate::theme::{Shade, Theme};
+    use crate::theme::{ColorScheme, Theme};
     use sabi_editing::node_size::{NODE_WIDTH, rows_of};
     use sabi_editing::{OpenDocument, history};
     use sabi_graph::{Edit, NodeDisplay, NodeRows};
 
     /// Ports and size of a node as the canvas crate's widget has them.
     fn drawn(document: &OpenDocument, id: &NodeId, zoom: f32) -> (Vec<(AnyParameterId, Pos2)>, Rect) {
-        let mut snapshot = Snapshot::default();
+        let mut snapshot = GraphSnapshot::default();
         snapshot.sync(document);
         let key = snapshot.key(id).expect("a node of the snapshot");
-        let theme = Arc::new(Theme::of(Shade::Dark));
+        let theme = Arc::new(Theme::of(ColorScheme::Dark));
         let found = Rc::new(RefCell::new((Vec::new(), Rect::NOTHING)));
         let given = found.clone();
         let mut harness = Harness::builder().with_size(vec2(900.0, 3000.0)).build_ui(move |ui| {

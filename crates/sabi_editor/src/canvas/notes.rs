@@ -6,7 +6,7 @@ use sabi_editing::command::NoteCommand;
 use sabi_editing::notes::{LEAST_NOTE_WIDTH, NOTE_WIDTH, NoteChange};
 use sabi_graph::Note;
 
-use super::camera::Camera;
+use super::camera::CanvasCamera;
 use super::{Canvas, CanvasContext};
 use crate::action::Action;
 use crate::theme::{Theme, type_size};
@@ -151,7 +151,7 @@ fn paint(ui: &Ui, theme: &Theme, note: &Note, corner: Pos2, width: f32, zoom: f3
 
 /// Shows the field in which a note is written. A click beside it, Ctrl+Enter and Escape close it and keep the text,
 /// which can be undone.
-pub(super) fn write(open: &mut Option<NoteText>, ui: &Ui, camera: &Camera, actions: &mut Vec<Action>) {
+pub(super) fn write(open: &mut Option<NoteText>, ui: &Ui, camera: &CanvasCamera, actions: &mut Vec<Action>) {
     let (Some(writing), Some(panel)) = (open.as_mut(), camera.panel) else {
         return;
     };

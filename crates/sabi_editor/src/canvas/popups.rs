@@ -4,10 +4,10 @@ use egui::Ui;
 
 use super::CanvasContext;
 use super::add_menu::{AddMenu, MenuResult};
-use super::camera::Camera;
+use super::camera::CanvasCamera;
 use super::notes::{self, NoteText};
 use super::port_question::PortQuestion;
-use super::questions::{self, MergeQuestion, Renaming};
+use super::questions::{self, ItemRename, MergeQuestion};
 use crate::action::Action;
 
 /// Open menus and text fields.
@@ -20,7 +20,7 @@ pub(super) struct Popups {
     /// Question about which input of a node a wire leads to.
     pub(super) ports: Option<PortQuestion>,
     /// Name that is being typed.
-    pub(super) renaming: Option<Renaming>,
+    pub(super) renaming: Option<ItemRename>,
     /// Note that is being written.
     pub(super) note: Option<NoteText>,
 }
@@ -38,7 +38,13 @@ impl Popups {
     }
 
     /// Shows those that are open, and adds the actions of their answers.
-    pub(super) fn show(&mut self, ui: &Ui, camera: &Camera, context: &CanvasContext<'_>, actions: &mut Vec<Action>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &Ui,
+        camera: &CanvasCamera,
+        context: &CanvasContext<'_>,
+        actions: &mut Vec<Action>,
+    ) {
         if let Some(menu) = &mut self.menu {
             match menu.show(ui, context.document, context.theme, context.candidates) {
                 MenuResult::Open => {}

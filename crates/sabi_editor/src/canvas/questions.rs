@@ -6,7 +6,7 @@ use sabi_editing::command::{FrameCommand, NodeCommand, WireCommand};
 use sabi_editing::wires::MaskMerge;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
-use super::camera::Camera;
+use super::camera::CanvasCamera;
 use super::focus_id;
 use crate::action::Action;
 
@@ -96,23 +96,23 @@ enum NamedItem {
 }
 
 /// Name while it is typed.
-pub(super) struct Renaming {
+pub(super) struct ItemRename {
     item: NamedItem,
     text: String,
     is_new: bool,
 }
 
-impl Renaming {
-    pub(super) fn node(id: NodeId, text: String) -> Renaming {
-        Renaming {
+impl ItemRename {
+    pub(super) fn node(id: NodeId, text: String) -> ItemRename {
+        ItemRename {
             item: NamedItem::Node(id),
             text,
             is_new: true,
         }
     }
 
-    pub(super) fn frame(id: String, text: String) -> Renaming {
-        Renaming {
+    pub(super) fn frame(id: String, text: String) -> ItemRename {
+        ItemRename {
             item: NamedItem::Frame(id),
             text,
             is_new: true,
@@ -122,9 +122,9 @@ impl Renaming {
 
 /// Shows the text field of a name at the node or frame that has it.
 pub(super) fn rename(
-    open: &mut Option<Renaming>,
+    open: &mut Option<ItemRename>,
     ui: &Ui,
-    camera: &Camera,
+    camera: &CanvasCamera,
     document: &OpenDocument,
     actions: &mut Vec<Action>,
 ) {

@@ -4,11 +4,17 @@ use egui::{Rect, Response, Stroke, StrokeKind, Ui};
 use sabi_graph::OutputRef;
 
 use super::sensing::interact_node;
-use super::snapshot::Key;
+use super::snapshot::CanvasNodeId;
 use super::{Canvas, CanvasContext, node_rect};
 
 /// Draws a reroute.
-pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>, key: Key) -> Option<Response> {
+pub(super) fn show(
+    canvas: &Canvas,
+    ui: &Ui,
+    panel: Rect,
+    context: &CanvasContext<'_>,
+    key: CanvasNodeId,
+) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
     let rect = canvas
         .camera

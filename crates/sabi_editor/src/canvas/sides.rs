@@ -18,7 +18,7 @@ const REACH: f32 = 7.0;
 const LEAST_DOT: f32 = 1.4;
 
 /// Inputs or outputs of a card.
-struct Side<'a> {
+struct CardSide<'a> {
     id: &'a NodeId,
     interface: &'a Interface,
     rows: &'a ShownRows,
@@ -43,7 +43,7 @@ pub(super) fn show(
     };
     let Some(rows) = rows_of(document, id) else { return };
     for is_input in [true, false] {
-        let side = Side {
+        let side = CardSide {
             id,
             interface,
             rows: &rows,
@@ -58,7 +58,7 @@ pub(super) fn show(
     }
 }
 
-impl Side<'_> {
+impl CardSide<'_> {
     fn ports(&self) -> &[Port] {
         if self.is_input {
             &self.interface.inputs

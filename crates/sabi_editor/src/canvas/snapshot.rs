@@ -18,9 +18,9 @@ use super::node_summary::{NodeState, NodeSummary, RowContext};
 use crate::panels::parameters::mask_of;
 
 /// Graph in the canvas crate's type.
-pub(super) type Graph = egui_node_graph::Graph<NodeSummary, CarriedType, Row>;
+pub(super) type CanvasGraph = egui_node_graph::Graph<NodeSummary, CarriedType, CardRow>;
 /// Id of a node in the canvas crate.
-pub(super) type Key = egui_node_graph::NodeId;
+pub(super) type CanvasNodeId = egui_node_graph::NodeId;
 
 /// Type that a port carries; `None` for any type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub(super) struct CarriedType(pub(super) Option<PortType>);
 
 /// Row of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) enum Row {
+pub(super) enum CardRow {
     /// Port, whose dot is drawn by this crate.
     #[default]
     Port,
@@ -56,7 +56,7 @@ impl DataTypeTrait<RowContext> for CarriedType {
     }
 }
 
-impl WidgetValueTrait for Row {
+impl WidgetValueTrait for CardRow {
     type Response = NoResponse;
     type UserState = RowContext;
     type NodeData = NodeSummary;
@@ -64,14 +64,14 @@ impl WidgetValueTrait for Row {
     fn value_widget(
         &mut self,
         name: &str,
-        _: Key,
+        _: CanvasNodeId,
         ui: &mut Ui,
         row_context: &mut RowContext,
         shown: &NodeSummary,
     ) -> Vec<NoResponse> {
         match self {
-            Row::Port => body::port_row(ui, row_context, name, true),
-            Row::Knob(at) => body::knob_row(ui, row_context, shown, *at),
+            CardRow::Port => body::port_row(ui, row_context, name, true),
+            CardRow::Knob(at) => body::knob_row(ui, row_context, shown, *at),
         }
         Vec::new()
     }
@@ -79,7 +79,7 @@ impl WidgetValueTrait for Row {
     fn value_widget_connected(
         &mut self,
         name: &str,
-        key: Key,
+        key: CanvasNodeId,
         ui: &mut Ui,
         row_context: &mut RowContext,
         shown: &NodeSummary,
@@ -92,13 +92,13 @@ impl NodeDataTrait for NodeSummary {
     type Response = NoResponse;
     type UserState = RowContext;
     type DataType = CarriedType;
-    type ValueType = Row;
+    type ValueType = CardRow;
 
     fn top_bar_ui(
         &self,
         ui: &mut Ui,
-        _: Key,
-        _: &Graph,
+        _: CanvasNodeId,
+        _: &CanvasGraph,
         row_context: &mut RowContext,
     ) -> Vec<NodeResponse<NoResponse, NodeSummary>> {
         body::title_row(ui, row_context, self);
@@ -108,8 +108,8 @@ impl NodeDataTrait for NodeSummary {
     fn output_ui(
         &self,
         ui: &mut Ui,
-        _: Key,
-        _: &Graph,
+        _: CanvasNodeId,
+        _: &CanvasGraph,
         row_context: &mut RowContext,
         name: &str,
     ) -> Vec<NodeResponse<NoResponse, NodeSummary>> {
@@ -120,28 +120,28 @@ impl NodeDataTrait for NodeSummary {
     fn bottom_ui(
         &self,
         ui: &mut Ui,
-        _: Key,
-        _: &Graph,
+        _: CanvasNodeId,
+        _: &CanvasGraph,
         row_context: &mut RowContext,
     ) -> Vec<NodeResponse<NoResponse, NodeSummary>> {
         body::picture_row(ui, row_context, self);
         Vec::new()
     }
 
-    fn can_delete(&self, _: Key, _: &Graph, _: &mut RowContext) -> bool {
+    fn can_delete(&self, _: CanvasNodeId, _: &CanvasGraph, _: &mut RowContext) -> bool {
         false
     }
 
-    fn can_flip(&self, _: Key, _: &Graph, _: &mut RowContext) -> bool {
+    fn can_flip(&self, _: CanvasNodeId, _: &CanvasGraph, _: &mut RowContext) -> bool {
         false
     }
 }
 
 /// Copy of the graph, with the revisions that it was made from.
 #[derive(Default)]
-pub(super) struct Snapshot {
-    pub(super) graph: Graph,
-    keys: BTreeMap<NodeId, Key>,
+pub(super) struct GraphSnapshot {
+    pub(super) graph: CanvasGraph,
+    keys: BTreeMap<NodeId, CanvasNodeId>,
     /// Shown graph, revision of the document, and number of the ports and knobs of its nodes.
     of: Option<(Body, u64, u64)>,
 }
@@ -160,7 +160,7 @@ fn set_only_values<'a>(edits: &'a [Edit], shown: &Body, nodes: &mut BTreeSet<&'a
     })
 }
 
-impl Snapshot {
+impl GraphSnapshot {
     /// Updates the copy. Unchanged nodes keep their keys, so that a drag continues.
     pub(super) fn sync(&mut self, document: &OpenDocument) {
         let body = document.body();
@@ -169,7 +169,7 @@ impl Snapshot {
             return;
         }
         if self.of.as_ref().is_some_and(|(before, ..)| *before != body) {
-            *self = Snapshot::default();
+            *self = GraphSnapshot::default();
         }
         let is_followed = self.follow_values(document);
         self.of = Some(now);
@@ -190,7 +190,7 @@ impl Snapshot {
                 continue;
             };
             let rows = ShownRows::of(document.graph(), id, interface);
-            let is_same = |key: &Key| {
+            let is_same = |key: &CanvasNodeId| {
                 let known = &self.graph[*key].user_data;
                 known.rows == rows && (Arc::ptr_eq(&known.interface, interface) || known.interface == *interface)
             };
@@ -235,7 +235,7 @@ impl Snapshot {
         true
     }
 
-    pub(super) fn key(&self, id: &NodeId) -> Option<Key> {
+    pub(super) fn key(&self, id: &NodeId) -> Option<CanvasNodeId> {
         self.keys.get(id).copied()
     }
 
@@ -264,13 +264,13 @@ impl Snapshot {
             for (_, port) in inputs.filter(|(row, _)| rows.shows_input(*row)) {
                 let carries = CarriedType(port.ty);
                 let kind = InputParamKind::ConnectionOnly;
-                graph.add_input_param(key, port.label.clone(), carries, Row::Port, kind, true);
+                graph.add_input_param(key, port.label.clone(), carries, CardRow::Port, kind, true);
             }
             for knob in own_knobs(&interface).filter(|_| rows.shows_knobs()) {
                 let Some(at) = interface.knobs.iter().position(|known| known.name == knob.name) else {
                     continue;
                 };
-                let row = Row::Knob(at);
+                let row = CardRow::Knob(at);
                 let kind = InputParamKind::ConstantOnly;
                 graph.add_input_param(key, knob.label.clone(), CarriedType(None), row, kind, true);
             }

@@ -13,23 +13,23 @@ const FREE: f32 = 40.0;
 
 /// Pan and zoom of the canvas.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct View {
+pub(crate) struct CanvasView {
     /// Canvas origin relative to the corner of the panel, screen points.
     pub(crate) pan: Vec2,
     /// Screen points in one canvas point.
     pub(crate) zoom: f32,
 }
 
-impl Default for View {
-    fn default() -> View {
-        View {
+impl Default for CanvasView {
+    fn default() -> CanvasView {
+        CanvasView {
             pan: vec2(FREE, FREE),
             zoom: 1.0,
         }
     }
 }
 
-impl View {
+impl CanvasView {
     /// Place on the screen of a place on the canvas.
     pub(crate) fn screen(&self, panel: Rect, place: [f32; 2]) -> Pos2 {
         panel.min + self.pan + vec2(place[0], place[1]) * self.zoom
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn a_graph_of_any_width_fits_and_is_zoomed_without_a_jump() {
-        let mut view = View::default();
+        let mut view = CanvasView::default();
         let wide = Rect::from_min_max(pos2(-500.0, 0.0), pos2(29_500.0, 400.0));
         view.frame(PANEL, wide);
         assert!(PANEL.contains_rect(view.screen_rect(PANEL, wide)));
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn zooming_keeps_the_place_under_the_pointer() {
-        let mut view = View::default();
+        let mut view = CanvasView::default();
         let pointer = pos2(333.0, 222.0);
         let held = view.place(PANEL, pointer);
         for factor in [1.3, 0.2, 9.0, f32::NAN, 0.0] {
@@ -140,7 +140,7 @@ mod tests {
     fn a_pan_shows_a_rectangle_that_was_outside_and_keeps_the_zoom() {
         for corner in [[-900.0, 20.0], [2000.0, -700.0], [100.0, 3000.0], [10.0, 10.0]] {
             let rect = Rect::from_min_size(pos2(corner[0], corner[1]), vec2(200.0, 150.0));
-            let mut view = View::default();
+            let mut view = CanvasView::default();
             let before = view;
             view.pan_to(PANEL, rect);
             assert!(PANEL.contains_rect(view.screen_rect(PANEL, rect)), "{corner:?}");
@@ -148,7 +148,7 @@ mod tests {
             let is_inside = PANEL.shrink(FREE).contains_rect(before.screen_rect(PANEL, rect));
             assert_eq!(view == before, is_inside, "{corner:?}: what is seen stays where it is");
         }
-        let mut view = View::default();
+        let mut view = CanvasView::default();
         let large = Rect::from_min_size(pos2(-5000.0, -5000.0), vec2(4000.0, 4000.0));
         view.pan_to(PANEL, large);
         assert!(PANEL.contains(view.screen_rect(PANEL, large).min));
@@ -158,7 +158,7 @@ mod tests {
     fn a_framed_rectangle_is_fully_in_view_and_centered() {
         for size in [[10.0, 10.0], [4000.0, 200.0], [100.0, 4000.0]] {
             let rect = Rect::from_min_size(pos2(-300.0, 700.0), vec2(size[0], size[1]));
-            let mut view = View::default();
+            let mut view = CanvasView::default();
             view.frame(PANEL, rect);
             let shown = view.screen_rect(PANEL, rect);
             assert!(PANEL.contains_rect(shown), "{shown:?}");

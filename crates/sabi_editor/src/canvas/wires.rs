@@ -5,7 +5,7 @@ use sabi_editing::node_size::{TITLE_HEIGHT, rows_of};
 use sabi_editing::{OpenDocument, connections};
 use sabi_graph::{NodeId, OutputRef, PortType, SlotRef};
 
-use super::view::View;
+use super::view::CanvasView;
 use super::{Canvas, CanvasContext};
 use crate::theme::Theme;
 
@@ -63,7 +63,7 @@ pub(super) fn is_named(document: &OpenDocument, node: &NodeId) -> bool {
 }
 
 /// Wires that may be in the panel; those that are drawn as names are not among them.
-pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<Wire> {
+pub(super) fn visible(document: &OpenDocument, view: &CanvasView, panel: Rect) -> Vec<Wire> {
     let mut wires = Vec::new();
     for id in document.graph().ids() {
         for (name, from) in document.graph().inputs(id.as_str()) {

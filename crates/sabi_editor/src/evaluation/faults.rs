@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use sabi_engine::live::Faults;
+use sabi_engine::live::GraphFaults;
 
 /// Errors of the last evaluation, by node.
 #[derive(Default)]
 pub(crate) struct NodeFaults {
     /// All errors.
-    pub(crate) all: Faults,
+    pub(crate) all: GraphFaults,
     /// Error of each faulty node and of the group instances around it.
     by_node: BTreeMap<String, String>,
     /// Sentence about what each blocked node and the group instances around it wait for.
@@ -16,7 +16,7 @@ pub(crate) struct NodeFaults {
 }
 
 impl NodeFaults {
-    pub(super) fn new(all: Faults) -> NodeFaults {
+    pub(super) fn new(all: GraphFaults) -> NodeFaults {
         let faults = all.faults.iter();
         let unchosen = all.unchosen.iter().map(|it| (&*it.node, it.sentence.clone()));
         let blocked = all.blocked.iter();

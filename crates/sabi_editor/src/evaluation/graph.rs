@@ -12,29 +12,29 @@ const MOST_UNSENT: usize = 1000;
 
 /// Follows a document, and collects the changes of its graph that the evaluation does not have yet.
 #[derive(Default)]
-pub(super) struct EvaluatedGraph {
+pub(super) struct GraphTracker {
     /// Rises with every change that results depend on.
     pub(super) number: u64,
     /// Change of the graph that was not sent yet.
     unsent: GraphUpdate,
-    followed: Option<Followed>,
+    followed: Option<DocumentState>,
 }
 
 /// State of a document.
 #[derive(PartialEq)]
-struct Followed {
+struct DocumentState {
     revision: u64,
     files: u64,
     path: PathBuf,
 }
 
-impl EvaluatedGraph {
+impl GraphTracker {
     /// Collects the changes since the last call: the edits if they are known, or else the whole graph.
     pub(super) fn follow(&mut self, document: &OpenDocument) {
         let session = &document.session;
         let (revision, files) = (session.revision(), document.files_revision());
         let path = session.graph().path.as_path();
-        let is_same_file = |known: &Followed| known.files == files && known.path == path;
+        let is_same_file = |known: &DocumentState| known.files == files && known.path == path;
         let known = self.followed.as_ref().filter(|known| is_same_file(known));
         let edits = known.and_then(|known| session.edits_since(known.revision));
         match edits.filter(|edits| self.unsent.edit_count() + edits.len() <= MOST_UNSENT) {
@@ -48,7 +48,7 @@ impl EvaluatedGraph {
                 self.add(Arc::new(session.graph().clone()).into());
             }
         }
-        self.followed = Some(Followed {
+        self.followed = Some(DocumentState {
             revision,
             files,
             path: Path::to_owned(path),

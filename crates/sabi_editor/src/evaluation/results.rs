@@ -8,11 +8,11 @@ use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use glam::{DVec3, Vec3};
 use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::evaluating::ModelLooks;
-use sabi_engine::live::{Inspected, LiveModel, LiveTimes, ViewSubject};
+use sabi_engine::live::{InspectedResult, LiveModel, LiveTimes, ViewSubject};
 use sabi_graph::NodeRef;
 use sabi_view::Pixels;
 
-use super::Wanted;
+use super::WantedResults;
 
 /// Results on the model that are kept besides the wanted ones, since artists switch back to results that they have just
 /// seen.
@@ -20,7 +20,7 @@ const KEPT_PICTURES: usize = 6;
 
 /// Maps of one result on the model.
 #[derive(Clone)]
-pub(crate) struct Picture {
+pub(crate) struct ResultPicture {
     pub(crate) model: Arc<LiveModel>,
     pub(crate) looks: Arc<ModelLooks>,
     /// Full id of the output that gives each material of the model, by index; materials that no output gives are missing.
@@ -36,7 +36,7 @@ const EARLIER: usize = 8;
 
 /// The previous picture and those that it remembers, by their numbers, each with the boxes in view space outside of
 /// which the newer one looks the same.
-fn changed_since(before: &Picture, picture: &Picture) -> Vec<(u64, Vec<[Vec3; 2]>)> {
+fn changed_since(before: &ResultPicture, picture: &ResultPicture) -> Vec<(u64, Vec<[Vec3; 2]>)> {
     let identities = before.looks.identity.as_ref().zip(picture.looks.identity.as_ref());
     let since = identities.and_then(|(old, new)| new.since.as_ref().filter(|(key, _)| *key == old.key));
     let Some((_, bounds)) = since.filter(|_| Arc::ptr_eq(&before.model, &picture.model)) else {
@@ -57,27 +57,27 @@ fn changed_since(before: &Picture, picture: &Picture) -> Vec<(u64, Vec<[Vec3; 2]
 
 /// Newest results.
 #[derive(Default)]
-pub(crate) struct Results {
-    pictures: BTreeMap<ViewSubject, Picture>,
+pub(crate) struct EvaluationResults {
+    pictures: BTreeMap<ViewSubject, ResultPicture>,
     /// Number of the last picture.
     last_number: u64,
     thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
     /// Result that the 2D view shows, with its values.
-    pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
+    pub(crate) inspected: Option<(NodeRef, Arc<InspectedResult>)>,
     /// First revision of the model's file that these values are of.
     pub(super) inspected_since: u64,
     /// Result whose histogram is shown among parameters, with its values.
-    pub(crate) measured: Option<(NodeRef, Arc<Inspected>)>,
+    pub(crate) measured: Option<(NodeRef, Arc<InspectedResult>)>,
     times: BTreeMap<String, Duration>,
     /// Times and memory of the last evaluation.
     pub(crate) last: LiveTimes,
 }
 
-impl Results {
+impl EvaluationResults {
     /// Reuses values between the 2D view and the histogram among parameters, since the engine sends unchanged values
     /// only once.
-    pub(super) fn share_values(&mut self, wanted: &Wanted) {
-        let values_of = |wanted: &Option<NodeRef>, known: &Option<(NodeRef, Arc<Inspected>)>| {
+    pub(super) fn share_values(&mut self, wanted: &WantedResults) {
+        let values_of = |wanted: &Option<NodeRef>, known: &Option<(NodeRef, Arc<InspectedResult>)>| {
             known.clone().filter(|(node, _)| Some(node) == wanted.as_ref())
         };
         let measured = values_of(&wanted.measured, &self.measured).or(values_of(&wanted.measured, &self.inspected));
@@ -89,19 +89,19 @@ impl Results {
 }
 
 /// Results that were dropped, which the engine evaluates again when they are wanted.
-pub(super) struct Dropped {
+pub(super) struct DroppedResults {
     pub(super) subjects: Vec<ViewSubject>,
     pub(super) thumbnails: Vec<NodeRef>,
 }
 
-impl Results {
+impl EvaluationResults {
     /// Adds a picture, with a number of its own.
-    pub(super) fn add_picture(&mut self, subject: ViewSubject, picture: Picture) {
+    pub(super) fn add_picture(&mut self, subject: ViewSubject, picture: ResultPicture) {
         self.last_number += 1;
         let number = self.last_number;
         let before = self.pictures.get(&subject);
         let changed = before.map_or_else(Vec::new, |before| changed_since(before, &picture));
-        let picture = Picture {
+        let picture = ResultPicture {
             number,
             changed,
             ..picture
@@ -130,7 +130,7 @@ impl Results {
     }
 
     /// Newest maps of a result, if any have arrived.
-    pub(crate) fn picture(&self, subject: &ViewSubject) -> Option<&Picture> {
+    pub(crate) fn picture(&self, subject: &ViewSubject) -> Option<&ResultPicture> {
         self.pictures.get(subject)
     }
 
@@ -166,12 +166,17 @@ impl Results {
     }
 
     /// Drops results that are not wanted, if they are old, or of deleted nodes or another model.
-    pub(super) fn evict(&mut self, document: &OpenDocument, wanted: &Wanted, model_revision: u64) -> Dropped {
+    pub(super) fn evict(
+        &mut self,
+        document: &OpenDocument,
+        wanted: &WantedResults,
+        model_revision: u64,
+    ) -> DroppedResults {
         let mut numbers: Vec<u64> = self.pictures.values().map(|picture| picture.number).collect();
         numbers.sort_unstable();
         let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.subjects.len());
         let oldest = numbers.get(oldest).copied();
-        let is_kept = |subject: &ViewSubject, picture: &Picture| {
+        let is_kept = |subject: &ViewSubject, picture: &ResultPicture| {
             let exists = match subject {
                 ViewSubject::Outputs => true,
                 ViewSubject::Node(node) => node_paths::exists(document, &node.node),
@@ -188,14 +193,14 @@ impl Results {
         let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !node_paths::exists(document, &node.node));
         let thumbnails = nodes.cloned().collect();
         self.times.retain(|node, _| node_paths::exists(document, node));
-        self.drop_results(Dropped { subjects, thumbnails })
+        self.drop_results(DroppedResults { subjects, thumbnails })
     }
 
     /// Drops all results of nodes.
-    pub(super) fn drop_nodes(&mut self) -> Dropped {
+    pub(super) fn drop_nodes(&mut self) -> DroppedResults {
         let subjects = self.pictures.keys();
         let subjects = subjects.filter(|subject| **subject != ViewSubject::Outputs);
-        let dropped = Dropped {
+        let dropped = DroppedResults {
             subjects: subjects.cloned().collect(),
             thumbnails: self.thumbnails.keys().cloned().collect(),
         };
@@ -203,7 +208,7 @@ impl Results {
         self.drop_results(dropped)
     }
 
-    fn drop_results(&mut self, dropped: Dropped) -> Dropped {
+    fn drop_results(&mut self, dropped: DroppedResults) -> DroppedResults {
         for subject in &dropped.subjects {
             self.pictures.remove(subject);
         }

@@ -30,11 +30,11 @@ const MOST_NAMES: usize = 4;
 #[derive(Default)]
 pub(super) struct RecoveryList {
     /// Drawings of the graphs, in the order of the rows, with the files that they were made of.
-    drawings: Vec<(PathBuf, Option<Drawing>)>,
+    drawings: Vec<(PathBuf, Option<GraphDrawing>)>,
 }
 
 /// A graph as rectangles and lines, and in words.
-struct Drawing {
+struct GraphDrawing {
     /// Nodes, on the canvas.
     nodes: Vec<Rect>,
     /// Wires, as the indices of their nodes.
@@ -56,7 +56,7 @@ impl RecoveryList {
                     recovery.path().to_owned(),
                     graph
                         .as_ref()
-                        .map(|graph| Drawing::new(graph, context.document.catalog())),
+                        .map(|graph| GraphDrawing::new(graph, context.document.catalog())),
                 )
             };
             self.drawings = context.recoveries.iter().map(drawing).collect();
@@ -90,7 +90,7 @@ fn row(
     theme: &Theme,
     at: usize,
     recovery: &Recovery,
-    drawing: &Option<Drawing>,
+    drawing: &Option<GraphDrawing>,
     actions: &mut Vec<Action>,
 ) -> Option<Action> {
     if let Some(fault) = recovery.fault() {
@@ -127,8 +127,8 @@ fn row(
     chosen
 }
 
-impl Drawing {
-    fn new(graph: &Document, catalog: &Catalog) -> Drawing {
+impl GraphDrawing {
+    fn new(graph: &Document, catalog: &Catalog) -> GraphDrawing {
         let nodes: Vec<_> = graph.graph.nodes().collect();
         let places: BTreeMap<&str, usize> = (0..).zip(&nodes).map(|(at, (id, _))| (id.as_str(), at)).collect();
         let mut wires = Vec::new();
@@ -149,7 +149,7 @@ impl Drawing {
             words = format!("{words}: {}{more}", said.join(", "));
         }
         let rect = |[x, y]: [f32; 2]| Rect::from_min_size(pos2(x, y), NODE.into());
-        Drawing {
+        GraphDrawing {
             nodes: nodes.iter().map(|(_, node)| rect(node.pos)).collect(),
             wires,
             words,
@@ -258,7 +258,7 @@ mod tests {
             "c": { "kind": "blend/mask", "inputs": { "above": "a", "below": "b" }, "pos": [800, 0] },
             "d": { "kind": "adjust/auto_levels" }, "e": { "kind": "lost/kind" } } }"#;
         let catalog = Catalog::new(&Kinds::builtin());
-        let drawing = Drawing::new(&Document::from_json(text).expect("a graph"), &catalog);
+        let drawing = GraphDrawing::new(&Document::from_json(text).expect("a graph"), &catalog);
         assert_eq!(
             drawing.words,
             "5 nodes: Grain, White noise, Blend masks, Auto levels, …"

@@ -2,9 +2,9 @@
 
 use egui::{Align, Label, Layout, RichText, Ui, UiBuilder, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::live::{Inspected, LiveModel};
+use sabi_engine::live::{InspectedResult, LiveModel};
 
-use super::{FlatView, Subject};
+use super::{FlatView, FlatViewSubject};
 use crate::evaluation::Evaluation;
 use crate::theme::space;
 
@@ -32,8 +32,8 @@ impl FlatView {
         &mut self,
         ui: &mut Ui,
         evaluation: &Evaluation,
-        subject: &Subject<'_>,
-        values: Option<&Inspected>,
+        subject: &FlatViewSubject<'_>,
+        values: Option<&InspectedResult>,
     ) -> bool {
         let model = evaluation.model.received.as_deref();
         let choices = self.choices(model, values);
@@ -79,7 +79,7 @@ impl FlatView {
     }
 
     /// Choices that there are, with their widths.
-    fn choices(&mut self, model: Option<&LiveModel>, values: Option<&Inspected>) -> Vec<(Choice, f32)> {
+    fn choices(&mut self, model: Option<&LiveModel>, values: Option<&InspectedResult>) -> Vec<(Choice, f32)> {
         let planes = values.map_or(0, |values| values.planes.len());
         self.plane = self.plane.min(planes.saturating_sub(1));
         let components = values.and_then(|values| values.planes.get(self.plane));
@@ -101,7 +101,7 @@ impl FlatView {
         ui: &mut Ui,
         choices: &[(Choice, f32)],
         model: Option<&LiveModel>,
-        values: Option<&Inspected>,
+        values: Option<&InspectedResult>,
     ) {
         for (choice, _) in choices {
             match (choice, model, values) {
@@ -141,7 +141,7 @@ impl FlatView {
     }
 
     /// Menu of the planes.
-    fn planes(&mut self, ui: &mut Ui, values: &Inspected) {
+    fn planes(&mut self, ui: &mut Ui, values: &InspectedResult) {
         let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
             "" => "color",
             name => name,
@@ -155,7 +155,7 @@ impl FlatView {
     }
 
     /// Switches of the components of the plane that is shown.
-    fn components(&mut self, ui: &mut Ui, values: &Inspected) {
+    fn components(&mut self, ui: &mut Ui, values: &InspectedResult) {
         let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
         ui.selectable_value(&mut self.component, None, "RGB");
         for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {

@@ -11,11 +11,11 @@ use sabi_paint::Eye;
 use sabi_surface::patch::Site;
 
 use super::triangle_grid::TriangleGrid;
-use crate::brush::{Canvas, ShownStencil};
+use crate::brush::{PaintView, ShownStencil};
 
 /// Grids over the triangles of the shown model: that of the texture set that was asked for last.
 #[derive(Default)]
-pub(super) struct Triangles {
+pub(super) struct TriangleGrids {
     of: Option<(Weak<LinkedModel>, SetKey)>,
     grid: Arc<OnceLock<TriangleGrid>>,
 }
@@ -24,11 +24,11 @@ pub(super) struct Triangles {
 pub(super) struct SeenTexture {
     pub(super) square: Rect,
     pub(super) set: SetKey,
-    /// Its triangles on the shown model ([`Triangles::of`]); sorted when a place is first asked for.
+    /// Its triangles on the shown model ([`TriangleGrids::of`]); sorted when a place is first asked for.
     pub(super) triangles: Arc<OnceLock<TriangleGrid>>,
 }
 
-impl Triangles {
+impl TriangleGrids {
     /// The triangles of a texture set of a model. Nothing is sorted yet.
     pub(super) fn of(&mut self, model: &LiveModel, set: SetKey) -> Arc<OnceLock<TriangleGrid>> {
         let wanted = (Arc::downgrade(&model.linked), set);
@@ -41,7 +41,7 @@ impl Triangles {
     }
 }
 
-impl Canvas for SeenTexture {
+impl PaintView for SeenTexture {
     /// The first triangle of the set over a place; others that lie there, too, show the same texels.
     fn site(&self, model: &LiveModel, at: Pos2) -> Option<Site> {
         let share = (at - self.square.min) / self.square.size();

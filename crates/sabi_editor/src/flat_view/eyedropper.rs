@@ -2,7 +2,7 @@
 
 use egui::ecolor::gamma_u8_from_linear_f32;
 use egui::{CursorIcon, Rect, Response};
-use sabi_engine::live::Inspected;
+use sabi_engine::live::InspectedResult;
 use sabi_graph::PortType;
 
 use super::FlatView;
@@ -10,7 +10,12 @@ use crate::action::ClickedColor;
 
 impl FlatView {
     /// Clicked color. Of a material, its base color whatever plane is shown.
-    pub(super) fn clicked_color(&self, response: &Response, square: Rect, values: &Inspected) -> Option<ClickedColor> {
+    pub(super) fn clicked_color(
+        &self,
+        response: &Response,
+        square: Rect,
+        values: &InspectedResult,
+    ) -> Option<ClickedColor> {
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
         let has_color = matches!(values.ty, PortType::Color | PortType::Material);

@@ -2,7 +2,7 @@
 
 use egui::{Color32, ColorImage, Painter, Rect, Stroke, ecolor::gamma_u8_from_linear_f32, pos2, vec2};
 use sabi_engine::evaluating::{PlaneKind, ResultPlane};
-use sabi_engine::live::Inspected;
+use sabi_engine::live::InspectedResult;
 
 use crate::theme::{Theme, space};
 
@@ -13,7 +13,7 @@ const BESIDE: f32 = 0.45;
 
 /// Picture of a plane of values, or of one component of it in gray. Colors are encoded as sRGB, other numbers are kept,
 /// and vectors are mapped from −1..1 to 0..1.
-pub(super) fn picture_of(values: &Inspected, plane: &ResultPlane, component: Option<usize>) -> ColorImage {
+pub(super) fn picture_of(values: &InspectedResult, plane: &ResultPlane, component: Option<usize>) -> ColorImage {
     let side = values.size as usize;
     let code = |number: f32| match plane.holds {
         PlaneKind::Color if component != Some(3) => gamma_u8_from_linear_f32(number.clamp(0.0, 1.0)),
@@ -53,7 +53,12 @@ pub(crate) struct Histogram {
 
 impl Histogram {
     /// Counts the texels on the surface; values outside 0..1 widen the range.
-    pub(crate) fn of(values: &Inspected, plane: &ResultPlane, component: Option<usize>, bins: usize) -> Histogram {
+    pub(crate) fn of(
+        values: &InspectedResult,
+        plane: &ResultPlane,
+        component: Option<usize>,
+        bins: usize,
+    ) -> Histogram {
         let components: Vec<usize> = match component {
             Some(at) => vec![at],
             None => (0..plane.components.min(3)).collect(),
@@ -154,12 +159,12 @@ mod tests {
 
     use super::*;
 
-    fn mask(numbers: &[f32]) -> Inspected {
+    fn mask(numbers: &[f32]) -> InspectedResult {
         plane(PlaneKind::Numbers, numbers)
     }
 
-    fn plane(holds: PlaneKind, numbers: &[f32]) -> Inspected {
-        Inspected {
+    fn plane(holds: PlaneKind, numbers: &[f32]) -> InspectedResult {
+        InspectedResult {
             ty: PortType::Mask,
             size: 2,
             set: TextureSet {

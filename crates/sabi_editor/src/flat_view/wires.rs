@@ -20,7 +20,7 @@ const SIDE: usize = 1024;
 pub(super) struct Wires {
     /// Model and texture set that they are of.
     of: Option<(u64, SetKey)>,
-    loading: Option<Task<Drawing>>,
+    loading: Option<Task<EdgeDrawing>>,
     edges: Vec<[Pos2; 2]>,
     /// Picture that replaces many lines, and its rectangle in texture space.
     picture: Option<(TextureHandle, Rect)>,
@@ -28,7 +28,7 @@ pub(super) struct Wires {
 
 /// Edges in texture space, with a picture of them if they are many.
 #[derive(Default)]
-struct Drawing {
+struct EdgeDrawing {
     edges: Vec<[Pos2; 2]>,
     picture: Option<(ColorImage, Rect)>,
 }
@@ -61,14 +61,14 @@ impl Wires {
         if self.of != Some(wanted) && self.loading.is_none() {
             self.of = Some(wanted);
             let linked = model.linked.clone();
-            self.loading = Some(Task::start(context, move || Drawing::of(edges_of(&linked, set))));
+            self.loading = Some(Task::start(context, move || EdgeDrawing::of(edges_of(&linked, set))));
         }
         let Some(come) = self.loading.as_ref().and_then(Task::poll) else {
             return;
         };
         self.loading = None;
         // Where making them fails, the texture is shown without wires.
-        let Drawing { edges, picture } = come.unwrap_or_default();
+        let EdgeDrawing { edges, picture } = come.unwrap_or_default();
         self.edges = edges;
         self.picture = picture.map(|(image, bounds)| {
             let texture = context.load_texture("wires of a model", image, TextureOptions::LINEAR);
@@ -77,10 +77,10 @@ impl Wires {
     }
 }
 
-impl Drawing {
-    fn of(edges: Vec<[Pos2; 2]>) -> Drawing {
+impl EdgeDrawing {
+    fn of(edges: Vec<[Pos2; 2]>) -> EdgeDrawing {
         let picture = (edges.len() > MOST_LINES).then(|| picture_of(&edges));
-        Drawing { edges, picture }
+        EdgeDrawing { edges, picture }
     }
 }
 
@@ -164,8 +164,8 @@ mod tests {
 
     #[test]
     fn few_lines_are_drawn_as_lines_and_many_as_a_picture() {
-        assert!(Drawing::of(grid(10)).picture.is_none());
-        assert!(Drawing::of(grid(120)).picture.is_some());
+        assert!(EdgeDrawing::of(grid(10)).picture.is_none());
+        assert!(EdgeDrawing::of(grid(120)).picture.is_some());
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::buttons::focus_ring;
 use super::keys::{FINE, lock_arrow_keys};
 use super::knob_ui::{DragValues, KnobUi};
 use super::length::Quantity;
-use super::text_field::{Field, FieldResult};
+use super::text_field::{FieldResult, KnobTextField};
 use super::text_painting::write;
 use super::values::{rounded, step_of, text_of};
 use super::{KnobRow, keys};
@@ -30,7 +30,7 @@ const POINTS_OF_A_STEP: f32 = 24.0;
 const LEAST_WIDTH: f64 = 120.0;
 
 /// Bar of one number.
-pub(super) struct Bar<'a> {
+pub(super) struct NumberBar<'a> {
     pub(super) id: Id,
     /// Id of the row below which errors are shown.
     pub(super) row_id: Id,
@@ -60,7 +60,7 @@ pub(super) struct BarResponse {
     pub(super) is_active: bool,
 }
 
-impl Bar<'_> {
+impl NumberBar<'_> {
     pub(super) fn show(&self, ui: &mut Ui, knob_ui: &mut KnobUi<'_>) -> BarResponse {
         if knob_ui.is_typing(self.id) {
             let value = self.typed(ui, knob_ui);
@@ -225,7 +225,7 @@ impl Bar<'_> {
         };
         let typed = knob_ui.field(
             ui,
-            &Field {
+            &KnobTextField {
                 // The text field has the id of the bar, so that the keyboard stays with it.
                 id: self.id,
                 rect: self.rect,

@@ -9,7 +9,7 @@ use super::boxes::cut_square;
 use super::buttons::{focus_ring, sign_button};
 use super::knob_ui::{DragValues, KnobUi};
 use super::picker::{picker, remember};
-use super::text_field::{Field, FieldResult};
+use super::text_field::{FieldResult, KnobTextField};
 use super::values::{code_of, color_of};
 use super::{KnobEvent, KnobRow};
 use crate::theme::space;
@@ -46,7 +46,7 @@ pub(super) fn swatch_and_code(
     let shown = if row.differs { String::new() } else { code_of(color) };
     let typed = knob_ui.field(
         ui,
-        &Field {
+        &KnobTextField {
             id: id.with("code"),
             rect: rect.with_min_x(left.right() + space::TIGHT / 2.0),
             name: &format!("{name}: code"),

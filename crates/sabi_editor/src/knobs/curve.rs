@@ -5,10 +5,10 @@ mod shape;
 use egui::{Id, Key, Modifiers, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo};
 use egui_phosphor::regular as icon;
 
-pub(super) use self::shape::View;
+pub(super) use self::shape::CurveView;
 use self::shape::height_at;
 use super::KnobRow;
-use super::bar::Bar;
+use super::bar::NumberBar;
 use super::boxes::{cut_square, share_of, strip};
 use super::buttons::{focus_ring, sign_button};
 use super::keys::arrows;
@@ -74,17 +74,17 @@ struct Curve {
 
 impl Curve {
     /// Shown part of the plane. It stays the same during a drag, or the curve would move away from the pointer.
-    fn view(&self, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, response: &Response) -> View {
+    fn view(&self, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, response: &Response) -> CurveView {
         let rect = response.rect.shrink(MARGIN);
         let dragged = knob_ui.memory.drag.as_ref().filter(|_| knob_ui.is_dragged(response.id));
         let at_first = dragged.and_then(|drag| read(row.knob, drag.values.all.as_ref()?));
         match at_first {
-            Some(KnobValue::Points(points)) => View::of(rect, self.usual, &points),
-            _ => View::of(rect, self.usual, &self.points),
+            Some(KnobValue::Points(points)) => CurveView::of(rect, self.usual, &points),
+            _ => CurveView::of(rect, self.usual, &self.points),
         }
     }
 
-    fn near(&self, view: &View, place: Pos2) -> Option<usize> {
+    fn near(&self, view: &CurveView, place: Pos2) -> Option<usize> {
         let far = |at: &usize| view.place(self.points[*at]).distance(place);
         let nearest = (0..self.points.len()).min_by(|left, right| far(left).total_cmp(&far(right)))?;
         (far(&nearest) <= NEAR).then_some(nearest)
@@ -137,7 +137,7 @@ impl Curve {
         format!("A curve holds no more than {room} points: take one out before you add another.")
     }
 
-    fn dragged(&mut self, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, view: &View) -> bool {
+    fn dragged(&mut self, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, view: &CurveView) -> bool {
         let values_at = |origin: Pos2| {
             self.selected = self.near(view, origin)?;
             let [x, y] = self.points[self.selected];
@@ -159,7 +159,7 @@ impl Curve {
     }
 
     /// Applies the whole drag to the points at its beginning.
-    fn take(&mut self, row: &KnobRow<'_>, drag: &Drag, view: &View) -> bool {
+    fn take(&mut self, row: &KnobRow<'_>, drag: &Drag, view: &CurveView) -> bool {
         let all = drag.values.all.as_ref();
         let Some(KnobValue::Points(points)) = all.and_then(|all| read(row.knob, all)) else {
             return false;
@@ -175,7 +175,7 @@ impl Curve {
         true
     }
 
-    fn clicked(&mut self, knob_ui: &mut KnobUi<'_>, id: Id, response: &Response, view: &View) -> bool {
+    fn clicked(&mut self, knob_ui: &mut KnobUi<'_>, id: Id, response: &Response, view: &CurveView) -> bool {
         let Some(place) = response.interact_pointer_pos().filter(|_| response.clicked()) else {
             return false;
         };
@@ -269,7 +269,7 @@ impl Curve {
             );
             let name = format!("{}: {what}", row.knob.label);
             let response = sign_button(ui, knob_ui, id.with(what), place, "", &name);
-            let view = View::of(place.shrink(5.0), self.usual, &points);
+            let view = CurveView::of(place.shrink(5.0), self.usual, &points);
             view.draw(ui.painter(), &points, Stroke::new(1.5, knob_ui.theme.quiet));
             if response.clicked() && points.len() <= self.room {
                 chosen = Some(points);
@@ -294,7 +294,7 @@ impl Curve {
         for (axis, word) in ["X", "Y"].into_iter().enumerate() {
             let name = format!("{label} {word}");
             let whole = bar_of(knob_ui, row, id, share_of(rect, axis, 2), point[axis]);
-            let bar = Bar {
+            let bar = NumberBar {
                 id: id.with(word),
                 name: &name,
                 inside: word,
@@ -327,7 +327,7 @@ impl Curve {
         has_moved || is_added && has_room || is_removed && self.remove()
     }
 
-    fn paint(&self, ui: &Ui, knob_ui: &KnobUi<'_>, response: &Response, view: &View) {
+    fn paint(&self, ui: &Ui, knob_ui: &KnobUi<'_>, response: &Response, view: &CurveView) {
         let theme = knob_ui.theme;
         let painter = ui.painter();
         painter.rect_filled(response.rect, space::CORNER, theme.canvas);

@@ -3,13 +3,13 @@
 use egui::Ui;
 use sabi_engine::catalog::Knob;
 use sabi_graph::Value;
-use sabi_nodes::kind::{Memory, ParamType, Role, Written};
+use sabi_nodes::kind::{Memory, ParamType, Role, WrittenValue};
 
 use super::boxes::strip;
 use super::knob_ui::KnobUi;
 use super::sentence::sentence;
 use super::values::{KnobValue, of_points, read};
-use super::{KnobEvent, KnobMemory, KnobRow, Lengths, ParamMask, curve};
+use super::{KnobEvent, KnobMemory, KnobRow, LengthUnits, ParamMask, curve};
 use crate::theme::{Theme, space};
 
 /// State of a curve between frames.
@@ -42,7 +42,7 @@ pub(crate) fn curve_ui(
     };
     let id = ui.make_persistent_id(label);
     // No length is shown.
-    let lengths = Lengths {
+    let lengths = LengthUnits {
         model_units_per_working: 1.0,
         metres_per_model_unit: 1.0,
     };
@@ -83,7 +83,7 @@ fn knob_of(label: &str, room: usize) -> Knob {
             memory: Memory::Points(room as u32),
             range: Some([0.0, 1.0]),
             soft: Some([0.0, 1.0]),
-            default: Written::Points(vec![[0.0, 0.0], [1.0, 1.0]]).to_value(),
+            default: WrittenValue::Points(vec![[0.0, 0.0], [1.0, 1.0]]).to_value(),
         },
         is_of_input: false,
     }

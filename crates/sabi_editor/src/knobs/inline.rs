@@ -5,12 +5,12 @@ use sabi_editing::node_size::ROW_HEIGHT;
 use sabi_graph::Value;
 use sabi_nodes::kind::Role;
 
-use super::bar::Bar;
-use super::curve::View;
+use super::bar::NumberBar;
+use super::curve::CurveView;
 use super::knob_ui::{KnobMemory, KnobUi};
 use super::text_painting::write;
-use super::values::{KnobValue, Stop, code_of, read, step_of, text_of};
-use super::{KnobEvent, KnobRow, Lengths, choice, color, doc, numbers, row};
+use super::values::{GradientStop, KnobValue, code_of, read, step_of, text_of};
+use super::{KnobEvent, KnobRow, LengthUnits, choice, color, doc, numbers, row};
 use crate::theme::{Theme, space, type_size};
 
 /// Zoom below which a row is drawn as a plain block.
@@ -35,7 +35,7 @@ pub(crate) fn knob_inline(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>, width: 
     // There is no state before the first row is shown.
     let mut memory = memory.unwrap_or_default();
     // Lengths on the model are shown in the panel only.
-    let lengths = Lengths {
+    let lengths = LengthUnits {
         model_units_per_working: 0.0,
         metres_per_model_unit: 0.0,
     };
@@ -77,7 +77,7 @@ fn widget(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect
     match (held, &row.knob.ty.role) {
         (Some(KnobValue::Numbers(held)), role) if row.knob.ty.components() == 1 => {
             let whole = numbers::bar_of(knob_ui, row, id, rect, held[0]);
-            let bar = Bar {
+            let bar = NumberBar {
                 inside: &row.knob.label,
                 is_filled: *role != Role::Seed,
                 ..whole
@@ -182,7 +182,7 @@ fn picture(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect)
         .shrink2(Vec2::new(0.0, 3.0 * knob_ui.zoom))
 }
 
-fn ramp(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: &[Stop]) {
+fn ramp(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: &[GradientStop]) {
     let place = picture(ui, knob_ui, row, id, rect);
     super::stops::paint_ramp(ui.painter(), place, stops);
 }
@@ -191,7 +191,7 @@ fn line(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, po
     let place = picture(ui, knob_ui, row, id, rect);
     ui.painter().rect_filled(place, space::CORNER, knob_ui.theme.canvas);
     let usual = row.knob.ty.soft.unwrap_or([0.0, 1.0]);
-    let view = View::of(place.shrink(2.0 * knob_ui.zoom), usual, points);
+    let view = CurveView::of(place.shrink(2.0 * knob_ui.zoom), usual, points);
     view.draw(
         ui.painter(),
         points,

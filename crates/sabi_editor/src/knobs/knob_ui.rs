@@ -3,15 +3,15 @@
 use egui::{Color32, Context, Id, Key, PointerButton, Pos2, Response, Vec2};
 use sabi_graph::Value;
 
-use super::{KnobEvent, KnobRow, Lengths};
+use super::{KnobEvent, KnobRow, LengthUnits};
 use crate::theme::Theme;
 
 /// State of parameter rows between frames: what is dragged, typed and picked. It is not saved.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct KnobMemory {
     pub(super) drag: Option<Drag>,
-    pub(super) typing: Option<Typing>,
-    fault: Option<Fault>,
+    pub(super) typing: Option<TypedText>,
+    fault: Option<TextFault>,
     /// Row and index of the selected stop or point.
     pub(super) selected: Option<(Id, usize)>,
     /// Swatch whose picker is open, and its color with a hue even for grays.
@@ -26,7 +26,7 @@ pub(crate) struct KnobMemory {
 
 /// Text field that has the keyboard.
 #[derive(Clone, Debug)]
-pub(super) struct Typing {
+pub(super) struct TypedText {
     pub(super) id: Id,
     pub(super) text: String,
     /// True until the field was given the keyboard focus.
@@ -37,7 +37,7 @@ pub(super) struct Typing {
 
 /// Error in the text that was typed last.
 #[derive(Clone, Debug)]
-struct Fault {
+struct TextFault {
     /// Row of the text.
     row_id: Id,
     sentence: String,
@@ -92,7 +92,7 @@ impl DragValues {
 pub(super) struct KnobUi<'a> {
     pub(super) theme: &'a Theme,
     pub(super) memory: &'a mut KnobMemory,
-    pub(super) lengths: Lengths,
+    pub(super) lengths: LengthUnits,
     /// Factor of type size and heights.
     pub(super) zoom: f32,
     /// True if the rows are those of exposed parameters.
@@ -103,7 +103,7 @@ pub(super) struct KnobUi<'a> {
 }
 
 impl<'a> KnobUi<'a> {
-    pub(super) fn new(theme: &'a Theme, memory: &'a mut KnobMemory, lengths: &Lengths) -> KnobUi<'a> {
+    pub(super) fn new(theme: &'a Theme, memory: &'a mut KnobMemory, lengths: &LengthUnits) -> KnobUi<'a> {
         KnobUi {
             theme,
             memory,
@@ -231,7 +231,7 @@ impl KnobUi<'_> {
 
     /// Shows an error below a row until something else is clicked or requested.
     pub(super) fn fault(&mut self, row_id: Id, sentence: impl Into<String>) {
-        self.memory.fault = Some(Fault {
+        self.memory.fault = Some(TextFault {
             row_id,
             sentence: sentence.into(),
             is_leaving: false,

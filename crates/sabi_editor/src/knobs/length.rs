@@ -7,7 +7,7 @@ use super::values::text_of;
 
 /// Units of lengths: lengths in a graph are working units, made from the model's units by the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lengths {
+pub(crate) struct LengthUnits {
     /// Factor from working units to units of the model's file.
     pub(crate) model_units_per_working: f64,
     /// Factor from units of the model's file to meters; 0 if unknown.
@@ -22,10 +22,10 @@ const UNITS: [(&str, f64, f64); 4] = [
     ("mm", 0.001, 0.0),
 ];
 
-impl Lengths {
+impl LengthUnits {
     /// Units of lengths on a model; working units while there is none.
-    pub(crate) fn on(model: Option<&LiveModel>) -> Lengths {
-        Lengths {
+    pub(crate) fn on(model: Option<&LiveModel>) -> LengthUnits {
+        LengthUnits {
             model_units_per_working: model.map_or(1.0, |model| model.fitted().model_from_working()),
             // glTF counts in meters.
             metres_per_model_unit: 1.0,
@@ -70,7 +70,7 @@ impl Lengths {
 pub(super) enum Quantity {
     Plain,
     Degrees,
-    Length(Lengths),
+    Length(LengthUnits),
 }
 
 impl Quantity {
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_length_is_written_in_the_unit_that_suits_its_size() {
-        let lengths = Lengths {
+        let lengths = LengthUnits {
             model_units_per_working: 1.7,
             metres_per_model_unit: 1.0,
         };
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn a_length_has_no_unit_where_the_size_of_the_model_is_unknown() {
         for metres_per_model_unit in [0.0, f64::NAN, f64::INFINITY, -1.0] {
-            let lengths = Lengths {
+            let lengths = LengthUnits {
                 model_units_per_working: 1.0,
                 metres_per_model_unit,
             };
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_length_can_be_typed_as_it_is_on_the_model() {
-        let lengths = Lengths {
+        let lengths = LengthUnits {
             model_units_per_working: 2.0,
             metres_per_model_unit: 1.0,
         };

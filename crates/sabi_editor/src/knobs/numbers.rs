@@ -8,7 +8,7 @@ use egui_phosphor::regular as icon;
 use sabi_engine::catalog::Knob;
 use sabi_nodes::kind::Role;
 
-use super::bar::Bar;
+use super::bar::NumberBar;
 use super::boxes::{cut_square, share_of};
 use super::buttons::sign_button;
 use super::knob_ui::{DragValues, KnobUi};
@@ -38,8 +38,14 @@ pub(super) fn show(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id:
 }
 
 /// Bar for the only number of a parameter.
-pub(super) fn bar_of<'a>(knob_ui: &KnobUi<'_>, row: &'a KnobRow<'a>, row_id: Id, rect: Rect, value: f64) -> Bar<'a> {
-    Bar {
+pub(super) fn bar_of<'a>(
+    knob_ui: &KnobUi<'_>,
+    row: &'a KnobRow<'a>,
+    row_id: Id,
+    rect: Rect,
+    value: f64,
+) -> NumberBar<'a> {
+    NumberBar {
         id: row_id.with("bar"),
         row_id,
         row,
@@ -60,14 +66,14 @@ pub(super) fn bar_of<'a>(knob_ui: &KnobUi<'_>, row: &'a KnobRow<'a>, row_id: Id,
 }
 
 /// Shows the bar of the only number of a parameter, and requests changes.
-pub(super) fn one(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, bar: &Bar<'_>) {
+pub(super) fn one(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, bar: &NumberBar<'_>) {
     if let Some(number) = number(ui, knob_ui, bar) {
         knob_ui.set(bar.row, of_numbers(&[number]));
     }
 }
 
 /// Shows a number; a length is also shown on the model while it is pointed at.
-fn number(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, bar: &Bar<'_>) -> Option<f64> {
+fn number(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, bar: &NumberBar<'_>) -> Option<f64> {
     let response = bar.show(ui, knob_ui);
     if response.is_active && matches!(bar.measure, Quantity::Length(_)) {
         let length = response.value.unwrap_or(bar.value);
@@ -91,7 +97,7 @@ fn several(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rec
     for (at, axis) in AXES.iter().enumerate().take(count) {
         let name = format!("{} {axis}", row.knob.label);
         let whole = bar_of(knob_ui, row, id, share_of(rect, at, count), numbers[at]);
-        let bar = Bar {
+        let bar = NumberBar {
             id: id.with(at),
             name: &name,
             inside: axis,
@@ -160,7 +166,7 @@ fn seed(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut re
     let label = &row.knob.label;
     let [dice, more, less] = std::array::from_fn(|_| cut_square(&mut rect));
     let whole = bar_of(knob_ui, row, id, rect, seed);
-    let bar = Bar {
+    let bar = NumberBar {
         ends: [0.0, SEEDS_OF_A_BAR],
         is_filled: false,
         ..whole

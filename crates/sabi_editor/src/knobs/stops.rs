@@ -9,7 +9,7 @@ use egui::{
 use egui_phosphor::regular as icon;
 use sabi_nodes::kind::WrittenStop;
 
-use super::bar::Bar;
+use super::bar::NumberBar;
 use super::boxes::{cut_square, strip};
 use super::buttons::{focus_ring, sign_button};
 use super::color::swatch_and_code;
@@ -17,10 +17,10 @@ use super::keys::arrows;
 use super::knob_ui::{Drag, DragValues, KnobUi};
 use super::numbers::bar_of;
 use super::text_painting::write;
-use super::values::{KnobValue, Stop, of_stops, read, rounded, sort_keeping};
+use super::values::{GradientStop, KnobValue, of_stops, read, rounded, sort_keeping};
 use super::{KnobEvent, KnobRow};
 use crate::theme::{space, type_size};
-use presets::Chosen;
+use presets::PresetChoice;
 
 const RAMP: f32 = 20.0;
 const HANDLES: f32 = 13.0;
@@ -32,7 +32,14 @@ const AWAY: f32 = 28.0;
 const DIGITS: f64 = 0.001;
 const STEP: f64 = 0.01;
 
-pub(super) fn show(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: Vec<Stop>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    knob_ui: &mut KnobUi<'_>,
+    row: &KnobRow<'_>,
+    id: Id,
+    rect: Rect,
+    stops: Vec<GradientStop>,
+) {
     let mut gradient = Gradient {
         selected: knob_ui.selected(id, stops.len()),
         room: row.knob.ty.components(),
@@ -81,7 +88,7 @@ impl Ramp {
 }
 
 struct Gradient {
-    stops: Vec<Stop>,
+    stops: Vec<GradientStop>,
     selected: usize,
     room: usize,
 }
@@ -99,7 +106,7 @@ impl Gradient {
         }
         let color = color_at(&self.stops, at);
         self.selected = self.stops.partition_point(|stop| stop.at <= at);
-        self.stops.insert(self.selected, Stop { at, color });
+        self.stops.insert(self.selected, GradientStop { at, color });
         true
     }
 
@@ -230,12 +237,12 @@ impl Gradient {
         let name = format!("{label}: presets and pictures");
         let chooser = sign_button(ui, knob_ui, id.with("presets"), choose, icon::SWATCHES, &name);
         let is_chosen = match presets::menu(&chooser, knob_ui) {
-            Some(Chosen::Preset(preset)) => {
+            Some(PresetChoice::Preset(preset)) => {
                 self.stops.clone_from(&preset.stops);
                 self.selected = 0;
                 true
             }
-            Some(Chosen::Picture) => {
+            Some(PresetChoice::Picture) => {
                 let knob = row.knob.name.clone();
                 knob_ui.events.push(KnobEvent::PickGradient { knob });
                 false
@@ -279,7 +286,7 @@ impl Gradient {
         }
         let name = format!("{label}: position");
         let whole = bar_of(knob_ui, row, id, rect.with_min_x(middle), stop.at);
-        let bar = Bar {
+        let bar = NumberBar {
             name: &name,
             inside: "At",
             ends: [0.0, 1.0],
@@ -317,7 +324,7 @@ impl Gradient {
 }
 
 /// Color at a position, mixed in linear light as nodes do.
-fn color_at(stops: &[Stop], at: f64) -> Color32 {
+fn color_at(stops: &[GradientStop], at: f64) -> Color32 {
     let after = stops.partition_point(|stop| stop.at <= at);
     let (Some(left), Some(right)) = (stops.get(after.saturating_sub(1)), stops.get(after).or(stops.last())) else {
         return Color32::TRANSPARENT;
@@ -328,12 +335,12 @@ fn color_at(stops: &[Stop], at: f64) -> Color32 {
 
 /// Fills a rectangle with a gradient as a file holds it.
 pub(crate) fn paint_gradient(painter: &Painter, rect: Rect, stops: &[WrittenStop]) {
-    let stops: Vec<Stop> = stops.iter().map(Stop::of).collect();
+    let stops: Vec<GradientStop> = stops.iter().map(GradientStop::of).collect();
     paint_ramp(painter, rect, &stops);
 }
 
 /// Fills a rectangle with a gradient, in pieces short enough to look like linear light.
-pub(super) fn paint_ramp(painter: &Painter, rect: Rect, stops: &[Stop]) {
+pub(super) fn paint_ramp(painter: &Painter, rect: Rect, stops: &[GradientStop]) {
     const PARTS: u32 = 48;
     let even = (0..=PARTS).map(|part| f64::from(part) / f64::from(PARTS));
     // Two stops at one position make an edge.

@@ -18,10 +18,10 @@ use sabi_engine::Kinds;
 use sabi_engine::catalog::{Catalog, Knob};
 use sabi_graph::Value;
 
-use super::{KnobEvent, KnobMemory, KnobRow, Lengths, ParamMask, knob_inline, knobs_ui};
-use crate::theme::{Shade, Theme};
+use super::{KnobEvent, KnobMemory, KnobRow, LengthUnits, ParamMask, knob_inline, knobs_ui};
+use crate::theme::{ColorScheme, Theme};
 
-const LENGTHS: Lengths = Lengths {
+const LENGTHS: LengthUnits = LengthUnits {
     model_units_per_working: 1.7,
     metres_per_model_unit: 1.0,
 };
@@ -31,7 +31,7 @@ static CATALOG: LazyLock<Catalog> = LazyLock::new(|| Catalog::new(&Kinds::builti
 
 /// A knob with the state that its row shows.
 #[derive(Clone, Debug)]
-struct Shown {
+struct TestKnob {
     knob: Knob,
     value: Option<Value>,
     wired: Option<&'static str>,
@@ -41,14 +41,14 @@ struct Shown {
 }
 
 /// A knob of a built-in kind, such as `noise/simplex.size`.
-fn knob(name: &str) -> Shown {
+fn knob(name: &str) -> TestKnob {
     let (kind, name) = name.split_once('.').expect("kind.knob");
     let entry = CATALOG.entry(kind).expect("a built-in kind");
     shown(entry.knob(name).expect("a documented parameter"))
 }
 
-fn shown(knob: &Knob) -> Shown {
-    Shown {
+fn shown(knob: &Knob) -> TestKnob {
+    TestKnob {
         knob: knob.clone(),
         value: None,
         wired: None,
@@ -58,8 +58,8 @@ fn shown(knob: &Knob) -> Shown {
     }
 }
 
-struct State {
-    rows: Vec<Shown>,
+struct TestState {
+    rows: Vec<TestKnob>,
     memory: KnobMemory,
     theme: Theme,
     /// All events of knobs, except for lengths to show.
@@ -70,14 +70,14 @@ struct State {
     zoom: Option<f32>,
 }
 
-type Board = Harness<'static, State>;
+type Board = Harness<'static, TestState>;
 
-fn board(rows: impl IntoIterator<Item = Shown>) -> Board {
-    board_of(rows, Shade::Dark, None, Vec2::new(320.0, 600.0))
+fn board(rows: impl IntoIterator<Item = TestKnob>) -> Board {
+    board_of(rows, ColorScheme::Dark, None, Vec2::new(320.0, 600.0))
 }
 
-fn board_of(rows: impl IntoIterator<Item = Shown>, shade: Shade, zoom: Option<f32>, size: Vec2) -> Board {
-    let state = State {
+fn board_of(rows: impl IntoIterator<Item = TestKnob>, shade: ColorScheme, zoom: Option<f32>, size: Vec2) -> Board {
+    let state = TestState {
         rows: rows.into_iter().collect(),
         memory: KnobMemory::default(),
         theme: Theme::of(shade),
@@ -86,7 +86,7 @@ fn board_of(rows: impl IntoIterator<Item = Shown>, shade: Shade, zoom: Option<f3
         zoom,
     };
     let mut is_new = true;
-    let show = move |ui: &mut egui::Ui, state: &mut State| {
+    let show = move |ui: &mut egui::Ui, state: &mut TestState| {
         if std::mem::take(&mut is_new) {
             let mut fonts = egui::FontDefinitions::default();
             egui_phosphor::add_to_fonts(&mut fonts, egui_phosphor::Variant::Regular);
@@ -200,9 +200,9 @@ fn says(board: &Board, part: &str) -> bool {
     board.query_by_label_contains(part).is_some()
 }
 
-impl State {
+impl TestState {
     fn show(&mut self, ui: &mut egui::Ui) {
-        let rows: Vec<Shown> = self.rows.clone();
+        let rows: Vec<TestKnob> = self.rows.clone();
         let rows: Vec<KnobRow<'_>> = rows
             .iter()
             .map(|row| KnobRow {

@@ -8,13 +8,13 @@ use super::boxes::cut_square;
 use super::buttons::sign_button;
 use super::knob_ui::KnobUi;
 use super::sentence::sentence;
-use super::text_field::{Field, FieldResult};
+use super::text_field::{FieldResult, KnobTextField};
 use super::{KnobEvent, KnobRow};
 
 pub(super) fn text(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
     let typed = knob_ui.field(
         ui,
-        &Field {
+        &KnobTextField {
             id: id.with("text"),
             rect,
             name: &row.knob.label,

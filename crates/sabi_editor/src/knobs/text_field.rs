@@ -3,7 +3,7 @@
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Frame, Id, Key, Margin, Rect, Response, StrokeKind, TextEdit, Ui};
 
-use super::knob_ui::{KnobUi, Typing};
+use super::knob_ui::{KnobUi, TypedText};
 use crate::theme::{space, type_size};
 
 /// Result of a text field in this frame.
@@ -18,7 +18,7 @@ pub(super) enum FieldResult {
 }
 
 /// Text field of one line.
-pub(super) struct Field<'f> {
+pub(super) struct KnobTextField<'f> {
     pub(super) id: Id,
     pub(super) rect: Rect,
     /// Accessible name.
@@ -32,7 +32,7 @@ pub(super) struct Field<'f> {
 impl KnobUi<'_> {
     /// Opens a text field that is shown only while it has the keyboard.
     pub(super) fn open_field(&mut self, id: Id, text: String, is_selected: bool) {
-        self.memory.typing = Some(Typing {
+        self.memory.typing = Some(TypedText {
             id,
             text,
             is_new: true,
@@ -45,7 +45,7 @@ impl KnobUi<'_> {
     }
 
     /// Shows a text field.
-    pub(super) fn field(&mut self, ui: &mut Ui, field: &Field<'_>) -> FieldResult {
+    pub(super) fn field(&mut self, ui: &mut Ui, field: &KnobTextField<'_>) -> FieldResult {
         let mut typing = self.memory.typing.take_if(|typing| typing.id == field.id);
         let mut text = match &mut typing {
             Some(typing) => std::mem::take(&mut typing.text),
@@ -70,7 +70,7 @@ impl KnobUi<'_> {
             self.forget_fault();
         }
         if response.has_focus() {
-            self.memory.typing = Some(Typing { text, ..typing });
+            self.memory.typing = Some(TypedText { text, ..typing });
             return FieldResult::Editing;
         }
         // A field that lost the focus while it was not shown keeps its text.
@@ -82,7 +82,7 @@ impl KnobUi<'_> {
         FieldResult::Unchanged
     }
 
-    fn edit(&self, ui: &mut Ui, field: &Field<'_>, text: &mut String) -> Response {
+    fn edit(&self, ui: &mut Ui, field: &KnobTextField<'_>, text: &mut String) -> Response {
         let theme = self.theme;
         let painter = ui.painter();
         let has_focus = ui.memory(|memory| memory.has_focus(field.id));

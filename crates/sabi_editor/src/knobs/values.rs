@@ -3,7 +3,7 @@
 use egui::Color32;
 use sabi_engine::catalog::Knob;
 use sabi_graph::{Value, canonical_number};
-use sabi_nodes::kind::{Written, WrittenStop};
+use sabi_nodes::kind::{WrittenStop, WrittenValue};
 use sabi_nodes::{color_code, typed_color};
 
 /// A knob's value, with colors as egui has them.
@@ -15,23 +15,23 @@ pub(super) enum KnobValue<'v> {
     Text(&'v str),
     Color(Color32),
     /// By position.
-    Stops(Vec<Stop>),
+    Stops(Vec<GradientStop>),
     /// By x; two at one x are a step.
     Points(Vec<[f64; 2]>),
 }
 
 /// A color of a gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stop {
+pub(super) struct GradientStop {
     /// 0 to 1.
     pub(super) at: f64,
     pub(super) color: Color32,
 }
 
-impl Stop {
+impl GradientStop {
     /// The stop as egui has its color.
-    pub(super) fn of(written: &WrittenStop) -> Stop {
-        Stop {
+    pub(super) fn of(written: &WrittenStop) -> GradientStop {
+        GradientStop {
             at: written.position,
             color: color32(written.color),
         }
@@ -41,16 +41,16 @@ impl Stop {
 /// Reads a value; `None` where its form is not that of the knob. Ranges are not checked.
 pub(super) fn read<'v>(knob: &Knob, value: &'v Value) -> Option<KnobValue<'v>> {
     Some(match knob.ty.written(value)? {
-        Written::Numbers(numbers) => {
+        WrittenValue::Numbers(numbers) => {
             let mut held = [0.0; 4];
             held.get_mut(..numbers.len())?.copy_from_slice(&numbers);
             KnobValue::Numbers(held)
         }
-        Written::Toggle(is_on) => KnobValue::On(is_on),
-        Written::Text(text) => KnobValue::Text(text),
-        Written::Color(srgb) => KnobValue::Color(color32(srgb)),
-        Written::Stops(stops) => KnobValue::Stops(stops.iter().map(Stop::of).collect()),
-        Written::Points(points) => KnobValue::Points(points),
+        WrittenValue::Toggle(is_on) => KnobValue::On(is_on),
+        WrittenValue::Text(text) => KnobValue::Text(text),
+        WrittenValue::Color(srgb) => KnobValue::Color(color32(srgb)),
+        WrittenValue::Stops(stops) => KnobValue::Stops(stops.iter().map(GradientStop::of).collect()),
+        WrittenValue::Points(points) => KnobValue::Points(points),
     })
 }
 
@@ -74,21 +74,21 @@ pub(super) fn code_of(color: Color32) -> String {
 
 /// Numbers as a file holds them: a single one plain, several as a list.
 pub(super) fn of_numbers(numbers: &[f64]) -> Value {
-    Written::Numbers(numbers.to_vec()).to_value()
+    WrittenValue::Numbers(numbers.to_vec()).to_value()
 }
 
 /// A gradient as a file holds it.
-pub(super) fn of_stops(stops: &[Stop]) -> Value {
-    let stop = |stop: &Stop| WrittenStop {
+pub(super) fn of_stops(stops: &[GradientStop]) -> Value {
+    let stop = |stop: &GradientStop| WrittenStop {
         position: stop.at,
         color: srgb_of(stop.color),
     };
-    Written::Stops(stops.iter().map(stop).collect()).to_value()
+    WrittenValue::Stops(stops.iter().map(stop).collect()).to_value()
 }
 
 /// A curve as a file holds it.
 pub(super) fn of_points(points: &[[f64; 2]]) -> Value {
-    Written::Points(points.to_vec()).to_value()
+    WrittenValue::Points(points.to_vec()).to_value()
 }
 
 /// Moves the item at `index` to its place in sorted order, and returns that place.

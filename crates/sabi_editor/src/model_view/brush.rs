@@ -5,15 +5,15 @@ use glam::{DMat4, DVec3, Vec3};
 use sabi_engine::live::LiveModel;
 use sabi_paint::{Action as BrushAction, Eye, SymmetryCopy};
 use sabi_surface::patch::Site;
-use sabi_view::{Camera, Lens, Picked};
+use sabi_view::{Camera, Lens, PickedPoint};
 
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};
 use crate::action::Action;
 use crate::brush::{
-    BrushTool, Canvas, Handles, Mover, PaintSubject, PlacedStencil, ShownPath, ShownStencil, action_of,
+    BrushTool, Handles, Mover, PaintSubject, PaintView, PlacedStencil, ShownPath, ShownStencil, action_of,
 };
-use crate::evaluation::Picture;
+use crate::evaluation::ResultPicture;
 
 /// Length of the arms of the cross at the place that is copied from, points.
 const CROSS: f32 = 8.0;
@@ -28,7 +28,7 @@ pub(super) struct SeenModel {
     pub(super) rect: Rect,
 }
 
-impl Canvas for SeenModel {
+impl PaintView for SeenModel {
     fn site(&self, model: &LiveModel, at: Pos2) -> Option<Site> {
         let picked = picked_by(&self.camera, model, self.rect, at).filter(|_| self.rect.contains(at))?;
         Some(Site {
@@ -86,7 +86,7 @@ impl SeenModel {
     }
 
     /// A circle on the tangent plane, on the screen, or that of a copy on another side of the model.
-    fn outline(&self, picked: &Picked, radius: f32, copy: Option<&SymmetryCopy>) -> Vec<Pos2> {
+    fn outline(&self, picked: &PickedPoint, radius: f32, copy: Option<&SymmetryCopy>) -> Vec<Pos2> {
         let (x, y) = picked.normal.any_orthonormal_pair();
         let corner = |index: usize| {
             let (sine, cosine) = (index as f32 / CORNERS as f32 * std::f32::consts::TAU).sin_cos();
@@ -104,7 +104,7 @@ impl ModelView {
         ui: &Ui,
         response: &Response,
         rect: Rect,
-        picture: &Picture,
+        picture: &ResultPicture,
         subject: &Subject<'_>,
         actions: &mut Vec<Action>,
     ) -> bool {
@@ -117,7 +117,14 @@ impl ModelView {
     }
 
     /// Draws the frame and the handles of a marked decal. Returns whether the pointer is on a handle.
-    fn show_handles(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>, pointer: Pos2) -> bool {
+    fn show_handles(
+        &self,
+        ui: &Ui,
+        seen: &SeenModel,
+        picture: &ResultPicture,
+        subject: &Subject<'_>,
+        pointer: Pos2,
+    ) -> bool {
         let marked = subject.painted.and_then(|painted| painted.decal.as_ref());
         let handles = marked.and_then(|marked| Handles::of(&picture.model, seen, &marked.stroke, marked.half_sides));
         let Some(handles) = handles else { return false };
@@ -134,7 +141,14 @@ impl ModelView {
     }
 
     /// Draws the marked path with its knots and handles.
-    fn show_path(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, painted: &PaintSubject, subject: &Subject<'_>) {
+    fn show_path(
+        &self,
+        ui: &Ui,
+        seen: &SeenModel,
+        picture: &ResultPicture,
+        painted: &PaintSubject,
+        subject: &Subject<'_>,
+    ) {
         let stroke = painted.path.as_ref();
         if let Some(path) = stroke.and_then(|stroke| ShownPath::of(&picture.model, seen, stroke)) {
             path.show(ui.painter(), subject.theme.accent);
@@ -142,7 +156,14 @@ impl ModelView {
     }
 
     /// Draws the handles of the marked strokes. Returns whether the pointer is on one.
-    fn show_mover(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>, pointer: Pos2) -> bool {
+    fn show_mover(
+        &self,
+        ui: &Ui,
+        seen: &SeenModel,
+        picture: &ResultPicture,
+        subject: &Subject<'_>,
+        pointer: Pos2,
+    ) -> bool {
         let marked = subject
             .painted
             .map(|painted| painted.marked.as_slice())
@@ -155,7 +176,7 @@ impl ModelView {
     }
 
     /// Draws a cross at the place that strokes copy from.
-    fn show_source(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>) {
+    fn show_source(&self, ui: &Ui, seen: &SeenModel, picture: &ResultPicture, subject: &Subject<'_>) {
         let source = self.brush.source_on(&picture.model);
         let Some(at) = source.and_then(|source| seen.place(&picture.model, source.site)) else {
             return;

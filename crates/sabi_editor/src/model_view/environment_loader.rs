@@ -8,18 +8,18 @@ use sabi_engine::opening::environment::{built_in_environments, load_environment}
 use sabi_view::Environment;
 
 use crate::evaluation::Evaluation;
-use crate::task::{Failed, Task};
+use crate::task::{Task, TaskFailure};
 
-type Loaded = Result<(Environment, Vec<String>), EngineError>;
+type LoadedEnvironment = Result<(Environment, Vec<String>), EngineError>;
 
 /// The shown environment, and the one that is being loaded.
 pub(crate) struct EnvironmentLoader {
     choice: String,
     /// Choice that was loaded last.
     requested: Option<String>,
-    loading: Option<Task<Loaded>>,
+    loading: Option<Task<LoadedEnvironment>>,
     /// Tasks whose result is not needed any more, until they end.
-    obsolete: Vec<Task<Loaded>>,
+    obsolete: Vec<Task<LoadedEnvironment>>,
     environment: Option<Environment>,
     number: u64,
     /// True if a built-in environment replaces an environment that could not be loaded.
@@ -91,7 +91,7 @@ impl EnvironmentLoader {
         self.obsolete.retain(|task| !task.is_over());
         let loaded = match self.loading.as_ref()?.poll()? {
             Ok(loaded) => loaded.map_err(|error| error.to_string()),
-            Err(Failed) => Err(format!("'{}' could not be read to its end", self.choice)),
+            Err(TaskFailure) => Err(format!("'{}' could not be read to its end", self.choice)),
         };
         self.loading = None;
         match loaded {

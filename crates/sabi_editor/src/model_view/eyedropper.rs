@@ -3,11 +3,11 @@
 use egui::{CursorIcon, Pos2, Rect, Response};
 use sabi_view::{Background, Mode, NodeType, Shot};
 
+use super::model_view_pictures::{Lighting, PictureRequest};
 use super::painting::shot_of;
-use super::pictures::{Lighting, PictureRequest};
 use super::{ModelView, Subject};
 use crate::action::ClickedColor;
-use crate::evaluation::{Evaluation, Picture};
+use crate::evaluation::{Evaluation, ResultPicture};
 
 impl ModelView {
     /// Clicked color, while one is taken.
@@ -16,7 +16,7 @@ impl ModelView {
         response: &Response,
         rect: Rect,
         evaluation: &Evaluation,
-        picture: &Picture,
+        picture: &ResultPicture,
         subject: &Subject<'_>,
     ) -> Option<ClickedColor> {
         if !subject.is_picking_color {
@@ -47,7 +47,7 @@ impl ModelView {
         at: Pos2,
         rect: Rect,
         evaluation: &Evaluation,
-        picture: &Picture,
+        picture: &ResultPicture,
     ) -> ClickedColor {
         let node = picture.looks.looks.last().and_then(|look| look.node.as_ref());
         let what = match node.map(|node| node.value_type) {

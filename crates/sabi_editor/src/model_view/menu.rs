@@ -8,7 +8,7 @@ use sabi_view::{Camera, Lines};
 
 use super::channels::{CHANNELS, MODEL_MODES};
 use super::saved_picture::{LARGEST, SIZES};
-use super::{ModelView, Subject, channels, saved_views, showing, toggle_lines};
+use super::{ModelView, Subject, channels, saved_views, subject_menus, toggle_lines};
 use crate::action::{Action, FileAction};
 use crate::bars::stay_open;
 use crate::evaluation::Evaluation;
@@ -34,10 +34,10 @@ pub(super) fn show(
         // On two rows in a narrow panel.
         ui.horizontal_wrapped(|ui| {
             ui.menu_button(format!("{} Preview", icon::CROSSHAIR), |ui| {
-                showing::menu(view, ui, subject, actions)
+                subject_menus::menu(view, ui, subject, actions)
             });
             ui.menu_button(format!("{} Camera", icon::VIDEO_CAMERA), |ui| {
-                showing::viewpoints(ui, subject, actions);
+                subject_menus::viewpoints(ui, subject, actions);
                 lens(&mut view.navigation.camera, ui);
             });
             let views_menu = MenuButton::new(format!("{} Views", icon::BOOKMARK_SIMPLE)).config(stay_open());

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use egui::{Pos2, Rect, Response, Ui};
 use glam::Vec2;
 use sabi_engine::live::LiveModel;
-use sabi_view::{Camera, Picked, Viewpoint, aspect_of, pick};
+use sabi_view::{Camera, PickedPoint, Viewpoint, aspect_of, pick};
 
 use crate::mouse::DragAction;
 
@@ -89,7 +89,7 @@ impl Navigation {
     }
 
     /// Surface point under a place of the screen.
-    pub(super) fn picked(&self, model: &LiveModel, rect: Rect, at: Pos2) -> Option<Picked> {
+    pub(super) fn picked(&self, model: &LiveModel, rect: Rect, at: Pos2) -> Option<PickedPoint> {
         picked_by(&self.camera, model, rect, at)
     }
 
@@ -105,7 +105,7 @@ impl Navigation {
 }
 
 /// Surface point of a model that a camera sees at a place of the screen.
-pub(super) fn picked_by(camera: &Camera, model: &LiveModel, rect: Rect, at: Pos2) -> Option<Picked> {
+pub(super) fn picked_by(camera: &Camera, model: &LiveModel, rect: Rect, at: Pos2) -> Option<PickedPoint> {
     let linked = &model.linked;
     let bvh = linked.bvh.get()?;
     let ray = camera.ray(share(rect, at), aspect(rect));

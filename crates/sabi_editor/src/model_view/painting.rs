@@ -4,11 +4,11 @@ use eframe::egui_wgpu::RenderState;
 use egui::{Align2, Color32, FontId, Rect, Stroke, Ui, pos2, vec2};
 use sabi_view::{Background, Mode, Shot};
 
+use super::model_view_pictures::{Lighting, PictureRequest};
 use super::navigation::REST;
-use super::pictures::{Lighting, PictureRequest};
-use super::{ModelView, Subject, showing};
-use crate::evaluation::{Evaluation, Picture};
-use crate::knobs::Lengths;
+use super::{ModelView, Subject, subject_menus};
+use crate::evaluation::{Evaluation, ResultPicture};
+use crate::knobs::LengthUnits;
 use crate::theme::{Theme, type_size};
 
 impl ModelView {
@@ -19,7 +19,7 @@ impl ModelView {
         rect: Rect,
         evaluation: &Evaluation,
         render: &RenderState,
-        picture: &Picture,
+        picture: &ResultPicture,
         subject: &Subject<'_>,
     ) -> bool {
         let is_turning = self.navigation.is_moving();
@@ -80,7 +80,7 @@ pub(super) fn unlit_mode(subject: &Subject<'_>) -> Mode {
 }
 
 /// Shot of a result from a camera, with the settings of the view. Results that are not lit have the mode `unlit`.
-pub(super) fn shot_of(camera: sabi_view::Camera, shot: &Shot, picture: &Picture, unlit: Mode) -> Shot {
+pub(super) fn shot_of(camera: sabi_view::Camera, shot: &Shot, picture: &ResultPicture, unlit: Mode) -> Shot {
     Shot {
         camera,
         mode: if picture.looks.is_lit { shot.mode } else { unlit },
@@ -116,9 +116,9 @@ pub(super) fn length_bar(view: &mut ModelView, ui: &Ui, rect: Rect, evaluation: 
         ui.painter()
             .line_segment([at - vec2(0.0, 5.0), at + vec2(0.0, 5.0)], stroke);
     }
-    let text = Lengths::on(Some(model)).in_both(length);
+    let text = LengthUnits::on(Some(model)).in_both(length);
     let above = start - vec2(0.0, 16.0);
-    let place = showing::CaptionPlace {
+    let place = subject_menus::CaptionPlace {
         at: above,
         align: Align2::LEFT_CENTER,
         within: rect,

@@ -8,17 +8,17 @@ use sabi_engine::EngineError;
 use sabi_gpu::Gpu;
 use sabi_view::{MissingPipelines, Renderer};
 
-use crate::task::{Failed, Task};
+use crate::task::{Task, TaskFailure};
 
 /// Renderer of all pictures, and the pipelines that are being created.
 #[derive(Default)]
 pub(super) struct RendererLoader {
-    renderer: Option<Pending<Arc<Renderer>>>,
-    pipelines: Option<(MissingPipelines, Pending<()>)>,
+    renderer: Option<LoadState<Arc<Renderer>>>,
+    pipelines: Option<(MissingPipelines, LoadState<()>)>,
 }
 
 /// Value that is created on a thread of its own.
-enum Pending<T> {
+enum LoadState<T> {
     Loading(Task<Result<T, EngineError>>),
     Ready(T),
     /// Error sentence, and the time of the failure.
@@ -33,7 +33,7 @@ impl RendererLoader {
     pub(super) fn renderer(&mut self, context: &Context, gpu: &Arc<Gpu>) -> Result<Option<Arc<Renderer>>, String> {
         let begin = || {
             let gpu = gpu.clone();
-            Pending::begin(context, move || Ok(Arc::new(Renderer::new(&gpu)?)))
+            LoadState::begin(context, move || Ok(Arc::new(Renderer::new(&gpu)?)))
         };
         self.renderer.take_if(|pending| pending.is_stale());
         self.renderer.get_or_insert_with(begin).poll(context)
@@ -42,7 +42,7 @@ impl RendererLoader {
     /// Renderer, if it is created.
     pub(super) fn made(&self) -> Option<Arc<Renderer>> {
         match &self.renderer {
-            Some(Pending::Ready(renderer)) => Some(renderer.clone()),
+            Some(LoadState::Ready(renderer)) => Some(renderer.clone()),
             _ => None,
         }
     }
@@ -50,7 +50,7 @@ impl RendererLoader {
     /// Returns whether pipelines are being created, with the last picture shown meanwhile.
     pub(super) fn is_loading(&self) -> bool {
         let pipelines = self.pipelines.as_ref().map(|(_, pending)| pending);
-        pipelines.is_some_and(|pending| matches!(pending, Pending::Loading(_)))
+        pipelines.is_some_and(|pending| matches!(pending, LoadState::Loading(_)))
     }
 
     /// Returns whether no pipeline is missing; otherwise starts creating the missing pipelines, for one picture at a
@@ -64,7 +64,7 @@ impl RendererLoader {
     ) -> Result<bool, String> {
         let Some(missing) = missing else {
             // The pipelines of this picture are created; takes over the task.
-            if let Some((_, pending @ Pending::Loading(_))) = &mut self.pipelines {
+            if let Some((_, pending @ LoadState::Loading(_))) = &mut self.pipelines {
                 let _ = pending.poll(context);
             }
             return Ok(true);
@@ -78,40 +78,40 @@ impl RendererLoader {
             }
         }
         let (gpu, renderer, pending) = (gpu.clone(), renderer.clone(), missing.clone());
-        let pending = Pending::begin(context, move || Ok(renderer.make(&gpu, &pending)?));
+        let pending = LoadState::begin(context, move || Ok(renderer.make(&gpu, &pending)?));
         self.pipelines = Some((missing, pending));
         Ok(false)
     }
 }
 
-impl<T: Clone + Send + 'static> Pending<T> {
-    fn begin(context: &Context, make: impl FnOnce() -> Result<T, EngineError> + Send + 'static) -> Pending<T> {
-        Pending::Loading(Task::start(context, make))
+impl<T: Clone + Send + 'static> LoadState<T> {
+    fn begin(context: &Context, make: impl FnOnce() -> Result<T, EngineError> + Send + 'static) -> LoadState<T> {
+        LoadState::Loading(Task::start(context, make))
     }
 
     /// Returns whether the task failed long enough ago to be tried again.
     fn is_stale(&self) -> bool {
-        matches!(self, Pending::Failed(_, when) if when.elapsed() > AGAIN)
+        matches!(self, LoadState::Failed(_, when) if when.elapsed() > AGAIN)
     }
 
     /// Value, once it is created.
     fn poll(&mut self, context: &Context) -> Result<Option<T>, String> {
-        if let Pending::Loading(task) = self
+        if let LoadState::Loading(task) = self
             && let Some(result) = task.poll()
         {
             *self = match result {
-                Ok(Ok(made)) => Pending::Ready(made),
-                Ok(Err(error)) => Pending::Failed(error.to_string(), Instant::now()),
-                Err(Failed) => {
+                Ok(Ok(made)) => LoadState::Ready(made),
+                Ok(Err(error)) => LoadState::Failed(error.to_string(), Instant::now()),
+                Err(TaskFailure) => {
                     let why = "The model cannot be drawn, which is a bug in the program.";
-                    Pending::Failed(why.to_owned(), Instant::now())
+                    LoadState::Failed(why.to_owned(), Instant::now())
                 }
             };
         }
         match self {
-            Pending::Loading(_) => Ok(None),
-            Pending::Ready(made) => Ok(Some(made.clone())),
-            Pending::Failed(why, _) => {
+            LoadState::Loading(_) => Ok(None),
+            LoadState::Ready(made) => Ok(Some(made.clone())),
+            LoadState::Failed(why, _) => {
                 context.request_repaint_after(AGAIN);
                 Err(why.clone())
             }
@@ -123,7 +123,7 @@ impl<T: Clone + Send + 'static> Pending<T> {
 mod tests {
     use super::*;
 
-    fn end<T: Clone + Send + 'static>(mut pending: Pending<T>) -> Result<T, String> {
+    fn end<T: Clone + Send + 'static>(mut pending: LoadState<T>) -> Result<T, String> {
         loop {
             if let Some(made) = pending.poll(&Context::default()).transpose() {
                 return made;
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn a_failed_creation_is_reported_and_tried_again_after_a_while() {
         let context = Context::default();
-        assert_eq!(end(Pending::begin(&context, || Ok(7))), Ok(7));
+        assert_eq!(end(LoadState::begin(&context, || Ok(7))), Ok(7));
         let lost = || {
             Err(EngineError::new(
                 sabi_engine::ErrorKind::NoAdapter,
@@ -143,12 +143,12 @@ mod tests {
             ))
         };
         assert_eq!(
-            end(Pending::<()>::begin(&context, lost)),
+            end(LoadState::<()>::begin(&context, lost)),
             Err("the device is lost".to_owned())
         );
-        let failed = |ago| Pending::<()>::Failed(String::new(), Instant::now() - ago);
+        let failed = |ago| LoadState::<()>::Failed(String::new(), Instant::now() - ago);
         assert!(!failed(Duration::ZERO).is_stale() && failed(2 * AGAIN).is_stale());
-        let panics = Pending::<()>::begin(&context, || panic!("as this test wants"));
+        let panics = LoadState::<()>::begin(&context, || panic!("as this test wants"));
         assert!(end(panics).is_err_and(|why| why.contains("a bug in the program")));
     }
 }

@@ -12,14 +12,14 @@ use glam::Vec3;
 use sabi_engine::live::LiveModel;
 use sabi_view::{Camera, Viewpoint};
 
+use super::model_view_pictures::{FIRST_BESIDE, Lighting, PictureRequest};
 use super::navigation::{SAME_ASPECT, aspect};
 use super::painting::{self, shot_of, unlit_mode};
-use super::pictures::{FIRST_BESIDE, Lighting, PictureRequest};
-use super::{ModelView, Subject, showing};
+use super::{ModelView, Subject, subject_menus};
 use crate::action::{Action, ModelAction};
 use crate::activity_text::activity_text;
 use crate::dock::Panel;
-use crate::evaluation::{Evaluation, Picture};
+use crate::evaluation::{Evaluation, ResultPicture};
 use crate::model_warnings;
 use crate::paths::file_stem;
 use crate::theme::{space, type_size};
@@ -33,15 +33,15 @@ const DRAWN_AGAIN: Duration = Duration::from_millis(500);
 #[derive(Default)]
 pub(super) struct RowView {
     /// Last picture and framing of each model, by its file.
-    cells: BTreeMap<PathBuf, Cell>,
+    cells: BTreeMap<PathBuf, ModelCell>,
     /// Number of cells and their aspect when the camera was moved for them last.
     fitted: Option<(usize, f32)>,
 }
 
 #[derive(Default)]
-struct Cell {
+struct ModelCell {
     /// Result that is shown until the wanted one arrives.
-    last: Option<Picture>,
+    last: Option<ResultPicture>,
     framing: Option<(Weak<LiveModel>, f32, Framing)>,
     /// Place of the cell and the camera that it was drawn with last.
     seen: Option<(Rect, Camera)>,
@@ -67,7 +67,7 @@ impl Framing {
     }
 }
 
-impl Cell {
+impl ModelCell {
     /// Framing of a model in a cell; computed again for another model or shape.
     fn framing(&mut self, model: &Arc<LiveModel>, aspect: f32) -> Framing {
         let now = Arc::downgrade(model);
@@ -115,7 +115,7 @@ impl RowView {
     }
 
     /// Picture in the cell at a place of the screen, with the place of the cell and its camera.
-    pub(super) fn seen_at(&self, at: Pos2) -> Option<(&Picture, Rect, Camera)> {
+    pub(super) fn seen_at(&self, at: Pos2) -> Option<(&ResultPicture, Rect, Camera)> {
         self.cells.values().find_map(|cell| {
             let (rect, camera) = cell.seen.filter(|(rect, _)| rect.contains(at))?;
             Some((cell.last.as_ref()?, rect, camera))
@@ -149,7 +149,7 @@ impl ModelView {
 
 impl ModelView {
     /// Keeps the model as large in its cell as it was before the number of cells changed.
-    pub(super) fn fit_to_cells(&mut self, count: usize, cell: Rect, picture: &Picture) {
+    pub(super) fn fit_to_cells(&mut self, count: usize, cell: Rect, picture: &ResultPicture) {
         let now = (count, aspect(cell));
         let Some((before, aspect_before)) = self.row.fitted.replace(now) else {
             return;
@@ -169,7 +169,7 @@ impl ModelView {
         ui: &mut Ui,
         cells: &[Rect],
         render: Option<&RenderState>,
-        main: Option<&Picture>,
+        main: Option<&ResultPicture>,
         subject: &Subject<'_>,
         actions: &mut Vec<Action>,
     ) {
@@ -189,7 +189,7 @@ impl ModelView {
         if let Some(main) = main {
             let file = main.model.linked.model.files.first();
             let name = file.map_or_else(String::new, |file| file_stem(file).into_owned());
-            let place = showing::CaptionPlace {
+            let place = subject_menus::CaptionPlace {
                 at: pos2(first.left() + 10.0, first.bottom() - 10.0),
                 align: Align2::LEFT_CENTER,
                 within: first.shrink(space::TIGHT),
@@ -227,7 +227,7 @@ impl ModelView {
         cell: Rect,
         evaluation: &Evaluation,
         render: &RenderState,
-        main: &Picture,
+        main: &ResultPicture,
         first: Rect,
         subject: &Subject<'_>,
     ) -> Option<String> {

@@ -9,9 +9,9 @@ use sabi_gpu::Gpu;
 use sabi_view::{Background, Mode, Pixels, Viewport};
 
 use super::ModelView;
+use super::model_view_pictures::Lighting;
 use super::painting::shot_of;
-use super::pictures::Lighting;
-use crate::evaluation::Picture;
+use crate::evaluation::ResultPicture;
 
 /// Samples of a saved picture.
 const SAMPLES: u32 = 16;
@@ -59,7 +59,7 @@ impl SavedPicture {
 
 impl ModelView {
     /// Draws the next sample of the picture that is saved, if one is. Returns a sentence once it is written or has failed.
-    pub(super) fn advance_saved_picture(&mut self, gpu: &Arc<Gpu>, picture: &Picture) -> Option<String> {
+    pub(super) fn advance_saved_picture(&mut self, gpu: &Arc<Gpu>, picture: &ResultPicture) -> Option<String> {
         if let Some(file) = self.saved_picture.wanted.take() {
             match self.pictures.new_viewport(gpu) {
                 Some(viewport) => self.saved_picture.drawn = Some(PictureInProgress { file, viewport }),

@@ -8,7 +8,7 @@ use sabi_engine::live::LiveModel;
 use sabi_engine::rendering::Softness;
 use sabi_view::Camera;
 
-use super::{ModelView, Subject, showing};
+use super::{ModelView, Subject, subject_menus};
 use crate::action::Action;
 use crate::bars::LARGEST_SIZE;
 use crate::evaluation::Evaluation;
@@ -63,7 +63,7 @@ pub(super) fn show(
         Some(enough) => format!("Soft: a texel is {wide:.1} pixels wide; an export at {enough} texels is sharp"),
         None => format!("Soft from so near: a texel is {wide:.1} pixels wide"),
     };
-    let place = showing::CaptionPlace {
+    let place = subject_menus::CaptionPlace {
         at: rect.left_bottom() + vec2(10.0, -10.0),
         align: Align2::LEFT_CENTER,
         within: rect.shrink(space::TIGHT),

@@ -14,7 +14,7 @@ use crate::command::InputPreset;
 use crate::context::{View, ViewContext};
 use crate::evaluation::Evaluation;
 use crate::key_map::KeyMap;
-use crate::looks::title_of;
+use crate::shown_results::title_of;
 use crate::theme::Theme;
 
 /// Views of a graph without preview settings.
@@ -28,7 +28,7 @@ pub(super) struct Subject<'a> {
     /// Evaluations on the models beside the main one.
     pub(super) beside: &'a [Evaluation],
     /// Both results as text.
-    pub(super) showing: &'a Showing,
+    pub(super) showing: &'a SubjectText,
     /// True if a click picks a color.
     pub(super) is_picking_color: bool,
     /// The node that drags paint on, while they paint.
@@ -45,7 +45,7 @@ pub(super) struct Subject<'a> {
 
 /// Subject of the viewport as text.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Showing {
+pub(super) struct SubjectText {
     /// Result that is shown.
     pub(super) text: String,
     /// Result that it is compared with.
@@ -60,9 +60,9 @@ pub(super) struct Showing {
     pub(super) pinned: Option<String>,
 }
 
-impl Showing {
+impl SubjectText {
     /// Text about a result and about the one beside it.
-    pub(super) fn of(context: &ViewContext<'_>, shown: &ViewSubject, beside: Option<&ViewSubject>) -> Showing {
+    pub(super) fn of(context: &ViewContext<'_>, shown: &ViewSubject, beside: Option<&ViewSubject>) -> SubjectText {
         let looks = context.looks;
         let title = |result: &NodeRef| title_of(context.document, result);
         let text = |subject: &ViewSubject| match subject {
@@ -79,7 +79,7 @@ impl Showing {
             }
             ViewSubject::Outputs => context.fault_of_outputs(),
         };
-        Showing {
+        SubjectText {
             text: text(shown),
             other: beside.map(text),
             fault,
@@ -92,7 +92,7 @@ impl Showing {
 
 /// Requests made in the view during a frame.
 #[derive(Default)]
-pub(super) struct ViewOutput {
+pub(super) struct ModelViewOutput {
     /// Clicked color.
     pub(super) color: Option<ClickedColor>,
     /// Chosen environment.
@@ -115,7 +115,7 @@ impl View for ModelView {
             shown: &shown,
             pinned: pinned.as_ref(),
             beside: context.row.beside(),
-            showing: &Showing::of(context, &shown, pinned.as_ref()),
+            showing: &SubjectText::of(context, &shown, pinned.as_ref()),
             painted: painted.as_ref(),
             is_moving: context.is_dragging,
             is_picking_color: context.looks.color_target.is_some(),

@@ -5,14 +5,14 @@ use egui::epaint::ImageDelta;
 use egui::{ClippedPrimitive, TextureId, Vec2};
 
 /// Texture that frames are painted on.
-pub(super) struct Painter {
+pub(super) struct FramePainter {
     render: RenderState,
     screen: wgpu::TextureView,
     size: [u32; 2],
 }
 
-impl Painter {
-    pub(super) fn new(render: RenderState, size: Vec2) -> Painter {
+impl FramePainter {
+    pub(super) fn new(render: RenderState, size: Vec2) -> FramePainter {
         let size = [size.x, size.y].map(|side| (side as u32).max(1));
         let [width, height] = size;
         let screen = render.device.create_texture(&wgpu::TextureDescriptor {
@@ -29,7 +29,7 @@ impl Painter {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
             view_formats: &[],
         });
-        Painter {
+        FramePainter {
             screen: screen.create_view(&wgpu::TextureViewDescriptor::default()),
             render,
             size,

@@ -7,7 +7,7 @@ use egui::{
 };
 use egui_phosphor::regular as icon;
 
-use super::enlarged;
+use super::picture_tooltip;
 use crate::theme::{Theme, space, type_size};
 
 /// Height of the name below the picture.
@@ -70,7 +70,7 @@ impl Card<'_> {
             Some(_) => Some(&picture),
             None => None,
         };
-        enlarged::show(&response, theme, picture, |ui| {
+        picture_tooltip::show(&response, theme, picture, |ui| {
             ui.strong(self.label);
             ui.label(text);
         });

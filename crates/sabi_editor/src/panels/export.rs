@@ -277,9 +277,9 @@ fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, has_variants: b
             "Export to the same folder whenever the graph is saved",
         ),
     ];
-    for (is_on, label, tip) in variants.into_iter().chain(model.into_iter().flatten()).chain(others) {
+    for (is_on, label, tooltip) in variants.into_iter().chain(model.into_iter().flatten()).chain(others) {
         ui.label("");
-        ui.checkbox(is_on, label).on_hover_text(tip);
+        ui.checkbox(is_on, label).on_hover_text(tooltip);
         ui.end_row();
     }
 }

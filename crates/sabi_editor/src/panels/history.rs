@@ -6,9 +6,9 @@ use crate::action::Action;
 use crate::context::{View, ViewContext};
 
 /// Panel of the steps that were done and undone.
-pub(crate) struct History;
+pub(crate) struct HistoryPanel;
 
-impl View for History {
+impl View for HistoryPanel {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         let theme = context.theme;

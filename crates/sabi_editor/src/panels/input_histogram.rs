@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use egui::{Sense, Stroke, Ui, WidgetInfo, WidgetType, pos2, vec2};
 use sabi_editing::{OpenDocument, connections};
-use sabi_engine::live::Inspected;
+use sabi_engine::live::InspectedResult;
 use sabi_graph::{NodeId, NodeRef, SlotRef};
 
 use crate::context::ViewContext;
 use crate::flat_view::Histogram;
-use crate::looks::result_of;
+use crate::shown_results::result_of;
 use crate::task::Task;
 use crate::theme::space;
 
@@ -45,9 +45,9 @@ fn marks_of(document: &OpenDocument, id: &NodeId) -> Option<&'static [&'static s
 /// Histogram of the input of the selected node.
 #[derive(Default)]
 pub(super) struct InputHistogram {
-    shown: Option<(Arc<Inspected>, Histogram)>,
+    shown: Option<(Arc<InspectedResult>, Histogram)>,
     /// Histogram that is being counted.
-    counting: Option<(Arc<Inspected>, Task<Histogram>)>,
+    counting: Option<(Arc<InspectedResult>, Task<Histogram>)>,
 }
 
 impl InputHistogram {
@@ -81,7 +81,7 @@ impl InputHistogram {
     }
 
     /// Counts values on a thread of its own, with the last histogram shown meanwhile.
-    fn count(&mut self, ui: &Ui, values: &Arc<Inspected>) {
+    fn count(&mut self, ui: &Ui, values: &Arc<InspectedResult>) {
         if let Some(done) = self.counting.as_ref().and_then(|(_, task)| task.poll())
             && let Some((of, _)) = self.counting.take()
         {

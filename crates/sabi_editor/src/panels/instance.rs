@@ -11,12 +11,12 @@ use sabi_nodes::kind::Role;
 use sabi_nodes::label_of;
 
 use super::card::{Card, CardSize};
-use super::random::{self, Kept};
+use super::random::{self, LockedParameters};
 use super::update;
 use crate::action::Action;
+use crate::choice_previews::PreviewChoice;
 use crate::context::ViewContext;
 use crate::theme::{space, type_size};
-use crate::trials::Trial;
 
 /// Parameter of an instance that chooses a variant of its group.
 const VARIANT: &str = "variant";
@@ -74,7 +74,7 @@ pub(super) fn show(
 #[derive(Default)]
 pub(super) struct InstanceState {
     /// Knobs of instances that random values leave alone.
-    kept: Kept<NodeId>,
+    kept: LockedParameters<NodeId>,
     /// Size of the cards of variants.
     cards: CardSize,
 }
@@ -112,7 +112,7 @@ fn variants(
             let label = name.as_deref().map_or_else(|| "Base".to_owned(), label_of);
             let card = Card {
                 label: &label,
-                picture: context.trials.find(Trial::Variant {
+                picture: context.choice_previews.find(PreviewChoice::Variant {
                     place: format!("{:?} {id}", document.shown()),
                     instance: Some(id.clone()),
                     name,

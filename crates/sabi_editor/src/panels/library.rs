@@ -1,7 +1,7 @@
 //! Nodes and groups that can be added: searched, made favorites, clicked and dragged to the canvas.
 
 mod entry;
-mod pictures;
+mod entry_pictures;
 
 use egui::{Context, RichText, ScrollArea, TextureId, Ui};
 use egui_phosphor::regular as icon;
@@ -9,19 +9,19 @@ use sabi_editing::command::NodeSource;
 use sabi_engine::catalog::has_picture;
 
 use crate::action::{Action, LibraryKind, SettingAction};
+use crate::choice_previews::PreviewChoice;
 use crate::context::{View, ViewContext};
 use crate::saved_pictures::OF_GROUP;
 use crate::search::{Candidate, ranked};
 use crate::theme::{Theme, space};
-use crate::trials::Trial;
-use entry::Entry;
-use pictures::{Pictures, Side};
+use entry::LibraryEntry;
+use entry_pictures::{EntryPictures, PictureSize};
 
 /// Panel of nodes and groups that can be added.
 #[derive(Default)]
 pub(crate) struct LibraryPanel {
     query: String,
-    pictures: Pictures,
+    pictures: EntryPictures,
 }
 
 impl View for LibraryPanel {
@@ -59,7 +59,7 @@ impl View for LibraryPanel {
                     ui.label(RichText::new(own.to_uppercase()).small().color(context.theme.quiet));
                 }
                 let egui = ui.ctx().clone();
-                let entry = Entry {
+                let entry = LibraryEntry {
                     candidate,
                     number,
                     has_picture: self.has_picture(&egui, context, &candidate.new),
@@ -76,7 +76,7 @@ impl LibraryPanel {
     /// Picture of a node kind, once it is loaded.
     #[cfg(test)]
     pub(crate) fn picture_of_kind(&self, kind: &str) -> Option<TextureId> {
-        self.pictures.find(kind, Side::Small)
+        self.pictures.find(kind, PictureSize::Small)
     }
 
     /// Picture of an entry in the list.
@@ -87,7 +87,7 @@ impl LibraryPanel {
         context: &ViewContext<'_>,
         new: &NodeSource,
     ) -> Option<TextureId> {
-        self.picture(egui, context, new, Side::Small)
+        self.picture(egui, context, new, PictureSize::Small)
     }
 
     /// Returns whether an entry has a picture, loaded or not.
@@ -95,15 +95,23 @@ impl LibraryPanel {
         match new {
             NodeSource::Kind(kind) => has_picture(kind),
             NodeSource::Library(_) if context.tries_effects() => true,
-            NodeSource::Library(_) | NodeSource::Group(_) => self.picture(egui, context, new, Side::Small).is_some(),
+            NodeSource::Library(_) | NodeSource::Group(_) => {
+                self.picture(egui, context, new, PictureSize::Small).is_some()
+            }
         }
     }
 
     /// Picture of the result of an entry; for a group of the graph, of its first instance.
-    fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource, side: Side) -> Option<TextureId> {
+    fn picture(
+        &self,
+        egui: &Context,
+        context: &ViewContext<'_>,
+        new: &NodeSource,
+        side: PictureSize,
+    ) -> Option<TextureId> {
         match new {
             NodeSource::Library(file) => {
-                let tried = || context.trials.find(Trial::Effect(file.clone()));
+                let tried = || context.choice_previews.find(PreviewChoice::Effect(file.clone()));
                 let tried = context.tries_effects().then(tried).flatten();
                 let saved = || context.pictures.find(egui, file, OF_GROUP);
                 let drawn = || self.pictures.find(&file.display().to_string(), side);

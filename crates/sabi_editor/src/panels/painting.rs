@@ -1,12 +1,12 @@
 //! The brush and the strokes of the selected paint node.
 
 mod brush_settings;
+mod brush_tips;
 mod pen;
 mod presets;
 mod stencil;
 mod strokes;
 mod swatches;
-mod tips;
 
 use egui::{ComboBox, Response, ScrollArea, Ui};
 use egui_phosphor::regular as icon;
@@ -26,7 +26,7 @@ const LEFT: f32 = 64.0;
 
 /// A page of the panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Page {
+enum PaintingPage {
     #[default]
     Brush,
     Brushes,
@@ -35,8 +35,8 @@ enum Page {
 
 /// The brush and the strokes of a paint node.
 #[derive(Default)]
-pub(super) struct Painting {
-    page: Page,
+pub(super) struct PaintingPanel {
+    page: PaintingPage,
     swatches: Swatches,
     rows: StrokeRows,
     preset: PresetName,
@@ -46,7 +46,7 @@ pub(super) struct Painting {
     text: String,
 }
 
-impl Painting {
+impl PaintingPanel {
     /// Shows the brush and the strokes of a paint node; nothing for other nodes, and for several.
     pub(super) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
         let document = context.document;
@@ -65,9 +65,9 @@ impl Painting {
         ui.horizontal(|ui| {
             let strokes = format!("Strokes {}", strokes::count(context, id));
             let pages = [
-                (Page::Brush, "Brush"),
-                (Page::Brushes, "Brushes"),
-                (Page::Strokes, &strokes),
+                (PaintingPage::Brush, "Brush"),
+                (PaintingPage::Brushes, "Brushes"),
+                (PaintingPage::Strokes, &strokes),
             ];
             for (page, title) in pages {
                 ui.selectable_value(&mut self.page, page, title);
@@ -76,7 +76,7 @@ impl Painting {
         let height = (ui.available_height() - LEFT).max(LEFT);
         let area = ScrollArea::vertical().id_salt(self.page as u8).max_height(height);
         let page = area.auto_shrink([false, true]).show(ui, |ui| match self.page {
-            Page::Brush => {
+            PaintingPage::Brush => {
                 let chosen = &context.settings.brush;
                 let mut brush = chosen.clone();
                 let mut actions = brush_settings::show(
@@ -92,8 +92,8 @@ impl Painting {
                 }
                 actions
             }
-            Page::Brushes => presets::show(ui, context, &mut self.swatches, &mut self.preset),
-            Page::Strokes => self.rows.show(ui, context, &mut self.swatches, id),
+            PaintingPage::Brushes => presets::show(ui, context, &mut self.swatches, &mut self.preset),
+            PaintingPage::Strokes => self.rows.show(ui, context, &mut self.swatches, id),
         });
         actions.extend(page.inner);
         actions

@@ -9,8 +9,8 @@ use sabi_graph::{NodeId, OutputRef, SlotRef, Value};
 
 use super::input_histogram::InputHistogram;
 use super::instance::InstanceState;
-use super::painting::Painting;
-use super::{channel_sections, exposed, instance, ports, variants};
+use super::painting::PaintingPanel;
+use super::{channel_sections, exposed_parameters, instance, ports, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::knobs::{KnobMemory, KnobRow, ParamMask, knobs_ui};
@@ -19,10 +19,10 @@ use crate::knobs::{KnobMemory, KnobRow, ParamMask, knobs_ui};
 #[derive(Default)]
 pub(crate) struct Parameters {
     memory: KnobMemory,
-    exposed: exposed::ExposedParameters,
+    exposed: exposed_parameters::ExposedParameters,
     variants: variants::Variants,
     instance: InstanceState,
-    painting: Painting,
+    painting: PaintingPanel,
     histogram: InputHistogram,
 }
 

@@ -7,7 +7,7 @@ use sabi_editing::{OpenDocument, connections, groups, ports};
 use sabi_engine::catalog::Port;
 use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
 
-use super::field::Field;
+use super::text_field::TextField;
 use crate::theme::{Theme, space, type_size};
 
 /// Width of the button that removes a row, with the space beside it, points.
@@ -44,7 +44,7 @@ pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<P
 fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, commands: &mut Vec<PortCommand>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "Name");
-        let field = Field {
+        let field = TextField {
             name: if is_group {
                 "Name of the group"
             } else {
@@ -67,7 +67,7 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut Ve
         ui.horizontal(|ui| {
             dot(ui, theme, port);
             let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
-            let label = Field {
+            let label = TextField {
                 name: "Label of the input",
                 hint: name,
                 held: port.map_or("", |port| &port.label),
@@ -77,7 +77,7 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut Ve
                 let name = name.clone();
                 commands.push(PortCommand::SetInputLabel { name, label });
             }
-            let own = Field {
+            let own = TextField {
                 name: "Input",
                 hint: "name in files",
                 held: name,
@@ -151,7 +151,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut V
         ui.horizontal(|ui| {
             dot(ui, theme, port);
             let width = (ui.available_width() - 34.0 - 2.0 * space::USUAL) / 2.0 - space::USUAL;
-            let own = Field {
+            let own = TextField {
                 name: "Output",
                 hint: "name in files",
                 held: name,

@@ -6,7 +6,7 @@ use egui::Ui;
 use egui_phosphor::regular as icon;
 
 /// Parameters that random values leave alone, by the graph or node that has them.
-pub(super) type Kept<K> = BTreeSet<(K, String)>;
+pub(super) type LockedParameters<K> = BTreeSet<(K, String)>;
 
 /// Shows *Random* and *Keep* for the parameters of `of`, given by name and label. Returns the names of those that are kept, if
 /// random values are wanted.
@@ -14,7 +14,7 @@ pub(super) fn show<K: Ord + Clone>(
     ui: &mut Ui,
     of: &K,
     knobs: &[(&str, &str)],
-    kept: &mut Kept<K>,
+    kept: &mut LockedParameters<K>,
 ) -> Option<BTreeSet<String>> {
     let mut is_wanted = false;
     ui.horizontal_wrapped(|ui| {

@@ -16,15 +16,15 @@ use sabi_nodes::label_of;
 use super::reordering;
 use crate::action::{Action, PaintAction};
 use crate::context::{View, ViewContext};
-use crate::looks::result_of;
 use crate::search::Candidate;
+use crate::shown_results::result_of;
 use crate::theme::space;
 
 /// Panel of layers.
 #[derive(Default)]
-pub(crate) struct Layers {
+pub(crate) struct StackPanel {
     /// Layer that is being renamed.
-    renaming: Option<Renaming>,
+    renaming: Option<LayerRename>,
     /// Visible parts of the rows of the last frame, with the nodes of their layers.
     rows: Vec<(Rect, NodeId)>,
     /// Results of which the panel shows pictures, whether the canvas shows their nodes or not.
@@ -32,16 +32,16 @@ pub(crate) struct Layers {
 }
 
 /// Layer that is being renamed.
-struct Renaming {
+struct LayerRename {
     node: NodeId,
     title: String,
     /// True before the field was drawn.
     is_new: bool,
 }
 
-impl Renaming {
-    fn of(layer: &Layer) -> Renaming {
-        Renaming {
+impl LayerRename {
+    fn of(layer: &Layer) -> LayerRename {
+        LayerRename {
             node: layer.node.clone(),
             title: layer.title.clone(),
             is_new: true,
@@ -50,12 +50,12 @@ impl Renaming {
 }
 
 /// Layer that is dragged.
-struct Dragged {
+struct DraggedLayer {
     end: StackEnd,
     at: usize,
 }
 
-impl View for Layers {
+impl View for StackPanel {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         let stacks = stack::all(context.document);
@@ -79,7 +79,7 @@ impl View for Layers {
     }
 }
 
-impl Layers {
+impl StackPanel {
     /// Layer under a place of the screen, if a node that is dropped there can become its mask.
     pub(crate) fn mask_target(&self, document: &OpenDocument, interface: &Interface, at: Pos2) -> Option<NodeId> {
         let (_, node) = self.rows.iter().find(|(rect, _)| rect.contains(at))?;
@@ -118,13 +118,13 @@ impl Layers {
             rows.push(response.rect);
             let seen = response.rect.intersect(ui.clip_rect());
             self.rows.push((seen, layer.node.clone()));
-            response.dnd_set_drag_payload(Dragged {
+            response.dnd_set_drag_payload(DraggedLayer {
                 end: stack.end.clone(),
                 at,
             });
             response.context_menu(|ui| self.layer_menu(ui, context, stack, at, actions));
         }
-        let title = |dragged: &Dragged| {
+        let title = |dragged: &DraggedLayer| {
             let is_ours = dragged.end == stack.end;
             let layer = stack.layers.get(dragged.at).filter(|_| is_ours);
             layer.map(|layer| layer.title.clone())
@@ -157,7 +157,7 @@ impl Layers {
         }
         modes(ui, document, layer, actions);
         if ui.button("Rename").clicked() {
-            self.renaming = Some(Renaming::of(layer));
+            self.renaming = Some(LayerRename::of(layer));
         }
         if ui.button("Show in the graph").clicked() {
             actions.push(Action::GoTo(node_paths::full_id(document, &layer.node)));
@@ -231,11 +231,11 @@ fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Ve
 
 /// Entries for masks that are painted: from black or white, or over the mask that is there.
 fn painted_masks(ui: &mut Ui, layer: &Layer, actions: &mut Vec<Action>) {
-    for (title, empty, tip) in [
+    for (title, empty, tooltip) in [
         ("Black, to paint", 0.0, "The layer shows only where you paint"),
         ("White, to paint", 1.0, "The layer shows everywhere but where you paint"),
     ] {
-        if ui.button(title).on_hover_text(tip).clicked() {
+        if ui.button(title).on_hover_text(tooltip).clicked() {
             let node = layer.node.clone();
             actions.push(Action::edit(LayerCommand::PaintMask { node, empty }));
             let value = Some(1.0 - empty as f32);
@@ -278,7 +278,7 @@ fn head(document: &OpenDocument, ui: &mut Ui, stack: &Stack, actions: &mut Vec<A
 /// Buttons that add painted or filled layers, on top of a stack or with an output of their own.
 fn by_hand(ui: &mut Ui, end: Option<&StackEnd>, actions: &mut Vec<Action>) {
     for (what, title) in HandLayer::ALL {
-        let (sign, tip) = match what {
+        let (sign, tooltip) = match what {
             HandLayer::Paint => (
                 icon::PAINT_BRUSH,
                 "Adds a layer whose place and color you paint on the model",
@@ -287,7 +287,7 @@ fn by_hand(ui: &mut Ui, end: Option<&StackEnd>, actions: &mut Vec<Action>) {
         };
         let button = ui.button(format!("{sign} {}", title.trim_end_matches(" layer")));
         button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, title));
-        if button.on_hover_text(tip).clicked() {
+        if button.on_hover_text(tooltip).clicked() {
             let end = end.cloned();
             actions.push(Action::edit(LayerCommand::AddByHand { end, what }));
             if what == HandLayer::Paint {

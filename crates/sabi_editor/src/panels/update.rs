@@ -7,9 +7,9 @@ use sabi_editing::command::GroupCommand;
 
 use super::card::{Card, CardSize};
 use crate::action::Action;
+use crate::choice_previews::PreviewChoice;
 use crate::context::ViewContext;
 use crate::theme::space;
-use crate::trials::Trial;
 
 /// Shows all groups with a newer version; nothing where there are none.
 pub(super) fn all(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
@@ -68,7 +68,7 @@ fn before_and_after(ui: &mut Ui, context: &ViewContext<'_>, groups: &[String]) {
         for (is_after, label) in [(false, "Before"), (true, "After")] {
             let card = Card {
                 label,
-                picture: context.trials.find(Trial::Update {
+                picture: context.choice_previews.find(PreviewChoice::Update {
                     groups: groups.to_vec(),
                     is_after,
                 }),

@@ -9,9 +9,9 @@ use sabi_nodes::label_of;
 
 use super::card::{Card, CardSize};
 use crate::action::Action;
+use crate::choice_previews::PreviewChoice;
 use crate::context::ViewContext;
 use crate::theme::{space, type_size};
-use crate::trials::Trial;
 
 /// Variants of the shown graph.
 #[derive(Default)]
@@ -19,11 +19,11 @@ pub(crate) struct Variants {
     /// Name that was typed for the next one.
     name: String,
     /// Variant that is being renamed.
-    renaming: Option<Renaming>,
+    renaming: Option<VariantRename>,
     size: CardSize,
 }
 
-struct Renaming {
+struct VariantRename {
     name: String,
     to: String,
     is_new: bool,
@@ -112,7 +112,7 @@ impl VariantCard<'_> {
         };
         response.context_menu(|ui| {
             if ui.button("Rename").clicked() {
-                variants.renaming = Some(Renaming {
+                variants.renaming = Some(VariantRename {
                     name: name.to_owned(),
                     to: name.to_owned(),
                     is_new: true,
@@ -130,7 +130,7 @@ impl VariantCard<'_> {
 
     /// Picture of the variant on the open model; until that is drawn, the picture from when the variant was shown last.
     fn picture(&self, ui: &Ui, context: &ViewContext<'_>) -> Option<TextureId> {
-        let tried = context.trials.find(Trial::Variant {
+        let tried = context.choice_previews.find(PreviewChoice::Variant {
             place: format!("{:?}", context.document.shown()),
             instance: None,
             name: self.name.map(str::to_owned),
@@ -139,7 +139,7 @@ impl VariantCard<'_> {
     }
 }
 
-fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<Action> {
+fn rename(ui: &mut Ui, renaming: &mut Option<VariantRename>) -> Option<Action> {
     let open = renaming.as_mut()?;
     let edit = egui::TextEdit::singleline(&mut open.to).desired_width(f32::INFINITY);
     let field = ui.add(edit);
@@ -151,7 +151,7 @@ fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<Action> {
         return None;
     }
     let is_canceled = ui.input(|input| input.key_pressed(Key::Escape));
-    let Renaming { name, to, .. } = renaming.take()?;
+    let VariantRename { name, to, .. } = renaming.take()?;
     (!is_canceled && name != to).then(|| Action::edit(VariantCommand::Rename { name, to }))
 }
 

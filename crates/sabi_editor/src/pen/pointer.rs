@@ -84,7 +84,7 @@ impl PenPointer {
         // Removes events that some systems send in addition: movements of the pointer, and touches of the tip as those
         // of a finger.
         raw.events.retain(|event| self.rests || !self.is_doubled(event));
-        let mut told = Told {
+        let mut told = FrameEvents {
             events: &mut raw.events,
             modifiers: raw.modifiers,
             has_button: false,
@@ -111,7 +111,7 @@ impl PenPointer {
         }
     }
 
-    fn tell(&mut self, event: PenEvent, zoom: f32, told: &mut Told<'_>, places: &mut Vec<PenPlace>) {
+    fn tell(&mut self, event: PenEvent, zoom: f32, told: &mut FrameEvents<'_>, places: &mut Vec<PenPlace>) {
         match event {
             PenEvent::Near { is_eraser } if self.is_near && self.is_eraser == is_eraser => {}
             PenEvent::Near { is_eraser } => {
@@ -166,7 +166,7 @@ impl PenPointer {
     }
 
     /// Moves the pointer, unless the place is invalid, and performs a pending press there.
-    fn move_to(&mut self, at: [f32; 2], zoom: f32, told: &mut Told<'_>) -> Option<PenPlace> {
+    fn move_to(&mut self, at: [f32; 2], zoom: f32, told: &mut FrameEvents<'_>) -> Option<PenPlace> {
         let is_place = at.iter().all(|number| number.abs() <= FAR);
         let place = is_place.then(|| PenPlace {
             at: Pos2::from(at) / zoom,
@@ -190,13 +190,13 @@ impl PenPointer {
         }
     }
 
-    fn press_tip(&mut self, told: &mut Told<'_>) {
+    fn press_tip(&mut self, told: &mut FrameEvents<'_>) {
         self.touches = false;
         self.button(PointerButton::Primary, true, told);
     }
 
     /// Presses or releases a button, unless it is in that state already, or the pen has no place yet.
-    fn button(&mut self, button: PointerButton, pressed: bool, told: &mut Told<'_>) {
+    fn button(&mut self, button: PointerButton, pressed: bool, told: &mut FrameEvents<'_>) {
         let Some(pos) = self.at.filter(|_| self.held.contains(&button) != pressed) else {
             return;
         };
@@ -213,7 +213,7 @@ impl PenPointer {
         });
     }
 
-    fn lift_all(&mut self, told: &mut Told<'_>) {
+    fn lift_all(&mut self, told: &mut FrameEvents<'_>) {
         self.touches = false;
         for button in self.held.clone() {
             self.button(button, false, told);
@@ -222,7 +222,7 @@ impl PenPointer {
 }
 
 /// Events of a frame.
-struct Told<'a> {
+struct FrameEvents<'a> {
     events: &'a mut Vec<Event>,
     modifiers: Modifiers,
     /// True if a button went down or up.

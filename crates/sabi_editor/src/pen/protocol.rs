@@ -17,7 +17,7 @@ pub(super) fn check() -> Result<(), String> {
     let Ok(connection) = Connection::connect_to_env() else {
         return Err(UNSUPPORTED.to_owned());
     };
-    let asked = registry_queue_init::<Asked>(&connection);
+    let asked = registry_queue_init::<RegistryState>(&connection);
     let Ok((globals, _)) = asked else {
         return Err(UNSUPPORTED.to_owned());
     };
@@ -45,10 +45,18 @@ fn suits(known: &[(String, u32)]) -> Result<(), String> {
 }
 
 /// State for the events of the registry, of which nothing is kept.
-struct Asked;
+struct RegistryState;
 
-impl Dispatch<WlRegistry, GlobalListContents> for Asked {
-    fn event(_: &mut Asked, _: &WlRegistry, _: Event, _: &GlobalListContents, _: &Connection, _: &QueueHandle<Asked>) {}
+impl Dispatch<WlRegistry, GlobalListContents> for RegistryState {
+    fn event(
+        _: &mut RegistryState,
+        _: &WlRegistry,
+        _: Event,
+        _: &GlobalListContents,
+        _: &Connection,
+        _: &QueueHandle<RegistryState>,
+    ) {
+    }
 }
 
 #[cfg(test)]

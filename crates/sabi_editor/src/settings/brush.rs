@@ -3,7 +3,8 @@
 use std::ops::RangeInclusive;
 
 use sabi_paint::{
-    Action, Area, Brush, CopyOf, EdgeKind, Fade, Jitter, Limits, PenEffects, PictureTip, Stroke, Symmetry, Tip, Turn,
+    Action, Area, Brush, BrushLimits, CopyOf, EdgeKind, Fade, Jitter, PenEffects, PictureTip, Stroke, Symmetry, Tip,
+    TipDirection,
 };
 use serde::{Deserialize, Serialize};
 
@@ -46,12 +47,12 @@ pub(crate) struct BrushChoices {
     /// Distance between two stamps, as a share of the radius.
     pub(crate) spacing: f32,
     /// Direction that the tip follows.
-    pub(crate) turn: Turn,
+    pub(crate) turn: TipDirection,
     /// Turn of the tip away from it, degrees.
     pub(crate) angle_degrees: f32,
     pub(crate) jitter: Jitter,
     /// Limits of the places that strokes change.
-    pub(crate) limits: Limits,
+    pub(crate) limits: BrushLimits,
     /// Angle of the edges up to which a side is filled, degrees.
     pub(crate) side_degrees: f32,
     /// Difference of coverage at which a fill ends.
@@ -130,10 +131,10 @@ impl Default for BrushChoices {
             flow: 1.0,
             opacity: 1.0,
             spacing: Brush::default().spacing,
-            turn: Turn::default(),
+            turn: TipDirection::default(),
             angle_degrees: 0.0,
             jitter: Jitter::default(),
-            limits: Limits::default(),
+            limits: BrushLimits::default(),
             side_degrees: Brush::default().side_degrees,
             tolerance: Brush::default().tolerance,
             symmetry: Symmetry::default(),
@@ -216,7 +217,7 @@ impl BrushChoices {
             spacing: 2.2,
             flow: 1.0,
             jitter: Jitter::default(),
-            turn: Turn::Stroke,
+            turn: TipDirection::Stroke,
             ..self.clone()
         }
     }

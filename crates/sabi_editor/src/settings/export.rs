@@ -127,7 +127,7 @@ pub(crate) struct ExportPlace {
     /// True if the base and every variant are exported, each to a folder of its own in the folder.
     pub(crate) variants: bool,
     /// Model that the textures in the folder were exported for.
-    #[serde(with = "sabi_files::stored::optional")]
+    #[serde(with = "sabi_files::path_encoding::optional")]
     pub(crate) model: Option<PathBuf>,
 }
 

@@ -10,7 +10,7 @@ use crate::paths::file_stem;
 pub(crate) struct TextFont {
     /// True for the font whose letters are of one width.
     pub(crate) is_monospace: bool,
-    #[serde(with = "sabi_files::stored::optional")]
+    #[serde(with = "sabi_files::path_encoding::optional")]
     pub(crate) file: Option<PathBuf>,
 }
 

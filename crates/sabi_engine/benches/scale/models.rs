@@ -15,7 +15,7 @@ pub(crate) struct Counts {
 
 /// Corners and triangles of a material.
 #[derive(Default)]
-struct Part {
+struct MeshBuffers {
     positions: Vec<f32>,
     uvs: Vec<f32>,
     indices: Vec<u32>,
@@ -25,7 +25,7 @@ struct Part {
 pub(crate) fn write(folder: &Path, counts: Counts) -> PathBuf {
     let side = ((counts.triangles as f64 / 2.0).sqrt().round() as usize).max(counts.charts.isqrt().max(1));
     let blocks = counts.charts.isqrt().max(1);
-    let mut parts: Vec<Part> = (0..counts.materials).map(|_| Part::default()).collect();
+    let mut parts: Vec<MeshBuffers> = (0..counts.materials).map(|_| MeshBuffers::default()).collect();
     for block in 0..blocks * blocks {
         let edges = |at: usize| [at * side / blocks, (at + 1) * side / blocks];
         let [columns, rows] = [edges(block % blocks), edges(block / blocks)];
@@ -36,7 +36,7 @@ pub(crate) fn write(folder: &Path, counts: Counts) -> PathBuf {
     path
 }
 
-impl Part {
+impl MeshBuffers {
     /// Adds the squares of some columns and rows as a chart of their own.
     fn add(&mut self, side: usize, blocks: usize, columns: [usize; 2], rows: [usize; 2]) {
         let first = (self.positions.len() / 3) as u32;
@@ -66,7 +66,7 @@ impl Part {
 }
 
 /// A binary glTF with a mesh that has a primitive for each part.
-fn glb(parts: &[Part]) -> Vec<u8> {
+fn glb(parts: &[MeshBuffers]) -> Vec<u8> {
     let mut binary: Vec<u8> = Vec::new();
     let (mut views, mut accessors, mut primitives, mut materials) = (vec![], vec![], vec![], vec![]);
     for (number, part) in parts.iter().enumerate().filter(|(_, part)| !part.indices.is_empty()) {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, MeshMap, SetOptions};
+use sabi_export::{BakeWriter, Channel, CommittedBake, EngineMemory, MeshMap, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, Target};
@@ -14,7 +14,7 @@ use crate::baking::documents::{check_documents, write_documents};
 use crate::baking::encoded_cache::EncodedCache;
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::losses::tell_losses;
-use crate::baking::made_of::MadeOf;
+use crate::baking::made_of::BakeProvenance;
 use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetPixels};
 use crate::baking::mesh_maps::{append_mesh_maps, file_bounds};
@@ -97,7 +97,7 @@ fn bake_open(
     let read = evaluator.read_files(open);
     refuse_read_report(request, &read)?;
     let conventions = Conventions::of(&options.presets);
-    let made_of = MadeOf::of(request, document, &read)?;
+    let provenance = BakeProvenance::of(request, document, &read)?;
     writer.protect(read);
     let linked = evaluator.linked().clone();
     evaluator.warn(materials_without_maps(&linked.model, &linked.atlas));
@@ -138,7 +138,7 @@ fn bake_open(
     let report = BakeReport {
         maps_cached: writer.kept().to_vec(),
         warnings: warnings.cloned().collect(),
-        ..report(request, &evaluator, &plan, &run, written, made_of, conventions)
+        ..report(request, &evaluator, &plan, &run, written, provenance, conventions)
     };
     // The times in the folder's record end here.
     times.encode.add(clock.lap());
@@ -225,13 +225,13 @@ fn commit(
     Ok(report)
 }
 
-fn file_names(committed: &Committed) -> Vec<String> {
+fn file_names(committed: &CommittedBake) -> Vec<String> {
     let names = committed.files.iter().filter_map(|file| file.file_name());
     names.map(|name| name.to_string_lossy().into_owned()).collect()
 }
 
 /// Returns a warning for each file that an earlier bake left.
-fn leftover_warnings(committed: &Committed) -> impl Iterator<Item = Warning> {
+fn leftover_warnings(committed: &CommittedBake) -> impl Iterator<Item = Warning> {
     let paths = committed.left_over.iter().map(|path| path.display());
     paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now").into())
 }
@@ -353,7 +353,7 @@ fn report(
     plan: &Plan,
     run: &Run,
     written: WrittenMaps,
-    made_of: MadeOf,
+    provenance: BakeProvenance,
     conventions: Conventions,
 ) -> BakeReport {
     let adapter = evaluator.gpu().summary();
@@ -364,8 +364,8 @@ fn report(
         version: REPORT_VERSION,
         sabi: env!("CARGO_PKG_VERSION"),
         build: Build::current().clone(),
-        recipe: made_of.recipe,
-        inputs: made_of.inputs,
+        recipe: provenance.recipe,
+        inputs: provenance.inputs,
         conventions,
         graph: request.graph.display().to_string(),
         mesh: BakedMesh {

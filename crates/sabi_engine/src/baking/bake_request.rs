@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_export::preset::{BUILTIN_NAMES, Content, Map, Preset};
+use sabi_export::preset::{BUILTIN_NAMES, Map, MapContent, Preset};
 use sabi_export::{
     Channel, CopyOptions, MeshMap, NamePattern, NamedPreset, OutputKind, Padding, SetOptions, file_stem,
 };
@@ -119,7 +119,7 @@ pub fn export_channels() -> Vec<String> {
 /// the names of the maps contain them. Therefore a document replaces another one together with the maps that it names.
 /// `None` if only some channels are exported, since documents of these would replace complete ones.
 fn document_stem(request: &BakeRequest, presets: &[NamedPreset]) -> Option<String> {
-    let words = Words::of(request);
+    let words = NameWords::of(request);
     let is_in_names = |word: &str| {
         let with_documents = presets.iter().filter(|named| !named.preset.documents.is_empty());
         let mut patterns = with_documents.map(|named| request.names.as_deref().unwrap_or(&named.preset.names));
@@ -137,22 +137,22 @@ fn document_stem(request: &BakeRequest, presets: &[NamedPreset]) -> Option<Strin
 }
 
 /// Values for the tokens of name patterns of a bake.
-struct Words {
+struct NameWords {
     graph: String,
     mesh: String,
     variant: Option<String>,
     seed: Option<String>,
 }
 
-impl Words {
-    fn of(request: &BakeRequest) -> Words {
+impl NameWords {
+    fn of(request: &BakeRequest) -> NameWords {
         let stem = |path: &Path| {
             let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             // A file has a name. A path that ends with `..` is refused when it is read.
             stem.unwrap_or_default()
         };
         let overrides = &request.evaluator.overrides;
-        Words {
+        NameWords {
             graph: stem(&request.graph),
             mesh: stem(&request.evaluator.model.path),
             variant: overrides.variant.clone(),
@@ -197,8 +197,8 @@ fn with_channels(mut preset: Preset, channels: &[String]) -> Result<Preset, Engi
     }
     let is_named = |channel: &Channel| channels.iter().any(|name| *name == channel.name());
     let is_asked = |map: &Map| match &map.content {
-        Content::Every(kind) => channels.iter().any(|name| name == kind.plural()),
-        Content::Packed(_) => {
+        MapContent::Every(kind) => channels.iter().any(|name| name == kind.plural()),
+        MapContent::Packed(_) => {
             let mut packed = map.channels().into_iter();
             packed.any(|channel| matches!(channel, Channel::Mesh(_)) || is_named(channel))
         }
@@ -226,7 +226,7 @@ pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineErr
     } else {
         &request.presets
     };
-    let words = Words::of(request);
+    let words = NameWords::of(request);
     let (mut presets, mut faults) = (Vec::new(), FaultList::default());
     for name in wanted {
         let preset = find_preset(name, request.preset_folder.as_deref());

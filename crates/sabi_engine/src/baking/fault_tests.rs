@@ -23,9 +23,9 @@ fn graph(color: &str, roughness: f32) -> String {
 }
 
 /// Folder of a bake, with a graph of its own.
-struct Place(tempfile::TempDir);
+struct BakeFolder(tempfile::TempDir);
 
-impl Place {
+impl BakeFolder {
     fn request(&self, name: &str, disk: &Disk) -> BakeRequest {
         let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/cube.glb");
         let mut request = BakeRequest::plain(&self.0.path().join(name), &model, 16);
@@ -66,7 +66,7 @@ fn copy(from: &Path, to: &Path) {
 
 #[test]
 fn a_bake_leaves_whole_maps_wherever_the_disk_fails_and_the_next_one_goes_through() {
-    let first = Place(tempfile::tempdir().unwrap());
+    let first = BakeFolder(tempfile::tempdir().unwrap());
     for (name, text) in [
         ("old.sabi", graph("#400000", 0.25)),
         ("new.sabi", graph("#004000", 0.75)),
@@ -77,7 +77,7 @@ fn a_bake_leaves_whole_maps_wherever_the_disk_fails_and_the_next_one_goes_throug
     let old = first.maps();
     assert_eq!(old.len(), 2, "{:?}", old.keys());
     // From now on, maps are taken from the cache.
-    let again = Place(tempfile::tempdir().unwrap());
+    let again = BakeFolder(tempfile::tempdir().unwrap());
     copy(first.0.path(), again.0.path());
     let disk = Disk::counting();
     bake(&again.request("new.sabi", &disk), &NoProgress).unwrap();
@@ -91,7 +91,7 @@ fn a_bake_leaves_whole_maps_wherever_the_disk_fails_and_the_next_one_goes_throug
         0
     );
     for (disk, told) in Disk::each_fault(disk.steps()) {
-        let place = Place(tempfile::tempdir().unwrap());
+        let place = BakeFolder(tempfile::tempdir().unwrap());
         copy(first.0.path(), place.0.path());
         let is_told = bake(&place.request("new.sabi", &disk), &NoProgress).is_ok();
         let maps = place.maps();

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_export::preset::{Content, Format};
+use sabi_export::preset::{MapContent, MapFormat};
 use sabi_export::{Channel, NamedPreset, SetOptions};
 use sabi_graph::FlatGraph;
 
@@ -43,18 +43,18 @@ pub(crate) fn is_foreign_folder(
 
 /// Returns true if a file name looks like that of a map: `wood_base_color.png`, `wood_height.1001.exr`.
 fn is_map(name: &str, NamedPreset { preset, names }: &NamedPreset, outputs: &[Channel]) -> bool {
-    let may_be = |word: &str, format: Format| {
+    let may_be = |word: &str, format: MapFormat| {
         let stem = name
             .strip_suffix(format.ending())
             .and_then(|stem| stem.strip_suffix('.'));
         stem.is_some_and(|stem| names.may_give(stem, word))
     };
     preset.maps.iter().any(|map| match map.content {
-        Content::Every(kind) => {
+        MapContent::Every(kind) => {
             let mut its = outputs.iter().filter(|output| output.output_kind() == Some(kind));
             its.any(|output| may_be(&output.name(), map.format))
         }
-        Content::Packed(_) => may_be(&map.name, map.format),
+        MapContent::Packed(_) => may_be(&map.name, map.format),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{BakeWriter, Channel, CutMap, LeftOut, SetOptions};
+use sabi_export::{BakeWriter, Channel, CutMap, SetOptions, UnmappedChannels};
 
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::map_encoder::WrittenMaps;
@@ -32,10 +32,10 @@ pub(super) fn tell_losses(request: &BakeRequest, options: &SetOptions, writer: &
 }
 
 /// Returns a sentence on channels that a preset for whole materials does not store. Relief is in its normal map, without the height.
-fn left_out_sentence(left: &LeftOut) -> Option<String> {
+fn left_out_sentence(left: &UnmappedChannels) -> Option<String> {
     let channels = left.channels.iter().filter(|channel| **channel != Channel::Height);
     let names: Vec<String> = channels.map(|channel| channel.name().replace('_', " ")).collect();
-    let (LeftOut { preset, material, .. }, what) = (left, names.join(", "));
+    let (UnmappedChannels { preset, material, .. }, what) = (left, names.join(", "));
     (!names.is_empty()).then(|| {
         format!(
             "the preset {preset} has no place for {what} of '{material}', which is left out; the preset raw has a map for every \

@@ -15,14 +15,18 @@ use crate::baking::presets::preset_files;
 use crate::error::EngineError;
 
 /// Recipe of a bake, and the files that it read.
-pub(crate) struct MadeOf {
+pub(crate) struct BakeProvenance {
     pub(crate) recipe: Recipe,
     pub(crate) inputs: Vec<InputRecord>,
 }
 
-impl MadeOf {
+impl BakeProvenance {
     /// Records a bake. `read` are the files of the graph and the model. `document` is the graph's text if it differs from its file.
-    pub(crate) fn of(request: &BakeRequest, document: Option<String>, read: &[PathBuf]) -> Result<MadeOf, EngineError> {
+    pub(crate) fn of(
+        request: &BakeRequest,
+        document: Option<String>,
+        read: &[PathBuf],
+    ) -> Result<BakeProvenance, EngineError> {
         let presets = preset_files(&request.presets, request.preset_folder.as_deref())?;
         // The text counts, not the file.
         let is_graph = |path: &PathBuf| document.is_some() && *path == request.graph;
@@ -30,7 +34,7 @@ impl MadeOf {
         let files = read
             .chain(presets)
             .chain(node_files(&request.graph, &request.evaluator.model.trusted));
-        Ok(MadeOf {
+        Ok(BakeProvenance {
             inputs: records(files),
             recipe: Recipe::of(request, document),
         })

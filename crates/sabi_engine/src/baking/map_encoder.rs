@@ -4,10 +4,11 @@ use std::sync::mpsc::{Sender, channel};
 use std::{panic, thread};
 
 use sabi_export::{
-    BakeWriter, Channel, ChannelPixels, ConstantRecord, DocumentRecord, LeftOut, OutputRecord, SetLayout, SetOptions,
+    BakeWriter, Channel, ChannelPixels, ConstantRecord, DocumentRecord, OutputRecord, SetLayout, SetOptions,
+    UnmappedChannels,
 };
 
-use super::memory_budget::{MemoryBudget, Reserved};
+use super::memory_budget::{MemoryBudget, ReservedMemory};
 use crate::baking::report::ModelCopyReport;
 use crate::baking::seams::SetSeams;
 use crate::error::{EngineError, ErrorKind};
@@ -23,7 +24,7 @@ pub(crate) struct WrittenMaps {
     /// Documents of materials that name the maps.
     pub(crate) documents: Vec<DocumentRecord>,
     /// Channels of materials for which presets have no map.
-    pub(crate) left_out: Vec<LeftOut>,
+    pub(crate) left_out: Vec<UnmappedChannels>,
     /// Copy of the model that uses the maps.
     pub(crate) copy: Option<ModelCopyReport>,
     /// Kernels that only exports need.
@@ -57,7 +58,7 @@ pub(super) enum MapStep<'s> {
         /// Seams to be erased; `None` if the graph does not set the channel, which then has its neutral value.
         seams: Option<SetSeams<'s>>,
         /// Memory of the pixels.
-        memory: Reserved<'s>,
+        memory: ReservedMemory<'s>,
     },
     /// Leaves out a channel that the set's material does not have.
     LeaveOut {
@@ -79,7 +80,7 @@ pub(super) struct MapSteps<'s> {
 
 impl<'s> MapSteps<'s> {
     /// Waits until there is enough memory for the pixels of a channel besides those of earlier steps.
-    pub(super) fn reserve(&self, pixels: usize, channel: &Channel) -> Reserved<'s> {
+    pub(super) fn reserve(&self, pixels: usize, channel: &Channel) -> ReservedMemory<'s> {
         self.budget.reserve(pixels * channel.components() * size_of::<f32>())
     }
 
@@ -193,12 +194,12 @@ mod tests {
 
     /// Progress that records reports and can be canceled.
     #[derive(Default)]
-    struct Noted {
+    struct RecordedProgress {
         steps: Mutex<Vec<usize>>,
         is_canceled: AtomicBool,
     }
 
-    impl Progress for Noted {
+    impl Progress for RecordedProgress {
         fn advance(&self, _phase: Phase, done: usize, _of: usize) {
             self.steps.lock().unwrap().push(done);
         }
@@ -250,7 +251,7 @@ mod tests {
 
     /// Takes the steps of a computation, with memory for one map. Returns the names of the files.
     fn taken<'s>(
-        progress: &Noted,
+        progress: &RecordedProgress,
         budget: &'s MemoryBudget,
         compute: impl FnOnce(&MapSteps<'s>) -> Result<(), EngineError>,
     ) -> Result<Vec<String>, EngineError> {
@@ -270,7 +271,7 @@ mod tests {
 
     #[test]
     fn maps_are_written_in_the_order_in_which_they_are_computed() {
-        let (progress, layout, budget) = (Noted::default(), layout(), MemoryBudget::new(0));
+        let (progress, layout, budget) = (RecordedProgress::default(), layout(), MemoryBudget::new(0));
         let files = taken(&progress, &budget, |steps| {
             [Channel::Normal, Channel::BaseColor, Channel::Height]
                 .into_iter()
@@ -291,7 +292,7 @@ mod tests {
         let (layout, budget) = (layout(), MemoryBudget::new(usize::MAX));
         let lost = || EngineError::new(ErrorKind::OutOfMemory, "the device is lost");
         let error = |set: &str| {
-            let computed = taken(&Noted::default(), &budget, |steps| {
+            let computed = taken(&RecordedProgress::default(), &budget, |steps| {
                 let sent = [Channel::Roughness, Channel::Normal]
                     .into_iter()
                     .try_for_each(|channel| send(steps, &layout, set, channel));
@@ -306,7 +307,7 @@ mod tests {
 
     #[test]
     fn a_canceled_bake_encodes_no_further_map() {
-        let (progress, layout, budget) = (Noted::default(), layout(), MemoryBudget::new(usize::MAX));
+        let (progress, layout, budget) = (RecordedProgress::default(), layout(), MemoryBudget::new(usize::MAX));
         progress.is_canceled.store(true, Ordering::Relaxed);
         let canceled = taken(&progress, &budget, |steps| {
             send(steps, &layout, "wood", Channel::Height)

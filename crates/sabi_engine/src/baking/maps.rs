@@ -21,7 +21,7 @@ use sabi_plan::{Plan, PlannedResult, SlotRef};
 use self::material::MAPS;
 pub(crate) use self::set_pixels::SetPixels;
 use crate::baking::map_encoder::{MapEncoder, MapStep, MapSteps, WrittenMaps, sort_by_set};
-use crate::baking::memory_budget::{MemoryBudget, Reserved};
+use crate::baking::memory_budget::{MemoryBudget, ReservedMemory};
 use crate::baking::seams::{ModelSeams, SetSeams};
 use crate::baking::sheet_results::SheetResults;
 use crate::error::EngineError;
@@ -279,7 +279,7 @@ impl<'s> Maps<'_, 's> {
         channel: Channel,
         pixels: ChannelPixels,
         is_connected: bool,
-        memory: Reserved<'s>,
+        memory: ReservedMemory<'s>,
     ) -> Result<(), EngineError> {
         let seams = is_connected.then_some(SetSeams {
             of_model: &self.from.seams,

@@ -12,7 +12,7 @@ pub(super) struct MemoryBudget {
 
 /// Share of a budget, returned when dropped.
 #[derive(Debug)]
-pub(super) struct Reserved<'b> {
+pub(super) struct ReservedMemory<'b> {
     budget: &'b MemoryBudget,
     bytes: usize,
 }
@@ -27,11 +27,11 @@ impl MemoryBudget {
     }
 
     /// Waits until the bytes fit together with all others. More than the limit is granted if nothing else is in use.
-    pub(super) fn reserve(&self, bytes: usize) -> Reserved<'_> {
+    pub(super) fn reserve(&self, bytes: usize) -> ReservedMemory<'_> {
         let is_full = |in_use: &mut usize| *in_use > 0 && in_use.saturating_add(bytes) > self.limit;
         let waited = self.freed.wait_while(self.lock(), is_full);
         *waited.unwrap_or_else(PoisonError::into_inner) += bytes;
-        Reserved { budget: self, bytes }
+        ReservedMemory { budget: self, bytes }
     }
 
     fn lock(&self) -> MutexGuard<'_, usize> {
@@ -39,7 +39,7 @@ impl MemoryBudget {
     }
 }
 
-impl Drop for Reserved<'_> {
+impl Drop for ReservedMemory<'_> {
     fn drop(&mut self) {
         *self.budget.lock() -= self.bytes;
         self.budget.freed.notify_all();

@@ -1,6 +1,6 @@
 //! Descriptions of presets, for `sabi presets` and the window.
 
-use sabi_export::preset::{Content, Document, Format, Map, MapSize, NormalY, Preset, When};
+use sabi_export::preset::{DocumentFormat, Map, MapContent, MapFormat, MapSize, NormalY, Preset, When};
 use sabi_export::{Channel, EngineFormat};
 use serde::Serialize;
 
@@ -16,7 +16,7 @@ pub struct PresetDescription {
     /// Pattern of file names.
     pub names: String,
     /// Its files.
-    pub files: Vec<PresetFile>,
+    pub files: Vec<PresetFileDescription>,
     /// Its documents.
     pub documents: Vec<PresetDocument>,
     /// Channels of materials that none of its files contains, so that a bake leaves them out.
@@ -36,7 +36,7 @@ pub struct PresetDocument {
 
 /// A file of a preset in words.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PresetFile {
+pub struct PresetFileDescription {
     /// Word in the name of the file; `None` for the files of outputs, which have the names of the outputs.
     pub map: Option<String>,
     /// `masks`, `colors` or `vectors` for a file for each output of that kind.
@@ -61,7 +61,7 @@ pub struct PresetFile {
     pub when: String,
 }
 
-impl PresetFile {
+impl PresetFileDescription {
     /// Returns its content in a line: `R occlusion, G roughness, B metallic`.
     pub fn packing(&self) -> String {
         let letters: &[&str] = match self.components.len() {
@@ -114,7 +114,7 @@ pub fn describe_preset(preset: &Preset) -> PresetDescription {
     }
 }
 
-fn document(document: &Document) -> PresetDocument {
+fn document(document: &DocumentFormat) -> PresetDocument {
     PresetDocument {
         format: document.name(),
         ending: document.ending(),
@@ -122,18 +122,18 @@ fn document(document: &Document) -> PresetDocument {
     }
 }
 
-fn file(map: &Map) -> PresetFile {
+fn file(map: &Map) -> PresetFileDescription {
     let (name, outputs, components) = match &map.content {
-        Content::Every(kind) => (None, Some(kind.plural()), Vec::new()),
-        Content::Packed(components) => {
+        MapContent::Every(kind) => (None, Some(kind.plural()), Vec::new()),
+        MapContent::Packed(components) => {
             let components = components.iter().map(ToString::to_string).collect();
             (Some(map.name.clone()), None, components)
         }
     };
-    PresetFile {
+    PresetFileDescription {
         map: name,
         outputs,
-        ending: Format::ending(map.format),
+        ending: MapFormat::ending(map.format),
         bits: map.format.bits(),
         components,
         color_space: if map.is_srgb { "srgb" } else { "linear" },
@@ -166,7 +166,10 @@ mod tests {
         let packing = |preset: &str| {
             let preset = builtin(preset).expect("a preset").expect("that is read");
             let files = describe_preset(&preset).files;
-            files.iter().map(PresetFile::packing).collect::<Vec<String>>()
+            files
+                .iter()
+                .map(PresetFileDescription::packing)
+                .collect::<Vec<String>>()
         };
         let unity = packing("unity");
         assert_eq!(unity[0], "RGB base_color, A opacity");

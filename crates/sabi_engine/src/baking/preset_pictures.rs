@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use sabi_export::Channel;
-use sabi_export::preset::{BUILTIN_NAMES, ComponentSource, Content, Map, NormalY, Preset, builtin};
+use sabi_export::preset::{BUILTIN_NAMES, ComponentSource, Map, MapContent, NormalY, Preset, builtin};
 
 /// Picture that a preset of Sabi writes for a material.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,12 +15,12 @@ pub struct PresetPicture {
     /// True if it has one color component.
     pub is_gray: bool,
     /// Contents of its components. Components that contain the same number everywhere are left out.
-    pub parts: Vec<PicturePart>,
+    pub parts: Vec<PictureChannel>,
 }
 
 /// Channel in a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PicturePart {
+pub struct PictureChannel {
     /// Name of the channel in reports, such as `base_color`; `None` if it is not a channel of materials.
     pub channel: Option<String>,
     /// Range of components that contain it, red first. A gray picture has one color component, and its alpha is the second.
@@ -49,7 +49,7 @@ pub fn preset_pictures() -> Vec<PresetPicture> {
 }
 
 fn picture(preset: &Preset, map: &Map) -> Option<PresetPicture> {
-    let Content::Packed(components) = &map.content else {
+    let MapContent::Packed(components) = &map.content else {
         return None;
     };
     // A pattern that begins with a token has no text before it.
@@ -72,7 +72,7 @@ fn picture(preset: &Preset, map: &Map) -> Option<PresetPicture> {
         let count = (1..channel.components()).take_while(|next| is_next(*next)).count() + 1;
         let is_whole = count == channel.components();
         let is_material = !matches!(channel, Channel::Mesh(_)) && channel.output_kind().is_none();
-        parts.push(PicturePart {
+        parts.push(PictureChannel {
             channel: (is_material && is_whole).then(|| channel.name().into_owned()),
             components: at..at + count,
             is_inverted: component.is_inverted,
@@ -99,7 +99,7 @@ mod tests {
             .iter()
             .find(|picture| picture.before == before && picture.name == name)
             .expect("a picture of a preset");
-        let part = |part: &PicturePart| {
+        let part = |part: &PictureChannel| {
             let channel = part.channel.clone().unwrap_or_default();
             (channel, part.components.clone(), part.is_inverted)
         };

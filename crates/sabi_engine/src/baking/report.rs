@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use sabi_export::preset::NormalY;
-use sabi_export::{ConstantRecord, DocumentRecord, EngineMemory, LeftOut, LookChange, NamedPreset, OutputRecord};
+use sabi_export::{
+    ConstantRecord, DocumentRecord, EngineMemory, LookChange, NamedPreset, OutputRecord, UnmappedChannels,
+};
 use sabi_files::{PathBase, absolute};
 use serde::{Deserialize, Serialize};
 
@@ -79,7 +81,7 @@ pub struct BakeReport {
     /// Documents of materials that name the maps.
     pub documents: Vec<DocumentRecord>,
     /// Channels of materials for which presets have no map.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<UnmappedChannels>,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
     /// Copy of the model that uses the maps.

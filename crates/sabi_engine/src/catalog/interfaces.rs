@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sabi_graph::{
-    Body, Description, Document, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, PortType,
+    Body, Description, Document, ExposedParameter, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, PortType,
     REROUTE_KIND, SlotRef,
 };
 use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
@@ -275,7 +275,7 @@ impl GroupBody<'_> {
     }
 
     /// Builds an exposed knob, which looks like the first knob that it sets.
-    fn knob(&self, interfaces: &Interfaces, body: &Body, name: &str, exposed: &Exposed) -> Option<Knob> {
+    fn knob(&self, interfaces: &Interfaces, body: &Body, name: &str, exposed: &ExposedParameter) -> Option<Knob> {
         let slot = exposed.to.first()?;
         let entry = interfaces.of(body, slot.node.as_str())?;
         let inner = entry.knob(&slot.name)?;

@@ -11,7 +11,7 @@ use sabi_surface::model::Model;
 
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::source::pictures::{Pictures, files};
+use crate::source::session_pictures::{SessionPictures, files};
 use crate::source::strokes::Strokes;
 use crate::source::{Files, SOURCE_MODEL, paint};
 
@@ -22,7 +22,7 @@ pub(crate) struct EvaluatedGraph {
     flat: FlatGraph,
     /// All node kinds, with those of the model's content adapted to the model.
     kinds: Kinds,
-    pictures: Pictures,
+    pictures: SessionPictures,
     strokes: Strokes,
     trusted: TrustedPaths,
     /// Memory limit in bytes for the pictures of the model, and for each picture of the graph.

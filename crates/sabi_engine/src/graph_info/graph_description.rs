@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_graph::{Body, Document, Exposed, Fit, FlatGraph, Overrides, SlotRef, Value, format_version};
+use sabi_graph::{Body, Document, ExposedParameter, Fit, FlatGraph, Overrides, SlotRef, Value, format_version};
 use serde::Serialize;
 
 use super::graph_files::{FileDescription, GraphFiles};
@@ -193,7 +193,7 @@ fn knobs(open: &OpenGraph, kinds: &Kinds) -> Vec<KnobDescription> {
 }
 
 impl KnobDescription {
-    fn of(name: &str, exposed: &Exposed, document: &Document, interfaces: &Interfaces) -> KnobDescription {
+    fn of(name: &str, exposed: &ExposedParameter, document: &Document, interfaces: &Interfaces) -> KnobDescription {
         // The knob is that of a node which is this graph, so its default is the value that the graph sets.
         let knob = interfaces.of_whole().and_then(|whole| whole.knob(name));
         let ty = knob.map(|knob| &knob.ty);

@@ -59,7 +59,7 @@ pub enum LiveEvent {
         /// Node.
         node: NodeRef,
         /// Its values in texture space.
-        values: Arc<Inspected>,
+        values: Arc<InspectedResult>,
     },
     /// The thumbnail of a node has changed.
     Thumbnail {
@@ -82,7 +82,7 @@ pub enum LiveEvent {
         /// Revision of the request.
         revision: u64,
         /// All faults.
-        faults: Faults,
+        faults: GraphFaults,
     },
     /// The list of image and group files that the graph names has changed. The files need not exist.
     Files {
@@ -156,7 +156,7 @@ impl LiveModel {
 
 /// Exact values of a node in texture space.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Inspected {
+pub struct InspectedResult {
     /// Type of the result.
     pub ty: PortType,
     /// Side in pixels.
@@ -171,7 +171,7 @@ pub struct Inspected {
 
 /// Faults and warnings of a graph.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Faults {
+pub struct GraphFaults {
     /// Faults of nodes.
     pub faults: Vec<NodeFault>,
     /// Nodes for which a file has yet to be chosen, each with a sentence that asks for it.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_graph::{FlatGraph, NodeRef, Value};
 use sabi_plan::{FileContents, Target};
 
-use super::event::Faults;
+use super::event::GraphFaults;
 
 /// Request with its flat graph and the targets in it.
 pub(super) struct FlattenedRequest {
@@ -15,7 +15,7 @@ pub(super) struct FlattenedRequest {
     pub(super) contents: FileContents,
     pub(super) kinds_revision: u64,
     /// Faults known before the evaluation.
-    pub(super) faults: Faults,
+    pub(super) faults: GraphFaults,
 }
 
 /// Node whose result could not be computed. It is tried again once its parameters, its file or the node files change.

@@ -75,12 +75,12 @@ impl ModelReading {
         let begun = Instant::now();
         self.left.retain(|left| !left.is_finished());
         while self.left.len() > MOST_LEFT || !self.left.is_empty() && begun.elapsed() < WAITS_FOR {
-            stop_if_canceled(&Wanted(progress))?;
+            stop_if_canceled(&ReadCancelation(progress))?;
             sleep(LOOK_AGAIN);
             self.left.retain(|left| !left.is_finished());
         }
         let shared = progress.clone();
-        match unless_left(&Wanted(progress), move || work(shared.as_ref())) {
+        match unless_left(&ReadCancelation(progress), move || work(shared.as_ref())) {
             Ok(read) => read,
             Err(stopped) => {
                 progress.is_left.store(true, Ordering::Relaxed);
@@ -92,9 +92,9 @@ impl ModelReading {
 }
 
 /// Cancelation of reading, for the thread that waits for it. That thread does not wait for its turn.
-struct Wanted<'p>(&'p LoadProgress);
+struct ReadCancelation<'p>(&'p LoadProgress);
 
-impl Progress for Wanted<'_> {
+impl Progress for ReadCancelation<'_> {
     fn advance(&self, phase: Phase, done: usize, of: usize) {
         self.0.advance(phase, done, of);
     }

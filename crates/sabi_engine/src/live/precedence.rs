@@ -10,18 +10,18 @@ const LOOK_AGAIN: Duration = Duration::from_millis(50);
 /// Order of evaluators that share a device. Between two steps, the work of an evaluator waits while an evaluator of a lower
 /// rank, or an older one of the same rank, has work.
 #[derive(Clone, Debug, Default)]
-pub struct Precedence(Arc<Shared>);
+pub struct Precedence(Arc<SharedState>);
 
 #[derive(Debug, Default)]
-struct Shared {
-    state: Mutex<State>,
+struct SharedState {
+    state: Mutex<PrecedenceState>,
     changed: Condvar,
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct PrecedenceState {
     /// Evaluators that have work, by rank and age.
-    working: BTreeSet<Place>,
+    working: BTreeSet<QueuePlace>,
     /// Number of places that have been assigned.
     places: u64,
     /// Time until which all evaluators except those of rank 0 wait.
@@ -29,7 +29,7 @@ struct State {
 }
 
 /// Rank, and number of the evaluator.
-type Place = (u8, u64);
+type QueuePlace = (u8, u64);
 
 impl Precedence {
     /// Makes evaluators of all ranks except 0 wait for a while, since the window needs the device.
@@ -47,7 +47,7 @@ impl Precedence {
         }
     }
 
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, PrecedenceState> {
         // Every change of the state is a single assignment, so a panic elsewhere leaves it consistent.
         self.0.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -56,7 +56,7 @@ impl Precedence {
 /// Turn of one evaluator.
 #[derive(Debug)]
 pub(super) struct Turn {
-    place: Place,
+    place: QueuePlace,
     precedence: Precedence,
 }
 
@@ -94,9 +94,9 @@ impl Drop for Turn {
     }
 }
 
-impl State {
+impl PrecedenceState {
     /// Returns the minimum time that the work of a place has to wait; `None` if it is its turn.
-    fn time_to_wait(&self, place: Place) -> Option<Duration> {
+    fn time_to_wait(&self, place: QueuePlace) -> Option<Duration> {
         if self.working.first().is_some_and(|first| *first < place) {
             return Some(LOOK_AGAIN);
         }

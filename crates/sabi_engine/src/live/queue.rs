@@ -16,7 +16,7 @@ pub(super) type SubmittedRequest = (LiveRequest, Instant);
 
 /// Latest request to the worker and pending events to the window.
 pub(super) struct WorkerQueue {
-    state: Mutex<State>,
+    state: Mutex<QueueState>,
     changed: Condvar,
     turn: Turn,
     pub(super) activity: SharedActivity,
@@ -25,17 +25,17 @@ pub(super) struct WorkerQueue {
 }
 
 #[derive(Default)]
-struct State {
+struct QueueState {
     request: Option<SubmittedRequest>,
     events: Vec<LiveEvent>,
-    dropped: Dropped,
+    dropped: DroppedPictures,
     is_working: bool,
     is_closed: bool,
 }
 
 /// Pictures that the window has dropped.
 #[derive(Default)]
-pub(super) struct Dropped {
+pub(super) struct DroppedPictures {
     pub(super) subjects: Vec<ViewSubject>,
     pub(super) thumbnails: Vec<NodeRef>,
 }
@@ -67,14 +67,14 @@ impl WorkerQueue {
     }
 
     /// Adds pictures that the window has dropped.
-    pub(super) fn mark_dropped(&self, dropped: Dropped) {
+    pub(super) fn mark_dropped(&self, dropped: DroppedPictures) {
         let known = &mut self.lock().dropped;
         known.subjects.extend(dropped.subjects);
         known.thumbnails.extend(dropped.thumbnails);
     }
 
     /// Returns and removes the pictures that the window has dropped since the last call.
-    pub(super) fn take_dropped(&self) -> Dropped {
+    pub(super) fn take_dropped(&self) -> DroppedPictures {
         std::mem::take(&mut self.lock().dropped)
     }
 
@@ -150,7 +150,7 @@ impl WorkerQueue {
         std::mem::take(&mut self.lock().events)
     }
 
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, QueueState> {
         // Every change of the state is a single assignment or push, so a panic elsewhere leaves it consistent.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use sabi_gpu::Gpu;
 use sabi_view::{
-    Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS,
-    Scene, Shot, Target, Viewpoint,
+    Background, Camera, Environment, MaterialLook, ModelPose, Pixels, RenderTarget, Renderer,
+    STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Scene, Shot, Viewpoint,
 };
 
 use super::event::LiveModel;
@@ -25,7 +25,7 @@ pub(super) struct ThumbnailRenderer {
     renderer: Renderer,
     environment: Environment,
     /// Pose of the last model, and whether it includes the shade of the model.
-    last_pose: Option<(Arc<LiveModel>, bool, Pose)>,
+    last_pose: Option<(Arc<LiveModel>, bool, ModelPose)>,
 }
 
 impl ThumbnailRenderer {
@@ -82,7 +82,7 @@ impl ThumbnailRenderer {
             environment: &self.environment,
             lights: &STUDIO_LIGHTS,
         };
-        let mut target = Target::new(gpu, [side; 2])?;
+        let mut target = RenderTarget::new(gpu, [side; 2])?;
         self.renderer.draw(gpu, &mut target, &scene, &shot_of(model))?;
         Ok(target.read(gpu)?)
     }
@@ -107,8 +107,9 @@ impl ThumbnailRenderer {
     ) -> Result<Pixels, EngineError> {
         // A pose keeps the shade that the model had when the pose was created.
         let has_shade = model.view.has_shade();
-        let is_same =
-            |(known, had_shade, _): &(Arc<LiveModel>, bool, Pose)| Arc::ptr_eq(known, model) && *had_shade == has_shade;
+        let is_same = |(known, had_shade, _): &(Arc<LiveModel>, bool, ModelPose)| {
+            Arc::ptr_eq(known, model) && *had_shade == has_shade
+        };
         let mut pose = match self.last_pose.take().filter(is_same) {
             Some((_, _, pose)) => pose,
             None => self.pose(gpu, side, model)?,
@@ -122,7 +123,7 @@ impl ThumbnailRenderer {
         Ok(pixels)
     }
 
-    fn pose(&self, gpu: &Gpu, side: u32, model: &LiveModel) -> Result<Pose, EngineError> {
+    fn pose(&self, gpu: &Gpu, side: u32, model: &LiveModel) -> Result<ModelPose, EngineError> {
         let ThumbnailRenderer {
             renderer, environment, ..
         } = self;

@@ -18,7 +18,7 @@ use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
 use super::evaluation_error::EvaluationError;
-use super::event::{Faults, LiveEvent, LiveModel, LiveTimes};
+use super::event::{GraphFaults, LiveEvent, LiveModel, LiveTimes};
 use super::flattened_request::FailedNode;
 use super::loaded_model::LoadedModel;
 use super::model_reading::ModelReading;
@@ -30,7 +30,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 
 /// Hash of what a picture shows.
-pub(super) type Key = [u8; 32];
+pub(super) type PictureHash = [u8; 32];
 
 /// State of the worker thread.
 pub(super) struct Worker {
@@ -45,7 +45,7 @@ pub(super) struct Worker {
     pub(super) reading: ModelReading,
     /// Revision of the last model that was tried.
     pub(super) tried: Option<u64>,
-    pub(super) sent: Sent,
+    pub(super) sent: SentEvents,
     /// Nodes whose results could not be made, by id.
     pub(super) failed_nodes: BTreeMap<String, FailedNode>,
     pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
@@ -57,11 +57,11 @@ pub(super) struct Worker {
 
 /// Hashes of everything that was sent, so that nothing is sent twice.
 #[derive(Default)]
-pub(super) struct Sent {
+pub(super) struct SentEvents {
     pub(super) looks: BTreeMap<ViewSubject, SentLooks>,
-    pub(super) thumbnails: BTreeMap<NodeRef, Key>,
-    pub(super) inspected: BTreeMap<NodeRef, Key>,
-    pub(super) faults: Option<Faults>,
+    pub(super) thumbnails: BTreeMap<NodeRef, PictureHash>,
+    pub(super) inspected: BTreeMap<NodeRef, PictureHash>,
+    pub(super) faults: Option<GraphFaults>,
     pub(super) files: Option<(BTreeSet<PathBuf>, Vec<Refusal>)>,
 }
 
@@ -69,9 +69,9 @@ pub(super) struct Sent {
 #[derive(Clone, Copy, Default)]
 pub(super) struct SentLooks {
     /// Hash of the coarse picture. It is kept after the full picture has been sent.
-    pub(super) coarse: Option<Key>,
+    pub(super) coarse: Option<PictureHash>,
     /// Hash of the full picture, once it was sent.
-    pub(super) full: Option<Key>,
+    pub(super) full: Option<PictureHash>,
     /// True if no result was missing.
     pub(super) is_whole: bool,
 }
@@ -84,7 +84,7 @@ pub(super) struct Job {
     pub(super) totals: RunTotals,
     pub(super) latency: Option<Duration>,
     /// Hashes of the coarse pictures of this request.
-    pub(super) coarse_keys: BTreeMap<ViewSubject, Key>,
+    pub(super) coarse_keys: BTreeMap<ViewSubject, PictureHash>,
     /// True if the full picture comes first. The first picture is always finished.
     pub(super) is_full_first: bool,
 }
@@ -105,7 +105,7 @@ impl Worker {
             loaded: None,
             reading: ModelReading::default(),
             tried: None,
-            sent: Sent::default(),
+            sent: SentEvents::default(),
             failed_nodes: BTreeMap::new(),
             thumbnail_renderer: None,
             full_duration: None,
@@ -135,7 +135,7 @@ impl Worker {
     fn reset(&mut self, revision: u64) {
         self.loaded = None;
         self.tried = None;
-        self.sent = Sent::default();
+        self.sent = SentEvents::default();
         self.failed_nodes.clear();
         self.thumbnail_renderer = None;
         self.full_duration = None;

@@ -16,14 +16,14 @@ const LEAST_DENSE: f64 = 0.25;
 
 /// Texels of a sheet, and the area of the model that has them.
 #[derive(Clone, Copy, Default)]
-struct Sheet {
+struct SheetCoverage {
     covered: u64,
     maps: u64,
     /// Square model units.
     area: f64,
 }
 
-impl Sheet {
+impl SheetCoverage {
     fn share(&self) -> f64 {
         self.covered as f64 / self.maps.max(1) as f64
     }
@@ -38,7 +38,7 @@ impl Sheet {
 /// part of the model then. The bake reports those that cover nothing.
 pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
     let atlas = &linked.atlas;
-    let mut sheets: BTreeMap<u32, Sheet> = BTreeMap::new();
+    let mut sheets: BTreeMap<u32, SheetCoverage> = BTreeMap::new();
     for key in set_keys(atlas) {
         sheets.entry(key.material).or_default().maps += u64::from(atlas.size).pow(2);
     }
@@ -53,12 +53,12 @@ pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
     }
     let names = set_names(&linked.model);
     let full = sheets.values().filter(|sheet| sheet.share() >= LEAST_COVERED);
-    let densest = full.map(Sheet::density).fold(0.0, f64::max);
-    let is_as_dense = |sheet: &Sheet| densest > 0.0 && sheet.density() >= LEAST_DENSE * densest;
+    let densest = full.map(SheetCoverage::density).fold(0.0, f64::max);
+    let is_as_dense = |sheet: &SheetCoverage| densest > 0.0 && sheet.density() >= LEAST_DENSE * densest;
     let sparse = sheets
         .iter()
         .filter(|(_, sheet)| sheet.covered > 0 && sheet.share() < LEAST_COVERED && !is_as_dense(sheet));
-    let warning = |(&material, sheet): (&u32, &Sheet)| {
+    let warning = |(&material, sheet): (&u32, &SheetCoverage)| {
         let name = match linked.model.mesh.is_one_sheet {
             true => linked.model.stem.as_str(),
             // Each sheet has a material.

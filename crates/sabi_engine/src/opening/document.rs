@@ -17,7 +17,7 @@ use crate::opening::kinds::Kinds;
 use crate::opening::unread::{kind_of_unread, why_unread};
 use crate::phases::{Progress, unless_canceled};
 use crate::remedy::Remedy;
-use crate::source::pictures::Pictures;
+use crate::source::session_pictures::SessionPictures;
 use crate::source::strokes::Strokes;
 
 /// Maximum size. Larger graph files are refused before they are read.
@@ -36,7 +36,7 @@ pub struct OpenGraph {
     /// Text of the file, for finding the positions of faults.
     pub text: Arc<str>,
     /// Pictures that its nodes name, as far as they have been opened.
-    pub pictures: Pictures,
+    pub pictures: SessionPictures,
     /// Strokes of its paint nodes, as far as they have been read or painted.
     pub strokes: Strokes,
     /// Paths outside of its folder from which it may open the files that it names.
@@ -55,7 +55,7 @@ impl OpenGraph {
         let trusted = TrustedPaths::of_file(&path);
         OpenGraph {
             text: document.to_json().into(),
-            pictures: Pictures::default(),
+            pictures: SessionPictures::default(),
             strokes: Strokes::trusting(&trusted),
             trusted,
             document,
@@ -139,7 +139,7 @@ impl OpenGraph {
             path: path.to_owned(),
             document,
             text: text.into(),
-            pictures: Pictures::default(),
+            pictures: SessionPictures::default(),
             strokes: Strokes::trusting(&trusted),
             trusted,
         })

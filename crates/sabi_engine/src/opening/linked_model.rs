@@ -113,7 +113,7 @@ pub struct LinkedModel {
     /// Model, with the new mesh if it was unwrapped.
     pub model: Arc<Model>,
     /// Result of unwrapping; `None` if its own UVs are used.
-    pub unwrapped: Option<Unwrapping>,
+    pub unwrapped: Option<UnwrapResult>,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
     /// Treatment of UVs in several tiles.
@@ -160,9 +160,9 @@ pub(crate) struct ModelShade<'a> {
 ///
 /// To export the model with UVs that fit its maps: [`LinkedModel::model`] has the unwrapped mesh in world space around
 /// [`Model::middle`]. Its positions, normals, tangents and colors are written unchanged, every set of `texture_uvs` as the
-/// `TEXCOORD` of its number, and `uvs`, the layout of the maps, as [`Unwrapping::uv_set`].
+/// `TEXCOORD` of its number, and `uvs`, the layout of the maps, as [`UnwrapResult::uv_set`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unwrapping {
+pub struct UnwrapResult {
     /// Number of the `TEXCOORD` for the new coordinates in an exported file: the first that its textures do not use.
     pub uv_set: u32,
     /// Vertex of the loaded mesh for each vertex of the new mesh.

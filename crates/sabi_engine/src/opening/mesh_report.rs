@@ -5,7 +5,7 @@ use sabi_surface::model::{Model, UvDecoding};
 use sabi_surface::orientation::turned_faces;
 use serde::Serialize;
 
-use crate::opening::linked_model::{LinkedModel, Unwrapping};
+use crate::opening::linked_model::{LinkedModel, UnwrapResult};
 use crate::opening::overlap::{OverlapReport, OverlapTotals, SetReport};
 use crate::warning::Warning;
 
@@ -131,7 +131,7 @@ pub struct UnwrappingReport {
 
 impl UnwrappingReport {
     /// Describes the unwrapping of a model for maps of `size` × `size` texels.
-    pub(crate) fn of(unwrapping: &Unwrapping, size: u32) -> UnwrappingReport {
+    pub(crate) fn of(unwrapping: &UnwrapResult, size: u32) -> UnwrappingReport {
         let report = &unwrapping.report;
         let [pieces, distinct_pieces] = report.pieces;
         UnwrappingReport {

@@ -11,16 +11,16 @@ const VERSION: u32 = 1;
 
 /// Graph and model of an archive, as names of entries.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Manifest {
+pub(super) struct ArchiveManifest {
     format: String,
     version: u32,
     pub(super) graph: String,
     pub(super) model: Option<String>,
 }
 
-impl Manifest {
-    pub(super) fn new(graph: String, model: Option<String>) -> Manifest {
-        Manifest {
+impl ArchiveManifest {
+    pub(super) fn new(graph: String, model: Option<String>) -> ArchiveManifest {
+        ArchiveManifest {
             format: FORMAT.to_owned(),
             version: VERSION,
             graph,
@@ -35,8 +35,8 @@ impl Manifest {
     }
 
     /// Reads a manifest; the error is a clause.
-    pub(super) fn read(bytes: &[u8]) -> Result<Manifest, String> {
-        let read: Result<Manifest, _> = serde_json::from_slice(bytes);
+    pub(super) fn read(bytes: &[u8]) -> Result<ArchiveManifest, String> {
+        let read: Result<ArchiveManifest, _> = serde_json::from_slice(bytes);
         let manifest = read.map_err(|error| format!("its {NAME} is damaged: {error}"))?;
         if manifest.format != FORMAT {
             return Err(format!("its {NAME} is of another program"));

@@ -28,7 +28,7 @@ impl ModelFiles {
     /// It cannot be loaded, names two files that would have one place, or names a file that is none of a model: one from elsewhere must not
     /// make anyone send other files of their computer.
     pub(super) fn read(path: &Path, trusted: &TrustedPaths, reading: &SavedReading) -> Result<ModelFiles, EngineError> {
-        let search = Search::of_model(path, trusted, reading)?;
+        let search = ModelFileSearch::of_model(path, trusted, reading)?;
         if let Some(refusal) = search.refused.first() {
             let refused = EngineError::refused(refusal);
             return Err(refused.map_messages(|why| format!("{} names a file that is not read: {why}", path.display())));
@@ -77,7 +77,7 @@ pub(crate) fn files_of_model(path: &Path, trusted: &TrustedPaths) -> Result<BTre
         parts: PartChoice::all(),
         ..SavedReading::default()
     };
-    let mut files = Search::of_model(path, trusted, &whole)?.named;
+    let mut files = ModelFileSearch::of_model(path, trusted, &whole)?.named;
     let own = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     files.insert(own.into_owned(), path.to_owned());
     Ok(files)
@@ -101,7 +101,7 @@ fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>,
 }
 
 /// Files that were looked for.
-struct Search<'t> {
+struct ModelFileSearch<'t> {
     base: PathBase,
     trusted: &'t TrustedPaths,
     /// Folder in which files are searched that are not where the model expects them.
@@ -113,9 +113,13 @@ struct Search<'t> {
     strange: Option<(PathBuf, &'static str)>,
 }
 
-impl<'t> Search<'t> {
+impl<'t> ModelFileSearch<'t> {
     /// Reads a model, and looks for the files that it names.
-    fn of_model(path: &Path, trusted: &'t TrustedPaths, reading: &SavedReading) -> Result<Search<'t>, EngineError> {
+    fn of_model(
+        path: &Path,
+        trusted: &'t TrustedPaths,
+        reading: &SavedReading,
+    ) -> Result<ModelFileSearch<'t>, EngineError> {
         let shown = path.display();
         let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
             Unread::Missing => EngineError::new(
@@ -127,7 +131,7 @@ impl<'t> Search<'t> {
                 format!("{shown}: the file cannot be read as a model"),
             ),
         })?;
-        let mut search = Search {
+        let mut search = ModelFileSearch {
             base: PathBase::of_file(path),
             trusted,
             elsewhere: reading.textures.as_deref().map(FolderSearch::new),

@@ -11,7 +11,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::session::path_rewrite::document_with_paths;
-use crate::source::pictures::{base_of, named_file};
+use crate::source::session_pictures::{base_of, named_file};
 
 /// Maximum number of group files, the same as when a graph is opened.
 const MOST_DOCUMENTS: usize = 1000;
@@ -21,13 +21,13 @@ pub(crate) struct NamedFiles {
     /// The graph, and its group files.
     pub(crate) documents: Vec<NamedDocument>,
     /// Pictures by their paths.
-    pub(crate) pictures: BTreeMap<PathBuf, Naming>,
+    pub(crate) pictures: BTreeMap<PathBuf, FileReference>,
     /// Group files that cannot be opened.
     pub(crate) unopened: Vec<UnopenedGroup>,
 }
 
 /// Place that names a file.
-pub(crate) struct Naming {
+pub(crate) struct FileReference {
     /// The path as written in the document.
     pub(crate) written: String,
     /// Description of the place in the document, for messages.
@@ -41,7 +41,7 @@ pub(crate) struct UnopenedGroup {
     /// Its path.
     pub(crate) path: PathBuf,
     /// Place that names it.
-    pub(crate) naming: Naming,
+    pub(crate) naming: FileReference,
     /// Reason.
     pub(crate) error: EngineError,
 }
@@ -75,7 +75,7 @@ impl NamedFiles {
             let mut groups = Vec::new();
             for written in paths_in(&document.open.document) {
                 let path = whole_path(&base, &written);
-                let naming = Naming::of(document, &base, written);
+                let naming = FileReference::of(document, &base, written);
                 if !naming.written.ends_with(".sabi") {
                     named.pictures.entry(path).or_insert(naming);
                 } else if known.insert(path.clone()) {
@@ -88,13 +88,13 @@ impl NamedFiles {
             at += 1;
         }
         for (path, base, written) in named.pictures_from_outside(kinds) {
-            let naming = Naming::of(&named.documents[0], &base, written);
+            let naming = FileReference::of(&named.documents[0], &base, written);
             named.pictures.entry(path).or_insert(naming);
         }
         named
     }
 
-    fn open_group(&mut self, path: PathBuf, naming: Naming) {
+    fn open_group(&mut self, path: PathBuf, naming: FileReference) {
         let opened = match (&naming.refusal, self.documents.len()) {
             (Some(refusal), _) => Err(EngineError::refused(refusal)),
             (None, ..=MOST_DOCUMENTS) => OpenGraph::open_at(&path, self.documents[0].open.trusted.clone()),
@@ -136,14 +136,14 @@ impl NamedFiles {
     }
 }
 
-impl Naming {
+impl FileReference {
     /// `base` is that of the path.
-    fn of(document: &NamedDocument, base: &PathBase, written: String) -> Naming {
+    fn of(document: &NamedDocument, base: &PathBase, written: String) -> FileReference {
         let refusal = match document.open.trusted.check(base, &written) {
             Err(Unread::Refused(refusal)) => Some(refusal),
             _ => None,
         };
-        Naming {
+        FileReference {
             words: words(document, &written),
             written,
             refusal,

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use sabi_plan::FileFaultKind;
 
-use super::named_files::{NamedDocument, NamedFiles, Naming, UnopenedGroup};
+use super::named_files::{FileReference, NamedDocument, NamedFiles, UnopenedGroup};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::source::pictures::Pictures;
+use crate::source::session_pictures::SessionPictures;
 
 /// Files that a graph names.
 pub(super) struct Needs {
@@ -50,12 +50,12 @@ impl Needs {
         Ok(needs)
     }
 
-    fn check_pictures(&mut self, pictures: BTreeMap<PathBuf, Naming>) -> Result<(), EngineError> {
-        let reader = Pictures::default();
+    fn check_pictures(&mut self, pictures: BTreeMap<PathBuf, FileReference>) -> Result<(), EngineError> {
+        let reader = SessionPictures::default();
         let mut bad = Vec::new();
         let mut remedies = BTreeSet::new();
         for (path, naming) in pictures {
-            let Naming {
+            let FileReference {
                 written,
                 words,
                 refusal,

@@ -8,14 +8,14 @@ use sabi_files::{TrustedPaths, Unread, canonical, named_path, whole_path};
 use sabi_graph::Value;
 use serde::Serialize;
 
-use super::checked::check;
-use super::manifest::{self, Manifest};
+use super::archive_check::check;
+use super::manifest::{self, ArchiveManifest};
 use super::model_files::ModelFiles;
 use super::named_files::NamedDocument;
 use super::needs::Needs;
 use super::own_nodes::own_nodes;
 use super::places::Places;
-use super::rewritten::{RewrittenDocument, ShownModel, rewritten};
+use super::rewritten_paths::{RewrittenDocument, ShownModel, rewritten};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
@@ -88,7 +88,7 @@ pub struct PackedFile {
 }
 
 /// Everything that was found for an archive.
-struct Found {
+struct ArchiveContent {
     needs: Needs,
     model: Option<ModelFiles>,
     reading: SavedReading,
@@ -105,7 +105,7 @@ struct Found {
 /// behind.
 pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
     let (open, kinds) = OpenGraph::open_with_kinds(request.graph.clone(), request.trusted.clone(), progress)?;
-    let found = Found::of(open, &kinds, request, progress)?;
+    let found = ArchiveContent::of(open, &kinds, request, progress)?;
     if !found.needs.missing.is_empty() && !request.allows_missing {
         let refused = EngineError::several(ErrorKind::MissingInput, found.needs.missing);
         return Err(refused.with_remedies([Remedy::WithoutMissingFiles]));
@@ -116,7 +116,7 @@ pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<Pack
     let documents = found.rewritten(&places, model.as_deref());
     check(&found.needs.documents[0], &documents, &places, &kinds)?;
     let graph = documents[0].name.clone();
-    let manifest = Manifest::new(graph.clone(), model.clone()).bytes();
+    let manifest = ArchiveManifest::new(graph.clone(), model.clone()).bytes();
     let manifest = manifest.map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
     let files = places.files().iter();
     let mut entries: BTreeMap<String, EntryContent> = files
@@ -149,13 +149,13 @@ pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<Pack
     })
 }
 
-impl Found {
+impl ArchiveContent {
     fn of(
         open: OpenGraph,
         kinds: &Kinds,
         request: &PackRequest,
         progress: &dyn Progress,
-    ) -> Result<Found, EngineError> {
+    ) -> Result<ArchiveContent, EngineError> {
         let folders = Kinds::folders(Some(&open.path));
         let mut needs = Needs::of(open, kinds)?;
         let (nodes, without_file) = own_nodes(kinds, &folders, &needs.documents);
@@ -165,7 +165,7 @@ impl Found {
             look_for_strokes(document, &mut needs.missing, &mut warnings);
         }
         let (model, reading) = model_of(&needs.documents[0], request, &mut needs.missing, progress)?;
-        Ok(Found {
+        Ok(ArchiveContent {
             needs,
             model,
             reading,

@@ -7,7 +7,7 @@ use sabi_files::{Unread, read_plain};
 use serde::Serialize;
 
 use super::entries::{check_file, check_name};
-use super::manifest::{self, Manifest};
+use super::manifest::{self, ArchiveManifest};
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Progress, stop_if_canceled};
 
@@ -46,7 +46,7 @@ pub fn unpack_graph(archive: &Path, folder: &Path, progress: &dyn Progress) -> R
             _ => format!("it has no {}", manifest::NAME),
         })
     })?;
-    let manifest = Manifest::read(&bytes).map_err(refused)?;
+    let manifest = ArchiveManifest::read(&bytes).map_err(refused)?;
     for name in std::iter::once(&manifest.graph).chain(&manifest.model) {
         // Names of entries are safe, but other texts need not be.
         if !unpacked.names().contains(name) {

@@ -11,19 +11,19 @@ use crate::evaluating::looks::ModelLooks;
 
 /// Triangle limit of a displaced copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Triangles {
+pub enum TriangleLimit {
     /// Limit that suits the adapter: 2 million, or 500 000 for a software driver.
     Fitting,
     /// Given limit.
     AtMost(usize),
 }
 
-impl Triangles {
+impl TriangleLimit {
     fn budget(self, kind: AdapterKind) -> usize {
         match (self, kind) {
-            (Triangles::AtMost(count), _) => count,
-            (Triangles::Fitting, AdapterKind::Cpu) => 500_000,
-            (Triangles::Fitting, _) => DisplaceOptions::default().triangle_budget,
+            (TriangleLimit::AtMost(count), _) => count,
+            (TriangleLimit::Fitting, AdapterKind::Cpu) => 500_000,
+            (TriangleLimit::Fitting, _) => DisplaceOptions::default().triangle_budget,
         }
     }
 }
@@ -32,7 +32,7 @@ impl Triangles {
 pub(crate) fn displaced_model(
     evaluator: &mut Evaluator,
     shown: &ModelLooks,
-    triangles: Triangles,
+    triangles: TriangleLimit,
 ) -> Result<ViewModel, EngineError> {
     let linked = evaluator.linked().clone();
     let (model, atlas) = (&linked.model, &linked.atlas);
@@ -97,9 +97,9 @@ mod tests {
 
     #[test]
     fn a_software_driver_is_given_fewer_triangles_unless_the_artist_says_how_many() {
-        assert_eq!(Triangles::Fitting.budget(AdapterKind::Discrete), 2_000_000);
-        assert_eq!(Triangles::Fitting.budget(AdapterKind::Integrated), 2_000_000);
-        assert_eq!(Triangles::Fitting.budget(AdapterKind::Cpu), 500_000);
-        assert_eq!(Triangles::AtMost(7).budget(AdapterKind::Cpu), 7);
+        assert_eq!(TriangleLimit::Fitting.budget(AdapterKind::Discrete), 2_000_000);
+        assert_eq!(TriangleLimit::Fitting.budget(AdapterKind::Integrated), 2_000_000);
+        assert_eq!(TriangleLimit::Fitting.budget(AdapterKind::Cpu), 500_000);
+        assert_eq!(TriangleLimit::AtMost(7).budget(AdapterKind::Cpu), 7);
     }
 }

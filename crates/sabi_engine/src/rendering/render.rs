@@ -6,7 +6,7 @@ use glam::UVec2;
 use sabi_image::{ExrSamples, PngData, PngOptions, encode_exr, encode_png};
 use sabi_surface::model::Mesh;
 use sabi_view::{
-    Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
+    Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, RenderTarget as Canvas, Renderer, Scene, Shot,
     ViewModel, ViewTransform, Viewpoint, aspect_of,
 };
 
@@ -21,7 +21,7 @@ use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::LinkedModel;
 use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::rendering::density::{chosen_size, softness, texels_for_pixels};
-use crate::rendering::displace::{Triangles, displaced_model};
+use crate::rendering::displace::{TriangleLimit, displaced_model};
 use crate::rendering::node_argument::graph_and_target;
 use crate::rendering::picture_file::PictureFiles;
 use crate::warning::Warning;
@@ -75,7 +75,7 @@ pub struct RenderRequest {
     /// True if heights are ray-marched, with occlusion and shadows.
     pub has_relief: bool,
     /// Triangle limit of a displaced copy that is drawn instead of the model. In this case heights are not ray-marched.
-    pub displace: Option<Triangles>,
+    pub displace: Option<TriangleLimit>,
     /// Samples per pixel.
     pub samples: u32,
     /// Number of frames of a turntable; `None` for one picture.
@@ -96,7 +96,7 @@ pub enum Turns {
 
 /// Result of a rendering.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rendered {
+pub struct RenderOutput {
     /// Files that were written.
     pub files: Vec<PathBuf>,
     /// Warnings about probable mistakes.
@@ -104,7 +104,7 @@ pub struct Rendered {
 }
 
 /// Renders pictures of a graph file. No file is replaced before all are complete.
-pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Rendered, EngineError> {
+pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<RenderOutput, EngineError> {
     // Unsupported file names and unknown views are reported before anything is read.
     file_names(request)?;
     view_of(&request.view)?;
@@ -119,7 +119,7 @@ pub fn render_graph(
     kinds: Kinds,
     request: &RenderRequest,
     progress: &dyn Progress,
-) -> Result<Rendered, EngineError> {
+) -> Result<RenderOutput, EngineError> {
     let paths = file_names(request)?;
     let (mode, node) = view_of(&request.view)?;
     let (graph, seen) = match node {
@@ -168,7 +168,7 @@ pub fn render_graph(
     draw(request, &evaluator, &scene, mode, range, &mut files, progress)?;
     stop_if_canceled(progress)?;
     files.commit()?;
-    Ok(Rendered {
+    Ok(RenderOutput {
         files: paths,
         warnings: evaluator.warnings().to_vec(),
     })

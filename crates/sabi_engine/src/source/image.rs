@@ -8,10 +8,10 @@ use sabi_image::{DeclaredColorSpace, Picture, Pixels, listed_layers};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
-use super::mip_chain::Reading;
+use super::mip_chain::PixelReading;
 use super::picture_table::PictureTable;
-use super::pictures::OpenPicture;
 use super::projection::Projection;
+use super::session_pictures::OpenPicture;
 use super::texels::SourceSurface;
 use super::{image_params, unreadable};
 
@@ -82,7 +82,7 @@ fn outputs() -> Vec<SourcePort> {
 
 /// Output of the kind. It determines how a picture's values are used.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Output {
+enum ImageOutput {
     Color,
     Mask,
     Alpha,
@@ -91,16 +91,16 @@ enum Output {
     Channel(usize),
 }
 
-impl Output {
-    fn of(name: &str) -> Output {
+impl ImageOutput {
+    fn of(name: &str) -> ImageOutput {
         match name {
-            "color" => Output::Color,
-            "mask" => Output::Mask,
-            "alpha" | "a" => Output::Alpha,
-            "r" => Output::Channel(0),
-            "g" => Output::Channel(1),
-            "b" => Output::Channel(2),
-            _ => Output::Slope,
+            "color" => ImageOutput::Color,
+            "mask" => ImageOutput::Mask,
+            "alpha" | "a" => ImageOutput::Alpha,
+            "r" => ImageOutput::Channel(0),
+            "g" => ImageOutput::Channel(1),
+            "b" => ImageOutput::Channel(2),
+            _ => ImageOutput::Slope,
         }
     }
 
@@ -108,20 +108,20 @@ impl Output {
     fn number(self) -> u32 {
         match self {
             // The kernel for slopes does not use this number.
-            Output::Color | Output::Slope => 0,
-            Output::Mask => 1,
-            Output::Alpha => 2,
-            Output::Channel(channel) => 3 + channel as u32,
+            ImageOutput::Color | ImageOutput::Slope => 0,
+            ImageOutput::Mask => 1,
+            ImageOutput::Alpha => 2,
+            ImageOutput::Channel(channel) => 3 + channel as u32,
         }
     }
 
     /// Returns true if values are decoded from sRGB.
     fn is_srgb(self, choice: usize, picture: &Picture) -> bool {
         match (choice, self) {
-            (_, Output::Alpha | Output::Slope) | (2, _) => false,
+            (_, ImageOutput::Alpha | ImageOutput::Slope) | (2, _) => false,
             (1, _) => true,
-            (_, Output::Mask | Output::Channel(_)) => false,
-            (_, Output::Color) => match picture.color_space {
+            (_, ImageOutput::Mask | ImageOutput::Channel(_)) => false,
+            (_, ImageOutput::Color) => match picture.color_space {
                 DeclaredColorSpace::Srgb => true,
                 DeclaredColorSpace::Linear => false,
                 DeclaredColorSpace::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
@@ -142,13 +142,13 @@ pub(super) fn draw(
     open: &Arc<OpenPicture>,
     warnings: &mut Vec<String>,
 ) -> Result<(), GpuError> {
-    let of = Output::of(output);
+    let of = ImageOutput::of(output);
     let unread = |error| unreadable(step, &error);
     let choice = step.values.index("color_space").map_err(unread)?;
-    let reading = Reading {
+    let reading = PixelReading {
         is_srgb: of.is_srgb(choice, &open.picture),
         // Channels and slopes are values as stored in the file.
-        by_alpha: of == Output::Color && step.values.index("alpha_is").map_err(unread)? == 0,
+        by_alpha: of == ImageOutput::Color && step.values.index("alpha_is").map_err(unread)? == 0,
     };
     let picture = surface.picture_tables.table(canvas, open, reading)?;
     let mut mistakes = probable_mistakes(open, step, of).map_err(unread)?;
@@ -172,9 +172,9 @@ pub(super) fn draw(
 fn kernel(
     canvas: &SourceCanvas<'_>,
     step: &SourceStep,
-    of: Output,
+    of: ImageOutput,
     open: &OpenPicture,
-    reading: Reading,
+    reading: PixelReading,
     table: &PictureTable,
 ) -> Result<(ImageShader, ImageConstants), NoSuchValue> {
     let (picture, values) = (&open.picture, &step.values);
@@ -185,7 +185,7 @@ fn kernel(
     let levels = open.levels(reading, 1);
     let shader = ImageShader {
         storage: table.storage,
-        shows_slope: of == Output::Slope,
+        shows_slope: of == ImageOutput::Slope,
         way: projection.way,
         reads_place: canvas.has_input(0),
         has_cells: projection.has_cells,
@@ -207,10 +207,10 @@ fn kernel(
 }
 
 /// Lists probable mistakes, as sentences.
-fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: Output) -> Result<Vec<String>, NoSuchValue> {
+fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: ImageOutput) -> Result<Vec<String>, NoSuchValue> {
     let file = step.values.text("file")?;
     let mut sentences = Vec::new();
-    if of == Output::Slope && open.picture.channels < 3 {
+    if of == ImageOutput::Slope && open.picture.channels < 3 {
         sentences.push(format!(
             "node '{}' ({NAME}) has no slope: {file} is gray, and a normal map has colors; use its mask as a height \
              instead",

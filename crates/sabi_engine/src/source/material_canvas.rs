@@ -8,7 +8,7 @@ use sabi_gpu::{
 };
 
 use super::corners::Coordinates;
-use super::model_textures::{Product, Texture, channel_number, textures_of};
+use super::model_textures::{ModelTexture, Product, channel_number, textures_of};
 use super::picture_table::PictureTable;
 use super::texels::SourceSurface;
 
@@ -81,7 +81,7 @@ impl MaterialCanvas<'_> {
     /// The run is canceled, or the device refuses.
     pub(super) fn directions(
         &mut self,
-        texture: Option<&Texture<'_>>,
+        texture: Option<&ModelTexture<'_>>,
         factor: f32,
         rotation: Option<f32>,
     ) -> Result<(), GpuError> {
@@ -113,7 +113,7 @@ impl MaterialCanvas<'_> {
     }
 
     /// Uploads a texture, and the coordinates of its UV set if they have not been uploaded yet.
-    fn bound(&mut self, texture: &Texture<'_>) -> Result<BoundTexture, GpuError> {
+    fn bound(&mut self, texture: &ModelTexture<'_>) -> Result<BoundTexture, GpuError> {
         let picture = PictureTable::upload(self.canvas, &texture.levels)?;
         let why = picture.why_smaller(&format!("the picture {}", texture.name));
         self.warnings.extend(why.filter(|why| !self.warnings.contains(why)));
@@ -144,7 +144,7 @@ impl MaterialCanvas<'_> {
 
 impl BoundTexture {
     /// Constants for reading the texture.
-    fn constants(&self, texture: &Texture<'_>) -> TextureConstants {
+    fn constants(&self, texture: &ModelTexture<'_>) -> TextureConstants {
         let [u, v] = texture.transform;
         TextureConstants {
             u,

@@ -8,24 +8,24 @@ use sabi_image::{Picture, Pixels};
 
 /// Options for reading the values of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Reading {
+pub(crate) struct PixelReading {
     /// True if sRGB is decoded in all channels except alpha.
     pub(crate) is_srgb: bool,
     /// True if colors are weighted by alpha in averages, as is right for colors next to holes; false if alpha is an independent value.
     pub(crate) by_alpha: bool,
 }
 
-impl Reading {
+impl PixelReading {
     /// All combinations, each at the index of its number.
-    pub(super) const ALL: [Reading; 4] = [
-        Reading::of(false, false),
-        Reading::of(true, false),
-        Reading::of(false, true),
-        Reading::of(true, true),
+    pub(super) const ALL: [PixelReading; 4] = [
+        PixelReading::of(false, false),
+        PixelReading::of(true, false),
+        PixelReading::of(false, true),
+        PixelReading::of(true, true),
     ];
 
-    const fn of(is_srgb: bool, by_alpha: bool) -> Reading {
-        Reading { is_srgb, by_alpha }
+    const fn of(is_srgb: bool, by_alpha: bool) -> PixelReading {
+        PixelReading { is_srgb, by_alpha }
     }
 
     /// Number of the way, below four.
@@ -41,19 +41,19 @@ pub(crate) struct MipChain {
     picture: Arc<Picture>,
     /// Linear value of each 8-bit code.
     code_table: Option<[f32; 256]>,
-    reading: Reading,
-    smaller: Vec<Arc<Level>>,
+    reading: PixelReading,
+    smaller: Vec<Arc<MipLevel>>,
 }
 
 /// Smaller copy, linear RGBA.
-struct Level {
+struct MipLevel {
     size: [u32; 2],
     pixels: Vec<[f32; 4]>,
 }
 
 impl MipChain {
     /// Creates the chain of a picture without any smaller copies.
-    pub(crate) fn new(picture: Arc<Picture>, reading: Reading) -> MipChain {
+    pub(crate) fn new(picture: Arc<Picture>, reading: PixelReading) -> MipChain {
         let is_srgb = reading.is_srgb;
         let linear = |code: usize| {
             let value = code as f32 / 255.0;
@@ -98,7 +98,7 @@ impl MipChain {
     }
 
     /// Returns the options for reading the values of the picture.
-    pub(super) fn reading(&self) -> Reading {
+    pub(super) fn reading(&self) -> PixelReading {
         self.reading
     }
 
@@ -161,7 +161,7 @@ impl MipChain {
     }
 
     /// Computes a level from one of exactly twice its size. This is the usual case, and much faster.
-    fn half_of_even_size(&self, level: usize, size: [u32; 2]) -> Level {
+    fn half_of_even_size(&self, level: usize, size: [u32; 2]) -> MipLevel {
         let [width, height] = size.map(|side| side as usize);
         let mut pixels = vec![[0.0; 4]; width * height];
         pixels.par_chunks_mut(width).enumerate().for_each(|(row, line)| {
@@ -171,11 +171,11 @@ impl MipChain {
                 *pixel = mean(four.map(|pixel| (pixel, 0.25)), self.reading.by_alpha);
             }
         });
-        Level { size, pixels }
+        MipLevel { size, pixels }
     }
 
     /// Computes the next level, of half the size of the last one.
-    fn half(&self) -> Level {
+    fn half(&self) -> MipLevel {
         let level = self.last();
         let from = self.size(level);
         let size = from.map(|side| (side / 2).max(1));
@@ -187,12 +187,14 @@ impl MipChain {
     }
 
     /// Computes a level from a larger one, using the covered share of each of its pixels.
-    fn half_of_any_size(&self, level: usize, size: [u32; 2]) -> Level {
+    fn half_of_any_size(&self, level: usize, size: [u32; 2]) -> MipLevel {
         let from = self.size(level);
-        let columns: Vec<Coverage> = (0..size[0]).map(|at| Coverage::new(at, size[0], from[0])).collect();
+        let columns: Vec<PixelCoverage> = (0..size[0])
+            .map(|at| PixelCoverage::new(at, size[0], from[0]))
+            .collect();
         let pixels = (0..size[1]).into_par_iter().flat_map_iter(|row| {
-            let rows = Coverage::new(row, size[1], from[1]);
-            let average = move |columns: &Coverage| {
+            let rows = PixelCoverage::new(row, size[1], from[1]);
+            let average = move |columns: &PixelCoverage| {
                 let parts = rows.parts().flat_map(|(y, down)| {
                     let of_row = move |(x, across)| (self.pixel(level, x, y), down * across);
                     columns.parts().map(of_row)
@@ -201,7 +203,7 @@ impl MipChain {
             };
             columns.iter().map(average).collect::<Vec<_>>()
         });
-        Level {
+        MipLevel {
             size,
             pixels: pixels.collect(),
         }
@@ -231,14 +233,14 @@ fn mean(pixels: impl IntoIterator<Item = ([f32; 4], f32)>, by_alpha: bool) -> [f
 
 /// Pixels of a row that one pixel of a smaller row covers: at most four, each with its weight.
 #[derive(Clone, Copy)]
-struct Coverage {
+struct PixelCoverage {
     first: usize,
     weights: [f32; 4],
 }
 
-impl Coverage {
+impl PixelCoverage {
     /// Computes the coverage of pixel `at` of a row of `size` pixels over a row of `from` pixels; the ratio is below 4.
-    fn new(at: u32, size: u32, from: u32) -> Coverage {
+    fn new(at: u32, size: u32, from: u32) -> PixelCoverage {
         let ratio = f64::from(from) / f64::from(size);
         let (low, high) = (f64::from(at) * ratio, f64::from(at + 1) * ratio);
         let first = low.floor();
@@ -246,7 +248,7 @@ impl Coverage {
             let left = first + part as f64;
             ((left + 1.0).min(high) - left.max(low)).max(0.0) / ratio
         };
-        Coverage {
+        PixelCoverage {
             first: first as usize,
             weights: std::array::from_fn(|part| {
                 // Rounding must not lead to a pixel after the last one.
@@ -271,7 +273,7 @@ mod tests {
 
     use super::*;
 
-    const PLAIN: Reading = Reading::of(false, false);
+    const PLAIN: PixelReading = PixelReading::of(false, false);
 
     #[test]
     fn clear_pixels_give_no_color_to_averages_of_opaque_ones() {
@@ -291,7 +293,7 @@ mod tests {
                 pixels: Pixels::F32(pixels.clone()),
                 color_space: DeclaredColorSpace::Linear,
             });
-            let levels = MipChain::new(picture.clone(), Reading::of(false, true)).down_to(1);
+            let levels = MipChain::new(picture.clone(), PixelReading::of(false, true)).down_to(1);
             let second = if size[0] == 4 { (1, 0) } else { (0, 1) };
             assert_eq!(levels.pixel(1, 0, 0), [1.0, 0.0, 0.0, 0.5]);
             assert_eq!(levels.pixel(1, second.0, second.1), [0.5, 0.5, 1.0, 0.0]);
@@ -304,7 +306,9 @@ mod tests {
                 pixels: Pixels::F32(pixels[..12].to_vec()),
                 color_space: DeclaredColorSpace::Linear,
             });
-            let color = MipChain::new(odd, Reading::of(false, true)).down_to(1).pixel(1, 0, 0);
+            let color = MipChain::new(odd, PixelReading::of(false, true))
+                .down_to(1)
+                .pixel(1, 0, 0);
             assert_eq!(color[..3], [1.0, 0.0, 0.0]);
             // Colors are not weighted if alpha is an independent value.
             let plain = MipChain::new(picture, PLAIN).down_to(1);

@@ -18,9 +18,9 @@ mod output_vector;
 pub(crate) mod paint;
 mod part_groups;
 pub(crate) mod picture_table;
-pub(crate) mod pictures;
 mod projection;
 pub(crate) mod ray_cache;
+pub(crate) mod session_pictures;
 pub(crate) mod strokes;
 mod surface_id;
 mod texels;
@@ -30,7 +30,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_cancel::Canceled;
+use sabi_cancel::CanceledWork;
 use sabi_files::{PathBase, TrustedPaths};
 use sabi_gpu::{GpuError, PlaneData, RayScene, SourceCanvas, SourceFill, TileSet};
 use sabi_graph::{FlatGraph, FlatNode};
@@ -43,15 +43,15 @@ use crate::phases::{Progress, watched};
 use crate::program_cache::ProgramCache;
 
 pub use paint::without_paint;
-pub use pictures::Pictures;
+pub use session_pictures::SessionPictures;
 pub use strokes::{FlattenedFile, Strokes, paint_folder};
 
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_map::map_output;
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 use paint::PaintedNode;
-use pictures::{OpenPicture, allowed_path};
 use ray_cache::RayCache;
+use session_pictures::{OpenPicture, allowed_path};
 pub(crate) use texels::SourceSurface;
 
 /// Source or output kinds by id.
@@ -100,7 +100,7 @@ fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> SourceKinds {
 /// Access to the files that nodes name.
 #[derive(Clone)]
 pub(crate) struct Files<'a> {
-    pub(crate) pictures: &'a Pictures,
+    pub(crate) pictures: &'a SessionPictures,
     pub(crate) strokes: &'a Strokes,
     /// Path of the graph.
     pub(crate) path: &'a Path,
@@ -195,7 +195,7 @@ impl SourceFill for Sources<'_> {
         match step.kind.as_str() {
             image::NAME => {
                 let picture = watched(self.progress, || self.files.picture(step));
-                let picture = picture.map_err(|Canceled| GpuError::Canceled)?;
+                let picture = picture.map_err(|CanceledWork| GpuError::Canceled)?;
                 let picture = picture.map_err(|why| of_node(step, why))?;
                 image::draw(surface, canvas, step, output, &picture, warnings)?;
             }
@@ -206,7 +206,7 @@ impl SourceFill for Sources<'_> {
                 let opened = watched(self.progress, || {
                     self.model.open(surface, pictures, memory_bytes, warnings)
                 });
-                opened.map_err(|Canceled| GpuError::Canceled)?;
+                opened.map_err(|CanceledWork| GpuError::Canceled)?;
                 self.model.draw(surface, canvas, output, plane, warnings)?;
             }
             surface_id::NAME => surface_id::draw(surface, canvas, step, output, warnings)?,

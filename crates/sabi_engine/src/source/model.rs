@@ -11,11 +11,11 @@ use sabi_surface::model::{Model, ModelMaterial, TextureRef};
 
 use super::hash_apart;
 use super::material_canvas::{CoordinateTables, MaterialCanvas};
-use super::mip_chain::Reading;
+use super::mip_chain::PixelReading;
 use super::model_finish::{self, FinishTextures};
 use super::model_pictures::open_pictures;
-use super::model_textures::{Product, Texture};
-use super::pictures::Pictures;
+use super::model_textures::{ModelTexture, Product};
+use super::session_pictures::SessionPictures;
 use super::texels::SourceSurface;
 
 /// Id of the kind.
@@ -54,12 +54,12 @@ pub(crate) fn kind() -> SourceKind {
 }
 
 /// Colors whose alpha, if there is one, has no meaning.
-const COLORS: Reading = Reading {
+const COLORS: PixelReading = PixelReading {
     is_srgb: true,
     by_alpha: false,
 };
 /// Values that are no colors.
-const VALUES: Reading = Reading {
+const VALUES: PixelReading = PixelReading {
     is_srgb: false,
     by_alpha: false,
 };
@@ -67,13 +67,13 @@ const VALUES: Reading = Reading {
 /// Textures of one material.
 struct MaterialTextures<'a> {
     material: &'a ModelMaterial,
-    base_color: Option<Texture<'a>>,
-    metallic_roughness: Option<Texture<'a>>,
-    roughness: Option<Texture<'a>>,
-    metallic: Option<Texture<'a>>,
-    normal: Option<Texture<'a>>,
-    occlusion: Option<Texture<'a>>,
-    emission: Option<Texture<'a>>,
+    base_color: Option<ModelTexture<'a>>,
+    metallic_roughness: Option<ModelTexture<'a>>,
+    roughness: Option<ModelTexture<'a>>,
+    metallic: Option<ModelTexture<'a>>,
+    normal: Option<ModelTexture<'a>>,
+    occlusion: Option<ModelTexture<'a>>,
+    emission: Option<ModelTexture<'a>>,
     finish: FinishTextures<'a>,
 }
 
@@ -190,7 +190,7 @@ fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
 /// Opens the pictures that the materials use. Adds what cannot be shown to `warnings`.
 fn open_materials<'a>(
     model: &'a Model,
-    pictures: &Pictures,
+    pictures: &SessionPictures,
     memory_bytes: u64,
     size: u32,
     warnings: &mut Vec<String>,
@@ -203,7 +203,7 @@ fn open_materials<'a>(
             .get(triangles.start as usize..triangles.end as usize);
         own.is_some_and(|own| own.contains(&(material as u32)))
     };
-    let mut open = |material: usize, texture: &Option<TextureRef>, what: &str, reading: Reading| {
+    let mut open = |material: usize, texture: &Option<TextureRef>, what: &str, reading: PixelReading| {
         let texture = texture.as_ref()?;
         let image = model.images.get(texture.image)?;
         let (name, set) = (&image.name, texture.uv_set);
@@ -229,12 +229,12 @@ fn open_materials<'a>(
             .map_err(|why| warnings.push(why.clone()))
             .ok()?;
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let mut texture = Texture::new(name, picture, texture, other, reading, size);
+        let mut texture = ModelTexture::new(name, picture, texture, other, reading, size);
         texture.missing = missing;
         Some(texture)
     };
     // If a material ignores alpha, colors of transparent pixels are visible like others.
-    let opaque = |material: &ModelMaterial| Reading {
+    let opaque = |material: &ModelMaterial| PixelReading {
         by_alpha: !material.ignores_alpha,
         ..COLORS
     };
@@ -269,7 +269,7 @@ impl<'a> ModelSource<'a> {
     pub(crate) fn open(
         &mut self,
         surface: &SourceSurface<'a>,
-        pictures: &Pictures,
+        pictures: &SessionPictures,
         memory_bytes: u64,
         warnings: &mut Vec<String>,
     ) {

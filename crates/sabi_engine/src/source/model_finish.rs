@@ -5,22 +5,22 @@ use std::collections::BTreeSet;
 use sabi_nodes::kind::Channel;
 use sabi_surface::model::{Model, ModelFinish, TextureRef};
 
-use super::model_textures::{Product, Texture};
+use super::model_textures::{ModelTexture, Product};
 
 /// Opens a texture, given its purpose and whether it is sRGB.
-pub(super) type OpenTexture<'o, 'a> = dyn FnMut(&Option<TextureRef>, &str, bool) -> Option<Texture<'a>> + 'o;
+pub(super) type OpenTexture<'o, 'a> = dyn FnMut(&Option<TextureRef>, &str, bool) -> Option<ModelTexture<'a>> + 'o;
 
 /// Textures of the finish of one material.
 pub(super) struct FinishTextures<'a> {
     finish: &'a ModelFinish,
-    coat: Option<Texture<'a>>,
-    coat_roughness: Option<Texture<'a>>,
-    anisotropy: Option<Texture<'a>>,
-    sheen: Option<Texture<'a>>,
-    sheen_roughness: Option<Texture<'a>>,
-    subsurface: Option<Texture<'a>>,
-    subsurface_color: Option<Texture<'a>>,
-    transmission: Option<Texture<'a>>,
+    coat: Option<ModelTexture<'a>>,
+    coat_roughness: Option<ModelTexture<'a>>,
+    anisotropy: Option<ModelTexture<'a>>,
+    sheen: Option<ModelTexture<'a>>,
+    sheen_roughness: Option<ModelTexture<'a>>,
+    subsurface: Option<ModelTexture<'a>>,
+    subsurface_color: Option<ModelTexture<'a>>,
+    transmission: Option<ModelTexture<'a>>,
 }
 
 /// Returns the channels of the model's materials in addition to the usual ones.
@@ -64,7 +64,7 @@ impl<'a> FinishTextures<'a> {
     }
 
     /// Returns the texture for the direction of fine scratches, their strength and their rotation in radians.
-    pub(super) fn anisotropy(&self) -> (Option<&Texture<'_>>, f32, f32) {
+    pub(super) fn anisotropy(&self) -> (Option<&ModelTexture<'_>>, f32, f32) {
         let factor = self.finish.anisotropy.factor;
         (self.anisotropy.as_ref(), factor, self.finish.anisotropy_rotation)
     }

@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use sabi_cancel::Cancel;
 use sabi_surface::model::{Model, ModelImage, ModelMaterial};
 
-use super::pictures::{OpenPicture, Pictures, memory_of};
+use super::session_pictures::{OpenPicture, SessionPictures, memory_of};
 
 /// Pictures of a model by their numbers, or sentences with the reason why they cannot be shown.
 pub(super) type ModelPictures = BTreeMap<usize, Result<Arc<OpenPicture>, String>>;
 
 /// Content of a picture that materials use, with the numbers of the model's pictures that have it.
-struct Content<'m> {
+struct ModelPictureContent<'m> {
     hash: [u8; 32],
     name: &'m str,
     bytes: &'m [u8],
@@ -22,7 +22,7 @@ struct Content<'m> {
 
 /// Opens the pictures that the materials use, on all threads. Pictures that would take more than `memory_bytes` together
 /// are left out, later ones first.
-pub(super) fn open_pictures(model: &Model, pictures: &Pictures, memory_bytes: u64) -> ModelPictures {
+pub(super) fn open_pictures(model: &Model, pictures: &SessionPictures, memory_bytes: u64) -> ModelPictures {
     let (contents, mut opened) = contents(model);
     let mut left = memory_bytes;
     let mut fitting = Vec::new();
@@ -33,7 +33,7 @@ pub(super) fn open_pictures(model: &Model, pictures: &Pictures, memory_bytes: u6
         }
     }
     let cancel = Cancel::current();
-    let open = |content: &Content<'_>| {
+    let open = |content: &ModelPictureContent<'_>| {
         let picture = cancel.during(|| pictures.open_bytes(content.name, content.bytes, content.hash));
         picture.map_err(|why| format!("{why}; the factor is used alone"))
     };
@@ -45,13 +45,13 @@ pub(super) fn open_pictures(model: &Model, pictures: &Pictures, memory_bytes: u6
 }
 
 /// Lists the contents of the pictures that the materials use, and what cannot be read.
-fn contents(model: &Model) -> (Vec<Content<'_>>, ModelPictures) {
+fn contents(model: &Model) -> (Vec<ModelPictureContent<'_>>, ModelPictures) {
     let textures = model.materials.iter().flat_map(ModelMaterial::textures);
     let used: BTreeSet<usize> = textures
         .filter(|texture| model.mesh.set(texture.uv_set).is_some())
         .map(|texture| texture.image)
         .collect();
-    let mut contents: Vec<Content<'_>> = Vec::new();
+    let mut contents: Vec<ModelPictureContent<'_>> = Vec::new();
     let mut places: BTreeMap<[u8; 32], usize> = BTreeMap::new();
     let mut unread = ModelPictures::new();
     for image in used {
@@ -62,7 +62,7 @@ fn contents(model: &Model) -> (Vec<Content<'_>>, ModelPictures) {
                 let hash = *blake3::hash(bytes).as_bytes();
                 let place = *places.entry(hash).or_insert(contents.len());
                 if place == contents.len() {
-                    contents.push(Content {
+                    contents.push(ModelPictureContent {
                         hash,
                         name,
                         bytes,
@@ -78,7 +78,7 @@ fn contents(model: &Model) -> (Vec<Content<'_>>, ModelPictures) {
 
 /// Subtracts the memory of a picture from the remaining memory. The error is a sentence. Damaged pictures are reported when
 /// they are decoded.
-fn reserve(content: &Content<'_>, left: &mut u64, all: u64) -> Result<(), String> {
+fn reserve(content: &ModelPictureContent<'_>, left: &mut u64, all: u64) -> Result<(), String> {
     // A picture that is used both for color and for values has copies of both kinds, but few pictures are.
     let Ok(needed) = memory_of(content.name, content.bytes, 1) else {
         return Ok(());
@@ -103,7 +103,7 @@ mod tests {
     use sabi_surface::model::{TextureRef, Wrap};
 
     use super::*;
-    use crate::source::pictures::tests::bmp;
+    use crate::source::session_pictures::tests::bmp;
 
     /// A model with a material for each of these pictures.
     fn model(grays: &[u8]) -> Model {
@@ -134,7 +134,7 @@ mod tests {
     fn a_picture_that_fifteen_materials_bring_is_decoded_once() {
         let mut grays = vec![7; 15];
         grays.push(8);
-        let opened = open_pictures(&model(&grays), &Pictures::default(), u64::MAX);
+        let opened = open_pictures(&model(&grays), &SessionPictures::default(), u64::MAX);
         let picture = |image: usize| opened[&image].as_ref().expect("a picture");
         assert_eq!(opened.len(), 16);
         assert!((1..15).all(|image| Arc::ptr_eq(picture(0), picture(image))));
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn pictures_that_do_not_fit_are_left_out_before_they_are_decoded() {
         let needed = memory_of("7.bmp", &bmp(7), 1).expect("a picture");
-        let pictures = Pictures::default();
+        let pictures = SessionPictures::default();
         let opened = open_pictures(&model(&[7, 7, 8, 9]), &pictures, 2 * needed);
         let why = |image: usize| opened[&image].as_ref().err().cloned();
         assert_eq!([0, 1, 2].map(why), [None, None, None]);

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use sabi_surface::model::{TextureRef, TextureUvs, Wrap};
 
-use super::mip_chain::{MipChain, Reading};
-use super::pictures::OpenPicture;
+use super::mip_chain::{MipChain, PixelReading};
+use super::session_pictures::OpenPicture;
 
 /// Texture of a material.
-pub(super) struct Texture<'a> {
+pub(super) struct ModelTexture<'a> {
     /// Name of the picture, for messages.
     pub(super) name: &'a str,
     pub(super) levels: MipChain,
@@ -23,21 +23,21 @@ pub(super) struct Texture<'a> {
     pub(super) missing: Vec<Range<u32>>,
 }
 
-impl<'a> Texture<'a> {
+impl<'a> ModelTexture<'a> {
     /// Prepares a texture for an atlas of `size` texels per UV unit.
     pub(super) fn new(
         name: &'a str,
         picture: &OpenPicture,
         texture: &TextureRef,
         other: Option<&'a TextureUvs>,
-        reading: Reading,
+        reading: PixelReading,
         size: u32,
-    ) -> Texture<'a> {
+    ) -> ModelTexture<'a> {
         let transform = texture.transform.map(|row| row.map(f64::from));
         let [u, v] = [0, 1].map(|axis: usize| transform[0][axis].hypot(transform[1][axis]));
         // A texture in the layout of the atlas is never sampled at a level that is coarser than the atlas's texels.
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
-        Texture {
+        ModelTexture {
             name,
             levels: picture.levels(reading, least as u32),
             wrap: texture.wrap,
@@ -61,14 +61,14 @@ impl<'a> Texture<'a> {
     }
 
     /// Returns true if another texture has the same values everywhere, for example if a picture holds several channels.
-    fn is_same(&self, other: &Texture<'_>) -> bool {
+    fn is_same(&self, other: &ModelTexture<'_>) -> bool {
         self.levels.is_same(&other.levels)
             && (self.wrap, self.transform, self.uv_set) == (other.wrap, other.transform, other.uv_set)
     }
 }
 
 /// Channel of a texture; `None` means the value 1.
-pub(super) type TextureChannel<'t> = Option<(&'t Texture<'t>, u32)>;
+pub(super) type TextureChannel<'t> = Option<(&'t ModelTexture<'t>, u32)>;
 
 /// Component of a plane: a product of channels and a factor, plus an addend.
 #[derive(Clone, Copy, Default)]
@@ -88,7 +88,7 @@ impl<'t> Product<'t> {
     }
 
     /// A channel of a texture and a factor.
-    pub(super) fn of(texture: &'t Option<Texture<'t>>, channel: u32, factor: f32) -> Product<'t> {
+    pub(super) fn of(texture: &'t Option<ModelTexture<'t>>, channel: u32, factor: f32) -> Product<'t> {
         Product {
             channels: [texture.as_ref().map(|texture| (texture, channel)), None],
             factor,
@@ -97,7 +97,7 @@ impl<'t> Product<'t> {
     }
 
     /// The product with a channel of one more texture.
-    pub(super) fn times(self, texture: &'t Option<Texture<'t>>, channel: u32) -> Product<'t> {
+    pub(super) fn times(self, texture: &'t Option<ModelTexture<'t>>, channel: u32) -> Product<'t> {
         let second = texture.as_ref().map(|texture| (texture, channel));
         Product {
             channels: [self.channels[0], second],
@@ -107,8 +107,8 @@ impl<'t> Product<'t> {
 }
 
 /// Returns the textures of some components without repeats, in the order of their first use.
-pub(super) fn textures_of<'t>(products: &[Product<'t>]) -> Vec<&'t Texture<'t>> {
-    let mut found: Vec<&Texture<'_>> = Vec::new();
+pub(super) fn textures_of<'t>(products: &[Product<'t>]) -> Vec<&'t ModelTexture<'t>> {
+    let mut found: Vec<&ModelTexture<'_>> = Vec::new();
     for (texture, _) in products.iter().flat_map(|product| product.channels).flatten() {
         if !found.iter().any(|known| known.is_same(texture)) {
             found.push(texture);
@@ -118,7 +118,7 @@ pub(super) fn textures_of<'t>(products: &[Product<'t>]) -> Vec<&'t Texture<'t>> 
 }
 
 /// Number of a channel among four of each texture; none for no channel.
-pub(super) fn channel_number(textures: &[&Texture<'_>], channel: TextureChannel<'_>) -> Option<u32> {
+pub(super) fn channel_number(textures: &[&ModelTexture<'_>], channel: TextureChannel<'_>) -> Option<u32> {
     let (texture, channel) = channel?;
     let at = textures.iter().position(|known| known.is_same(texture))?;
     Some(4 * at as u32 + channel)

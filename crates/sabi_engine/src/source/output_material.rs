@@ -35,7 +35,7 @@ pub(crate) fn kind() -> SourceKind {
 
 /// Priority with which an output serves a material. The lesser one is preferred.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Claim {
+pub(crate) enum MaterialClaim {
     /// The output lists the material.
     Listed,
     /// The output takes all materials.
@@ -43,14 +43,14 @@ pub(crate) enum Claim {
 }
 
 /// Returns the priority with which an output serves the material with these names; `None` if it does not serve it.
-pub(crate) fn claim(node: &FlatNode, names: &[&str]) -> Option<Claim> {
+pub(crate) fn claim(node: &FlatNode, names: &[&str]) -> Option<MaterialClaim> {
     let Some(Value::Text(text)) = node.params.get("materials") else {
-        return Some(Claim::All);
+        return Some(MaterialClaim::All);
     };
     let listed = || text.split(',').map(str::trim);
     // Checked as a whole first, since the name of a material may contain a comma.
     if names.contains(&text.trim()) || listed().any(|name| names.contains(&name)) {
-        return Some(Claim::Listed);
+        return Some(MaterialClaim::Listed);
     }
-    listed().any(|name| name == "*").then_some(Claim::All)
+    listed().any(|name| name == "*").then_some(MaterialClaim::All)
 }

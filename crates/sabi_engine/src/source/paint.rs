@@ -7,12 +7,12 @@ use sabi_gpu::{PlaneData, TileSet, tile_of};
 use sabi_graph::{FlatNode, PortType, Value};
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
-use sabi_paint::{Canvas, Layers, Version};
+use sabi_paint::{Canvas, CanvasLayers, Version};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Model;
 
 use super::Files;
-use super::strokes::{Found, PaintedNodePlace, Strokes, paint_folder, picture_folder};
+use super::strokes::{PaintedNodePlace, StrokeSearch, Strokes, paint_folder, picture_folder};
 use super::texels::SourceSurface;
 
 /// Id of the kind.
@@ -216,10 +216,9 @@ pub(crate) fn changed_tiles(
     if !is_painted_on(before, now) {
         return None;
     }
-    let layers = now
-        .writes
-        .iter()
-        .fold(Layers::default(), |layers, (output, _)| layers.and(layers_of(output)));
+    let layers = now.writes.iter().fold(CanvasLayers::default(), |layers, (output, _)| {
+        layers.and(layers_of(output))
+    });
     if strokes.copy_input(graph, &surface.model.stem, &new) {
         return None;
     }
@@ -234,8 +233,8 @@ pub(crate) fn changed_tiles(
     Some(TileSet::new(texels.iter().map(tile)))
 }
 
-fn layers_of(output: &str) -> Layers {
-    Layers {
+fn layers_of(output: &str) -> CanvasLayers {
+    CanvasLayers {
         value: output == "mask",
         color: output == "color",
         height: output == "height",
@@ -250,7 +249,7 @@ fn canvas(
     graph: &Path,
     node: &str,
     written: &str,
-    layers: Layers,
+    layers: CanvasLayers,
     from: Option<&PlaneData>,
     warnings: &mut Vec<String>,
 ) -> Option<Arc<Canvas>> {
@@ -266,9 +265,9 @@ fn canvas(
         warn(format!("lacks strokes: {fault}"));
     }
     let version = match &found {
-        Found::Strokes(version) => *version,
-        Found::Nothing => return None,
-        Found::Missing | Found::OtherModels(_) => {
+        StrokeSearch::Strokes(version) => *version,
+        StrokeSearch::Nothing => return None,
+        StrokeSearch::Missing | StrokeSearch::OtherModels(_) => {
             warn(why_empty(&found, graph, model));
             return None;
         }
@@ -296,8 +295,8 @@ fn canvas(
 }
 
 /// Returns the reason why a node without strokes for this model is empty, as the end of a sentence.
-fn why_empty(found: &Found, graph: &Path, model: &str) -> String {
-    if let Found::OtherModels(others) = found {
+fn why_empty(found: &StrokeSearch, graph: &Path, model: &str) -> String {
+    if let StrokeSearch::OtherModels(others) = found {
         return format!("is empty on '{model}': it was painted on {}", others.join(", "));
     }
     let folder = paint_folder(graph);

@@ -14,7 +14,7 @@ use super::texels::SourceSurface;
 const LISTED: usize = 12;
 
 /// Groups of the model's triangles.
-pub(super) struct Groups {
+pub(super) struct TriangleGroups {
     /// Noun for a group in sentences.
     noun: &'static str,
     /// Kind of things that are grouped by their numbers.
@@ -27,9 +27,9 @@ pub(super) struct Groups {
     pub(super) random: Vec<u32>,
 }
 
-impl Groups {
+impl TriangleGroups {
     /// Groups triangles; `by` is the number of a choice of `surface/id`.
-    pub(super) fn new(surface: &SourceSurface<'_>, by: usize) -> Groups {
+    pub(super) fn new(surface: &SourceSurface<'_>, by: usize) -> TriangleGroups {
         let (noun, of, names) = match by {
             1 => {
                 let files = sabi_export::set_names(surface.model);
@@ -38,7 +38,7 @@ impl Groups {
                 ("material", PartRows::Material, names.collect())
             }
             2 => ("chart", PartRows::Chart, Vec::new()),
-            3 => return Groups::by_name(surface),
+            3 => return TriangleGroups::by_name(surface),
             4 => ("piece", PartRows::Piece, Vec::new()),
             5 => ("group", PartRows::Whole, Vec::new()),
             _ => {
@@ -49,7 +49,7 @@ impl Groups {
         let last = numbers(surface, of).iter().max().map_or(0, |last| *last + 1);
         // Groups of different choices must not share random numbers.
         let random = (0..last).map(|number| pcg(pcg(number) ^ by as u32)).collect();
-        Groups {
+        TriangleGroups {
             noun,
             by: of,
             of_part: None,
@@ -58,7 +58,7 @@ impl Groups {
         }
     }
 
-    fn by_name(surface: &SourceSurface<'_>) -> Groups {
+    fn by_name(surface: &SourceSurface<'_>) -> TriangleGroups {
         let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
         for name in &surface.model.parts {
             let next = numbers.len() as u32;
@@ -69,7 +69,7 @@ impl Groups {
         let of_part = surface.model.parts.iter().map(group_of).collect();
         let mut sorted: Vec<(&str, u32)> = numbers.iter().map(|(name, number)| (*name, *number)).collect();
         sorted.sort_by_key(|(_, number)| *number);
-        Groups {
+        TriangleGroups {
             noun: "name",
             by: PartRows::Part,
             of_part: Some(of_part),
@@ -204,8 +204,8 @@ fn numbers<'s>(surface: &SourceSurface<'s>, by: PartRows) -> Cow<'s, [u32]> {
 mod tests {
     use super::*;
 
-    fn groups(names: &[&str]) -> Groups {
-        Groups {
+    fn groups(names: &[&str]) -> TriangleGroups {
+        TriangleGroups {
             noun: "part",
             by: PartRows::Part,
             of_part: None,
@@ -248,7 +248,7 @@ mod tests {
             model.unknown("tint", "roof*"),
             "node 'tint' picks 'roof*', but the model has no such part; there are seat, leg"
         );
-        let numbered = Groups {
+        let numbered = TriangleGroups {
             noun: "chart",
             names: Vec::new(),
             ..model
@@ -257,7 +257,7 @@ mod tests {
             numbered.unknown("tint", "12"),
             "node 'tint' picks '12', but the model has no such chart; they are numbered from 0 to 1"
         );
-        let whole = Groups {
+        let whole = TriangleGroups {
             noun: "group",
             random: vec![0],
             ..numbered

@@ -8,14 +8,14 @@ use sabi_gpu::{COPY_ROWS, DeviceTable, GpuError, PictureConstants, PictureStorag
 use sabi_image::Pixels;
 use sabi_surface::model::Wrap;
 
-use super::mip_chain::{MipChain, Reading};
-use super::pictures::OpenPicture;
+use super::mip_chain::{MipChain, PixelReading};
+use super::session_pictures::OpenPicture;
 
 /// Size limit of the tables that are kept from run to run. A single larger table is kept alone.
 const KEPT_BYTES: u64 = 1 << 30;
 
 /// Row of a table, as bit patterns.
-type Row = [u32; 4];
+type TableRow = [u32; 4];
 
 /// A picture with its smaller copies on the device.
 pub(super) struct PictureTable {
@@ -80,7 +80,7 @@ pub(crate) struct PictureTables {
 /// A table that is kept.
 struct KeptTable {
     picture: Weak<OpenPicture>,
-    reading: Reading,
+    reading: PixelReading,
     table: Arc<PictureTable>,
 }
 
@@ -93,7 +93,7 @@ impl PictureTables {
         &self,
         canvas: &SourceCanvas<'_>,
         picture: &Arc<OpenPicture>,
-        wish: Reading,
+        wish: PixelReading,
     ) -> Result<Arc<PictureTable>, GpuError> {
         let reading = picture.reading(wish);
         // Every change is a single push or removal.
@@ -172,8 +172,8 @@ fn first_that_fits(levels: &MipChain, storage: PictureStorage, most_rows: usize)
 }
 
 /// Returns the rows of a table: heads of all levels, then the pixels of each.
-fn rows(levels: &MipChain, storage: PictureStorage, first: usize) -> Vec<Row> {
-    let mut rows: Vec<Row> = vec![[0; 4]; COPY_ROWS as usize];
+fn rows(levels: &MipChain, storage: PictureStorage, first: usize) -> Vec<TableRow> {
+    let mut rows: Vec<TableRow> = vec![[0; 4]; COPY_ROWS as usize];
     for level in first..=levels.last() {
         let [width, height] = levels.size(level);
         rows[level - first] = [rows.len() as u32, width, height, 0];
@@ -185,7 +185,7 @@ fn rows(levels: &MipChain, storage: PictureStorage, first: usize) -> Vec<Row> {
 }
 
 /// Row of a level: its pixels, and zeros beyond the last one.
-fn row(levels: &MipChain, storage: PictureStorage, level: usize, at: usize) -> Row {
+fn row(levels: &MipChain, storage: PictureStorage, level: usize, at: usize) -> TableRow {
     let [width, height] = levels.size(level).map(|side| side as usize);
     let pixel = |pixel: usize| match pixel < width * height {
         true => levels.pixel(level, pixel % width, pixel / width),
@@ -233,7 +233,7 @@ mod tests {
             pixels,
             color_space: DeclaredColorSpace::Unknown,
         };
-        let reading = Reading {
+        let reading = PixelReading {
             is_srgb,
             by_alpha: false,
         };

@@ -1,12 +1,12 @@
 //! Strokes of paint nodes. They are read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
-mod beside;
-mod changed;
+mod brush_pictures;
 mod files;
-mod lost;
-mod pictures;
-mod retired;
+mod lost_points;
+mod paint_changes;
+mod retired_versions;
 mod rewriting;
+mod stroke_files;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt;
@@ -17,19 +17,19 @@ use std::time::SystemTime;
 use sabi_files::{Disk, PathBase, TrustedPaths, Unread};
 use sabi_gpu::PlaneData;
 use sabi_paint::{
-    Canvases, InputColors, Layers, PaintSurface, Painted, PictureName, Step, Stroke, StrokeBook, StrokeList, Supplies,
-    SurfaceIndex, Version,
+    CanvasLayers, Canvases, InputColors, PaintSurface, PaintedStrokes, PictureName, Step, Stroke, StrokeBook,
+    StrokeList, Supplies, SurfaceIndex, Version,
 };
 
-pub(crate) use beside::files_beside;
-use changed::LatestCanvas;
-pub(crate) use changed::PaintedNodePlace;
-pub(crate) use lost::title;
-use pictures::KeptPicture;
-pub(crate) use pictures::picture_folder;
-use retired::Retired;
-pub(crate) use rewriting::Flattened;
+use brush_pictures::KeptPicture;
+pub(crate) use brush_pictures::picture_folder;
+pub(crate) use lost_points::title;
+use paint_changes::LatestCanvas;
+pub(crate) use paint_changes::PaintedNodePlace;
+use retired_versions::RetiredVersions;
 pub use rewriting::FlattenedFile;
+pub(crate) use rewriting::FlattenedStrokes;
+pub(crate) use stroke_files::files_beside;
 
 use super::texels::SourceSurface;
 
@@ -39,7 +39,7 @@ const CANVAS_LIMIT_BYTES: usize = 1 << 30;
 /// Strokes of a session; clones share them.
 #[derive(Clone, Default)]
 pub struct Strokes {
-    state: Arc<Mutex<State>>,
+    state: Arc<Mutex<StrokesState>>,
     /// Locked separately, since painting takes long and a window needs the rest in the meantime.
     canvases: Arc<Mutex<Canvases>>,
     /// Canvases that nodes used last, the latest at the end.
@@ -47,7 +47,7 @@ pub struct Strokes {
 }
 
 #[derive(Default)]
-struct State {
+struct StrokesState {
     disk: Disk,
     /// Paths outside of the graph's folder from which links in the folder of strokes may be read.
     trusted: TrustedPaths,
@@ -59,15 +59,15 @@ struct State {
     /// Versions of the unfinished stroke, and the version before them. They are replaced while the stroke grows.
     drawn: Option<(Version, Vec<Version>)>,
     /// Versions of unfinished strokes to which nothing refers any more.
-    retired: Retired,
+    retired: RetiredVersions,
     /// Pictures of brushes that are in memory.
     pictures: BTreeMap<PictureName, KeptPicture>,
     /// Files of pictures that could not be used, as they were then.
-    bad_pictures: BTreeMap<PathBuf, Stamp>,
+    bad_pictures: BTreeMap<PathBuf, StrokeFileStamp>,
 }
 
 /// Length and modification time of a file.
-type Stamp = (u64, SystemTime);
+type StrokeFileStamp = (u64, SystemTime);
 
 /// A stroke file as it was last read or written.
 #[derive(Clone, Debug, Default)]
@@ -79,7 +79,7 @@ struct StrokeFile {
     /// For a damaged file, the version of its last complete record.
     whole: Option<Version>,
     /// Length and time of the file at that time; `None` if there was none.
-    stamp: Option<Stamp>,
+    stamp: Option<StrokeFileStamp>,
     /// Reason, as a sentence, why it is not used or only partly used. In this case it is not written to.
     fault: Option<String>,
 }
@@ -92,7 +92,7 @@ impl fmt::Debug for Strokes {
 
 /// Strokes of a paint node on a model.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Found {
+pub(crate) enum StrokeSearch {
     /// Nothing was painted.
     Nothing,
     /// The strokes of this version.
@@ -103,12 +103,12 @@ pub(crate) enum Found {
     Missing,
 }
 
-impl Found {
+impl StrokeSearch {
     /// Returns the version of the strokes; `None` if nothing is painted on the model.
     pub(crate) fn version(&self) -> Option<Version> {
         match self {
-            Found::Strokes(version) => Some(*version),
-            Found::Nothing | Found::OtherModels(_) | Found::Missing => None,
+            StrokeSearch::Strokes(version) => Some(*version),
+            StrokeSearch::Nothing | StrokeSearch::OtherModels(_) | StrokeSearch::Missing => None,
         }
     }
 }
@@ -126,7 +126,7 @@ fn stroke_file(folder: &Path, model: &str) -> PathBuf {
 }
 
 /// Length and modification time of a file, if it is there.
-fn stamp(path: &Path) -> Option<Stamp> {
+fn stamp(path: &Path) -> Option<StrokeFileStamp> {
     let metadata = std::fs::metadata(path).ok()?;
     Some((metadata.len(), metadata.modified().ok()?))
 }
@@ -164,12 +164,12 @@ impl Strokes {
     }
 
     /// Returns the strokes on a model of a node with these versions. Files of the folder are read on first use.
-    pub(crate) fn find(&self, graph: &Path, model: &str, written: &str) -> Found {
+    pub(crate) fn find(&self, graph: &Path, model: &str, written: &str) -> StrokeSearch {
         if written.trim().is_empty() {
-            return Found::Nothing;
+            return StrokeSearch::Nothing;
         }
         let mut state = self.lock();
-        let is_known = |state: &State, version: &Version| state.model_of(*version).is_some();
+        let is_known = |state: &StrokesState, version: &Version| state.model_of(*version).is_some();
         if versions_of(written).any(|version| !is_known(&state, &version)) {
             state.read_folder(&paint_folder(graph));
         }
@@ -180,9 +180,9 @@ impl Strokes {
         let file = state.files.get(&state.file_of(&paint_folder(graph), model));
         let whole = file.and_then(|file| file.whole);
         match known.iter().find(|(_, own)| own == model) {
-            Some((version, _)) => Found::Strokes(*version),
-            None if known.is_empty() => whole.map_or(Found::Missing, Found::Strokes),
-            None => Found::OtherModels(known.into_iter().map(|(_, model)| model).collect()),
+            Some((version, _)) => StrokeSearch::Strokes(*version),
+            None if known.is_empty() => whole.map_or(StrokeSearch::Missing, StrokeSearch::Strokes),
+            None => StrokeSearch::OtherModels(known.into_iter().map(|(_, model)| model).collect()),
         }
     }
 
@@ -298,9 +298,9 @@ impl Strokes {
         graph: &Path,
         node: &str,
         version: Version,
-        layers: Layers,
+        layers: CanvasLayers,
         from: Option<&PlaneData>,
-    ) -> Option<Painted> {
+    ) -> Option<PaintedStrokes> {
         let list = self.lock().list(version)?;
         let found = self.pictures_of(graph, &list);
         let from = from.filter(|_| list.strokes.iter().any(copies));
@@ -357,7 +357,7 @@ impl Strokes {
         self.lock().disk = disk.clone();
     }
 
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, StrokesState> {
         // Each change is complete before the next, so a panic elsewhere leaves the state consistent.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -374,7 +374,7 @@ fn color_of(result: &PlaneData, texel: usize) -> [f32; 3] {
     [red, green, blue]
 }
 
-impl State {
+impl StrokesState {
     /// Returns the model on which a version was painted; `None` if the version is no longer known.
     fn model_of(&self, version: Version) -> Option<&str> {
         let named = self.models.get(&version).filter(|_| self.book.knows(version));

@@ -8,7 +8,7 @@ use sabi_surface::model::Model;
 use sabi_surface::pieces::{PieceBox, boxes};
 
 use super::hash_apart;
-use super::part_groups::Groups;
+use super::part_groups::TriangleGroups;
 use super::texels::SourceSurface;
 use super::unreadable;
 
@@ -113,7 +113,7 @@ pub(super) fn draw(
     warnings: &mut Vec<String>,
 ) -> Result<(), GpuError> {
     let value = |known: Result<usize, NoSuchValue>| known.map_err(|error| unreadable(step, &error));
-    let groups = Groups::new(surface, value(step.values.index("by"))?);
+    let groups = TriangleGroups::new(surface, value(step.values.index("by"))?);
     let single = |value: f32| [[value, 0.0, 0.0, 1.0]];
     let rows = match output {
         "color" => {

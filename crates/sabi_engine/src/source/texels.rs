@@ -54,7 +54,7 @@ pub(crate) struct SourceSurface<'a> {
 
 /// Point of the surface under a texel of the atlas: its triangle, and its position on the page of its chart.
 #[derive(Clone, Copy, Debug)]
-struct SurfacePoint {
+struct TexelPoint {
     index: usize,
     triangle: usize,
     texel: [f64; 2],
@@ -62,7 +62,7 @@ struct SurfacePoint {
 
 impl SourceSurface<'_> {
     /// Returns the surface point of a texel. For a ghost it is beyond the seam; `None` for an empty texel.
-    fn point(&self, index: usize) -> Option<SurfacePoint> {
+    fn point(&self, index: usize) -> Option<TexelPoint> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let (triangle, texel) = match self.atlas.owners[index] {
             EMPTY => return None,
@@ -75,11 +75,11 @@ impl SourceSurface<'_> {
                 [(index % width) as f64 + 0.5, ((index / width) % height) as f64 + 0.5],
             ),
         };
-        Some(SurfacePoint { index, triangle, texel })
+        Some(TexelPoint { index, triangle, texel })
     }
 
     /// Returns the position of a point, in working units.
-    fn position(&self, point: &SurfacePoint) -> DVec3 {
+    fn position(&self, point: &TexelPoint) -> DVec3 {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         // The fourth column of the first two rows holds the texel of the first corner.
         let step: [f64; 2] = std::array::from_fn(|axis| point.texel[axis] - f64::from(geometry[axis][3]));
@@ -89,7 +89,7 @@ impl SourceSurface<'_> {
 
     /// Returns the steps of one texel of the atlas in space, in working units. The point of a ghost is on another chart;
     /// for ghosts, the steps are those of the chart that reads them.
-    fn atlas_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
+    fn atlas_sides(&self, point: &TexelPoint) -> [DVec3; 2] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         let sides = [1, 2].map(|row: usize| xyz(&geometry[row]));
         let owner = self.atlas.owners[point.index];

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::held::MapIndex;
+use crate::held_channels::MapIndex;
 use crate::preset::Component;
-use crate::{Channel, Value};
+use crate::{Channel, ConstantValue};
 
 /// Channels and files of one texture set.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +34,7 @@ pub(crate) struct FileFacts {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ChannelFacts {
     /// The value, if it is the same everywhere.
-    pub(crate) constant: Option<Value>,
+    pub(crate) constant: Option<ConstantValue>,
     /// Lowest and highest value of its first component.
     pub(crate) range: [f32; 2],
 }
@@ -48,10 +48,10 @@ impl SetFacts {
     }
 
     /// Returns the value of a channel that is the same everywhere; the neutral value if the material does not have the channel.
-    pub(crate) fn constant(&self, channel: &Channel) -> Option<Value> {
+    pub(crate) fn constant(&self, channel: &Channel) -> Option<ConstantValue> {
         match self.channels.get(channel) {
             Some(facts) => facts.constant,
-            None => Some(Value::neutral(channel)),
+            None => Some(ConstantValue::neutral(channel)),
         }
     }
 }

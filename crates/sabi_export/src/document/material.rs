@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::facts::SetFacts;
 use super::identifiers::Identifiers;
-use crate::held::MapIndex;
+use crate::held_channels::MapIndex;
 use crate::layout::SetKey;
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::preset::{Component, ComponentSource, Format, Map, Preset};
-use crate::{Channel, Value};
+use crate::preset::{Component, ComponentSource, Map, MapFormat, Preset};
+use crate::{Channel, ConstantValue};
 
 /// Placeholder for the number of a tile, in MaterialX and USD.
 const TILES: &str = "<UDIM>";
@@ -25,7 +25,7 @@ pub(crate) struct DocumentMaterial {
     /// Files that it uses.
     pub(super) maps: Vec<DocumentMap>,
     /// Channels of the material, except those without effect.
-    pub(super) channels: BTreeMap<Channel, Look>,
+    pub(super) channels: BTreeMap<Channel, ChannelSource>,
     /// Channels that vary and for which the preset has no file that a document can use.
     pub(crate) missing: Vec<Channel>,
 }
@@ -49,9 +49,9 @@ pub(super) struct DocumentMap {
 
 /// Origin of a channel's values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Look {
+pub(super) enum ChannelSource {
     /// The same value everywhere, linear.
-    Value(Value),
+    Value(ConstantValue),
     /// The red, green and blue components of a file.
     Rgb(usize),
     /// One component of a file.
@@ -70,7 +70,7 @@ pub(crate) struct PresetFiles<'a> {
     pub(crate) index: usize,
     pub(crate) preset: &'a Preset,
     pub(crate) names: &'a NamePattern,
-    pub(crate) takes: &'a dyn Fn(Format) -> bool,
+    pub(crate) takes: &'a dyn Fn(MapFormat) -> bool,
     /// UV set of the maps of a material.
     pub(crate) uv_set: &'a dyn Fn(u32) -> u32,
 }
@@ -87,7 +87,7 @@ pub(crate) fn materials(facts: &BTreeMap<SetKey, SetFacts>, files: PresetFiles<'
     let mut identifiers = Identifiers::default();
     let material = |tiles: &Vec<(&SetKey, &SetFacts)>| {
         let (key, set) = tiles.first()?;
-        let mut made = Tiles {
+        let mut made = MaterialSets {
             sets: tiles.iter().map(|(_, set)| *set).collect(),
             is_udim: key.udim.is_some(),
             files,
@@ -108,7 +108,7 @@ pub(crate) fn materials(facts: &BTreeMap<SetKey, SetFacts>, files: PresetFiles<'
 }
 
 /// The sets of one material.
-struct Tiles<'a> {
+struct MaterialSets<'a> {
     sets: Vec<&'a SetFacts>,
     /// True if the material has several tiles with a set each.
     is_udim: bool,
@@ -118,9 +118,9 @@ struct Tiles<'a> {
     map_identifiers: Identifiers,
 }
 
-impl Tiles<'_> {
+impl MaterialSets<'_> {
     /// Returns the channels with their origins, and the channels without one.
-    fn channels(&mut self) -> (BTreeMap<Channel, Look>, Vec<Channel>) {
+    fn channels(&mut self) -> (BTreeMap<Channel, ChannelSource>, Vec<Channel>) {
         let mut channels = BTreeMap::new();
         let mut missing = Vec::new();
         for channel in Channel::ALL {
@@ -142,9 +142,9 @@ impl Tiles<'_> {
             if value.is_some_and(|value| changes_nothing(&channel, value)) {
                 continue;
             }
-            match self.file(&channel).or(value.map(Look::Value)) {
+            match self.file(&channel).or(value.map(ChannelSource::Value)) {
                 // A normal map is written for every material, but a flat normal needs no map.
-                Some(Look::Value(_)) if channel == Channel::Normal => {}
+                Some(ChannelSource::Value(_)) if channel == Channel::Normal => {}
                 Some(look) => drop(channels.insert(channel, look)),
                 None => missing.push(channel),
             }
@@ -153,14 +153,14 @@ impl Tiles<'_> {
     }
 
     /// Returns the value of a channel that is the same everywhere in all tiles.
-    fn value(&self, channel: &Channel) -> Option<Value> {
+    fn value(&self, channel: &Channel) -> Option<ConstantValue> {
         let mut values = self.sets.iter().map(|set| set.constant(channel));
         let first = values.next()??;
         values.all(|value| value == Some(first)).then_some(first)
     }
 
     /// Returns the best file with the channel: floats before integers, more bits before fewer, then the first one.
-    fn file(&mut self, channel: &Channel) -> Option<Look> {
+    fn file(&mut self, channel: &Channel) -> Option<ChannelSource> {
         let maps = self.files.preset.maps.iter().enumerate();
         let mut found: Vec<(usize, &Map)> = maps
             .filter(|(_, map)| map.has(channel) && (self.files.takes)(map.format))
@@ -170,7 +170,7 @@ impl Tiles<'_> {
     }
 
     /// Returns the channel in a file; `None` if a tile lacks the file, or if documents cannot read the channel from it.
-    fn look(&mut self, channel: &Channel, at: usize, map: &Map) -> Option<Look> {
+    fn look(&mut self, channel: &Channel, at: usize, map: &Map) -> Option<ChannelSource> {
         let components = self.components([self.files.index, at])?;
         let place = |wanted: usize| {
             components.iter().position(|component| {
@@ -183,7 +183,7 @@ impl Tiles<'_> {
             if !is_rgb || self.scale([self.files.index, at]).is_none() {
                 return None;
             }
-            return self.map(at, map, &components).map(Look::Rgb);
+            return self.map(at, map, &components).map(ChannelSource::Rgb);
         }
         let index = place(0)?;
         // Programs differ in which component of a gray image they read as alpha.
@@ -194,7 +194,7 @@ impl Tiles<'_> {
             return None;
         }
         let map = self.map(at, map, &components)?;
-        Some(Look::Component { map, index })
+        Some(ChannelSource::Component { map, index })
     }
 
     /// Returns the components of a file that every tile has. Some tiles lack an alpha that would be 1.
@@ -280,7 +280,7 @@ impl Tiles<'_> {
 }
 
 /// Returns true if omitting the value from a document has no effect.
-pub(crate) fn changes_nothing(channel: &Channel, value: Value) -> bool {
+pub(crate) fn changes_nothing(channel: &Channel, value: ConstantValue) -> bool {
     match channel {
         Channel::BaseColor
         | Channel::Roughness
@@ -289,6 +289,6 @@ pub(crate) fn changes_nothing(channel: &Channel, value: Value) -> bool {
         | Channel::CoatRoughness
         | Channel::SheenRoughness => false,
         Channel::Anisotropy => value.component(2) == 0.0,
-        _ => value == Value::neutral(channel),
+        _ => value == ConstantValue::neutral(channel),
     }
 }

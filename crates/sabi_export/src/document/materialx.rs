@@ -5,15 +5,15 @@
 mod graph;
 mod shaders;
 
-use self::graph::Graph;
+use self::graph::MaterialXGraph;
 use self::shaders::{Shader, gltf, open_pbr};
 use super::material::DocumentMaterial;
-use super::xml::Element;
+use super::xml::XmlElement;
 use crate::Channel;
 
 /// Text of a document.
 pub(super) fn text(materials: &[DocumentMaterial]) -> String {
-    let mut root = Element::new("materialx")
+    let mut root = XmlElement::new("materialx")
         .with("version", "1.39")
         .with("colorspace", "lin_rec709");
     for material in materials {
@@ -28,21 +28,21 @@ pub(super) fn names(material: &DocumentMaterial) -> [String; 2] {
 }
 
 /// The graph of a material, its shaders and materials.
-fn elements(material: &DocumentMaterial) -> Vec<Element> {
-    let mut graph = Graph::new(material);
+fn elements(material: &DocumentMaterial) -> Vec<XmlElement> {
+    let mut graph = MaterialXGraph::new(material);
     let shaders = [gltf(material, &mut graph), open_pbr(material, &mut graph)];
     let displacement = displacement(material, &mut graph);
-    let mut elements: Vec<Element> = graph.finish().into_iter().collect();
+    let mut elements: Vec<XmlElement> = graph.finish().into_iter().collect();
     let height = displacement.as_ref().map(|_| displacement_name(material));
     elements.extend(displacement);
     for (Shader { node, inputs }, name) in shaders.into_iter().zip(names(material)) {
         let shader_name = format!("SR_{}_{node}", material.id);
-        let mut shader = Element::new(node)
+        let mut shader = XmlElement::new(node)
             .with("name", &shader_name)
             .with("type", "surfaceshader");
         shader.extend(inputs);
         elements.push(shader);
-        let mut made = Element::new("surfacematerial")
+        let mut made = XmlElement::new("surfacematerial")
             .with("name", name)
             .with("type", "material");
         if material.name != material.id {
@@ -60,9 +60,9 @@ fn elements(material: &DocumentMaterial) -> Vec<Element> {
 }
 
 /// Displacement by the height, which is in the units of the model.
-fn displacement(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Option<Element> {
+fn displacement(material: &DocumentMaterial, graph: &mut MaterialXGraph<'_>) -> Option<XmlElement> {
     let height = graph.input("displacement", &Channel::Height)?;
-    let node = Element::new("displacement")
+    let node = XmlElement::new("displacement")
         .with("name", displacement_name(material))
         .with("type", "displacementshader");
     Some(node.holding(height))
@@ -73,8 +73,8 @@ fn displacement_name(material: &DocumentMaterial) -> String {
 }
 
 /// An input that reads a node.
-fn connected(name: &'static str, ty: &'static str, node: &str) -> Element {
-    Element::new("input")
+fn connected(name: &'static str, ty: &'static str, node: &str) -> XmlElement {
+    XmlElement::new("input")
         .with("name", name)
         .with("type", ty)
         .with("nodename", node)

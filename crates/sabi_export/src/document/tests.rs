@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::*;
 use crate::layout::SetKey;
 use crate::name_pattern::NamePattern;
-use crate::preset::{Content, Preset, builtin};
-use crate::{Channel, Value};
+use crate::preset::{MapContent, Preset, builtin};
+use crate::{Channel, ConstantValue};
 
 /// Number of the material that has maps for a second UV set.
 const SECOND_UVS: u32 = 7;
@@ -16,7 +16,7 @@ struct TestSet {
     key: SetKey,
     name: &'static str,
     vary: Vec<Channel>,
-    values: Vec<(Channel, Value)>,
+    values: Vec<(Channel, ConstantValue)>,
 }
 
 fn set(material: u32, udim: Option<u32>, name: &'static str) -> TestSet {
@@ -55,7 +55,7 @@ fn facts(preset: &Preset, sets: &[TestSet]) -> BTreeMap<SetKey, SetFacts> {
             facts.channels.insert(channel.clone(), constant);
         }
         for (at, map) in preset.maps.iter().enumerate() {
-            let Content::Packed(components) = &map.content else {
+            let MapContent::Packed(components) = &map.content else {
                 continue;
             };
             let is_always = map.when == crate::preset::When::Always;
@@ -87,7 +87,7 @@ fn facts(preset: &Preset, sets: &[TestSet]) -> BTreeMap<SetKey, SetFacts> {
     sets.iter().map(of_set).collect()
 }
 
-fn materials_of(preset: &Preset, document: Document, sets: &[TestSet]) -> Vec<DocumentMaterial> {
+fn materials_of(preset: &Preset, document: DocumentFormat, sets: &[TestSet]) -> Vec<DocumentMaterial> {
     let names = NamePattern::parse(&preset.names, &[]).unwrap();
     let files = PresetFiles {
         index: 0,
@@ -99,7 +99,7 @@ fn materials_of(preset: &Preset, document: Document, sets: &[TestSet]) -> Vec<Do
     materials(&facts(preset, sets), files)
 }
 
-fn text_of(preset: &Preset, document: Document, sets: &[TestSet]) -> String {
+fn text_of(preset: &Preset, document: DocumentFormat, sets: &[TestSet]) -> String {
     text(document, &materials_of(preset, document, sets))
 }
 
@@ -113,19 +113,19 @@ fn two_materials() -> [TestSet; 2] {
     let mut strap = set(0, None, "Leather <Strap> & \"Buckle\"");
     strap.vary = vec![Channel::BaseColor, Channel::Roughness, Channel::Normal, Channel::Height];
     strap.values = vec![
-        (Channel::Opacity, Value::Number(1.0)),
-        (Channel::Metallic, Value::Number(0.0)),
-        (Channel::Occlusion, Value::Number(1.0)),
-        (Channel::Emission, Value::Triple([0.0; 3])),
+        (Channel::Opacity, ConstantValue::Number(1.0)),
+        (Channel::Metallic, ConstantValue::Number(0.0)),
+        (Channel::Occlusion, ConstantValue::Number(1.0)),
+        (Channel::Emission, ConstantValue::Triple([0.0; 3])),
     ];
     let mut lamp = set(1, None, "Lamp");
     lamp.values = vec![
-        (Channel::BaseColor, Value::Triple([0.5, 0.25, 0.125])),
-        (Channel::Opacity, Value::Number(0.5)),
-        (Channel::Roughness, Value::Number(0.7)),
-        (Channel::Metallic, Value::Number(1.0)),
-        (Channel::Normal, Value::Triple([0.0, 0.0, 1.0])),
-        (Channel::Emission, Value::Triple([4.0, 2.0, 0.0])),
+        (Channel::BaseColor, ConstantValue::Triple([0.5, 0.25, 0.125])),
+        (Channel::Opacity, ConstantValue::Number(0.5)),
+        (Channel::Roughness, ConstantValue::Number(0.7)),
+        (Channel::Metallic, ConstantValue::Number(1.0)),
+        (Channel::Normal, ConstantValue::Triple([0.0, 0.0, 1.0])),
+        (Channel::Emission, ConstantValue::Triple([4.0, 2.0, 0.0])),
     ];
     [strap, lamp]
 }
@@ -138,13 +138,13 @@ fn frugal(name: &str) -> Preset {
 
 #[test]
 fn a_small_materialx_document_has_this_text() {
-    let text = text_of(&frugal("materialx"), Document::MaterialX, &two_materials());
+    let text = text_of(&frugal("materialx"), DocumentFormat::MaterialX, &two_materials());
     assert_eq!(text, include_str!("tests/two_materials.mtlx"));
 }
 
 #[test]
 fn a_small_usd_document_has_this_text() {
-    let text = text_of(&frugal("usd"), Document::Usda, &two_materials());
+    let text = text_of(&frugal("usd"), DocumentFormat::Usda, &two_materials());
     assert_eq!(text, include_str!("tests/two_materials.usda"));
 }
 
@@ -157,8 +157,8 @@ fn everything() -> TestSet {
 #[test]
 fn every_channel_is_in_the_materialx_document_of_its_preset() {
     let preset = builtin("materialx").unwrap().unwrap();
-    let materials = materials_of(&preset, Document::MaterialX, &[everything()]);
-    let told = text(Document::MaterialX, &materials);
+    let materials = materials_of(&preset, DocumentFormat::MaterialX, &[everything()]);
+    let told = text(DocumentFormat::MaterialX, &materials);
     let connected = |input: &str, ty: &str, output: &str| {
         format!(r#"<input name="{input}" type="{ty}" nodegraph="NG_Cloth" output="out_{output}" />"#)
     };
@@ -189,9 +189,9 @@ fn every_channel_is_in_the_materialx_document_of_its_preset() {
     let packed = preset
         .maps
         .iter()
-        .filter(|map| matches!(map.content, Content::Packed(_)));
+        .filter(|map| matches!(map.content, MapContent::Packed(_)));
     assert_eq!(told.matches(second_set).count(), packed.count(), "all but outputs");
-    let documented = documented(Document::MaterialX, &materials[0]);
+    let documented = documented(DocumentFormat::MaterialX, &materials[0]);
     assert_eq!(documented.names, ["M_Cloth_gltf_pbr", "M_Cloth_open_pbr_surface"]);
     assert_eq!(documented.left_out, []);
 }
@@ -199,8 +199,8 @@ fn every_channel_is_in_the_materialx_document_of_its_preset() {
 #[test]
 fn usd_leaves_out_the_channels_that_its_surface_does_not_have() {
     let preset = builtin("usd").unwrap().unwrap();
-    let materials = materials_of(&preset, Document::Usda, &[everything()]);
-    let documented_text = documented(Document::Usda, &materials[0]);
+    let materials = materials_of(&preset, DocumentFormat::Usda, &[everything()]);
+    let documented_text = documented(DocumentFormat::Usda, &materials[0]);
     let left_out = [
         Channel::Anisotropy,
         Channel::Sheen,
@@ -212,7 +212,7 @@ fn usd_leaves_out_the_channels_that_its_surface_does_not_have() {
         (documented_text.names, documented_text.left_out),
         (vec!["/Materials/Cloth".to_owned()], left_out.to_vec())
     );
-    let told = text(Document::Usda, &materials);
+    let told = text(DocumentFormat::Usda, &materials);
     for line in [
         "string inputs:varname = \"st1\"",
         "float inputs:opacity.connect = </Materials/Cloth/BaseColor.outputs:a>",
@@ -224,7 +224,7 @@ fn usd_leaves_out_the_channels_that_its_surface_does_not_have() {
     ] {
         assert!(told.contains(line), "{line}\n{told}");
     }
-    let packed = materials_of(&preset, Document::Usdz, &[everything()]);
+    let packed = materials_of(&preset, DocumentFormat::Usdz, &[everything()]);
     let files = usd_files(&packed);
     assert_eq!(
         files,
@@ -239,7 +239,7 @@ fn usd_leaves_out_the_channels_that_its_surface_does_not_have() {
         "no OpenEXR in a package"
     );
     assert!(
-        documented(Document::Usdz, &packed[0])
+        documented(DocumentFormat::Usdz, &packed[0])
             .left_out
             .contains(&Channel::Height)
     );
@@ -254,7 +254,7 @@ fn numbers_in_a_file_are_converted_back_to_values() {
     let mut wood = set(0, None, "wood");
     // Maps with four components are read. The files of this test lack an alpha that is not a separate opacity.
     wood.vary = vec![Channel::Metallic, Channel::Roughness, Channel::Height, Channel::Opacity];
-    let usd = text_of(&preset, Document::Usda, std::slice::from_ref(&wood));
+    let usd = text_of(&preset, DocumentFormat::Usda, std::slice::from_ref(&wood));
     for line in [
         "float inputs:roughness.connect = </Materials/wood/Mask.outputs:a>",
         "float4 inputs:scale = (1, 1, 1, -1)",
@@ -264,9 +264,9 @@ fn numbers_in_a_file_are_converted_back_to_values() {
     ] {
         assert!(usd.contains(line), "{line}\n{usd}");
     }
-    let materials = materials_of(&preset, Document::MaterialX, &[wood]);
+    let materials = materials_of(&preset, DocumentFormat::MaterialX, &[wood]);
     assert_eq!(materials[0].missing, [Channel::Opacity]);
-    let mtlx = text(Document::MaterialX, &materials);
+    let mtlx = text(DocumentFormat::MaterialX, &materials);
     for line in [
         r#"<image name="image_Mask" type="vector4">"#,
         r#"<multiply name="image_Mask_3_multiply" type="float">"#,
@@ -286,13 +286,13 @@ fn tiles_are_one_material_whose_file_names_have_a_placeholder() {
     let (mut one, mut two) = (set(0, Some(1001), "body"), set(0, Some(1002), "body"));
     one.vary = vec![Channel::BaseColor, Channel::Height, Channel::Metallic];
     two.vary = vec![Channel::BaseColor, Channel::Opacity, Channel::Height];
-    one.values = vec![(Channel::Opacity, Value::Number(1.0))];
-    two.values = vec![(Channel::Metallic, Value::Number(0.0))];
+    one.values = vec![(Channel::Opacity, ConstantValue::Number(1.0))];
+    two.values = vec![(Channel::Metallic, ConstantValue::Number(0.0))];
     let sets = [one, two];
-    let [body] = &materials_of(&preset, Document::MaterialX, &sets)[..] else {
+    let [body] = &materials_of(&preset, DocumentFormat::MaterialX, &sets)[..] else {
         panic!("one material")
     };
-    let text = text_of(&preset, Document::MaterialX, &sets);
+    let text = text_of(&preset, DocumentFormat::MaterialX, &sets);
     assert!(
         text.contains(r#"value="body_u&lt;UDIM&gt;_Color &amp; more.png" colorspace="srgb_texture""#),
         "{text}"
@@ -305,7 +305,7 @@ fn tiles_are_one_material_whose_file_names_have_a_placeholder() {
         body.maps[0].files,
         ["body_u1001_Color & more.png", "body_u1002_Color & more.png"]
     );
-    assert!(text_of(&preset, Document::Usda, &sets).contains("@./body_u<UDIM>_Color & more.png@"));
+    assert!(text_of(&preset, DocumentFormat::Usda, &sets).contains("@./body_u<UDIM>_Color & more.png@"));
     assert_eq!(body.missing, [Channel::Metallic], "a tile lacks the file");
     let mut uneven = facts(&preset, &sets);
     for set in uneven.values_mut().take(1) {
@@ -338,9 +338,9 @@ fn paths_and_names_of_any_letters_are_quoted() {
     let mut odd = set(0, None, "x@@@y\\\u{ffff}");
     odd.vary = vec![Channel::Roughness];
     let mut same = set(1, None, "x y");
-    same.values = vec![(Channel::Roughness, Value::Number(0.25))];
+    same.values = vec![(Channel::Roughness, ConstantValue::Number(0.25))];
     let sets = [odd, same];
-    let usd = text_of(&preset, Document::Usda, &sets);
+    let usd = text_of(&preset, DocumentFormat::Usda, &sets);
     assert!(
         usd.contains("asset inputs:file = @@@./x\\@@@y\\\u{ffff}_a.png@@@"),
         "{usd}"
@@ -350,6 +350,6 @@ fn paths_and_names_of_any_letters_are_quoted() {
         usd.contains("def Material \"x_y\"") && usd.contains("def Material \"x_y_2\""),
         "{usd}"
     );
-    let mtlx = text_of(&preset, Document::MaterialX, &sets);
+    let mtlx = text_of(&preset, DocumentFormat::MaterialX, &sets);
     assert!(mtlx.contains("value=\"x@@@y\\\u{fffd}_a.png\""), "{mtlx}");
 }

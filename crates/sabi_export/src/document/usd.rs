@@ -4,9 +4,9 @@
 
 use std::fmt::Write as _;
 
-use super::material::{DocumentMap, DocumentMaterial, Look};
+use super::material::{ChannelSource, DocumentMap, DocumentMaterial};
 use super::numbers::list;
-use crate::{Channel, Value};
+use crate::{Channel, ConstantValue};
 
 /// Root of the materials.
 const ROOT: &str = "Materials";
@@ -70,7 +70,7 @@ pub(super) fn files(material: &DocumentMaterial) -> impl Iterator<Item = &str> {
 
 fn write_material(text: &mut String, material: &DocumentMaterial) {
     let path = path(material);
-    let mut lines = Lines { text, depth: 1 };
+    let mut lines = UsdBlock { text, depth: 1 };
     let name = match material.name == material.id {
         true => String::new(),
         false => format!(
@@ -109,14 +109,18 @@ fn write_material(text: &mut String, material: &DocumentMaterial) {
 }
 
 /// The surface of a material.
-fn surface(lines: &mut Lines<'_>, material: &DocumentMaterial, path: &str) {
+fn surface(lines: &mut UsdBlock<'_>, material: &DocumentMaterial, path: &str) {
     lines.shader("Surface", "UsdPreviewSurface");
     for (channel, look) in &material.channels {
         let Some((ty, input)) = input(channel) else { continue };
         match look {
-            Look::Value(Value::Number(number)) => lines.line(&format!("{ty} inputs:{input} = {number}")),
-            Look::Value(Value::Triple(values)) => lines.line(&format!("{ty} inputs:{input} = ({})", list(values))),
-            Look::Rgb(map) | Look::Component { map, .. } => {
+            ChannelSource::Value(ConstantValue::Number(number)) => {
+                lines.line(&format!("{ty} inputs:{input} = {number}"))
+            }
+            ChannelSource::Value(ConstantValue::Triple(values)) => {
+                lines.line(&format!("{ty} inputs:{input} = ({})", list(values)))
+            }
+            ChannelSource::Rgb(map) | ChannelSource::Component { map, .. } => {
                 let Some(texture) = material.maps.get(*map) else {
                     continue;
                 };
@@ -140,7 +144,7 @@ fn surface(lines: &mut Lines<'_>, material: &DocumentMaterial, path: &str) {
 }
 
 /// A file of a material, if the surface reads it.
-fn texture(lines: &mut Lines<'_>, material: &DocumentMaterial, at: usize, map: &DocumentMap, path: &str) {
+fn texture(lines: &mut UsdBlock<'_>, material: &DocumentMaterial, at: usize, map: &DocumentMap, path: &str) {
     let outputs = outputs(material, at);
     if outputs.is_empty() {
         return;
@@ -150,7 +154,7 @@ fn texture(lines: &mut Lines<'_>, material: &DocumentMaterial, at: usize, map: &
     lines.line(&format!("asset inputs:file = {}", asset(&map.file)));
     let space = if map.is_srgb { "sRGB" } else { "raw" };
     lines.line(&format!("token inputs:sourceColorSpace = \"{space}\""));
-    let is_normal = material.channels.get(&Channel::Normal) == Some(&Look::Rgb(at));
+    let is_normal = material.channels.get(&Channel::Normal) == Some(&ChannelSource::Rgb(at));
     let decoding = if is_normal { NORMAL } else { map.decoding };
     if decoding != PLAIN {
         for (name, index) in [("scale", 0), ("bias", 1)] {
@@ -170,9 +174,9 @@ fn texture(lines: &mut Lines<'_>, material: &DocumentMaterial, at: usize, map: &
 
 /// Outputs of a texture that the surface reads.
 fn outputs(material: &DocumentMaterial, at: usize) -> Vec<&'static str> {
-    let reads = |look: &Look| match look {
-        Look::Value(_) => false,
-        Look::Rgb(map) | Look::Component { map, .. } => *map == at,
+    let reads = |look: &ChannelSource| match look {
+        ChannelSource::Value(_) => false,
+        ChannelSource::Rgb(map) | ChannelSource::Component { map, .. } => *map == at,
     };
     let taken = material
         .channels
@@ -183,11 +187,11 @@ fn outputs(material: &DocumentMaterial, at: usize) -> Vec<&'static str> {
 }
 
 /// Name of the output of a texture that gives the channel.
-fn output(look: &Look) -> &'static str {
+fn output(look: &ChannelSource) -> &'static str {
     match look {
         // A file has at most four components.
-        Look::Component { index, .. } => OUTPUTS.get(index + 1).copied().unwrap_or("r"),
-        Look::Rgb(_) | Look::Value(_) => "rgb",
+        ChannelSource::Component { index, .. } => OUTPUTS.get(index + 1).copied().unwrap_or("r"),
+        ChannelSource::Rgb(_) | ChannelSource::Value(_) => "rgb",
     }
 }
 
@@ -204,12 +208,12 @@ fn quoted(text: &str) -> String {
 }
 
 /// Lines of a block.
-struct Lines<'t> {
+struct UsdBlock<'t> {
     text: &'t mut String,
     depth: usize,
 }
 
-impl Lines<'_> {
+impl UsdBlock<'_> {
     /// Adds a line; an empty one is not indented.
     fn line(&mut self, line: &str) {
         if !line.is_empty() {

@@ -2,16 +2,16 @@
 
 /// Element without text of its own.
 #[derive(Clone, Debug)]
-pub(super) struct Element {
+pub(super) struct XmlElement {
     tag: &'static str,
     attributes: Vec<(&'static str, String)>,
-    children: Vec<Element>,
+    children: Vec<XmlElement>,
 }
 
-impl Element {
+impl XmlElement {
     /// An element without attributes.
-    pub(super) fn new(tag: &'static str) -> Element {
-        Element {
+    pub(super) fn new(tag: &'static str) -> XmlElement {
+        XmlElement {
             tag,
             attributes: Vec::new(),
             children: Vec::new(),
@@ -19,19 +19,19 @@ impl Element {
     }
 
     /// Adds an attribute.
-    pub(super) fn with(mut self, name: &'static str, value: impl Into<String>) -> Element {
+    pub(super) fn with(mut self, name: &'static str, value: impl Into<String>) -> XmlElement {
         self.attributes.push((name, value.into()));
         self
     }
 
     /// Adds an element inside.
-    pub(super) fn holding(mut self, child: Element) -> Element {
+    pub(super) fn holding(mut self, child: XmlElement) -> XmlElement {
         self.children.push(child);
         self
     }
 
     /// Adds elements inside.
-    pub(super) fn extend(&mut self, children: impl IntoIterator<Item = Element>) {
+    pub(super) fn extend(&mut self, children: impl IntoIterator<Item = XmlElement>) {
         self.children.extend(children);
     }
 

@@ -1,6 +1,6 @@
 //! Rows of a file in integers.
 //!
-//! [`Plane::units`] returns the values of a row between 0 and 1, the sRGB curve is applied to colors, [`level`] scales the
+//! [`ComponentPlane::units`] returns the values of a row between 0 and 1, the sRGB curve is applied to colors, [`level`] scales the
 //! values to codes, and each is rounded; in a gradient, the threshold of rounding is varied by noise.
 
 use std::mem;
@@ -9,7 +9,7 @@ use std::ops::Range;
 use sabi_color::{srgb_from_linear, srgb8_from_linear};
 use sabi_image::{DitherPattern, DitheredRow, level, rounded};
 
-use super::plane::Plane;
+use super::plane::ComponentPlane;
 
 /// Whole number of a file.
 pub(super) trait Code: Copy {
@@ -66,7 +66,7 @@ impl Code for [u8; 2] {
 /// Fills rows of a file with the codes of their pixels, components interleaved. `is_srgb` is true if the sRGB curve is
 /// applied to all components, except the last of two or four.
 pub(super) fn code_rows<C: Code>(
-    planes: &[Plane<'_>],
+    planes: &[ComponentPlane<'_>],
     size: [u32; 2],
     is_srgb: bool,
     rows: Range<usize>,
@@ -76,7 +76,7 @@ pub(super) fn code_rows<C: Code>(
     for (at, plane) in planes.iter().enumerate() {
         // Alpha is linear beside colors, too.
         let is_color = is_srgb && (at < 3 && !(count == 2 && at == 1));
-        let component = Component {
+        let component = SizedComponent {
             plane,
             size: size.map(|side| side as usize),
             is_color,
@@ -91,15 +91,15 @@ pub(super) fn code_rows<C: Code>(
 }
 
 /// Component of a file.
-struct Component<'a> {
-    plane: &'a Plane<'a>,
+struct SizedComponent<'a> {
+    plane: &'a ComponentPlane<'a>,
     /// Pixels across and down.
     size: [usize; 2],
     /// True if its values go through the sRGB curve.
     is_color: bool,
 }
 
-impl Component<'_> {
+impl SizedComponent<'_> {
     /// Fills slots of rows with rounded codes.
     fn round<'c, C: Code + 'c>(&self, rows: impl Iterator<Item = (usize, impl Iterator<Item = &'c mut C>)>) {
         let mut values = RowValues::default();
@@ -158,7 +158,7 @@ struct RowValues {
 }
 
 impl RowValues {
-    fn fill<C: Code>(&mut self, component: &Component<'_>, y: usize) {
+    fn fill<C: Code>(&mut self, component: &SizedComponent<'_>, y: usize) {
         let width = component.size[0];
         self.units.resize(width, 0.0);
         component.plane.units(y * width..(y + 1) * width, &mut self.units);

@@ -8,7 +8,7 @@ use crate::ChannelPixels;
 
 /// How the values of a channel are mapped to 0..1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Codes {
+pub(crate) enum CodeMapping {
     /// 0..1.
     Unit,
     /// Components of unit vectors, −1..1, where 0 becomes the middle code rounded up. Normals never point inward.
@@ -22,7 +22,7 @@ pub(crate) enum Codes {
     Signed,
     /// From the lowest to the highest value of the set, which are in the report. Floats are written unchanged.
     Range([f32; 2]),
-    /// Like [`Codes::Range`], also for floats.
+    /// Like [`CodeMapping::Range`], also for floats.
     Normalized([f32; 2]),
     /// 0..1 after division by this number, which is in the report.
     Scaled(f32),
@@ -30,12 +30,12 @@ pub(crate) enum Codes {
 
 /// Component of a file.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Plane<'a> {
+pub(crate) enum ComponentPlane<'a> {
     /// A component of a channel.
     Channel {
         pixels: &'a ChannelPixels,
         index: usize,
-        codes: Codes,
+        codes: CodeMapping,
         is_inverted: bool,
         /// Arrangement of the noise, if gradients are dithered.
         dither: Option<DitherPattern>,
@@ -45,8 +45,8 @@ pub(crate) enum Plane<'a> {
 }
 
 /// All components of a channel, without dithering.
-pub(crate) fn planes(pixels: &ChannelPixels, codes: Codes) -> Vec<Plane<'_>> {
-    let plane = |index| Plane::Channel {
+pub(crate) fn planes(pixels: &ChannelPixels, codes: CodeMapping) -> Vec<ComponentPlane<'_>> {
+    let plane = |index| ComponentPlane::Channel {
         pixels,
         index,
         codes,
@@ -56,19 +56,19 @@ pub(crate) fn planes(pixels: &ChannelPixels, codes: Codes) -> Vec<Plane<'_>> {
     (0..pixels.components).map(plane).collect()
 }
 
-impl Plane<'_> {
+impl ComponentPlane<'_> {
     /// Arrangement of the noise, if gradients are dithered.
     pub(super) fn dither(&self) -> Option<DitherPattern> {
         match self {
-            Plane::Channel { dither, .. } => *dither,
-            Plane::Constant(_) => None,
+            ComponentPlane::Channel { dither, .. } => *dither,
+            ComponentPlane::Constant(_) => None,
         }
     }
 
     /// Fills in the values of some pixels for integer files, 0..1. Inversion and the direction of green are applied here,
     /// before rounding, so that a flat normal stays the middle code.
     pub(super) fn units(&self, range: Range<usize>, units: &mut [f32]) {
-        let Plane::Channel {
+        let ComponentPlane::Channel {
             pixels,
             index,
             codes,
@@ -80,17 +80,17 @@ impl Plane<'_> {
         };
         let at = *index;
         match *codes {
-            Codes::Unit => map_values(pixels, range, units, |values| values[at]),
-            Codes::Scaled(by) => map_values(pixels, range, units, |values| values[at] / by),
-            Codes::Direction => map_values(pixels, range, units, |values| direction(values)[at] * 0.5 + 0.5),
-            Codes::Signed => map_values(pixels, range, units, |values| values[at] * 0.5 + 0.5),
-            Codes::Normal { is_down } => {
+            CodeMapping::Unit => map_values(pixels, range, units, |values| values[at]),
+            CodeMapping::Scaled(by) => map_values(pixels, range, units, |values| values[at] / by),
+            CodeMapping::Direction => map_values(pixels, range, units, |values| direction(values)[at] * 0.5 + 0.5),
+            CodeMapping::Signed => map_values(pixels, range, units, |values| values[at] * 0.5 + 0.5),
+            CodeMapping::Normal { is_down } => {
                 map_values(pixels, range, units, |values| normal(values, is_down)[at] * 0.5 + 0.5)
             }
-            Codes::Range([low, high]) | Codes::Normalized([low, high]) if high > low => {
+            CodeMapping::Range([low, high]) | CodeMapping::Normalized([low, high]) if high > low => {
                 map_values(pixels, range, units, |values| (values[at] - low) / (high - low))
             }
-            Codes::Range(_) | Codes::Normalized(_) => units.fill(0.0),
+            CodeMapping::Range(_) | CodeMapping::Normalized(_) => units.fill(0.0),
         }
         if *is_inverted {
             units.iter_mut().for_each(|unit| *unit = 1.0 - *unit);
@@ -99,7 +99,7 @@ impl Plane<'_> {
 
     /// Fills in the values of some pixels for floats.
     pub(super) fn floats(&self, range: Range<usize>, floats: &mut [f32]) {
-        let Plane::Channel {
+        let ComponentPlane::Channel {
             pixels,
             index,
             codes,
@@ -107,26 +107,26 @@ impl Plane<'_> {
             ..
         } = self
         else {
-            let Plane::Constant(value) = self else { return };
+            let ComponentPlane::Constant(value) = self else { return };
             return floats.fill(*value);
         };
         let at = *index;
         let inverted = match *codes {
-            Codes::Unit | Codes::Normal { .. } => return self.units(range, floats),
-            Codes::Normalized(_) | Codes::Scaled(_) => {
+            CodeMapping::Unit | CodeMapping::Normal { .. } => return self.units(range, floats),
+            CodeMapping::Normalized(_) | CodeMapping::Scaled(_) => {
                 self.units(range, floats);
                 // Ghosts beyond the charts may exceed the range; they are clamped as in integer files.
                 return floats.iter_mut().for_each(|value| *value = value.clamp(0.0, 1.0));
             }
-            Codes::Range([low, high]) => {
+            CodeMapping::Range([low, high]) => {
                 map_values(pixels, range, floats, |values| values[at]);
                 low + high
             }
-            Codes::Direction => {
+            CodeMapping::Direction => {
                 map_values(pixels, range, floats, |values| direction(values)[at]);
                 0.0
             }
-            Codes::Signed => {
+            CodeMapping::Signed => {
                 map_values(pixels, range, floats, |values| values[at]);
                 0.0
             }

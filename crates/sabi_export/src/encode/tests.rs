@@ -4,19 +4,19 @@ use sabi_image::{DitherPattern, Pixels, decode};
 use super::*;
 use crate::ChannelPixels;
 
-const UP: Codes = Codes::Normal { is_down: false };
-const DOWN: Codes = Codes::Normal { is_down: true };
+const UP: CodeMapping = CodeMapping::Normal { is_down: false };
+const DOWN: CodeMapping = CodeMapping::Normal { is_down: true };
 
-fn codes_of(data: Vec<f32>, components: usize, size: u32, codes: Codes, bits: u8, is_dithered: bool) -> Pixels {
+fn codes_of(data: Vec<f32>, components: usize, size: u32, codes: CodeMapping, bits: u8, is_dithered: bool) -> Pixels {
     let pixels = ChannelPixels { components, data };
-    let encoding = Encoding {
+    let encoding = FileEncoding {
         size: [size; 2],
-        format: Format::Png { bits },
+        format: MapFormat::Png { bits },
         is_srgb: false,
     };
     let mut planes = planes(&pixels, codes);
     for (at, plane) in planes.iter_mut().enumerate() {
-        if let Plane::Channel { dither, .. } = plane {
+        if let ComponentPlane::Channel { dither, .. } = plane {
             *dither = is_dithered.then(|| DitherPattern::new(1, "test", at));
         }
     }
@@ -79,13 +79,20 @@ fn the_flat_normal_is_128_128_255_in_8_bits() {
 
 #[test]
 fn heights_span_their_range() {
-    let codes = codes_of(vec![-1.0, 3.0, 1.0, 0.0], 1, 2, Codes::Range([-1.0, 3.0]), 16, false);
+    let codes = codes_of(
+        vec![-1.0, 3.0, 1.0, 0.0],
+        1,
+        2,
+        CodeMapping::Range([-1.0, 3.0]),
+        16,
+        false,
+    );
     assert_eq!(codes, Pixels::U16(vec![0, 65535, 32768, 16384]));
 }
 
 /// 8-bit codes of rows of one width, dithered.
 fn dithered(rows: Vec<f32>, size: u32) -> Vec<u8> {
-    match codes_of(rows, 1, size, Codes::Unit, 8, true) {
+    match codes_of(rows, 1, size, CodeMapping::Unit, 8, true) {
         Pixels::U8(codes) => codes,
         _ => panic!("8 bits"),
     }
@@ -151,16 +158,16 @@ fn colors_may_be_dithered_after_their_curve() {
             .map(|at| sabi_color::linear_from_srgb(0.4 + at as f32 * 1e-6))
             .collect(),
     };
-    let plane = Plane::Channel {
+    let plane = ComponentPlane::Channel {
         pixels: &pixels,
         index: 0,
-        codes: Codes::Unit,
+        codes: CodeMapping::Unit,
         is_inverted: false,
         dither: Some(DitherPattern::new(1, "test", 0)),
     };
-    let encoding = Encoding {
+    let encoding = FileEncoding {
         size: [size as u32; 2],
-        format: Format::Png { bits: 8 },
+        format: MapFormat::Png { bits: 8 },
         is_srgb: true,
     };
     let codes = codes_8(&[plane], encoding);
@@ -199,20 +206,25 @@ fn inverted_and_constant_components_are_packed_beside_channels() {
         components: 1,
         data: vec![0.25, 1.0],
     };
-    let of = |is_inverted| Plane::Channel {
+    let of = |is_inverted| ComponentPlane::Channel {
         pixels: &pixels,
         index: 0,
-        codes: Codes::Unit,
+        codes: CodeMapping::Unit,
         is_inverted,
         dither: None,
     };
-    let encoding = Encoding {
+    let encoding = FileEncoding {
         size: [2, 1],
-        format: Format::Png { bits: 8 },
+        format: MapFormat::Png { bits: 8 },
         is_srgb: true,
     };
     let codes = codes_8(
-        &[of(false), Plane::Constant(0.5), Plane::Constant(0.0), of(true)],
+        &[
+            of(false),
+            ComponentPlane::Constant(0.5),
+            ComponentPlane::Constant(0.0),
+            of(true),
+        ],
         encoding,
     );
     assert_eq!(codes, [137, 188, 0, 191, 255, 188, 0, 0], "alpha is linear");
@@ -224,9 +236,9 @@ fn directions_have_unit_length_in_floats_and_in_codes() {
         components: 3,
         data: vec![0.0, -0.5, 0.0, 0.0, 0.0, 0.0],
     };
-    let directions = planes(&pixels, Codes::Direction);
+    let directions = planes(&pixels, CodeMapping::Direction);
     let of = |format| {
-        let encoding = Encoding {
+        let encoding = FileEncoding {
             size: [2, 1],
             format,
             is_srgb: false,
@@ -235,9 +247,9 @@ fn directions_have_unit_length_in_floats_and_in_codes() {
         let name = format!("a.{}", format.ending());
         decode(&name, &file).unwrap().pixels
     };
-    assert_eq!(of(Format::Exr), Pixels::F32(vec![0.0, -1.0, 0.0, 0.0, 0.0, 0.0]));
+    assert_eq!(of(MapFormat::Exr), Pixels::F32(vec![0.0, -1.0, 0.0, 0.0, 0.0, 0.0]));
     assert_eq!(
-        of(Format::Png { bits: 8 }),
+        of(MapFormat::Png { bits: 8 }),
         Pixels::U8(vec![128, 0, 128, 128, 128, 128])
     );
 }
@@ -248,15 +260,15 @@ fn floats_are_exact() {
         components: 1,
         data: vec![0.1, -7.25, f32::MIN_POSITIVE, 1e20],
     };
-    let encoding = |format| Encoding {
+    let encoding = |format| FileEncoding {
         size: [2, 2],
         format,
         is_srgb: false,
     };
-    let heights = planes(&pixels, Codes::Range([-7.25, 1e20]));
-    let file = encode(&heights, encoding(Format::Exr)).unwrap();
+    let heights = planes(&pixels, CodeMapping::Range([-7.25, 1e20]));
+    let file = encode(&heights, encoding(MapFormat::Exr)).unwrap();
     assert_eq!(decode("a.exr", &file).unwrap().pixels, Pixels::F32(pixels.data.clone()));
-    let half = encode(&planes(&pixels, Codes::Unit), encoding(Format::ExrHalf)).unwrap();
+    let half = encode(&planes(&pixels, CodeMapping::Unit), encoding(MapFormat::ExrHalf)).unwrap();
     let expected = vec![0.099_975_586, -7.25, 0.0, 65504.0];
     assert_eq!(decode("a.exr", &half).unwrap().pixels, Pixels::F32(expected));
 }

@@ -5,10 +5,10 @@ use sabi_surface::atlas::{AtlasReport, Chart, Ghost, TILE, TileRef};
 use super::*;
 
 /// A chart of the test atlas: material, offset, uv tile, and its texels on the page.
-pub(crate) type Piece = (u32, [i32; 2], [i32; 2], std::ops::Range<u32>, std::ops::Range<u32>);
+pub(crate) type ChartPiece = (u32, [i32; 2], [i32; 2], std::ops::Range<u32>, std::ops::Range<u32>);
 
 /// An atlas of rectangles, each of one triangle's number, with rings of one ghost where there is room.
-pub(crate) fn atlas(size: u32, page: u32, pieces: &[Piece]) -> Atlas {
+pub(crate) fn atlas(size: u32, page: u32, pieces: &[ChartPiece]) -> Atlas {
     let mut owners = vec![EMPTY; (page * page) as usize];
     let mut charts = Vec::new();
     let mut ghosts = Vec::new();

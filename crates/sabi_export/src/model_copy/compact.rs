@@ -12,7 +12,7 @@ use super::extensions;
 
 /// A list whose entries are referred to by number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
-enum List {
+enum GltfList {
     Textures,
     Images,
     Samplers,
@@ -21,18 +21,18 @@ enum List {
     Buffers,
 }
 
-impl List {
+impl GltfList {
     /// All lists. An entry refers only to entries of later lists.
-    const ALL: &'static [List] = List::VARIANTS;
+    const ALL: &'static [GltfList] = GltfList::VARIANTS;
 
     fn name(self) -> &'static str {
         match self {
-            List::Textures => "textures",
-            List::Images => "images",
-            List::Samplers => "samplers",
-            List::Accessors => "accessors",
-            List::Views => "bufferViews",
-            List::Buffers => "buffers",
+            GltfList::Textures => "textures",
+            GltfList::Images => "images",
+            GltfList::Samplers => "samplers",
+            GltfList::Accessors => "accessors",
+            GltfList::Views => "bufferViews",
+            GltfList::Buffers => "buffers",
         }
     }
 }
@@ -60,13 +60,13 @@ const KNOWN: [&str; 17] = [
 
 /// Entries of each list that were in use.
 #[derive(Debug)]
-pub(super) struct Uses {
+pub(super) struct UsedEntries {
     used: Vec<BTreeSet<usize>>,
 }
 
-impl Uses {
+impl UsedEntries {
     /// Finds the entries in use; `None` for a file whose references are not all known.
-    pub(super) fn of(document: &mut Json) -> Option<Uses> {
+    pub(super) fn of(document: &mut Json) -> Option<UsedEntries> {
         let listed = document.get("extensionsUsed").and_then(Json::as_array);
         let listed = listed.into_iter().flatten().filter_map(Json::as_str).map(str::to_owned);
         let is_known = |name: &String| name.starts_with("KHR_materials_") || KNOWN.contains(&name.as_str());
@@ -77,18 +77,18 @@ impl Uses {
         if !all_known || extras_refer(document) {
             return None;
         }
-        Some(Uses {
-            used: List::ALL.iter().map(|&list| used(document, list)).collect(),
+        Some(UsedEntries {
+            used: GltfList::ALL.iter().map(|&list| used(document, list)).collect(),
         })
     }
 
     /// Removes the entries that were in use and no longer are. The first buffer stays if it is the binary chunk.
-    pub(super) fn compact(&self, document: &mut Json, has_chunk: bool) -> Removed {
-        let mut removed = Removed::default();
-        for (&list, before) in List::ALL.iter().zip(&self.used) {
+    pub(super) fn compact(&self, document: &mut Json, has_chunk: bool) -> RemovedEntries {
+        let mut removed = RemovedEntries::default();
+        for (&list, before) in GltfList::ALL.iter().zip(&self.used) {
             let now = used(document, list);
             let mut dead: Vec<usize> = before.difference(&now).copied().collect();
-            dead.retain(|place| !(has_chunk && list == List::Buffers && *place == 0));
+            dead.retain(|place| !(has_chunk && list == GltfList::Buffers && *place == 0));
             let Some(entries) = document.get_mut(list.name()).and_then(Json::as_array_mut) else {
                 continue;
             };
@@ -107,8 +107,8 @@ impl Uses {
                 }
             });
             match list {
-                List::Views => removed.views = gone.into_iter().map(|(_, view)| view).collect(),
-                List::Images => removed.images = dead,
+                GltfList::Views => removed.views = gone.into_iter().map(|(_, view)| view).collect(),
+                GltfList::Images => removed.images = dead,
                 _ => {}
             }
         }
@@ -118,13 +118,13 @@ impl Uses {
 
 /// Entries that were removed.
 #[derive(Debug, Default)]
-pub(super) struct Removed {
+pub(super) struct RemovedEntries {
     pub(super) views: Vec<Json>,
     /// Indices of the removed images, ascending.
     images: Vec<usize>,
 }
 
-impl Removed {
+impl RemovedEntries {
     /// Returns the new index of an image, given the old one.
     pub(super) fn image(&self, before: usize) -> usize {
         moved(before, &self.images)
@@ -139,7 +139,7 @@ fn place(number: &Json) -> Option<usize> {
     usize::try_from(number.as_u64()?).ok()
 }
 
-fn used(document: &mut Json, list: List) -> BTreeSet<usize> {
+fn used(document: &mut Json, list: GltfList) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
     visit(document, &mut |of, number| {
         if of == list {
@@ -175,7 +175,7 @@ fn extras_refer(value: &Json) -> bool {
     }
 }
 
-type Visitor<'v> = dyn FnMut(List, &mut Json) + 'v;
+type Visitor<'v> = dyn FnMut(GltfList, &mut Json) + 'v;
 
 /// Visits every reference to an entry of the lists.
 fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
@@ -183,29 +183,29 @@ fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
         visit_textures(material, visitor);
     }
     for texture in entries(document, "textures") {
-        visit_member(texture, "sampler", List::Samplers, visitor);
-        visit_member(texture, "source", List::Images, visitor);
+        visit_member(texture, "sampler", GltfList::Samplers, visitor);
+        visit_member(texture, "source", GltfList::Images, visitor);
         let extensions = texture.get_mut("extensions").and_then(Json::as_object_mut);
         for (_, extension) in extensions.into_iter().flatten() {
-            visit_member(extension, "source", List::Images, visitor);
+            visit_member(extension, "source", GltfList::Images, visitor);
         }
     }
     for view in entries(document, "bufferViews") {
-        visit_member(view, "buffer", List::Buffers, visitor);
+        visit_member(view, "buffer", GltfList::Buffers, visitor);
         for name in PACKED {
             if let Some(packed) = view.get_mut("extensions").and_then(|all| all.get_mut(name)) {
-                visit_member(packed, "buffer", List::Buffers, visitor);
+                visit_member(packed, "buffer", GltfList::Buffers, visitor);
             }
         }
     }
     for image in entries(document, "images") {
-        visit_member(image, "bufferView", List::Views, visitor);
+        visit_member(image, "bufferView", GltfList::Views, visitor);
     }
     for accessor in entries(document, "accessors") {
-        visit_member(accessor, "bufferView", List::Views, visitor);
+        visit_member(accessor, "bufferView", GltfList::Views, visitor);
         for part in ["/sparse/indices", "/sparse/values"] {
             if let Some(part) = accessor.pointer_mut(part) {
-                visit_member(part, "bufferView", List::Views, visitor);
+                visit_member(part, "bufferView", GltfList::Views, visitor);
             }
         }
     }
@@ -218,12 +218,12 @@ fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
         visit_metadata(metadata, visitor);
     }
     for skin in entries(document, "skins") {
-        visit_member(skin, "inverseBindMatrices", List::Accessors, visitor);
+        visit_member(skin, "inverseBindMatrices", GltfList::Accessors, visitor);
     }
     for animation in entries(document, "animations") {
         for sampler in entries(animation, "samplers") {
-            visit_member(sampler, "input", List::Accessors, visitor);
-            visit_member(sampler, "output", List::Accessors, visitor);
+            visit_member(sampler, "input", GltfList::Accessors, visitor);
+            visit_member(sampler, "output", GltfList::Accessors, visitor);
         }
     }
     for node in entries(document, "nodes") {
@@ -234,7 +234,7 @@ fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
 }
 
 fn visit_primitive(primitive: &mut Json, visitor: &mut Visitor<'_>) {
-    visit_member(primitive, "indices", List::Accessors, visitor);
+    visit_member(primitive, "indices", GltfList::Accessors, visitor);
     if let Some(attributes) = primitive.get_mut("attributes") {
         visit_accessors(attributes, visitor);
     }
@@ -244,12 +244,12 @@ fn visit_primitive(primitive: &mut Json, visitor: &mut Visitor<'_>) {
     if let Some(features) = primitive.pointer_mut("/extensions/EXT_mesh_features") {
         for ids in entries(features, "featureIds") {
             if let Some(texture) = ids.get_mut("texture") {
-                visit_member(texture, "index", List::Textures, visitor);
+                visit_member(texture, "index", GltfList::Textures, visitor);
             }
         }
     }
     if let Some(compressed) = primitive.pointer_mut("/extensions/KHR_draco_mesh_compression") {
-        visit_member(compressed, "bufferView", List::Views, visitor);
+        visit_member(compressed, "bufferView", GltfList::Views, visitor);
     }
 }
 
@@ -258,13 +258,13 @@ fn visit_metadata(metadata: &mut Json, visitor: &mut Visitor<'_>) {
     for table in entries(metadata, "propertyTables") {
         for property in members(table, "properties") {
             for values in ["values", "arrayOffsets", "stringOffsets"] {
-                visit_member(property, values, List::Views, visitor);
+                visit_member(property, values, GltfList::Views, visitor);
             }
         }
     }
     for texture in entries(metadata, "propertyTextures") {
         for property in members(texture, "properties") {
-            visit_member(property, "index", List::Textures, visitor);
+            visit_member(property, "index", GltfList::Textures, visitor);
         }
     }
 }
@@ -276,7 +276,7 @@ fn visit_textures(value: &mut Json, visitor: &mut Visitor<'_>) {
             continue;
         }
         if key.ends_with("Texture") {
-            visit_member(value, "index", List::Textures, visitor);
+            visit_member(value, "index", GltfList::Textures, visitor);
         }
         visit_textures(value, visitor);
     }
@@ -284,10 +284,10 @@ fn visit_textures(value: &mut Json, visitor: &mut Visitor<'_>) {
 
 fn visit_accessors(attributes: &mut Json, visitor: &mut Visitor<'_>) {
     let all = attributes.as_object_mut().into_iter().flat_map(Map::values_mut);
-    all.for_each(|accessor| visitor(List::Accessors, accessor));
+    all.for_each(|accessor| visitor(GltfList::Accessors, accessor));
 }
 
-fn visit_member(object: &mut Json, key: &str, list: List, visitor: &mut Visitor<'_>) {
+fn visit_member(object: &mut Json, key: &str, list: GltfList, visitor: &mut Visitor<'_>) {
     if let Some(number) = object.get_mut(key) {
         visitor(list, number);
     }

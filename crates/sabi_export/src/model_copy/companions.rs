@@ -10,7 +10,7 @@ use serde_json::{Value as Json, json};
 
 use super::container::Container;
 use super::edit::{push, remove};
-use super::pictures::{media_type, uri_of};
+use super::picture_slots::{media_type, uri_of};
 use super::{CopiedFile, CopySource};
 use crate::names::file_stem;
 

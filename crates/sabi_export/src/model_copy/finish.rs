@@ -5,12 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use sabi_surface::model::UvDecoding;
 use serde_json::{Value as Json, json};
 
-use super::compact::Uses;
+use super::compact::UsedEntries;
 use super::edit::TextureUse;
 use super::geometry::{EditedGeometry, GeometryEdits, Tangents, unwrapped_materials};
 use super::map_file::MapFile;
 use super::maps::MaterialMaps;
-use super::pictures::Pictures;
+use super::picture_slots::PictureSlots;
 use super::wrap::{CLAMP_TO_EDGE, REPEAT};
 use super::{CopiedFile, FinishedCopy, LookChange, ModelCopy, Treatment, companions, edit, extensions, look, tiles};
 use crate::{ExportError, SetKey};
@@ -38,10 +38,10 @@ impl ModelCopy<'_> {
             companions::adopt_first_buffer(&mut self.document, &mut self.container, self.source);
         }
         let known = extensions::present(&self.document);
-        let uses = Uses::of(&mut self.document);
+        let uses = UsedEntries::of(&mut self.document);
         let mut baked = self.baked(maps);
         self.keep_materials_of_others(&baked);
-        let mut pictures = Pictures::new(&self.document, self.options.embeds);
+        let mut pictures = PictureSlots::new(&self.document, self.options.embeds);
         self.replace_looks(&mut baked, &mut pictures);
         let mut changes = self.changes(&baked);
         let geometry = self.edit_geometry(&baked, &mut changes, is_taken)?;
@@ -180,7 +180,7 @@ impl ModelCopy<'_> {
     }
 
     /// Replaces the previous appearance by the new maps and factors.
-    fn replace_looks(&mut self, baked: &mut [BakedMaterial], pictures: &mut Pictures) {
+    fn replace_looks(&mut self, baked: &mut [BakedMaterial], pictures: &mut PictureSlots) {
         let keeps_look = self.options.keeps_look;
         for of_baked in &*baked {
             look::strip(&mut self.document["materials"][of_baked.index], keeps_look);

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value as Json};
 
-use super::finish_maps::{FinishMaps, Scaled};
+use super::finish_maps::{FinishMaps, MappedFactor};
 use super::map_file::MapFile;
 use super::numbers::{numbers, short};
 
@@ -67,7 +67,7 @@ impl FinishMaps {
 type Entries = Vec<(&'static str, Option<Json>)>;
 
 fn clearcoat_entries(
-    coat: Scaled<f32>,
+    coat: MappedFactor<f32>,
     roughness: f32,
     place: &mut dyn FnMut(MapFile) -> Json,
     normal: Option<&Json>,
@@ -83,7 +83,7 @@ fn clearcoat_entries(
     ]
 }
 
-fn sheen_entries(sheen: Scaled<[f32; 3]>, roughness: f32, place: &mut dyn FnMut(MapFile) -> Json) -> Entries {
+fn sheen_entries(sheen: MappedFactor<[f32; 3]>, roughness: f32, place: &mut dyn FnMut(MapFile) -> Json) -> Entries {
     let texture = sheen.map.map(place);
     vec![
         ("sheenColorFactor", Some(numbers(&sheen.factor))),
@@ -93,7 +93,7 @@ fn sheen_entries(sheen: Scaled<[f32; 3]>, roughness: f32, place: &mut dyn FnMut(
     ]
 }
 
-fn subsurface_entries(subsurface: Scaled<[f32; 3]>, place: &mut dyn FnMut(MapFile) -> Json) -> Entries {
+fn subsurface_entries(subsurface: MappedFactor<[f32; 3]>, place: &mut dyn FnMut(MapFile) -> Json) -> Entries {
     // The largest of the three components is the share, and the color is divided by it.
     let share = subsurface.factor.into_iter().fold(0.0, f32::max);
     let color = subsurface.factor.map(|part| part / share);

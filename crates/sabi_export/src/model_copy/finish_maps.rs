@@ -4,11 +4,11 @@ use sabi_image::ImageError;
 
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
 use crate::preset::ComponentSource;
-use crate::{Channel, Value};
+use crate::{Channel, ConstantValue};
 
 /// A factor, and the map that it multiplies.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scaled<T> {
+pub struct MappedFactor<T> {
     /// The value without a map, 1 with one.
     pub factor: T,
     /// The map where the value varies.
@@ -19,21 +19,21 @@ pub struct Scaled<T> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FinishMaps {
     /// Share below a clear coat, in R.
-    pub coat: Scaled<f32>,
+    pub coat: MappedFactor<f32>,
     /// Roughness of the coat, in G of the same map.
     pub coat_roughness: f32,
     /// Strength of anisotropy; with a map in B, beside the direction in R and G.
-    pub anisotropy: Scaled<f32>,
+    pub anisotropy: MappedFactor<f32>,
     /// Angle of the direction from the tangent, radians, without a map.
     pub anisotropy_rotation: f32,
     /// Linear color of the sheen, sRGB in RGB of the map.
-    pub sheen: Scaled<[f32; 3]>,
+    pub sheen: MappedFactor<[f32; 3]>,
     /// Roughness of the sheen, in A of the same map.
     pub sheen_roughness: f32,
     /// Linear color of the light that spreads below the surface; the map is sRGB.
-    pub subsurface: Scaled<[f32; 3]>,
+    pub subsurface: MappedFactor<[f32; 3]>,
     /// Share of the light that goes through, in R.
-    pub transmission: Scaled<f32>,
+    pub transmission: MappedFactor<f32>,
 }
 
 /// Channels of a set that share a map with the next one.
@@ -58,7 +58,7 @@ impl FinishCollector {
                 let constants = coat.number().zip(coded.number());
                 let codes = |pixel: usize| [coat.code(pixel), coded.code(pixel), 0];
                 (maps.coat, maps.coat_roughness) = match constants {
-                    Some((factor, roughness)) => (Scaled { factor, map: None }, roughness),
+                    Some((factor, roughness)) => (MappedFactor { factor, map: None }, roughness),
                     None => {
                         let sources = [
                             of(Channel::Coat, 0),
@@ -76,7 +76,7 @@ impl FinishCollector {
             Channel::SheenRoughness => {
                 let Some(sheen) = self.first.take() else { return Ok(()) };
                 (maps.sheen, maps.sheen_roughness) = match (sheen.triple(), coded.number()) {
-                    (Some(factor), Some(roughness)) => (Scaled { factor, map: None }, roughness),
+                    (Some(factor), Some(roughness)) => (MappedFactor { factor, map: None }, roughness),
                     _ => {
                         let codes = |pixel: usize| {
                             let [r, g, b] = sheen.triple_code(pixel);
@@ -101,13 +101,13 @@ impl FinishCollector {
             },
             Channel::Subsurface => {
                 maps.subsurface = match coded.triple() {
-                    Some(factor) => Scaled { factor, map: None },
+                    Some(factor) => MappedFactor { factor, map: None },
                     None => with_map([1.0; 3], plain(input, &coded, "subsurface_8bit")?),
                 }
             }
             Channel::Transmission => {
                 maps.transmission = match coded.number() {
-                    Some(factor) => Scaled { factor, map: None },
+                    Some(factor) => MappedFactor { factor, map: None },
                     // Red of a gray picture is its gray.
                     None => with_map(
                         1.0,
@@ -128,8 +128,8 @@ fn of(channel: Channel, component: usize) -> ComponentSource {
     ComponentSource::Channel(channel, component)
 }
 
-fn with_map<T>(factor: T, map: MapFile) -> Scaled<T> {
-    Scaled { factor, map: Some(map) }
+fn with_map<T>(factor: T, map: MapFile) -> MappedFactor<T> {
+    MappedFactor { factor, map: Some(map) }
 }
 
 /// A map of the codes of each pixel.
@@ -154,7 +154,7 @@ fn plain(input: &ChannelInput<'_>, coded: &CodedChannel, what: &str) -> Result<M
 impl CodedChannel {
     fn triple(&self) -> Option<[f32; 3]> {
         match self {
-            CodedChannel::Constant(Value::Triple(values)) => Some(*values),
+            CodedChannel::Constant(ConstantValue::Triple(values)) => Some(*values),
             _ => None,
         }
     }
@@ -162,8 +162,8 @@ impl CodedChannel {
     fn triple_code(&self, pixel: usize) -> [u8; 3] {
         match self {
             CodedChannel::Codes(codes) => std::array::from_fn(|at| codes[3 * pixel + at]),
-            CodedChannel::Constant(Value::Triple(values)) => values.map(sabi_color::srgb8_from_linear),
-            CodedChannel::Constant(Value::Number(_)) => [0; 3],
+            CodedChannel::Constant(ConstantValue::Triple(values)) => values.map(sabi_color::srgb8_from_linear),
+            CodedChannel::Constant(ConstantValue::Number(_)) => [0; 3],
         }
     }
 }

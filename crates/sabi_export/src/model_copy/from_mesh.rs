@@ -9,8 +9,8 @@ use serde_json::{Map, Value as Json, json};
 use super::container::Container;
 use super::edit::{push, remove};
 use super::extensions;
-use super::material::{Textures, write_material};
-use super::tiles::{Tiles, in_tile};
+use super::material::{CopiedTextures, write_material};
+use super::tiles::{MaterialTiles, in_tile};
 use crate::SetKey;
 
 const FLOAT: u32 = 5126;
@@ -35,7 +35,7 @@ pub(super) struct MeshCopy<'m> {
     pub(super) uv_set: u32,
     /// The model's file if it is glTF: its settings for drawing materials are kept.
     pub(super) file: Option<&'m Json>,
-    pub(super) tiles: &'m Tiles,
+    pub(super) tiles: &'m MaterialTiles,
 }
 
 impl MeshCopy<'_> {
@@ -104,7 +104,7 @@ impl MeshCopy<'_> {
 
     fn add_materials(&self, document: &mut Json, container: &mut Container, warnings: &mut Vec<String>) {
         let model = self.model;
-        let mut textures = Textures::new(model);
+        let mut textures = CopiedTextures::new(model);
         for (index, material) in model.materials.iter().enumerate() {
             let mut entry = Json::Object(Map::new());
             if !material.name.is_empty() {

@@ -4,7 +4,7 @@
 
 mod arrays;
 mod bytes;
-mod frame;
+mod inverse_transform;
 mod layout;
 mod rewrite;
 mod slots;
@@ -21,7 +21,7 @@ use self::rewrite::Rewriter;
 use super::CopiedFile;
 use super::container::Container;
 use super::edit::push;
-use super::tiles::Tiles;
+use super::tiles::MaterialTiles;
 use crate::SetKey;
 
 /// Treatment of the tangents of a baked material.
@@ -55,7 +55,7 @@ pub(super) struct GeometryEdits<'m> {
     pub(super) unwrapped: BTreeSet<u32>,
     pub(super) uv_sets: UvSets,
     /// Materials in several UDIM tiles, and the places of those of the tiles in the document.
-    pub(super) tiles: (&'m Tiles, &'m BTreeMap<SetKey, usize>),
+    pub(super) tiles: (&'m MaterialTiles, &'m BTreeMap<SetKey, usize>),
     /// Tangents of the baked sets.
     pub(super) tangents: BTreeMap<SetName, Tangents>,
 }
@@ -82,7 +82,7 @@ pub fn unwrapped_materials(model: &Model) -> BTreeSet<u32> {
 }
 
 /// Triangles of a placed primitive that share a material of the document.
-struct Part {
+struct PrimitivePart {
     /// Set of the tile, for a material in several tiles.
     tile: Option<SetKey>,
     triangles: Vec<[u32; 3]>,
@@ -91,19 +91,19 @@ struct Part {
 }
 
 /// Primitives of a mesh that one node shows.
-struct Instance<'m> {
+struct NodePrimitives<'m> {
     node: Option<usize>,
     placed: Vec<&'m PlacedPrimitive>,
 }
 
 /// Instances by mesh.
-fn instances(origins: &FileOrigins) -> BTreeMap<usize, Vec<Instance<'_>>> {
-    let mut instances: BTreeMap<usize, Vec<Instance<'_>>> = BTreeMap::new();
+fn instances(origins: &FileOrigins) -> BTreeMap<usize, Vec<NodePrimitives<'_>>> {
+    let mut instances: BTreeMap<usize, Vec<NodePrimitives<'_>>> = BTreeMap::new();
     for placed in &origins.placed {
         let of_mesh = instances.entry(placed.mesh).or_default();
         match of_mesh.last_mut().filter(|last| last.node == placed.node) {
             Some(last) => last.placed.push(placed),
-            None => of_mesh.push(Instance {
+            None => of_mesh.push(NodePrimitives {
                 node: placed.node,
                 placed: vec![placed],
             }),
@@ -134,7 +134,7 @@ impl GeometryEdits<'_> {
     }
 
     /// The parts of a primitive, of a material in several tiles one for each tile.
-    fn parts(&self, placed: &PlacedPrimitive) -> Vec<Part> {
+    fn parts(&self, placed: &PlacedPrimitive) -> Vec<PrimitivePart> {
         let mesh = &self.model.mesh;
         let mut parts: BTreeMap<Option<SetKey>, Vec<[u32; 3]>> = BTreeMap::new();
         for number in placed.triangles.clone() {
@@ -143,7 +143,7 @@ impl GeometryEdits<'_> {
             parts.entry(tile).or_default().extend(corners);
         }
         let is_split = parts.len() > 1;
-        let part = |(tile, triangles)| Part {
+        let part = |(tile, triangles)| PrimitivePart {
             tile,
             triangles,
             is_split,

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 use serde_json::{Map, Value as Json, json};
 
-use self::rules::{Owner, RULES};
+use self::rules::{PropertyOwner, RULES};
 use super::edit::{primitives, remove};
 use super::maps::MaterialMaps;
 
@@ -35,8 +35,8 @@ pub(super) fn strip(material: &mut Json, keeps_look: bool) {
     for rule in RULES.iter().filter(|rule| is_replaced(rule.treatment(keeps_look))) {
         match rule.owner {
             // The mode is chosen once the new opacity is known.
-            Owner::Material if rule.property != "alphaMode" => remove(material, rule.property),
-            Owner::MetallicRoughness => {
+            PropertyOwner::Material if rule.property != "alphaMode" => remove(material, rule.property),
+            PropertyOwner::MetallicRoughness => {
                 if let Some(metallic_roughness) = material.get_mut(METALLIC_ROUGHNESS) {
                     remove(metallic_roughness, rule.property);
                 }
@@ -104,9 +104,9 @@ pub(super) fn changes(name: &str, before: &Json, after: &Json, keeps_look: bool)
     for rule in &RULES {
         let owner = |material: &'_ Json| -> Option<Json> {
             let owner = match rule.owner {
-                Owner::Material => material,
-                Owner::MetallicRoughness => material.get(METALLIC_ROUGHNESS)?,
-                Owner::Extensions | Owner::OtherExtensions | Owner::Primitive => return None,
+                PropertyOwner::Material => material,
+                PropertyOwner::MetallicRoughness => material.get(METALLIC_ROUGHNESS)?,
+                PropertyOwner::Extensions | PropertyOwner::OtherExtensions | PropertyOwner::Primitive => return None,
             };
             owner.get(rule.property).cloned()
         };

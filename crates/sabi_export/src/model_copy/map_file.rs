@@ -5,8 +5,8 @@ use std::sync::Arc;
 use sabi_image::{ImageError, PngData, PngOptions, encode_png};
 
 use crate::layout::SetLayout;
-use crate::preset::{Component, ComponentSource, Format, NormalY};
-use crate::{Channel, ChannelPixels, Value};
+use crate::preset::{Component, ComponentSource, MapFormat, NormalY};
+use crate::{Channel, ChannelPixels, ConstantValue};
 
 /// A map of a copied model.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub(crate) struct ChannelInput<'a> {
     pub(crate) name: &'a str,
     pub(crate) channel: &'a Channel,
     pub(crate) pixels: &'a ChannelPixels,
-    pub(crate) constant: Option<Value>,
+    pub(crate) constant: Option<ConstantValue>,
     /// The highest of each component over the owned pixels, 0 without any.
     pub(crate) high: [f32; 3],
     /// Highest value of all components, over all tiles of the material where its tiles share a scale.
@@ -43,7 +43,7 @@ pub(crate) struct WrittenMap {
     pub(crate) components: Vec<Component>,
     pub(crate) is_srgb: bool,
     pub(crate) is_dithered: bool,
-    pub(crate) format: Format,
+    pub(crate) format: MapFormat,
     /// True if it has the size of the bake.
     pub(crate) is_whole_size: bool,
     pub(crate) normal_y: NormalY,
@@ -58,7 +58,7 @@ impl ChannelInput<'_> {
         let is_same =
             |component: &Component, source: &ComponentSource| !component.is_inverted && component.source == *source;
         let found = self.written.iter().find(|map| {
-            map.format == Format::Png { bits: 8 }
+            map.format == MapFormat::Png { bits: 8 }
                 && (map.is_srgb, map.is_dithered) == (is_srgb, is_dithered)
                 && map.is_whole_size
                 && map.normal_y == NormalY::Up
@@ -100,13 +100,13 @@ fn whole(channel: &Channel) -> Vec<ComponentSource> {
 #[derive(Debug)]
 pub(super) enum CodedChannel {
     Codes(Vec<u8>),
-    Constant(Value),
+    Constant(ConstantValue),
 }
 
 impl CodedChannel {
     pub(super) fn number(&self) -> Option<f32> {
         match self {
-            CodedChannel::Constant(Value::Number(value)) => Some(*value),
+            CodedChannel::Constant(ConstantValue::Number(value)) => Some(*value),
             _ => None,
         }
     }
@@ -115,8 +115,8 @@ impl CodedChannel {
     pub(super) fn code(&self, pixel: usize) -> u8 {
         match self {
             CodedChannel::Codes(codes) => codes[pixel],
-            CodedChannel::Constant(Value::Number(value)) => sabi_image::quantize_u8(*value),
-            CodedChannel::Constant(Value::Triple(_)) => 0,
+            CodedChannel::Constant(ConstantValue::Number(value)) => sabi_image::quantize_u8(*value),
+            CodedChannel::Constant(ConstantValue::Triple(_)) => 0,
         }
     }
 }

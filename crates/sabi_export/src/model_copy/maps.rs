@@ -6,9 +6,9 @@ use sabi_image::ImageError;
 
 use super::finish_maps::{FinishCollector, FinishMaps};
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
-use crate::encode::{Codes, Encoding, Plane, codes_8, encode, planes};
-use crate::preset::{ComponentSource, Format};
-use crate::{Channel, ChannelPixels, SetKey, Value};
+use crate::encode::{CodeMapping, ComponentPlane, FileEncoding, codes_8, encode, planes};
+use crate::preset::{ComponentSource, MapFormat};
+use crate::{Channel, ChannelPixels, ConstantValue, SetKey};
 
 /// Factors and maps of a glTF material. A constant channel becomes a factor. Occlusion has no factor and is omitted if it is 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,19 +72,19 @@ pub(crate) struct MapCollector {
 }
 
 /// Maps of 8 bits at the size of a set.
-fn eight_bits(input: &ChannelInput<'_>, is_srgb: bool) -> Encoding {
-    Encoding {
+fn eight_bits(input: &ChannelInput<'_>, is_srgb: bool) -> FileEncoding {
+    FileEncoding {
         size: [input.layout.size; 2],
-        format: Format::Png { bits: 8 },
+        format: MapFormat::Png { bits: 8 },
         is_srgb,
     }
 }
 
 /// 8-bit codes of a channel.
 fn channel_codes(input: &ChannelInput<'_>, is_srgb: bool, is_dithered: bool) -> Vec<u8> {
-    let mut planes = planes(input.pixels, Codes::Unit);
+    let mut planes = planes(input.pixels, CodeMapping::Unit);
     for plane in planes.iter_mut().filter(|_| is_dithered) {
-        if let Plane::Channel { index, dither, .. } = plane {
+        if let ComponentPlane::Channel { index, dither, .. } = plane {
             *dither = Some(input.channel.dither_pattern(*index, input.dither_seed));
         }
     }
@@ -111,7 +111,7 @@ impl MapCollector {
                 let file = match input.written_plain(false, false) {
                     Some(file) => file,
                     None => {
-                        let planes = planes(input.pixels, Codes::Normal { is_down: false });
+                        let planes = planes(input.pixels, CodeMapping::Normal { is_down: false });
                         own_map(input, "normal_8bit", encode(&planes, eight_bits(input, false))?)
                     }
                 };
@@ -147,13 +147,13 @@ impl MapCollector {
         // If opacity varies, it is in the map, and its factor is 1.
         let mut factor = [1.0, 1.0, 1.0, alpha.unwrap_or(1.0)];
         let file = match (&color, alpha) {
-            (CodedChannel::Constant(Value::Triple(rgb)), Some(_)) => {
+            (CodedChannel::Constant(ConstantValue::Triple(rgb)), Some(_)) => {
                 factor[..3].copy_from_slice(rgb);
                 None
             }
             (CodedChannel::Constant(value), None) => {
                 // The map is white, so that the factor gives the exact color.
-                if let Value::Triple(rgb) = value {
+                if let ConstantValue::Triple(rgb) = value {
                     factor[..3].copy_from_slice(rgb);
                 }
                 Some(rgba(input, |_| [255; 3], opacity)?)
@@ -167,7 +167,7 @@ impl MapCollector {
                 Some(file) => file,
                 None => own_map(input, "base_color", png(input.layout.size, 3, codes, true)?),
             }),
-            (CodedChannel::Constant(Value::Number(_)), Some(_)) => None,
+            (CodedChannel::Constant(ConstantValue::Number(_)), Some(_)) => None,
         };
         let maps = self.of(input);
         maps.base_color_factor = factor.map(|value| value.clamp(0.0, 1.0));
@@ -217,15 +217,15 @@ impl MapCollector {
             None => input.peak.max(1.0),
         };
         let (factor, file) = match (input.constant, input.written_scaled(strength)) {
-            (Some(Value::Triple(rgb)), _) => (rgb.map(|value| value.max(0.0) / strength), None),
-            (Some(Value::Number(_)), _) => ([0.0; 3], None),
+            (Some(ConstantValue::Triple(rgb)), _) => (rgb.map(|value| value.max(0.0) / strength), None),
+            (Some(ConstantValue::Number(_)), _) => ([0.0; 3], None),
             (None, Some(file)) => ([1.0; 3], Some(file)),
             (None, None) => {
                 let part = ChannelPixels {
                     components: 3,
                     data: input.pixels.data.iter().map(|value| value / strength).collect(),
                 };
-                let bytes = encode(&planes(&part, Codes::Unit), eight_bits(input, true))?;
+                let bytes = encode(&planes(&part, CodeMapping::Unit), eight_bits(input, true))?;
                 ([1.0; 3], Some(own_map(input, "emission_up_to_1", bytes)))
             }
         };

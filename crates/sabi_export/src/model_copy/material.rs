@@ -8,7 +8,7 @@ use serde_json::{Value as Json, json};
 use super::container::Container;
 use super::edit::{TextureUse, push};
 use super::numbers::short;
-use super::pictures::media_type;
+use super::picture_slots::media_type;
 
 const NO_TRANSFORM: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
@@ -81,7 +81,7 @@ struct CopiedImage {
 }
 
 /// Textures of the model that a copy takes over.
-pub(super) struct Textures<'m> {
+pub(super) struct CopiedTextures<'m> {
     model: &'m Model,
     /// Images in the copy by image index of the model.
     images: BTreeMap<usize, CopiedImage>,
@@ -91,9 +91,9 @@ pub(super) struct Textures<'m> {
     unpacked: BTreeSet<usize>,
 }
 
-impl<'m> Textures<'m> {
-    pub(super) fn new(model: &'m Model) -> Textures<'m> {
-        Textures {
+impl<'m> CopiedTextures<'m> {
+    pub(super) fn new(model: &'m Model) -> CopiedTextures<'m> {
+        CopiedTextures {
             model,
             images: BTreeMap::new(),
             left_out: BTreeSet::new(),

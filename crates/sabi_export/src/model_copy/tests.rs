@@ -7,12 +7,12 @@ use serde_json::json;
 
 use super::*;
 
-mod embedded;
+mod embedded_files;
 mod faithful;
 mod file;
 mod geometry;
 mod looks;
-mod packed;
+mod packed_files;
 mod udim;
 
 /// Bytes that stand for a picture: only their place matters here.

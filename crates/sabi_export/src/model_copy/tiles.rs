@@ -12,14 +12,14 @@ const OVERREACH: f32 = 0.01;
 
 /// Tiles of the baked materials that have several.
 #[derive(Debug, Default)]
-pub(super) struct Tiles {
+pub(super) struct MaterialTiles {
     /// Sets by material, UDIM numbers rising.
     by_material: BTreeMap<u32, Vec<SetKey>>,
 }
 
-impl Tiles {
+impl MaterialTiles {
     /// Tiles of the baked sets.
-    pub(super) fn of(baked: &BTreeSet<SetKey>) -> Tiles {
+    pub(super) fn of(baked: &BTreeSet<SetKey>) -> MaterialTiles {
         let mut by_material: BTreeMap<u32, Vec<SetKey>> = BTreeMap::new();
         for key in baked.iter().filter(|key| key.udim.is_some()) {
             by_material.entry(key.material).or_default().push(*key);
@@ -27,7 +27,7 @@ impl Tiles {
         for keys in by_material.values_mut() {
             keys.sort_by_key(|key| key.udim);
         }
-        Tiles { by_material }
+        MaterialTiles { by_material }
     }
 
     /// Returns true if a material has a set for each of several tiles.
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn a_triangle_belongs_to_the_tile_of_its_middle_or_the_nearest_one_with_maps() {
-        let tiles = Tiles::of(&BTreeSet::from([
+        let tiles = MaterialTiles::of(&BTreeSet::from([
             key([0, -1], 1011),
             key([1, 0], 1002),
             key([0, 0], 1001),
@@ -165,6 +165,6 @@ mod tests {
                             tiles";
             assert!(warnings.iter().all(|warning| warning == sentence), "{warnings:?}");
         }
-        assert!(Tiles::default().of_triangle(&mesh([[0.0; 2]; 3]), 0).is_none());
+        assert!(MaterialTiles::default().of_triangle(&mesh([[0.0; 2]; 3]), 0).is_none());
     }
 }

@@ -9,7 +9,7 @@ pub(super) fn segments(
     tokens: &[(&str, Token)],
     words: &[(&str, Option<&str>)],
 ) -> Result<Vec<Segment>, String> {
-    let mut reader = Reader {
+    let mut reader = PatternReader {
         rest: text,
         tokens,
         words,
@@ -24,13 +24,13 @@ pub(super) fn segments(
 /// Most groups in each other.
 const MOST_GROUPS: usize = 16;
 
-struct Reader<'t, 'w> {
+struct PatternReader<'t, 'w> {
     rest: &'t str,
     tokens: &'w [(&'w str, Token)],
     words: &'w [(&'w str, Option<&'w str>)],
 }
 
-impl<'t> Reader<'t, '_> {
+impl<'t> PatternReader<'t, '_> {
     /// Reads to the end, or to the end of the group, which is in so many others and itself; 0 outside of groups.
     fn segments(&mut self, depth: usize) -> Result<Vec<Segment>, String> {
         if depth > MOST_GROUPS {

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Format;
+use super::MapFormat;
 
 /// Document with a material for each material of the model, which names the maps of a preset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Document {
+pub enum DocumentFormat {
     /// MaterialX with `gltf_pbr` and `open_pbr_surface`.
     MaterialX,
     /// USD as text, with UsdPreviewSurface.
@@ -16,40 +16,40 @@ pub enum Document {
     Usdz,
 }
 
-impl Document {
+impl DocumentFormat {
     /// Name in preset files and reports.
     pub fn name(self) -> &'static str {
         match self {
-            Document::MaterialX => "materialx",
-            Document::Usda => "usda",
-            Document::Usdz => "usdz",
+            DocumentFormat::MaterialX => "materialx",
+            DocumentFormat::Usda => "usda",
+            DocumentFormat::Usdz => "usdz",
         }
     }
 
     /// Ending of file names.
     pub fn ending(self) -> &'static str {
         match self {
-            Document::MaterialX => "mtlx",
-            Document::Usda => "usda",
-            Document::Usdz => "usdz",
+            DocumentFormat::MaterialX => "mtlx",
+            DocumentFormat::Usda => "usda",
+            DocumentFormat::Usdz => "usdz",
         }
     }
 
     /// Its content, in a line.
     pub fn about(self) -> &'static str {
         match self {
-            Document::MaterialX => "materials for gltf_pbr and open_pbr_surface",
-            Document::Usda => "materials for UsdPreviewSurface",
-            Document::Usdz => "the same with its PNG maps in one file",
+            DocumentFormat::MaterialX => "materials for gltf_pbr and open_pbr_surface",
+            DocumentFormat::Usda => "materials for UsdPreviewSurface",
+            DocumentFormat::Usdz => "the same with its PNG maps in one file",
         }
     }
 
     /// Returns true if the document may name maps of this format.
-    pub(crate) fn takes(self, format: Format) -> bool {
+    pub(crate) fn takes(self, format: MapFormat) -> bool {
         match self {
-            Document::MaterialX | Document::Usda => true,
+            DocumentFormat::MaterialX | DocumentFormat::Usda => true,
             // Readers of Apple take no OpenEXR, and the specification of USDZ no TGA.
-            Document::Usdz => matches!(format, Format::Png { .. }),
+            DocumentFormat::Usdz => matches!(format, MapFormat::Png { .. }),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Outputs of the graph in presets: the graph decides how many components each has.
 
-use super::{Component, ComponentSource, Content, Map, OutputPart, Preset, PresetError, When};
+use super::{Component, ComponentSource, Map, MapContent, OutputPart, Preset, PresetError, When};
 use crate::{Channel, OutputKind};
 
 impl Preset {
@@ -32,7 +32,7 @@ fn replace(map: &mut Map, outputs: &[Channel]) -> Result<(), String> {
     {
         *channel = named(name);
     }
-    let Content::Packed(components) = &mut map.content else {
+    let MapContent::Packed(components) = &mut map.content else {
         return Ok(());
     };
     for component in components {

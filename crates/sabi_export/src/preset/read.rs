@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::component::{channel, components};
-use super::{Component, ComponentSource, Content, Document, Format, Map, MapSize, NormalY, Preset, When};
+use super::{Component, ComponentSource, DocumentFormat, Map, MapContent, MapFormat, MapSize, NormalY, Preset, When};
 use crate::name_pattern::NamePattern;
 use crate::names::file_stem;
 use crate::{Channel, OutputKind};
@@ -37,7 +37,7 @@ struct PresetFile {
     normal_y: NormalText,
     names: Option<String>,
     #[serde(default)]
-    documents: Vec<Document>,
+    documents: Vec<DocumentFormat>,
     #[serde(default)]
     map: Vec<MapEntry>,
 }
@@ -176,7 +176,7 @@ fn preset(read: PresetFile) -> Result<Preset, String> {
 }
 
 /// Checks the documents of a preset with this direction of green.
-fn documents(documents: Vec<Document>, normal_y: NormalY) -> Result<Vec<Document>, String> {
+fn documents(documents: Vec<DocumentFormat>, normal_y: NormalY) -> Result<Vec<DocumentFormat>, String> {
     if !documents.is_empty() && normal_y == NormalY::Down {
         return Err(
             "its documents are read with green upward; set `normal_y` to \"+\", or leave `documents` out and put them \
@@ -201,8 +201,8 @@ fn twice(maps: &[Map]) -> Option<(&str, &'static str)> {
             map.name.to_lowercase(),
             map.format.ending(),
             match map.content {
-                Content::Every(kind) => Some(kind),
-                Content::Packed(_) => None,
+                MapContent::Every(kind) => Some(kind),
+                MapContent::Packed(_) => None,
             },
         )
     };
@@ -218,33 +218,33 @@ fn map(entry: MapEntry) -> Result<Map, String> {
         Some(_) if has_components(&entry) => {
             return Err("it packs outputs and names components as well; leave one of both out".to_owned());
         }
-        Some(outputs) => Content::Every(outputs.kind()),
-        None => Content::Packed(packed(&entry)?),
+        Some(outputs) => MapContent::Every(outputs.kind()),
+        None => MapContent::Packed(packed(&entry)?),
     };
     let name = match (entry.name, &content) {
-        (None, Content::Every(_)) => String::new(),
-        (Some(_), Content::Every(_)) => {
+        (None, MapContent::Every(_)) => String::new(),
+        (Some(_), MapContent::Every(_)) => {
             return Err("its files have the names of the outputs; leave `name` out".to_owned());
         }
-        (None, Content::Packed(_)) => return Err("it has no `name`, which file names need".to_owned()),
-        (Some(name), Content::Packed(_)) if name.is_empty() || file_stem(&name) != name => {
+        (None, MapContent::Packed(_)) => return Err("it has no `name`, which file names need".to_owned()),
+        (Some(name), MapContent::Packed(_)) if name.is_empty() || file_stem(&name) != name => {
             return Err(format!(
                 "`{name}` is no part of a file name; use letters, digits, '_' and '-'"
             ));
         }
-        (Some(name), Content::Packed(_)) => name,
+        (Some(name), MapContent::Packed(_)) => name,
     };
     let format = match entry.format {
-        FormatText::Png8 => Format::Png { bits: 8 },
-        FormatText::Png16 => Format::Png { bits: 16 },
-        FormatText::Tga => Format::Tga,
-        FormatText::Exr16 => Format::ExrHalf,
-        FormatText::Exr32 => Format::Exr,
+        FormatText::Png8 => MapFormat::Png { bits: 8 },
+        FormatText::Png16 => MapFormat::Png { bits: 16 },
+        FormatText::Tga => MapFormat::Tga,
+        FormatText::Exr16 => MapFormat::ExrHalf,
+        FormatText::Exr32 => MapFormat::Exr,
     };
     if entry.srgb && !format.is_whole() {
         return Err("OpenEXR files are linear; leave `srgb` out".to_owned());
     }
-    if matches!((&content, format), (Content::Packed(components), Format::Tga) if components.len() == 2) {
+    if matches!((&content, format), (MapContent::Packed(components), MapFormat::Tga) if components.len() == 2) {
         return Err("TGA files have one, three or four components".to_owned());
     }
     if entry.normalize && !is_of_one_range(&content) {
@@ -265,8 +265,8 @@ fn map(entry: MapEntry) -> Result<Map, String> {
 }
 
 /// Returns true for files of a channel that may exceed 0 to 1, alone and as it is.
-fn is_of_one_range(content: &Content) -> bool {
-    let Content::Packed(components) = content else {
+fn is_of_one_range(content: &MapContent) -> bool {
+    let MapContent::Packed(components) = content else {
         return false;
     };
     let first = components.first().map(|component| &component.source);

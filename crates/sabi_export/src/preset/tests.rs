@@ -16,8 +16,8 @@ fn every_preset_that_comes_with_sabi_is_read_under_its_own_name() {
 /// Words of the files of a preset with their components.
 fn packing(preset: &Preset) -> Vec<(String, String)> {
     let maps = preset.maps.iter().map(|map| match &map.content {
-        Content::Every(kind) => (kind.plural().to_owned(), map.format.ending().to_owned()),
-        Content::Packed(components) => {
+        MapContent::Every(kind) => (kind.plural().to_owned(), map.format.ending().to_owned()),
+        MapContent::Packed(components) => {
             let components: Vec<String> = components.iter().map(ToString::to_string).collect();
             (format!("{}.{}", map.name, map.format.ending()), components.join(", "))
         }
@@ -79,14 +79,17 @@ fn raw_has_the_promised_files() {
             "vectors"
         ]
     );
-    let floats: Vec<Format> = raw()
+    let floats: Vec<MapFormat> = raw()
         .unwrap()
         .maps
         .iter()
         .map(|map| map.format)
         .filter(|format| !format.is_whole())
         .collect();
-    assert_eq!(floats, [Format::Exr, Format::Exr, Format::ExrHalf, Format::Exr]);
+    assert_eq!(
+        floats,
+        [MapFormat::Exr, MapFormat::Exr, MapFormat::ExrHalf, MapFormat::Exr]
+    );
 }
 
 fn with_map(map: &str) -> String {
@@ -241,7 +244,7 @@ fn documents_are_read_and_need_green_upward() {
         Preset::parse("own.toml", &format!("{head}{keys}\n{map}"))
     };
     let read = with("documents = [\"usdz\", \"materialx\"]").unwrap();
-    assert_eq!(read.documents, [Document::Usdz, Document::MaterialX]);
+    assert_eq!(read.documents, [DocumentFormat::Usdz, DocumentFormat::MaterialX]);
     let told = |keys: &str| with(keys).unwrap_err().why;
     assert_eq!(
         told("normal_y = \"-\"\ndocuments = [\"usda\"]"),

@@ -4,8 +4,8 @@ use glam::{DMat3, DVec3, DVec4};
 use rayon::prelude::*;
 use sabi_surface::model::Mesh;
 
-use super::solve::{Compared, System};
-use super::{Footprint, Sample, SeamSamples};
+use super::solve::{ComparedRows, SeamSystem};
+use super::{Footprint, SeamSample, SeamSamples};
 use crate::ChannelPixels;
 
 /// Least cosine of the angle between the shading normals of both sides of a smooth edge: 2.6°. Hard edges stay visible.
@@ -69,22 +69,22 @@ impl SeamSamples {
     }
 
     /// None where there is nothing to erase: without seams, or of pixels that are no heights of the set.
-    fn heights(&self, pixels: &ChannelPixels) -> Option<System<'_, 1, 1>> {
+    fn heights(&self, pixels: &ChannelPixels) -> Option<SeamSystem<'_, 1, 1>> {
         if !self.holds(pixels, 1) {
             return None;
         }
-        let compare = |sample: &Sample| {
+        let compare = |sample: &SeamSample| {
             let [[one], [other]] = sample.sides.map(|side| self.read::<1>(&side, pixels));
             ([[[1.0]]; 2], [one - other])
         };
         Some(self.system(compare))
     }
 
-    fn normals(&self, mesh: &Mesh, pixels: &ChannelPixels) -> Option<System<'_, 3, 2>> {
+    fn normals(&self, mesh: &Mesh, pixels: &ChannelPixels) -> Option<SeamSystem<'_, 3, 2>> {
         if !self.holds(pixels, 3) {
             return None;
         }
-        let compare = |sample: &Sample| {
+        let compare = |sample: &SeamSample| {
             let frames = [0, 1].map(|side| self.frame(mesh, sample, side));
             let read = sample.sides.map(|side| DVec3::from(self.read::<3>(&side, pixels)));
             // Rows of zeros have no effect, so nothing is compared across a hard edge.
@@ -101,8 +101,8 @@ impl SeamSamples {
     /// Builds the system of all samples; those with values that are not finite have no effect.
     fn system<const N: usize, const K: usize>(
         &self,
-        compare: impl Fn(&Sample) -> Compared<N, K> + Sync,
-    ) -> System<'_, N, K> {
+        compare: impl Fn(&SeamSample) -> ComparedRows<N, K> + Sync,
+    ) -> SeamSystem<'_, N, K> {
         let compared = self.samples.par_iter().map(|sample| {
             let (rows, differences) = compare(sample);
             let sound = differences.iter().all(|x| x.is_finite())
@@ -113,7 +113,7 @@ impl SeamSamples {
             }
         });
         let (rows, differences) = compared.unzip();
-        System {
+        SeamSystem {
             samples: &self.samples,
             readers: &self.readers,
             rows,
@@ -139,7 +139,7 @@ impl SeamSamples {
     }
 
     /// Tangent, bitangent and normal of one side, interpolated without normalizing, as renderers decode with them.
-    fn frame(&self, mesh: &Mesh, sample: &Sample, side: usize) -> DMat3 {
+    fn frame(&self, mesh: &Mesh, sample: &SeamSample, side: usize) -> DMat3 {
         let [from, to] = self.seams[sample.seam as usize].vertices(mesh, side);
         let fraction = f64::from(sample.fraction);
         let between = |from: DVec3, to: DVec3| from * (1.0 - fraction) + to * fraction;
@@ -153,7 +153,7 @@ impl SeamSamples {
 
 /// Returns the difference of the decoded normals of two sides, perpendicular to their direction, and its derivative by the
 /// values read; `None` over a hard edge. The difference of the faces' own normals is subtracted.
-fn compared_normals(frames: [DMat3; 2], read: [DVec3; 2]) -> Option<Compared<3, 2>> {
+fn compared_normals(frames: [DMat3; 2], read: [DVec3; 2]) -> Option<ComparedRows<3, 2>> {
     let decoded = [frames[0] * read[0], frames[1] * read[1]];
     let faces = [unit(frames[0].z_axis)?, unit(frames[1].z_axis)?];
     let directions = [unit(decoded[0])?, unit(decoded[1])?];

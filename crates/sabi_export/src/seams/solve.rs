@@ -3,8 +3,8 @@
 
 use rayon::prelude::*;
 
-use super::Sample;
-use super::readers::Readers;
+use super::SeamSample;
+use super::footprint_places::FootprintPlaces;
 
 /// Weight of a squared change of a texel, relative to a squared difference over one texel of seam. A difference that is
 /// constant along the seam shrinks to this share of itself; one that varies from texel to texel shrinks less, since its
@@ -19,20 +19,20 @@ const PART: usize = if cfg!(test) { 16 } else { 1 << 12 };
 
 /// For each side of a sample the rows that map a footprint to the compared values, and the first side's values minus the
 /// second's.
-pub(super) type Compared<const N: usize, const K: usize> = ([[[f32; N]; K]; 2], [f64; K]);
+pub(super) type ComparedRows<const N: usize, const K: usize> = ([[[f32; N]; K]; 2], [f64; K]);
 
 /// Both sides of every sample, compared in `K` numbers; a texel has `N` values.
-pub(super) struct System<'a, const N: usize, const K: usize> {
-    pub(super) samples: &'a [Sample],
+pub(super) struct SeamSystem<'a, const N: usize, const K: usize> {
+    pub(super) samples: &'a [SeamSample],
     /// Samples of each texel.
-    pub(super) readers: &'a Readers,
+    pub(super) readers: &'a FootprintPlaces,
     /// The rows of each sample.
     pub(super) rows: Vec<[[[f32; N]; K]; 2]>,
     /// The differences of each sample as they are.
     pub(super) differences: Vec<[f64; K]>,
 }
 
-impl<const N: usize, const K: usize> System<'_, N, K> {
+impl<const N: usize, const K: usize> SeamSystem<'_, N, K> {
     /// Returns the mean of the squared differences along all seams that are compared.
     pub(super) fn mean_square(&self) -> f64 {
         let (mut sum, mut length) = (0.0, 0.0);

@@ -3,7 +3,7 @@
 use super::BakeWriter;
 use super::options::{NamedPreset, SetOptions};
 use crate::document::{self, DocumentMaterial, PresetFiles};
-use crate::preset::Document;
+use crate::preset::DocumentFormat;
 use crate::{Channel, DocumentRecord, ExportError, OutputRecord};
 
 /// Alignment of the files in a package, as the specification of USDZ has it.
@@ -57,7 +57,9 @@ impl BakeWriter {
                     .iter()
                     .filter_map(|material| lack(*document, &path, &preset.name, material));
                 // The text beside a package lacks less.
-                written.warnings.extend(lacks.filter(|_| *document != Document::Usdz));
+                written
+                    .warnings
+                    .extend(lacks.filter(|_| *document != DocumentFormat::Usdz));
                 written.documents.push(DocumentRecord {
                     blake3: self.hash(&path)?,
                     path,
@@ -76,17 +78,17 @@ impl BakeWriter {
     /// Stages a document; returns false if it is too large for its format.
     fn stage_document(
         &mut self,
-        document: Document,
+        document: DocumentFormat,
         path: &str,
         text: &str,
         materials: &[DocumentMaterial],
     ) -> Result<bool, ExportError> {
-        if document != Document::Usdz {
+        if document != DocumentFormat::Usdz {
             self.staged.stage(path, text.as_bytes())?;
             return Ok(true);
         }
         let members = document::usd_files(materials);
-        let first = format!("{}.{}", path.trim_end_matches(".usdz"), Document::Usda.ending());
+        let first = format!("{}.{}", path.trim_end_matches(".usdz"), DocumentFormat::Usda.ending());
         Ok(self
             .staged
             .stage_package(path, &first, text.as_bytes(), &members, PACKAGE_ALIGNMENT)?)
@@ -101,7 +103,7 @@ impl BakeWriter {
 }
 
 /// A sentence on the channels that vary and that no file of the preset gives to a document.
-fn lack(document: Document, path: &str, preset: &str, material: &DocumentMaterial) -> Option<String> {
+fn lack(document: DocumentFormat, path: &str, preset: &str, material: &DocumentMaterial) -> Option<String> {
     let missing: Vec<_> = document::lacking(document, material).map(Channel::name).collect();
     (!missing.is_empty()).then(|| {
         format!(

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::encode::{Codes, Encoding, Plane, encode};
+use crate::encode::{CodeMapping, ComponentPlane, FileEncoding, encode};
 use crate::encoded_files::{self, EncodedFiles};
-use crate::held::{HeldChannel, HeldSet, is_whole_size};
+use crate::held_channels::{HeldChannel, HeldSet, is_whole_size};
 use crate::model_copy::{MapFile, WrittenMap};
 use crate::preset::{Component, ComponentSource, Map, NormalY, Preset};
 use crate::resize::resized;
-use crate::{Channel, ChannelPixels, CutMap, EngineFormat, ExportError, MeshMap, OutputRecord, Value};
+use crate::{Channel, ChannelPixels, ConstantValue, CutMap, EngineFormat, ExportError, MeshMap, OutputRecord};
 
 /// The set of a file.
 #[derive(Clone, Copy, Debug)]
@@ -23,11 +23,11 @@ pub(super) struct FileSet<'a> {
 
 /// Values of the channel of a component.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Values<'a> {
+pub(super) enum ComponentValues<'a> {
     /// Those of its pixels.
     Pixels(&'a HeldChannel),
     /// One value everywhere.
-    Same(Value),
+    Same(ConstantValue),
 }
 
 /// A file that is to be written.
@@ -36,7 +36,7 @@ pub(super) struct WantedFile<'a> {
     pub(super) preset: &'a Preset,
     pub(super) name: String,
     /// Components with the values of their channels.
-    pub(super) sources: Vec<(Component, Values<'a>)>,
+    pub(super) sources: Vec<(Component, ComponentValues<'a>)>,
     /// Divisor of its values; 1 but for normalized ones above 1.
     pub(super) scale: f32,
 }
@@ -55,22 +55,22 @@ impl WantedFile<'_> {
         let fitted: Vec<Option<ChannelPixels>> = sources
             .iter()
             .map(|(_, values)| match values {
-                Values::Pixels(held) if !is_whole_size(map) => Some(resized(&held.pixels, set.size, size)),
+                ComponentValues::Pixels(held) if !is_whole_size(map) => Some(resized(&held.pixels, set.size, size)),
                 _ => None,
             })
             .collect();
-        let planes: Vec<Plane<'_>> = sources
+        let planes: Vec<ComponentPlane<'_>> = sources
             .iter()
             .zip(&fitted)
             .map(|((component, values), fitted)| match values {
-                Values::Pixels(held) => {
+                ComponentValues::Pixels(held) => {
                     let pixels = fitted.as_ref().unwrap_or(&held.pixels);
                     self.plane(component, held, pixels, dither_seed)
                 }
-                Values::Same(value) => Plane::Constant(self.code_of_value(component, *value)),
+                ComponentValues::Same(value) => ComponentPlane::Constant(self.code_of_value(component, *value)),
             })
             .collect();
-        let encoding = Encoding {
+        let encoding = FileEncoding {
             size,
             format: map.format,
             is_srgb: map.is_srgb,
@@ -79,7 +79,7 @@ impl WantedFile<'_> {
         let record = self.record(set, &bytes);
         let bytes = Arc::new(bytes);
         let file = keeps_bytes.then(|| self.written_map(bytes.clone()));
-        Ok((WrittenFile { record, file, was_kept }, bytes))
+        Ok((StagedMap { record, file, was_kept }, bytes))
     }
 
     /// Returns the values of its channel that the file cannot hold; `material` is the stem of its set.
@@ -88,12 +88,11 @@ impl WantedFile<'_> {
             let maps = self.preset.maps_of(channel);
             maps.into_iter().any(|map| !map.format.is_whole() || map.is_normalized)
         };
-        let cut = |(component, values): &(Component, Values<'_>)| match (&component.source, values) {
-            (ComponentSource::Channel(channel @ (Channel::Emission | Channel::Color(_)), _), Values::Pixels(held))
-                if held.is_above_one() && !is_held(channel) =>
-            {
-                Some((channel.clone(), held.peak))
-            }
+        let cut = |(component, values): &(Component, ComponentValues<'_>)| match (&component.source, values) {
+            (
+                ComponentSource::Channel(channel @ (Channel::Emission | Channel::Color(_)), _),
+                ComponentValues::Pixels(held),
+            ) if held.is_above_one() && !is_held(channel) => Some((channel.clone(), held.peak)),
             _ => None,
         };
         let (channel, peak) = self.sources.iter().find_map(cut)?;
@@ -128,8 +127,8 @@ impl WantedFile<'_> {
     /// The bytes of planes, and whether an earlier bake had encoded them.
     fn bytes(
         &self,
-        planes: &[Plane<'_>],
-        encoding: Encoding,
+        planes: &[ComponentPlane<'_>],
+        encoding: FileEncoding,
         kept: Option<&dyn EncodedFiles>,
     ) -> Result<(Vec<u8>, bool), ExportError> {
         let key = kept.map(|kept| (kept, encoded_files::key(planes, encoding)));
@@ -180,27 +179,29 @@ impl WantedFile<'_> {
         held: &HeldChannel,
         pixels: &'p ChannelPixels,
         dither_seed: u32,
-    ) -> Plane<'p> {
+    ) -> ComponentPlane<'p> {
         let (channel, index) = match &component.source {
-            ComponentSource::Constant(value) => return Plane::Constant(*value),
+            ComponentSource::Constant(value) => return ComponentPlane::Constant(*value),
             // None, once the preset has the outputs of the graph.
-            ComponentSource::Output(..) => return Plane::Constant(if component.is_inverted { 1.0 } else { 0.0 }),
+            ComponentSource::Output(..) => {
+                return ComponentPlane::Constant(if component.is_inverted { 1.0 } else { 0.0 });
+            }
             ComponentSource::Channel(channel, index) => (channel, *index),
         };
         let range = [held.low[0], held.high[0]];
-        Plane::Channel {
+        ComponentPlane::Channel {
             pixels,
             index,
             codes: match channel {
-                Channel::Normal => Codes::Normal {
+                Channel::Normal => CodeMapping::Normal {
                     is_down: self.preset.normal_y == NormalY::Down,
                 },
-                Channel::Height if self.map.is_normalized => Codes::Normalized(range),
-                Channel::Height => Codes::Range(range),
-                Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal) => Codes::Direction,
-                Channel::Mesh(MeshMap::Curvature) => Codes::Signed,
-                _ if self.scale > 1.0 => Codes::Scaled(self.scale),
-                _ => Codes::Unit,
+                Channel::Height if self.map.is_normalized => CodeMapping::Normalized(range),
+                Channel::Height => CodeMapping::Range(range),
+                Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal) => CodeMapping::Direction,
+                Channel::Mesh(MeshMap::Curvature) => CodeMapping::Signed,
+                _ if self.scale > 1.0 => CodeMapping::Scaled(self.scale),
+                _ => CodeMapping::Unit,
             },
             is_inverted: component.is_inverted,
             dither: self.map.is_dithered.then(|| channel.dither_pattern(index, dither_seed)),
@@ -209,7 +210,7 @@ impl WantedFile<'_> {
 
     /// A component of one value everywhere as files have it. A height is the whole range of its file; whole numbers, and
     /// normalized ones, count from its lowest.
-    fn code_of_value(&self, component: &Component, value: Value) -> f32 {
+    fn code_of_value(&self, component: &Component, value: ConstantValue) -> f32 {
         let (channel, index) = match &component.source {
             ComponentSource::Constant(value) => return *value,
             // None, once the preset has the outputs of the graph.
@@ -233,15 +234,15 @@ impl WantedFile<'_> {
 /// of a channel.
 pub(super) fn sources<'a>(
     components: &[Component],
-    values: impl Fn(&Channel) -> Values<'a>,
-) -> Vec<(Component, Values<'a>)> {
+    values: impl Fn(&Channel) -> ComponentValues<'a>,
+) -> Vec<(Component, ComponentValues<'a>)> {
     let source = |component: &Component| match &component.source {
         ComponentSource::Channel(channel, _) => (component.clone(), values(channel)),
         // None, once the preset has the outputs of the graph.
-        ComponentSource::Output(..) => (component.clone(), Values::Same(Value::Number(0.0))),
-        ComponentSource::Constant(value) => (component.clone(), Values::Same(Value::Number(*value))),
+        ComponentSource::Output(..) => (component.clone(), ComponentValues::Same(ConstantValue::Number(0.0))),
+        ComponentSource::Constant(value) => (component.clone(), ComponentValues::Same(ConstantValue::Number(*value))),
     };
-    let mut found: Vec<(Component, Values<'_>)> = components.iter().map(source).collect();
+    let mut found: Vec<(Component, ComponentValues<'_>)> = components.iter().map(source).collect();
     // Programs take a map with an alpha channel for one that is cut out.
     if let [_, _, _, (component, values)] = &found[..]
         && is_opaque(component, values)
@@ -252,18 +253,18 @@ pub(super) fn sources<'a>(
 }
 
 /// The values of a channel in a set: the neutral one where the material does not have it.
-pub(super) fn held_values<'a>(held: &'a HeldSet, channel: &Channel) -> Values<'a> {
+pub(super) fn held_values<'a>(held: &'a HeldSet, channel: &Channel) -> ComponentValues<'a> {
     match held.channel(channel) {
-        Some(held) => Values::Pixels(held),
-        None => Values::Same(Value::neutral(channel)),
+        Some(held) => ComponentValues::Pixels(held),
+        None => ComponentValues::Same(ConstantValue::neutral(channel)),
     }
 }
 
 /// A file with its bytes, before it is staged.
-pub(super) type EncodedFile = (WrittenFile, Arc<Vec<u8>>);
+pub(super) type EncodedFile = (StagedMap, Arc<Vec<u8>>);
 
 /// A file that was staged.
-pub(super) struct WrittenFile {
+pub(super) struct StagedMap {
     pub(super) record: OutputRecord,
     /// For the copy of the model, if one is made.
     pub(super) file: Option<WrittenMap>,
@@ -272,13 +273,13 @@ pub(super) struct WrittenFile {
 }
 
 /// Returns true if a component is an opacity of 1 everywhere.
-fn is_opaque(component: &Component, values: &Values<'_>) -> bool {
+fn is_opaque(component: &Component, values: &ComponentValues<'_>) -> bool {
     let constant = match values {
-        Values::Pixels(held) => held.constant,
-        Values::Same(value) => Some(*value),
+        ComponentValues::Pixels(held) => held.constant,
+        ComponentValues::Same(value) => Some(*value),
     };
     let is_opacity = matches!(component.source, ComponentSource::Channel(Channel::Opacity, _));
-    let is_one = |value: Value| match component.is_inverted {
+    let is_one = |value: ConstantValue| match component.is_inverted {
         true => 1.0 - value.component(0) >= 1.0,
         false => value.component(0) >= 1.0,
     };
@@ -286,7 +287,7 @@ fn is_opaque(component: &Component, values: &Values<'_>) -> bool {
 }
 
 /// The channel of a file that has one alone.
-fn single_channel<'s>(sources: &'s [(Component, Values<'_>)]) -> Option<&'s Channel> {
+fn single_channel<'s>(sources: &'s [(Component, ComponentValues<'_>)]) -> Option<&'s Channel> {
     let channel = |source: &'s (Component, _)| match &source.0.source {
         ComponentSource::Channel(channel, _) => Some(channel),
         ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
@@ -299,12 +300,12 @@ fn single_channel<'s>(sources: &'s [(Component, Values<'_>)]) -> Option<&'s Chan
 }
 
 /// Heights of the lowest and highest code, for heights in whole numbers.
-fn height_range(map: &Map, sources: &[(Component, Values<'_>)]) -> Option<[f32; 2]> {
+fn height_range(map: &Map, sources: &[(Component, ComponentValues<'_>)]) -> Option<[f32; 2]> {
     let is_height = |component: &Component| matches!(component.source, ComponentSource::Channel(Channel::Height, _));
     let (_, values) = sources.iter().find(|(component, _)| is_height(component))?;
     match values {
         _ if !(map.format.is_whole() || map.is_normalized) => None,
-        Values::Pixels(held) => Some([held.low[0], held.high[0]]),
-        Values::Same(value) => Some([value.component(0); 2]),
+        ComponentValues::Pixels(held) => Some([held.low[0], held.high[0]]),
+        ComponentValues::Same(value) => Some([value.component(0); 2]),
     }
 }

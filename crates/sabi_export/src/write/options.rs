@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::preset::{Content, Document, Preset, PresetError, raw};
+use crate::preset::{DocumentFormat, MapContent, Preset, PresetError, raw};
 use crate::{Channel, ExportError};
 
 /// A preset with the names that its files get.
@@ -51,7 +51,7 @@ impl SetOptions {
     }
 
     /// Name of a document of the bake; none if it writes no documents.
-    pub(super) fn document_name(&self, document: Document) -> Option<String> {
+    pub(super) fn document_name(&self, document: DocumentFormat) -> Option<String> {
         let stem = self.document_stem.as_ref()?;
         Some(format!("{stem}.{}", document.ending()))
     }
@@ -83,11 +83,11 @@ impl SetOptions {
             for NamedPreset { preset, names } in &self.presets {
                 for map in &preset.maps {
                     let words: Vec<Cow<'_, str>> = match map.content {
-                        Content::Every(kind) => {
+                        MapContent::Every(kind) => {
                             let its = outputs.iter().filter(|output| output.output_kind() == Some(kind));
                             its.map(Channel::name).collect()
                         }
-                        Content::Packed(_) => vec![map.name.as_str().into()],
+                        MapContent::Packed(_) => vec![map.name.as_str().into()],
                     };
                     for word in words {
                         let parts = NameParts {

@@ -11,7 +11,7 @@ mod losses;
 
 use crate::layout::{layouts, tests::atlas};
 use crate::preset::Preset;
-use crate::{Padding, PaddingMap, Value};
+use crate::{ConstantValue, Padding, PaddingMap};
 
 const SIZE: u32 = 32;
 
@@ -40,7 +40,11 @@ fn wavy(index: usize) -> f32 {
     (index as f32 * 0.37).sin() * 0.4 + 0.5
 }
 
-fn bake(folder: &Path, options: &SetOptions, channels: &[(Channel, ChannelPixels)]) -> (Vec<Written>, Committed) {
+fn bake(
+    folder: &Path,
+    options: &SetOptions,
+    channels: &[(Channel, ChannelPixels)],
+) -> (Vec<WrittenChannel>, CommittedBake) {
     let layout = layout();
     let mut writer = BakeWriter::create(folder).unwrap();
     let mut set = writer.set(&layout, "wood", options);
@@ -149,7 +153,7 @@ fn a_constant_channel_is_a_number_unless_all_maps_are_asked_for() {
     let flat = [(Channel::Roughness, pixels(&Channel::Roughness, |_| 0.7))];
     let (written, committed) = bake(folder.path(), &SetOptions::raw().unwrap(), &flat);
     assert!(written[0].outputs.is_empty() && committed.files.is_empty());
-    assert_eq!(written[0].constant.as_ref().unwrap().value, Value::Number(0.7));
+    assert_eq!(written[0].constant.as_ref().unwrap().value, ConstantValue::Number(0.7));
     let all = SetOptions {
         all_maps: true,
         ..SetOptions::raw().unwrap()

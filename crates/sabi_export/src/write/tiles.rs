@@ -4,13 +4,13 @@
 use std::collections::BTreeMap;
 
 use super::BakeWriter;
-use super::file::{FileSet, Values, WantedFile, sources};
+use super::file::{ComponentValues, FileSet, WantedFile, sources};
 use super::options::{NamedPreset, SetOptions};
 use crate::document::{FileFacts, SetFacts};
 use crate::layout::SetKey;
 use crate::name_pattern::NameParts;
-use crate::preset::{Content, Map, When};
-use crate::{Channel, ExportError, OutputRecord, Value};
+use crate::preset::{Map, MapContent, When};
+use crate::{Channel, ConstantValue, ExportError, OutputRecord};
 
 impl BakeWriter {
     /// Writes the maps that documents need and that some tiles lack.
@@ -65,15 +65,15 @@ impl BakeWriter {
         NamedPreset { preset, names }: &NamedPreset,
     ) -> Result<Option<OutputRecord>, ExportError> {
         let map = &preset.maps[index[1]];
-        let (Content::Packed(components), Some(set)) = (&map.content, self.facts.get_mut(&key)) else {
+        let (MapContent::Packed(components), Some(set)) = (&map.content, self.facts.get_mut(&key)) else {
             return Ok(None);
         };
         let material = set.name.clone();
         let values = |channel: &Channel| {
             let constant = set.constant(channel);
-            constant.unwrap_or_else(|| Value::neutral(channel))
+            constant.unwrap_or_else(|| ConstantValue::neutral(channel))
         };
-        let sources = sources(components, |channel| Values::Same(values(channel)));
+        let sources = sources(components, |channel| ComponentValues::Same(values(channel)));
         let file_set = FileSet {
             name: &material,
             udim: key.udim,

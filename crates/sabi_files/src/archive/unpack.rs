@@ -16,7 +16,7 @@ use zip::read::ZipFile;
 use super::error::ArchiveError;
 use super::names::{EntryNames, check};
 use super::{MOST_BYTES, MOST_ENTRIES};
-use crate::disk::{Disk, Step};
+use crate::disk::{Disk, DiskStep};
 use crate::error::{FileError, Operation, io_reason};
 use crate::temporary::{TemporaryFolder, is_temporary_name, sweep_folders, temporary_folder_in};
 use crate::whole::{Durability, create_folder, folder_of, sync_folder};
@@ -45,7 +45,7 @@ pub struct UnpackedArchive {
 }
 
 /// An entry as declared by the archive.
-struct Claim {
+struct DeclaredEntry {
     name: String,
     bytes: u64,
     is_folder: bool,
@@ -201,7 +201,7 @@ impl UnpackedArchive {
     fn write<R: Read + Seek>(
         &self,
         entry: &mut ZipFile<'_, R>,
-        claim: &Claim,
+        claim: &DeclaredEntry,
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<(), ArchiveError> {
         let path = self.temporary.path().join(&claim.name);
@@ -213,7 +213,7 @@ impl UnpackedArchive {
             _ => FileError::new(Operation::Write, &self.target.join(&claim.name), error).into(),
         };
         let open = || OpenOptions::new().write(true).create_new(true).open(&path);
-        let mut file = self.disk.step(Step::CreateFile, &path, open).map_err(refused)?;
+        let mut file = self.disk.step(DiskStep::CreateFile, &path, open).map_err(refused)?;
         let mut limited = entry.take(claim.bytes.saturating_add(1));
         let mut chunk = vec![0; claim.bytes.min(CHUNK - 1) as usize + 1];
         let mut written = 0;
@@ -236,7 +236,7 @@ impl UnpackedArchive {
             if read == 0 {
                 break;
             }
-            let written = self.disk.write(Step::Write, &path, &mut file, &chunk[..read]);
+            let written = self.disk.write(DiskStep::Write, &path, &mut file, &chunk[..read]);
             written.map_err(refused)?;
         }
         if written < claim.bytes {
@@ -294,13 +294,16 @@ impl UnpackedArchive {
         let open = || OpenOptions::new().write(true).open(&path);
         let synced = self
             .disk
-            .step(Step::Sync, &path, || open().and_then(|file| file.sync_all()));
+            .step(DiskStep::Sync, &path, || open().and_then(|file| file.sync_all()));
         synced.map_err(|error| FileError::new(Operation::Write, &self.target.join(name), error).into())
     }
 }
 
 /// Checks everything that an archive claims.
-fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>, accepts: Accepts<'_>) -> Result<Vec<Claim>, ArchiveError> {
+fn claims<R: Read + Seek>(
+    archive: &mut ZipArchive<R>,
+    accepts: Accepts<'_>,
+) -> Result<Vec<DeclaredEntry>, ArchiveError> {
     if archive.len() > MOST_ENTRIES {
         return Err(ArchiveError::TooMany(archive.len()));
     }
@@ -351,7 +354,7 @@ fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>, accepts: Accepts<'_>) -> 
             entry: claims.len(),
         });
         total = total.saturating_add(entry.size());
-        claims.push(Claim {
+        claims.push(DeclaredEntry {
             bytes: entry.size(),
             is_folder,
             name,

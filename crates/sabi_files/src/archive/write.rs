@@ -99,8 +99,8 @@ fn write_entries(
     let mut archive = ZipWriter::new(BufWriter::new(to));
     for ((name, content), size) in entries.iter().zip(sizes) {
         write_entry(&mut archive, name, content, *size, is_stopped).map_err(|failure| match failure {
-            Failure::Archive(error) => error,
-            Failure::Zip(error) => unmade(error),
+            EntryFailure::Archive(error) => error,
+            EntryFailure::Zip(error) => unmade(error),
         })?;
     }
     let finished = archive.finish().map_err(unmade)?;
@@ -116,20 +116,20 @@ fn refuse_existing(target: &Path, replaces: bool) -> Result<(), ArchiveError> {
 }
 
 /// Failure of one entry: an error of this crate, or of the zip writer.
-enum Failure {
+enum EntryFailure {
     Archive(ArchiveError),
     Zip(ZipError),
 }
 
-impl From<ArchiveError> for Failure {
-    fn from(error: ArchiveError) -> Failure {
-        Failure::Archive(error)
+impl From<ArchiveError> for EntryFailure {
+    fn from(error: ArchiveError) -> EntryFailure {
+        EntryFailure::Archive(error)
     }
 }
 
-impl From<ZipError> for Failure {
-    fn from(error: ZipError) -> Failure {
-        Failure::Zip(error)
+impl From<ZipError> for EntryFailure {
+    fn from(error: ZipError) -> EntryFailure {
+        EntryFailure::Zip(error)
     }
 }
 
@@ -139,7 +139,7 @@ fn write_entry<W: Write + Seek>(
     content: &EntryContent,
     size: u64,
     is_canceled: &dyn Fn() -> bool,
-) -> Result<(), Failure> {
+) -> Result<(), EntryFailure> {
     archive.start_file(name, options(name, size))?;
     match content {
         EntryContent::Bytes(bytes) => archive.write_all(bytes).map_err(ZipError::from)?,

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::{Fault, Step};
+use super::{DiskFault, DiskStep};
 
 /// Steps so far, and changes that have not reached the disk yet.
 #[derive(Debug, Default)]
 pub(super) struct Record {
     /// Fault, and the step at which it occurs.
-    fault: Option<(Fault, usize)>,
+    fault: Option<(DiskFault, usize)>,
     pub(super) steps: usize,
     pub(super) has_ended: bool,
     is_full: bool,
@@ -21,7 +21,7 @@ pub(super) struct Record {
 }
 
 impl Record {
-    pub(super) fn failing(fault: Fault, at: usize) -> Record {
+    pub(super) fn failing(fault: DiskFault, at: usize) -> Record {
         Record {
             fault: Some((fault, at)),
             ..Record::default()
@@ -30,23 +30,23 @@ impl Record {
 
     /// Returns whether the simulated process is going to end.
     pub(super) fn will_end(&self) -> bool {
-        self.fault.is_some_and(|(fault, _)| fault == Fault::End)
+        self.fault.is_some_and(|(fault, _)| fault == DiskFault::End)
     }
 
     /// Counts a step. Returns the error of the system if the step fails.
-    pub(super) fn begin(&mut self, step: Step) -> io::Result<()> {
+    pub(super) fn begin(&mut self, step: DiskStep) -> io::Result<()> {
         let at = self.steps;
         self.steps += 1;
-        let is_reached = |wanted: Fault| self.fault.is_some_and(|(fault, from)| fault == wanted && at >= from);
-        if is_reached(Fault::End) {
+        let is_reached = |wanted: DiskFault| self.fault.is_some_and(|(fault, from)| fault == wanted && at >= from);
+        if is_reached(DiskFault::End) {
             self.has_ended = true;
             return Err(io::Error::other("the process has ended"));
         }
-        if is_reached(Fault::Full) && step.takes_room() {
+        if is_reached(DiskFault::Full) && step.takes_room() {
             self.is_full = true;
             return Err(io::ErrorKind::StorageFull.into());
         }
-        if self.fault == Some((Fault::Refuse, at)) {
+        if self.fault == Some((DiskFault::Refuse, at)) {
             return Err(io::Error::other("the disk does not answer"));
         }
         Ok(())
@@ -61,22 +61,22 @@ impl Record {
     }
 
     /// Records a change.
-    pub(super) fn changed(&mut self, step: Step, path: &Path) {
+    pub(super) fn changed(&mut self, step: DiskStep, path: &Path) {
         let path = path.to_owned();
         match step {
-            Step::CreateFolder | Step::CreateFile => {
+            DiskStep::CreateFolder | DiskStep::CreateFile => {
                 self.unsynced_names.insert(path);
             }
             // Links have temporary names as well, whose loss does not matter. For renaming see `renamed`.
-            Step::CreateTemporary | Step::Link | Step::Rename => {}
-            Step::Write | Step::Append | Step::Shorten => {
+            DiskStep::CreateTemporary | DiskStep::Link | DiskStep::Rename => {}
+            DiskStep::Write | DiskStep::Append | DiskStep::Shorten => {
                 self.unsynced.insert(path);
             }
-            Step::Sync => {
+            DiskStep::Sync => {
                 self.unsynced.remove(&path);
             }
-            Step::SyncFolder => self.unsynced_names.retain(|name| name.parent() != Some(&path)),
-            Step::Remove => {
+            DiskStep::SyncFolder => self.unsynced_names.retain(|name| name.parent() != Some(&path)),
+            DiskStep::Remove => {
                 self.unsynced.remove(&path);
                 self.unsynced_names.remove(&path);
             }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::definitions::Definitions;
-use super::knobs::{self, Settings};
+use super::knobs::{self, KnobValues};
 use super::{FlatNode, FlattenError, NodeRef, Overrides};
 use crate::problem::{hint, listed, quoted};
 use crate::{Fit, GROUP_KIND, Graph, Node, NodeId, OutputRef, REROUTE_KIND, Value};
@@ -29,12 +29,12 @@ pub(super) struct Instance {
     /// Fit that replaces the fits of the groups inside.
     fit: Option<Fit>,
     muted: bool,
-    settings: Settings,
+    settings: KnobValues,
 }
 
 /// Result of expanding a node.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Expanded {
+pub(super) enum ExpandedNode {
     /// A node of the flat graph, by its number.
     Node(usize),
     /// A group instance, by its number.
@@ -52,7 +52,7 @@ pub(super) struct Expansion {
     /// Instance and id of each node of the flat graph.
     pub(super) origins: Vec<(usize, NodeId)>,
     /// Results of expanding, by instance and node id.
-    pub(super) expanded: BTreeMap<usize, BTreeMap<NodeId, Expanded>>,
+    pub(super) expanded: BTreeMap<usize, BTreeMap<NodeId, ExpandedNode>>,
     bytes: usize,
 }
 
@@ -88,7 +88,7 @@ impl Expansion {
         let (id, expanded) = self.expanded.get(&instance)?.get_key_value(id)?;
         let port = match expanded {
             // A link from an instance must name an output, but a preview of an instance shows the first output.
-            Expanded::Instance(inner) if wanted.port.is_none() => all
+            ExpandedNode::Instance(inner) if wanted.port.is_none() => all
                 .get(self.instances[*inner].definition)
                 .outputs
                 .keys()
@@ -114,7 +114,7 @@ impl Expansion {
             let expanded = match node.kind.as_str() {
                 REROUTE_KIND => {
                     check_inputs(&path, definition.graph, id, ["source"])?;
-                    Expanded::Reroute
+                    ExpandedNode::Reroute
                 }
                 GROUP_KIND => self.add_instance(all, number, id, node, path, &params)?,
                 _ => self.add_node(all, number, id, node, path, params)?,
@@ -145,7 +145,7 @@ impl Expansion {
         node: &Node,
         path: String,
         params: &BTreeMap<String, Value>,
-    ) -> Result<Expanded, FlattenError> {
+    ) -> Result<ExpandedNode, FlattenError> {
         let outer = &self.instances[number];
         let Some(&definition) = all.instances.get(&(outer.definition, id.clone())) else {
             return Err(FlattenError::GroupNotNamed {
@@ -182,7 +182,7 @@ impl Expansion {
             settings: knobs.settings,
         };
         self.instances.push(instance);
-        Ok(Expanded::Instance(self.instances.len() - 1))
+        Ok(ExpandedNode::Instance(self.instances.len() - 1))
     }
 
     fn add_node(
@@ -193,7 +193,7 @@ impl Expansion {
         node: &Node,
         path: String,
         params: BTreeMap<String, Value>,
-    ) -> Result<Expanded, FlattenError> {
+    ) -> Result<ExpandedNode, FlattenError> {
         let outer = &self.instances[number];
         let definition = all.get(outer.definition);
         let (kind, version) = kind_and_version(&path, &node.kind)?;
@@ -210,7 +210,7 @@ impl Expansion {
             file: definition.file.map(str::to_owned),
         });
         self.origins.push((number, id.clone()));
-        Ok(Expanded::Node(self.nodes.len() - 1))
+        Ok(ExpandedNode::Node(self.nodes.len() - 1))
     }
 }
 

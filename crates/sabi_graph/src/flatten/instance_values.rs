@@ -16,34 +16,34 @@ type ReadShared<'a> = &'a mut dyn FnMut(&str) -> Option<Arc<Document>>;
 
 /// File that an instance is in.
 #[derive(Clone)]
-enum File {
+enum InstanceFile {
     /// The document itself.
     Own,
     /// A group file, with its path relative to the document.
     Group(String, Arc<Document>),
 }
 
-impl File {
+impl InstanceFile {
     fn document<'d>(&'d self, own: &'d Document) -> &'d Document {
         match self {
-            File::Own => own,
-            File::Group(_, document) => document,
+            InstanceFile::Own => own,
+            InstanceFile::Group(_, document) => document,
         }
     }
 
     /// The file that defines the group of an instance in this file, and whether the group is one within it; otherwise it is the
     /// whole file.
-    fn defining(&self, own: &Document, group: &str, read: ReadShared<'_>) -> Option<(File, bool)> {
+    fn defining(&self, own: &Document, group: &str, read: ReadShared<'_>) -> Option<(InstanceFile, bool)> {
         if self.document(own).groups.contains_key(group) {
             return Some((self.clone(), true));
         }
         let base = match self {
-            File::Own => "",
-            File::Group(path, _) => path,
+            InstanceFile::Own => "",
+            InstanceFile::Group(path, _) => path,
         };
         let path = Some(resolve(base, group)).filter(|_| is_group_file(group))?;
         let document = read(&path)?;
-        Some((File::Group(path, document), false))
+        Some((InstanceFile::Group(path, document), false))
     }
 }
 
@@ -59,7 +59,7 @@ pub fn takes_values(
     params: &BTreeMap<String, Value>,
     read: &mut dyn FnMut(&str) -> Option<Arc<Document>>,
 ) -> bool {
-    let mut open = vec![(File::Own, group.to_owned(), params.clone())];
+    let mut open = vec![(InstanceFile::Own, group.to_owned(), params.clone())];
     let mut count = 0;
     while let Some((user, name, params)) = open.pop() {
         count += 1;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{FlattenError, Overrides};
-use crate::graph::Exposed;
+use crate::graph::ExposedParameter;
 use crate::problem::{Problem, hint, listed, quoted};
 use crate::value::number_text;
 use crate::{Fit, Graph, SlotRef, Value};
@@ -15,13 +15,13 @@ pub const INSTANCE_KNOBS: [&str; 4] = ["fit", "scale", "seed", "variant"];
 const AS_MADE: &str = "as_made";
 
 /// Parameters that knobs set, in order. Later entries win.
-pub(super) type Settings = Vec<(SlotRef, Value)>;
+pub(super) type KnobValues = Vec<(SlotRef, Value)>;
 
 /// The exposed knobs of a graph with the settings made so far. `of` describes the graph in messages: empty, or ` of "instance"`.
 pub(super) struct ExposedSettings<'a> {
     graph: &'a Graph,
     of: String,
-    settings: Settings,
+    settings: KnobValues,
 }
 
 impl<'a> ExposedSettings<'a> {
@@ -49,7 +49,7 @@ impl<'a> ExposedSettings<'a> {
     }
 
     /// Settings in the order in which they were made.
-    pub(super) fn into_settings(self) -> Settings {
+    pub(super) fn into_settings(self) -> KnobValues {
         self.settings
     }
 
@@ -63,7 +63,7 @@ impl<'a> ExposedSettings<'a> {
         })
     }
 
-    fn set_knob(&mut self, name: &str, knob: &Exposed, value: &Value) -> Result<(), FlattenError> {
+    fn set_knob(&mut self, name: &str, knob: &ExposedParameter, value: &Value) -> Result<(), FlattenError> {
         if let Some(range) = knob.range {
             self.check_range(name, range, value)?;
         }
@@ -104,7 +104,7 @@ impl<'a> ExposedSettings<'a> {
 }
 
 /// Settings of the overrides in the main graph.
-pub(super) fn of_overrides(graph: &Graph, overrides: &Overrides) -> Result<Settings, FlattenError> {
+pub(super) fn of_overrides(graph: &Graph, overrides: &Overrides) -> Result<KnobValues, FlattenError> {
     let mut exposed = ExposedSettings::new(graph, String::new(), overrides.variant.as_deref())?;
     for (name, value) in &overrides.set {
         let bad = || Problem::BadValue { name: quoted(name) };
@@ -140,7 +140,7 @@ fn no_such_knob(graph: &Graph, name: &str) -> FlattenError {
 
 /// Settings that a group instance makes inside its group.
 pub(super) struct InstanceKnobs {
-    pub(super) settings: Settings,
+    pub(super) settings: KnobValues,
     /// 0 when not set.
     pub(super) seed: u32,
     /// 1 when not set.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::definitions::{Definition, Definitions};
-use super::expand::{Expanded, Expansion};
+use super::expand::{ExpandedNode, Expansion};
 use super::{FlatRef, FlattenError};
 use crate::problem::{hint, listed, quoted};
 use crate::{NodeId, OutputRef};
@@ -86,17 +86,17 @@ impl<'a> Tracer<'a> {
         let found = loop {
             match self.expanded(instance, &from.node) {
                 None => break None,
-                Some(Expanded::Node(node)) => {
+                Some(ExpandedNode::Node(node)) => {
                     break Some(FlatRef {
                         node,
                         port: from.port.clone(),
                     });
                 }
-                Some(Expanded::Instance(inner)) => {
+                Some(ExpandedNode::Instance(inner)) => {
                     from = self.output(instance, inner, from)?;
                     instance = inner;
                 }
-                Some(Expanded::Reroute) => {
+                Some(ExpandedNode::Reroute) => {
                     if let Some(port) = &from.port {
                         let node = quoted(&self.path(instance, &from.node));
                         return Err(FlattenError::ReroutePort {
@@ -120,7 +120,7 @@ impl<'a> Tracer<'a> {
         Ok(found)
     }
 
-    fn expanded(&self, instance: usize, id: &NodeId) -> Option<Expanded> {
+    fn expanded(&self, instance: usize, id: &NodeId) -> Option<ExpandedNode> {
         self.expansion.expanded.get(&instance)?.get(id).copied()
     }
 

@@ -1,8 +1,8 @@
 //! The JSON schema of graph files.
 
-use super::{Key, OBJECTS, ObjectKeys, Shape};
+use super::{OBJECTS, ObjectKey, ObjectKeys, ValueShape};
 use crate::Value;
-use crate::layout::{Item, OrderedObject};
+use crate::layout::{LayoutItem, OrderedObject};
 use crate::migrate::NEWEST;
 
 /// Object of a graph file with its keys, for documentation.
@@ -31,7 +31,7 @@ pub struct FormatKey {
 
 /// Lists the objects of a graph file, the file itself first.
 pub fn format_objects() -> Vec<FormatObject> {
-    let key = |key: &Key| FormatKey {
+    let key = |key: &ObjectKey| FormatKey {
         name: key.name,
         value: words(&key.value),
         is_needed: key.is_needed,
@@ -46,25 +46,25 @@ pub fn format_objects() -> Vec<FormatObject> {
 }
 
 /// Describes a shape in words.
-fn words(shape: &Shape) -> String {
+fn words(shape: &ValueShape) -> String {
     match shape {
-        Shape::Word(word) => format!("`\"{word}\"`"),
-        Shape::Words(words) => {
+        ValueShape::Word(word) => format!("`\"{word}\"`"),
+        ValueShape::Words(words) => {
             let words: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
             words.join(", ")
         }
-        Shape::Text | Shape::Reference => "text".to_owned(),
-        Shape::Texts | Shape::References => "list of texts".to_owned(),
-        Shape::Flag => "true or false".to_owned(),
-        Shape::Whole | Shape::Version => "whole number".to_owned(),
-        Shape::Number => "number".to_owned(),
-        Shape::Numbers(count) => format!("list of {count} numbers"),
-        Shape::Fit => "text or number".to_owned(),
-        Shape::Any => "any".to_owned(),
-        Shape::Curve => "list of points".to_owned(),
-        Shape::Object(keys) => format!("object: {}", keys.name),
-        Shape::Objects(keys) => format!("object by name: {}", keys.name),
-        Shape::Map(of) => format!("object by name: {}", words(of)),
+        ValueShape::Text | ValueShape::Reference => "text".to_owned(),
+        ValueShape::Texts | ValueShape::References => "list of texts".to_owned(),
+        ValueShape::Flag => "true or false".to_owned(),
+        ValueShape::Whole | ValueShape::Version => "whole number".to_owned(),
+        ValueShape::Number => "number".to_owned(),
+        ValueShape::Numbers(count) => format!("list of {count} numbers"),
+        ValueShape::Fit => "text or number".to_owned(),
+        ValueShape::Any => "any".to_owned(),
+        ValueShape::Curve => "list of points".to_owned(),
+        ValueShape::Object(keys) => format!("object: {}", keys.name),
+        ValueShape::Objects(keys) => format!("object by name: {}", keys.name),
+        ValueShape::Map(of) => format!("object by name: {}", words(of)),
     }
 }
 
@@ -111,46 +111,46 @@ fn object_schema(object: &ObjectKeys) -> OrderedObject {
     schema
 }
 
-fn shape_schema(shape: &Shape) -> OrderedObject {
+fn shape_schema(shape: &ValueShape) -> OrderedObject {
     let mut schema = OrderedObject::default();
     match shape {
-        Shape::Word(word) => schema.put("const", *word),
-        Shape::Words(words) => schema.put("enum", words.to_vec()),
-        Shape::Text => schema.put("type", "string"),
-        Shape::Reference => {
+        ValueShape::Word(word) => schema.put("const", *word),
+        ValueShape::Words(words) => schema.put("enum", words.to_vec()),
+        ValueShape::Text => schema.put("type", "string"),
+        ValueShape::Reference => {
             schema.put("type", "string");
             schema.put("pattern", "^[a-z0-9_]{1,64}(\\.[^./]{1,64})?$");
         }
-        Shape::Texts => list(&mut schema, shape_schema(&Shape::Text)),
-        Shape::References => {
-            let mut slot = shape_schema(&Shape::Text);
+        ValueShape::Texts => list(&mut schema, shape_schema(&ValueShape::Text)),
+        ValueShape::References => {
+            let mut slot = shape_schema(&ValueShape::Text);
             slot.put("pattern", "^[a-z0-9_]{1,64}\\.[^./]{1,64}$");
             list(&mut schema, slot);
         }
-        Shape::Flag => schema.put("type", "boolean"),
-        Shape::Whole => whole(&mut schema, u32::MAX),
-        Shape::Version => schema.put("const", NEWEST),
-        Shape::Number => schema.put("type", "number"),
-        Shape::Numbers(count) => {
-            list(&mut schema, shape_schema(&Shape::Number));
+        ValueShape::Flag => schema.put("type", "boolean"),
+        ValueShape::Whole => whole(&mut schema, u32::MAX),
+        ValueShape::Version => schema.put("const", NEWEST),
+        ValueShape::Number => schema.put("type", "number"),
+        ValueShape::Numbers(count) => {
+            list(&mut schema, shape_schema(&ValueShape::Number));
             let count = *count as u32;
             schema.put("minItems", count);
             schema.put("maxItems", count);
         }
-        Shape::Fit => {
+        ValueShape::Fit => {
             let words = Value::Object([("enum".to_owned(), vec!["unit", "metres", "piece"].into())].into());
             let length = [("type", "number".into()), ("exclusiveMinimum", 0u32.into())];
             let length = Value::Object(length.map(|(key, value)| (key.to_owned(), value)).into());
             schema.put("anyOf", Value::List(vec![words, length]));
         }
-        Shape::Any => {}
-        Shape::Curve => {
-            list(&mut schema, shape_schema(&Shape::Numbers(2)));
+        ValueShape::Any => {}
+        ValueShape::Curve => {
+            list(&mut schema, shape_schema(&ValueShape::Numbers(2)));
             schema.put("minItems", 2u32);
         }
-        Shape::Object(keys) => schema.put("$ref", reference(keys)),
-        Shape::Objects(keys) => by_name(&mut schema, shape_schema(&Shape::Object(keys))),
-        Shape::Map(of) => by_name(&mut schema, shape_schema(of)),
+        ValueShape::Object(keys) => schema.put("$ref", reference(keys)),
+        ValueShape::Objects(keys) => by_name(&mut schema, shape_schema(&ValueShape::Object(keys))),
+        ValueShape::Map(of) => by_name(&mut schema, shape_schema(of)),
     }
     schema
 }
@@ -162,7 +162,7 @@ fn by_name(schema: &mut OrderedObject, values: OrderedObject) {
 
 fn list(schema: &mut OrderedObject, items: OrderedObject) {
     schema.put("type", "array");
-    schema.push("items".to_owned(), Item::Object(items));
+    schema.push("items".to_owned(), LayoutItem::Object(items));
 }
 
 fn whole(schema: &mut OrderedObject, highest: u32) {

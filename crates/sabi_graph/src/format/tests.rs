@@ -94,7 +94,7 @@ fn every_known_key_is_read_and_every_other_one_is_kept() {
     let members = saved.matches("\": ").count();
     for object in OBJECTS {
         for key in object.keys {
-            let is_empty = matches!(key.value, Shape::Map(_) | Shape::Objects(_))
+            let is_empty = matches!(key.value, ValueShape::Map(_) | ValueShape::Objects(_))
                 && text.contains(&format!("\"{}\": {{}}", key.name));
             assert!(
                 is_empty || saved.contains(&format!("\"{}\":", key.name)),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{DOCUMENT, Key, ObjectKeys, Shape};
+use super::{DOCUMENT, ObjectKey, ObjectKeys, ValueShape};
 use crate::json::{Json, Tree, parse};
 use crate::migrate::to_newest;
 use crate::problem::{listed, quoted};
@@ -101,10 +101,10 @@ impl Search<'_> {
         }
     }
 
-    fn value(&mut self, json: &Json, key: &'static Key, place: &str, of: &str) {
+    fn value(&mut self, json: &Json, key: &'static ObjectKey, place: &str, of: &str) {
         match (&key.value, &json.tree) {
-            (Shape::Object(keys), _) => self.object(json, keys, &format!("\"{}\" of {place}", key.name), of),
-            (Shape::Objects(keys), Tree::Object(members)) => {
+            (ValueShape::Object(keys), _) => self.object(json, keys, &format!("\"{}\" of {place}", key.name), of),
+            (ValueShape::Objects(keys), Tree::Object(members)) => {
                 for member in members {
                     let place = format!("{} {}{of}", keys.name, quoted(&member.key));
                     let of = match keys.name {

@@ -6,7 +6,7 @@ use super::fields::{Fields, text, value};
 use crate::document::GroupInput;
 use crate::file_error::ReadError;
 use crate::format;
-use crate::graph::{Exposed, Frame};
+use crate::graph::{ExposedParameter, Frame};
 use crate::id_text::check_port_name;
 use crate::json::{Json, Member, Tree};
 use crate::name::{NOT_IN_KNOBS, check_name};
@@ -17,21 +17,21 @@ use crate::{Graph, KnobCurve, Node, NodeDisplay, NodeId, NodeRows, Note, OutputR
 /// Width of a note whose file does not give one, in canvas points.
 const NOTE_WIDTH: f64 = 240.0;
 
-pub(super) struct Body {
+pub(super) struct BodyContent {
     pub(super) graph: Graph,
     pub(super) inputs: BTreeMap<String, GroupInput>,
     pub(super) outputs: BTreeMap<String, OutputRef>,
 }
 
 /// A link and its offset in the text.
-struct Link {
+struct ReadLink {
     at: usize,
     reader: NodeId,
     input: String,
     from: OutputRef,
 }
 
-pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<Body, ReadError> {
+pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<BodyContent, ReadError> {
     let mut graph = Graph::default();
     read_nodes(&mut graph, fields, group_names)?;
     for member in fields.map("exposed")? {
@@ -54,7 +54,7 @@ pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> 
     }
     let inputs = read_inputs(&graph, fields.map("inputs")?)?;
     let outputs = read_outputs(&graph, fields.map("outputs")?)?;
-    Ok(Body { graph, inputs, outputs })
+    Ok(BodyContent { graph, inputs, outputs })
 }
 
 /// Returns a function that adds an offset in the text to a problem.
@@ -76,7 +76,7 @@ fn read_nodes(graph: &mut Graph, fields: &mut Fields, group_names: &BTreeSet<Str
             .map_err(|problem| link_error(link, problem))?;
     }
     graph.check_order().map_err(|problem| {
-        let closes = |link: &&Link| match &problem {
+        let closes = |link: &&ReadLink| match &problem {
             Problem::Cycle { nodes } => nodes.first() == Some(&link.reader) && nodes.last() == Some(&link.from.node),
             _ => false,
         };
@@ -87,14 +87,14 @@ fn read_nodes(graph: &mut Graph, fields: &mut Fields, group_names: &BTreeSet<Str
     })
 }
 
-fn link_error(link: &Link, problem: Problem) -> ReadError {
+fn link_error(link: &ReadLink, problem: Problem) -> ReadError {
     ReadError::new(link.at, problem)
         .in_node(link.reader.as_str())
         .in_port(&link.input)
 }
 
 /// Reads a node without its links, which are appended to `links`.
-fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec<Link>) -> Result<Node, ReadError> {
+fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec<ReadLink>) -> Result<Node, ReadError> {
     let begin = json.at;
     let mut fields = Fields::of(json, "nodes", &format::NODE)?;
     let kind_json = fields
@@ -123,7 +123,7 @@ fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec
         check_port_name(&member.key).map_err(at(member.key_at))?;
         let from_at = member.value.at;
         let from = text(member.value, &member.key).map_err(in_port)?;
-        links.push(Link {
+        links.push(ReadLink {
             at: from_at,
             reader: id.clone(),
             from: from.parse().map_err(at(from_at)).map_err(in_port)?,
@@ -155,10 +155,10 @@ fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, ReadEr
     Ok(slots)
 }
 
-fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, ReadError> {
+fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<ExposedParameter, ReadError> {
     let begin = json.at;
     let mut fields = Fields::of(json, "exposed", &format::EXPOSED)?;
-    let knob = Exposed {
+    let knob = ExposedParameter {
         to: read_slots(graph, &mut fields)?,
         curves: read_curves(fields.map("curves")?)?,
         label: fields.text("label")?,

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::random::{a_document, an_edit};
 use super::{config, document};
-use crate::{Body, Document, Edit, EditError, Exposed, Fit, GroupDef, History, Node, NodeId, UNDO_STEPS};
+use crate::{Body, Document, Edit, EditError, ExposedParameter, Fit, GroupDef, History, Node, NodeId, UNDO_STEPS};
 
 fn id(text: &str) -> NodeId {
     text.parse().unwrap()
@@ -99,9 +99,9 @@ fn values_that_no_file_can_hold_are_refused() {
     let knob = |range| Edit::Expose {
         body: MAIN,
         name: "k".to_owned(),
-        knob: Exposed {
+        knob: ExposedParameter {
             range: Some(range),
-            ..Exposed::default()
+            ..ExposedParameter::default()
         },
     };
     for (edit, text) in [

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 
 use crate::document::{Fit, GroupDef, GroupInput, Preview, SavedView};
-use crate::graph::{Exposed, Frame};
+use crate::graph::{ExposedParameter, Frame};
 use crate::{
     Body, Document, Edit, GROUP_KIND, KnobCurve, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType,
     SlotRef, Value,
@@ -130,7 +130,7 @@ fn a_view() -> impl Strategy<Value = SavedView> {
     )
 }
 
-fn a_knob() -> impl Strategy<Value = Exposed> {
+fn a_knob() -> impl Strategy<Value = ExposedParameter> {
     let range = prop::option::of((-10.0..0.0f64, 0.0..10.0f64).prop_map(|(low, high)| [low, high]));
     let words = (prop::option::of(any::<String>()), prop::option::of(any::<String>()));
     let heights = prop::collection::vec(a_number(), 2..5);
@@ -143,7 +143,7 @@ fn a_knob() -> impl Strategy<Value = Exposed> {
             // A knob with curves has a number as its default.
             let curve = points.filter(|_| default.as_ref().and_then(Value::as_number).is_some());
             let curve = curve.and_then(|points| KnobCurve::new(points.collect()));
-            Exposed {
+            ExposedParameter {
                 curves: to.first().cloned().zip(curve).into_iter().collect(),
                 to,
                 label,

@@ -9,8 +9,8 @@ mod tests;
 use sabi_color::srgb8_from_linear;
 use sabi_graph::{Value, canonical_number};
 
-use super::written::UNUSED_STOP;
-use super::{Memory, ParamValue, Role, Written, WrittenStop};
+use super::written_value::UNUSED_STOP;
+use super::{Memory, ParamValue, Role, WrittenStop, WrittenValue};
 use crate::color::typed_color;
 
 /// Type of a parameter's values, shared by the planner, the catalog, the command line and the editor.
@@ -80,8 +80,8 @@ impl ParamType {
     }
 
     /// Returns a value as artists see it; `None` if it does not have the right form. Ranges are not checked.
-    pub fn written<'v>(&self, value: &'v Value) -> Option<Written<'v>> {
-        Written::read(&self.role, self.memory, value)
+    pub fn written<'v>(&self, value: &'v Value) -> Option<WrittenValue<'v>> {
+        WrittenValue::read(&self.role, self.memory, value)
     }
 
     /// Reads a value of a graph file. The error is the text of [`ParamType::expectation`].
@@ -105,10 +105,10 @@ impl ParamType {
         let value = match self.role {
             Role::Toggle => toggle(text).map(Value::Bool),
             Role::Choice(_) | Role::Text | Role::File => Some(Value::Text(text.to_owned())),
-            Role::Color => typed_color(text).map(|color| Written::Color(color).to_value()),
+            Role::Color => typed_color(text).map(|color| WrittenValue::Color(color).to_value()),
             Role::Plain | Role::Length | Role::Angle | Role::Seed if !text.starts_with('[') => {
                 let numbers: Option<Vec<f64>> = text.split(',').map(|part| finite(part.trim())).collect();
-                numbers.map(|numbers| Written::Numbers(numbers).to_value())
+                numbers.map(|numbers| WrittenValue::Numbers(numbers).to_value())
             }
             _ => Value::from_json(text),
         };
@@ -168,13 +168,13 @@ impl ParamType {
 fn write(role: &Role, value: &ParamValue) -> Value {
     match (role, value) {
         (Role::Choice(words), ParamValue::Unsigned(index)) => match words.get(*index as usize) {
-            Some(word) => Written::Text(word).to_value(),
+            Some(word) => WrittenValue::Text(word).to_value(),
             // No kind has such a default; writing the index makes the mistake visible.
             None => Value::Number(f64::from(*index)),
         },
         (Role::Toggle, ParamValue::Unsigned(on)) => Value::Bool(*on != 0),
         (Role::Color, ParamValue::Floats(floats)) => match floats.as_slice() {
-            [r, g, b] => Written::Color([*r, *g, *b].map(srgb8_from_linear)).to_value(),
+            [r, g, b] => WrittenValue::Color([*r, *g, *b].map(srgb8_from_linear)).to_value(),
             floats => numbers(floats).to_value(),
         },
         (Role::Stops, ParamValue::Floats(floats)) => {
@@ -184,12 +184,12 @@ fn write(role: &Role, value: &ParamValue) -> Value {
                 position: shortest_decimal(*position),
                 color: [*r, *g, *b].map(srgb8_from_linear),
             };
-            Written::Stops(used.map(stop).collect()).to_value()
+            WrittenValue::Stops(used.map(stop).collect()).to_value()
         }
         (Role::Curve, ParamValue::Floats(floats)) => {
             let (points, _) = floats.as_chunks::<4>();
             let used = points.iter().filter(|[.., is_used]| *is_used > 0.0);
-            Written::Points(
+            WrittenValue::Points(
                 used.map(|[x, y, ..]| [shortest_decimal(*x), shortest_decimal(*y)])
                     .collect(),
             )
@@ -198,12 +198,12 @@ fn write(role: &Role, value: &ParamValue) -> Value {
         (_, ParamValue::Floats(floats)) => numbers(floats).to_value(),
         (_, ParamValue::Unsigned(whole)) => Value::Number(f64::from(*whole)),
         (_, ParamValue::Signed(whole)) => Value::Number(f64::from(*whole)),
-        (_, ParamValue::Text(text)) => Written::Text(text).to_value(),
+        (_, ParamValue::Text(text)) => WrittenValue::Text(text).to_value(),
     }
 }
 
-fn numbers(floats: &[f32]) -> Written<'static> {
-    Written::Numbers(floats.iter().copied().map(shortest_decimal).collect())
+fn numbers(floats: &[f32]) -> WrittenValue<'static> {
+    WrittenValue::Numbers(floats.iter().copied().map(shortest_decimal).collect())
 }
 
 /// Returns the number of a float's shortest decimal text, so that 0.1 is shown as 0.1.

@@ -11,7 +11,7 @@ use crate::source_file::SourceFile;
 
 /// Kind of a library.
 #[derive(Clone, Debug)]
-pub(super) enum Entry {
+pub(super) enum KindEntry {
     Read(Arc<Kind>),
     BuiltIn(&'static BuiltIn),
 }
@@ -61,34 +61,34 @@ impl BuiltIn {
     }
 }
 
-impl Entry {
+impl KindEntry {
     pub(super) fn kind(&self) -> Option<&Kind> {
         match self {
-            Entry::Read(kind) => Some(kind),
-            Entry::BuiltIn(kind) => kind.kind(),
+            KindEntry::Read(kind) => Some(kind),
+            KindEntry::BuiltIn(kind) => kind.kind(),
         }
     }
 
     /// Path of the file.
     pub(super) fn path(&self) -> &Path {
         match self {
-            Entry::Read(kind) => &kind.path,
-            Entry::BuiltIn(kind) => &kind.path,
+            KindEntry::Read(kind) => &kind.path,
+            KindEntry::BuiltIn(kind) => &kind.path,
         }
     }
 
     /// Text of the file.
     pub(super) fn text(&self) -> &str {
         match self {
-            Entry::Read(kind) => &kind.source,
-            Entry::BuiltIn(kind) => kind.text,
+            KindEntry::Read(kind) => &kind.source,
+            KindEntry::BuiltIn(kind) => kind.text,
         }
     }
 
     /// Returns the kind, if it had this id earlier (`@was`).
     pub(super) fn formerly(&self, id: &str) -> Option<&Kind> {
         let kind = match self {
-            Entry::BuiltIn(kind) if !kind.has_former_ids => return None,
+            KindEntry::BuiltIn(kind) if !kind.has_former_ids => return None,
             _ => self.kind()?,
         };
         kind.formerly.iter().any(|old| old == id).then_some(kind)
@@ -109,7 +109,7 @@ mod tests {
         let renamed = text(TEXT.replace("mask.\n\n", "mask.\n//! @was adjust/third\n\n"));
         for (text, was) in [(plain, None), (renamed, Some("adjust/half"))] {
             let kind = &*Box::leak(Box::new(BuiltIn::unread("half.wgsl".into(), "adjust/half", text)));
-            let entry = Entry::BuiltIn(kind);
+            let entry = KindEntry::BuiltIn(kind);
             assert_eq!((entry.path(), entry.text()), (Path::new("half.wgsl"), text));
             assert!(kind.kind.get().is_none(), "nothing asked for it");
             assert_eq!(entry.formerly("adjust/third").map(|kind| kind.id.as_str()), was);

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use self::entry::{BuiltIn, Entry};
+use self::entry::{BuiltIn, KindEntry};
 pub use self::folder::files_of_folder;
 use crate::compile::check_library;
 use crate::fault::Fault;
@@ -22,7 +22,7 @@ use crate::words::nearest;
 /// Node kinds by id, and the libraries they use.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
-    kinds: BTreeMap<String, Entry>,
+    kinds: BTreeMap<String, KindEntry>,
     libraries: Libraries,
     /// Paths of the libraries that come from folders, to distinguish a changed file from a second file with the same name.
     library_paths: BTreeMap<String, PathBuf>,
@@ -50,7 +50,9 @@ impl Library {
     pub fn builtin() -> Library {
         let kinds = BuiltIn::all().iter();
         Library {
-            kinds: kinds.map(|kind| (kind.id.to_owned(), Entry::BuiltIn(kind))).collect(),
+            kinds: kinds
+                .map(|kind| (kind.id.to_owned(), KindEntry::BuiltIn(kind)))
+                .collect(),
             libraries: Libraries::builtin().clone(),
             library_paths: BTreeMap::new(),
         }
@@ -68,13 +70,13 @@ impl Library {
 
     /// Returns the kind with this current or earlier (`@was`) id.
     pub fn kind(&self, id: &str) -> Option<&Kind> {
-        let present = self.kinds.get(id).and_then(Entry::kind);
+        let present = self.kinds.get(id).and_then(KindEntry::kind);
         present.or_else(|| self.kinds.values().find_map(|entry| entry.formerly(id)))
     }
 
     /// All kinds, sorted by id.
     pub fn kinds(&self) -> impl Iterator<Item = &Kind> {
-        self.kinds.values().filter_map(Entry::kind)
+        self.kinds.values().filter_map(KindEntry::kind)
     }
 
     /// The libraries that kinds use.
@@ -134,7 +136,7 @@ impl Library {
     }
 
     fn insert(&mut self, kind: Kind) {
-        self.kinds.insert(kind.id.clone(), Entry::Read(Arc::new(kind)));
+        self.kinds.insert(kind.id.clone(), KindEntry::Read(Arc::new(kind)));
     }
 
     /// Removes the kinds of a folder that no longer exists.

@@ -38,7 +38,7 @@ pub(super) struct ArraySizes {
 impl ArraySizes {
     /// Reads the sizes of all arrays in an outline.
     pub(super) fn read(text: &str, tokens: &[Token], outline: &Outline<'_>) -> Result<ArraySizes, SizeFault> {
-        let mut reader = Reader::new(text, tokens, outline);
+        let mut reader = ConstantEvaluator::new(text, tokens, outline);
         let mut of_declaration: BTreeMap<usize, u64> = BTreeMap::new();
         for array in &outline.arrays {
             let mut size = array.tokens.clone();
@@ -68,7 +68,7 @@ impl ArraySizes {
 }
 
 /// Evaluates constant expressions of whole numbers.
-struct Reader<'t, 'a> {
+struct ConstantEvaluator<'t, 'a> {
     text: &'t str,
     tokens: &'a [Token],
     /// Values of constants by name; `None` if several have the same name.
@@ -76,8 +76,8 @@ struct Reader<'t, 'a> {
     known: BTreeMap<String, Option<f64>>,
 }
 
-impl<'t, 'a> Reader<'t, 'a> {
-    fn new(text: &'t str, tokens: &'a [Token], outline: &Outline<'t>) -> Reader<'t, 'a> {
+impl<'t, 'a> ConstantEvaluator<'t, 'a> {
+    fn new(text: &'t str, tokens: &'a [Token], outline: &Outline<'t>) -> ConstantEvaluator<'t, 'a> {
         let mut constants: BTreeMap<&'t str, Option<Range<usize>>> = BTreeMap::new();
         for declaration in &outline.declarations {
             if let Some(value) = &declaration.value {
@@ -88,7 +88,7 @@ impl<'t, 'a> Reader<'t, 'a> {
                     .or_insert(value);
             }
         }
-        Reader {
+        ConstantEvaluator {
             text,
             tokens,
             constants,

@@ -5,7 +5,7 @@
 //! limits none of this, so a small file could exhaust the stack or the memory while it is only read.
 
 mod array_sizes;
-mod expansion;
+mod expanded_declarations;
 mod outline;
 #[cfg(test)]
 mod tests;
@@ -16,7 +16,7 @@ use crate::fault::Fault;
 use crate::link::LinkedModule;
 use crate::scan::tokens::{Token, TokenKind, tokens};
 use array_sizes::{ArraySizes, SizeFault};
-use expansion::Expansion;
+use expanded_declarations::ExpandedDeclarations;
 use outline::Outline;
 
 /// Maximum nesting of blocks, brackets and operators in one declaration.
@@ -50,7 +50,7 @@ pub(crate) fn check(linked: &LinkedModule) -> Option<Fault> {
         Ok(sizes) => sizes,
         Err(fault) => return Some(size_fault(linked, fault)),
     };
-    let expansion = Expansion::of(&outline, &sizes);
+    let expansion = ExpandedDeclarations::of(&outline, &sizes);
     expansion_fault(linked, &outline, &expansion)
 }
 
@@ -70,7 +70,7 @@ fn size_fault(linked: &LinkedModule, fault: SizeFault) -> Fault {
     }
 }
 
-fn expansion_fault(linked: &LinkedModule, outline: &Outline<'_>, expansion: &Expansion) -> Option<Fault> {
+fn expansion_fault(linked: &LinkedModule, outline: &Outline<'_>, expansion: &ExpandedDeclarations) -> Option<Fault> {
     if let Some((declaration, depth)) = expansion.first_deeper_than(CHAIN_LIMIT) {
         let declaration = &outline.declarations[declaration];
         return Some(linked.fault(

@@ -23,14 +23,14 @@ pub(super) struct Declaration<'t> {
     /// Number of words and signs in the declaration.
     pub(super) length: u64,
     /// All words in the declaration.
-    pub(super) named: Vec<Named<'t>>,
+    pub(super) named: Vec<NameUse<'t>>,
     /// Tokens after `=`; `None` for a declaration without a value.
     pub(super) value: Option<Range<usize>>,
 }
 
 /// A word in a declaration, which may be the name of another declaration.
 #[derive(Debug)]
-pub(super) struct Named<'t> {
+pub(super) struct NameUse<'t> {
     pub(super) name: &'t str,
     /// Nesting depth of the word.
     pub(super) depth: usize,
@@ -53,7 +53,7 @@ pub(super) struct Outline<'t> {
 impl<'t> Outline<'t> {
     /// Reads words and signs. The error is the first place that is nested more than [`DEPTH_LIMIT`] deep.
     pub(super) fn read(text: &'t str, tokens: &[Token]) -> Result<Outline<'t>, Range<usize>> {
-        let mut walker = Walker::new(text, tokens);
+        let mut walker = OutlineReader::new(text, tokens);
         while let Some(token) = walker.tokens.get(walker.at).cloned() {
             if !walker.token(&token) {
                 break;
@@ -78,7 +78,7 @@ enum Bracket {
 
 /// An open bracket.
 #[derive(Debug)]
-struct Open {
+struct OpenBracket {
     bracket: Bracket,
     /// Operators of the current expression.
     operators: usize,
@@ -90,11 +90,11 @@ struct Open {
     second: Option<usize>,
 }
 
-struct Walker<'t, 'a> {
+struct OutlineReader<'t, 'a> {
     text: &'t str,
     tokens: &'a [Token],
     at: usize,
-    open: Vec<Open>,
+    open: Vec<OpenBracket>,
     /// Open brackets and operators together.
     depth: usize,
     outline: Outline<'t>,
@@ -103,9 +103,9 @@ struct Walker<'t, 'a> {
     expects_name: bool,
 }
 
-impl<'t, 'a> Walker<'t, 'a> {
-    fn new(text: &'t str, tokens: &'a [Token]) -> Walker<'t, 'a> {
-        let mut walker = Walker {
+impl<'t, 'a> OutlineReader<'t, 'a> {
+    fn new(text: &'t str, tokens: &'a [Token]) -> OutlineReader<'t, 'a> {
+        let mut walker = OutlineReader {
             text,
             tokens,
             at: 0,
@@ -160,7 +160,7 @@ impl<'t, 'a> Walker<'t, 'a> {
             declaration.name_range = range;
             self.expects_name = false;
         } else if !is_number(word) {
-            declaration.named.push(Named { name: word, depth });
+            declaration.named.push(NameUse { name: word, depth });
         }
     }
 
@@ -305,7 +305,7 @@ impl<'t, 'a> Walker<'t, 'a> {
 
     fn push(&mut self, bracket: Bracket) {
         self.depth += 1;
-        self.open.push(Open {
+        self.open.push(OpenBracket {
             bracket,
             operators: 0,
             branches: 0,
@@ -314,7 +314,7 @@ impl<'t, 'a> Walker<'t, 'a> {
         });
     }
 
-    fn pop(&mut self) -> Option<Open> {
+    fn pop(&mut self) -> Option<OpenBracket> {
         let open = self.open.pop()?;
         self.depth -= 1 + open.operators + open.branches;
         Some(open)

@@ -25,13 +25,13 @@ pub enum LinkError {
         /// The function or result that needs the missing part.
         reader: String,
         /// The missing part.
-        missing: Missing,
+        missing: MissingPart,
     },
 }
 
 /// A missing part of a kernel's plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Missing {
+pub enum MissingPart {
     /// The source of an input.
     Input(String),
     /// The stored result of a pass.
@@ -46,15 +46,15 @@ pub enum Missing {
     Call,
 }
 
-impl fmt::Display for Missing {
+impl fmt::Display for MissingPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Missing::Input(name) => write!(f, "a source for the input '{name}'"),
-            Missing::Pass(name) => write!(f, "the result of the pass '{name}'"),
-            Missing::Survey => f.write_str("the survey"),
-            Missing::Normals => f.write_str("the normals"),
-            Missing::Load(number) => write!(f, "the stored result {number}"),
-            Missing::Call => f.write_str("a call"),
+            MissingPart::Input(name) => write!(f, "a source for the input '{name}'"),
+            MissingPart::Pass(name) => write!(f, "the result of the pass '{name}'"),
+            MissingPart::Survey => f.write_str("the survey"),
+            MissingPart::Normals => f.write_str("the normals"),
+            MissingPart::Load(number) => write!(f, "the stored result {number}"),
+            MissingPart::Call => f.write_str("a call"),
         }
     }
 }

@@ -5,11 +5,11 @@ use std::fmt::Write;
 
 use sabi_graph::PortType;
 
-use super::error::{LinkError, Missing};
+use super::error::{LinkError, MissingPart};
 use super::sources::Callee;
 use super::{
-    Binding, CHANNEL_WORDS, Call, Convert, Domain, KernelSpec, Operand, Plane, SURVEY_GROUPS, Store, Stored,
-    channel_bits,
+    Binding, CHANNEL_WORDS, Call, Convert, Domain, KernelSpec, KernelStore, Operand, Plane, SURVEY_GROUPS,
+    StoredLayout, channel_bits,
 };
 use crate::kind::{Argument, Channel, InputDefault, Kind, Shape};
 
@@ -65,7 +65,7 @@ impl Caller<'_> {
                 Argument::Ray => "ray".to_owned(),
                 Argument::Hit => "hit".to_owned(),
                 Argument::Round => "Round(dispatch.round, dispatch.rounds, dispatch.texel, dispatch.finest)".to_owned(),
-                Argument::Survey => self.texture(self.call.survey.ok_or_else(|| self.lacks(Missing::Survey))?)?,
+                Argument::Survey => self.texture(self.call.survey.ok_or_else(|| self.lacks(MissingPart::Survey))?)?,
                 Argument::Group => "u32(texel.x)".to_owned(),
                 Argument::Shared(shared) => self.write_shared(out, locals, *shared)?,
                 Argument::Pass(pass) if self.spec.domain == Domain::OwnedTexelsByRays => mean_name(*pass),
@@ -111,7 +111,7 @@ impl Caller<'_> {
         let is_number = self.kind().passes[pass].function.ty == PortType::Mask;
         let mean = match self.kind().passes[pass].denoise {
             Some(denoise) => {
-                let normals = self.call.normals.ok_or_else(|| self.lacks(Missing::Normals))?;
+                let normals = self.call.normals.ok_or_else(|| self.lacks(MissingPart::Normals))?;
                 let (normals, normal) = (self.texture(normals)?, denoise.normal());
                 format!("denoised({texture}, {normals}, at, {normal}, {})", self.reach_of_rays())
             }
@@ -134,7 +134,7 @@ impl Caller<'_> {
         masks.map(|(param, mask)| Ok((*param, self.value(*mask)?))).collect()
     }
 
-    fn lacks(&self, missing: Missing) -> LinkError {
+    fn lacks(&self, missing: MissingPart) -> LinkError {
         LinkError::Incomplete {
             reader: format!("`{}` of the node kind '{}'", self.call.function, self.kind().id),
             missing,
@@ -143,18 +143,21 @@ impl Caller<'_> {
 
     fn lacks_input(&self, input: usize) -> LinkError {
         self.lacks(match self.kind().inputs.get(input) {
-            Some(input) => Missing::Input(input.name.clone()),
-            None => Missing::Input(input.to_string()),
+            Some(input) => MissingPart::Input(input.name.clone()),
+            None => MissingPart::Input(input.to_string()),
         })
     }
 
-    fn load(&self, load: usize) -> Result<&Stored, LinkError> {
-        self.spec.loads.get(load).ok_or_else(|| self.lacks(Missing::Load(load)))
+    fn load(&self, load: usize) -> Result<&StoredLayout, LinkError> {
+        self.spec
+            .loads
+            .get(load)
+            .ok_or_else(|| self.lacks(MissingPart::Load(load)))
     }
 
     fn texture(&self, load: usize) -> Result<String, LinkError> {
         let planes = self.load(load)?.planes();
-        let plane = planes.first().ok_or_else(|| self.lacks(Missing::Load(load)))?;
+        let plane = planes.first().ok_or_else(|| self.lacks(MissingPart::Load(load)))?;
         Ok(format!("load_{load}_{}", plane_name(*plane)))
     }
 
@@ -162,7 +165,7 @@ impl Caller<'_> {
     fn pass(&self, pass: usize) -> Result<String, LinkError> {
         let Some(load) = self.call.passes.get(pass).copied().flatten() else {
             let name = self.kind().passes.get(pass).map(|pass| pass.function.name.clone());
-            return Err(self.lacks(Missing::Pass(name.unwrap_or_else(|| pass.to_string()))));
+            return Err(self.lacks(MissingPart::Pass(name.unwrap_or_else(|| pass.to_string()))));
         };
         let texture = self.texture(load)?;
         let group = self.group();
@@ -267,7 +270,7 @@ fn texel_expression(load: usize, plane: Plane) -> String {
     format!("textureLoad(load_{load}_{}, texel.xy, texel.z, 0)", plane_name(plane))
 }
 
-fn load_expression(load: usize, stored: &Stored) -> String {
+fn load_expression(load: usize, stored: &StoredLayout) -> String {
     match stored.ty {
         PortType::Mask => format!("{}.x", texel_expression(load, Plane::Mask)),
         PortType::Color => format!("{}.xyz", texel_expression(load, Plane::Color)),
@@ -297,13 +300,18 @@ fn material_of_planes(load: usize, present: &str, bound: &[Channel]) -> String {
 }
 
 /// Writes one result to its textures.
-pub(super) fn write_store(out: &mut String, index: usize, store: &Store, spec: &KernelSpec) -> Result<(), LinkError> {
+pub(super) fn write_store(
+    out: &mut String,
+    index: usize,
+    store: &KernelStore,
+    spec: &KernelSpec,
+) -> Result<(), LinkError> {
     let value = match store.value {
         Operand::Call(call, convert) => converted(&format!("v{call}"), convert),
         Operand::Load(load, convert) => {
             let stored = spec.loads.get(load).ok_or_else(|| LinkError::Incomplete {
                 reader: format!("the result {index} of a kernel"),
-                missing: Missing::Load(load),
+                missing: MissingPart::Load(load),
             })?;
             converted(&load_expression(load, stored), convert)
         }

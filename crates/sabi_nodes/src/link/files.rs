@@ -1,8 +1,8 @@
 //! Modules of Sabi's own shader files.
 
-use super::given::Given;
+use super::given_declarations::Given;
 use super::module::LinkedModule;
-use super::uses::Uses;
+use super::uses::FileUses;
 use crate::fault::Fault;
 use crate::shader_files::{Libraries, shared_path};
 
@@ -26,7 +26,7 @@ impl ModuleSpec {
 
 /// Links shared files, and the files that they use, into one module.
 pub(crate) fn link_files(files: &[&str], given: &[Given], libraries: &Libraries) -> Result<LinkedModule, Fault> {
-    let mut uses = Uses::new(libraries);
+    let mut uses = FileUses::new(libraries);
     for name in files {
         if !uses.add(name) {
             let message = format!("There is no shader file `{name}`.");

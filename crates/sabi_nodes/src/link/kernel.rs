@@ -6,10 +6,10 @@ use std::fmt::Write;
 use super::block::BlockLayout;
 use super::error::LinkError;
 use super::expressions::{Caller, Locals, plane_name, write_store};
-use super::given::{SURFACE_GROUP, on_points};
+use super::given_declarations::{SURFACE_GROUP, on_points};
 use super::module::LinkedModule;
 use super::sources::{Callee, callees, write_block, write_sources};
-use super::uses::{ATLAS, Uses};
+use super::uses::{ATLAS, FileUses};
 use super::{Binding, Domain, Format, KernelSpec, SURVEY_GROUPS};
 use crate::kind::Kind;
 use crate::shader_files::{CORE, Libraries};
@@ -95,7 +95,7 @@ fn append_shared(
     libraries: &Libraries,
 ) -> Result<(), LinkError> {
     let rays = spec.domain == Domain::OwnedTexelsByRays;
-    let mut uses = Uses::new(libraries);
+    let mut uses = FileUses::new(libraries);
     let reads_means = spec.calls.iter().any(|call| call.normals.is_some());
     let needed = [CORE, ATLAS, PLACE].into_iter().chain(rays.then_some(SHOOT));
     let needed = needed.chain(reads_means.then_some(DENOISE));

@@ -8,7 +8,7 @@ mod block;
 mod error;
 mod expressions;
 mod files;
-pub(crate) mod given;
+pub(crate) mod given_declarations;
 mod kernel;
 mod mirror;
 mod module;
@@ -24,9 +24,9 @@ use sabi_graph::PortType;
 use crate::kind::{Channel, Denoise, INPUT_LIMIT, MATERIAL_INPUT_LIMIT};
 
 pub use block::{BlockLayout, CallLayout};
-pub use error::{LinkError, Missing};
+pub use error::{LinkError, MissingPart};
 pub use files::ModuleSpec;
-pub use given::{Access, Given};
+pub use given_declarations::{Access, Given};
 pub use kernel::{Kernel, link};
 pub use mirror::{Mirror, MirrorMember, MirrorValue, MirrorsWgsl};
 pub use module::LinkedModule;
@@ -55,9 +55,9 @@ pub struct KernelSpec {
     /// Calls in order. A call may read results of earlier calls.
     pub calls: Vec<Call>,
     /// Stored results that are read.
-    pub loads: Vec<Stored>,
+    pub loads: Vec<StoredLayout>,
     /// Results that are stored, with their formats.
-    pub stores: Vec<Store>,
+    pub stores: Vec<KernelStore>,
     /// Texels for which the calls are evaluated.
     pub domain: Domain,
     /// True if these texels are points spread over the surface.
@@ -155,14 +155,14 @@ impl Convert {
 
 /// Layout of a value in storage.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stored {
+pub struct StoredLayout {
     /// Type of the value.
     pub ty: PortType,
     /// Channels of a material that are stored, in storage order; empty for other types.
     pub channels: Vec<Channel>,
 }
 
-impl Stored {
+impl StoredLayout {
     /// Returns the textures that hold the value, in binding order.
     pub fn planes(&self) -> Vec<Plane> {
         match self.ty {
@@ -176,11 +176,11 @@ impl Stored {
 
 /// One stored result of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Store {
+pub struct KernelStore {
     /// Result of a call, or a converted load.
     pub value: Operand,
     /// Layout of the value in storage.
-    pub stored: Stored,
+    pub stored: StoredLayout,
     /// Texture formats, one for each plane.
     pub formats: Vec<Format>,
 }

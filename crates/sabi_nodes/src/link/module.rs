@@ -20,21 +20,21 @@ const PRIVILEGED: [&str; 3] = ["core", "atlas", "surface"];
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LinkedModule {
     wgsl: String,
-    parts: Vec<Part>,
+    parts: Vec<FileSpan>,
 }
 
 /// Part of the text that comes from one file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Part {
+struct FileSpan {
     /// Byte range in the whole text.
     range: Range<usize>,
     path: PathBuf,
-    origin: Origin,
+    origin: FileOrigin,
 }
 
 /// Kind of file that a part comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Origin {
+enum FileOrigin {
     /// The file of a node.
     Node,
     /// A shared file, by its name in `@use`.
@@ -52,8 +52,8 @@ impl LinkedModule {
     /// Names of the shared files in it, as `@use` names them.
     pub fn shared_files(&self) -> impl Iterator<Item = &str> {
         self.parts.iter().filter_map(|part| match &part.origin {
-            Origin::Shared(name) => Some(name.as_str()),
-            Origin::Node | Origin::Generated => None,
+            FileOrigin::Shared(name) => Some(name.as_str()),
+            FileOrigin::Node | FileOrigin::Generated => None,
         })
     }
 
@@ -70,37 +70,37 @@ impl LinkedModule {
 
     /// Appends a node's text.
     pub(crate) fn push_node(&mut self, path: &Path, text: &str) {
-        self.push(path.to_path_buf(), text, Origin::Node);
+        self.push(path.to_path_buf(), text, FileOrigin::Node);
     }
 
     /// Appends a shared file.
     pub(crate) fn push_shared(&mut self, name: &str, text: &str) {
-        self.push(shared_path(name), text, Origin::Shared(name.to_owned()));
+        self.push(shared_path(name), text, FileOrigin::Shared(name.to_owned()));
     }
 
     /// Appends text that the linker wrote.
     pub(crate) fn push_generated(&mut self, text: &str) {
-        self.push(PathBuf::from(GENERATED), text, Origin::Generated);
+        self.push(PathBuf::from(GENERATED), text, FileOrigin::Generated);
     }
 
-    fn push(&mut self, path: PathBuf, text: &str, origin: Origin) {
+    fn push(&mut self, path: PathBuf, text: &str, origin: FileOrigin) {
         let start = self.wgsl.len();
         self.wgsl.push_str(text);
         if !text.ends_with('\n') {
             self.wgsl.push('\n');
         }
         let range = start..self.wgsl.len();
-        self.parts.push(Part { range, path, origin });
+        self.parts.push(FileSpan { range, path, origin });
     }
 
-    fn part_at(&self, at: usize) -> Option<&Part> {
+    fn part_at(&self, at: usize) -> Option<&FileSpan> {
         self.parts
             .iter()
             .rev()
             .find(|part| part.range.start <= at && at < part.range.end)
     }
 
-    fn part(&self, span: Span) -> Option<(&Part, Range<usize>)> {
+    fn part(&self, span: Span) -> Option<(&FileSpan, Range<usize>)> {
         let range = span.to_range()?;
         let part = self.parts.iter().rev().find(|part| part.range.start <= range.start)?;
         Some((part, range.start - part.range.start..range.end - part.range.start))
@@ -121,14 +121,14 @@ impl LinkedModule {
 
     /// Returns true if the place is in a node's own text.
     pub(crate) fn is_in_node(&self, span: Span) -> bool {
-        self.part(span).is_some_and(|(part, _)| part.origin == Origin::Node)
+        self.part(span).is_some_and(|(part, _)| part.origin == FileOrigin::Node)
     }
 
     /// Returns the shared file that contains the place.
     pub(crate) fn library_at(&self, span: Span) -> Option<&str> {
         match &self.part(span)?.0.origin {
-            Origin::Shared(name) => Some(name),
-            Origin::Node | Origin::Generated => None,
+            FileOrigin::Shared(name) => Some(name),
+            FileOrigin::Node | FileOrigin::Generated => None,
         }
     }
 

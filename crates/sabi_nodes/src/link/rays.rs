@@ -5,7 +5,7 @@ use std::fmt::Write;
 use sabi_graph::PortType;
 
 use super::KernelSpec;
-use super::error::{LinkError, Missing};
+use super::error::{LinkError, MissingPart};
 use super::expressions::{Caller, Locals, mean_name, write_store};
 use super::sources::Callee;
 use crate::kind::{Argument, Output, Rays};
@@ -20,7 +20,7 @@ pub(super) fn write(
     let Some(callee) = callees.first() else {
         return Err(LinkError::Incomplete {
             reader: "a kernel that shoots rays".to_owned(),
-            missing: Missing::Call,
+            missing: MissingPart::Call,
         });
     };
     let kind = callee.kind;
@@ -56,7 +56,7 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
     let masks = caller(spec, callee, 0).param_masks()?;
     callee.write_bounded_params(out, call, "at", &masks);
     let _ = writeln!(out, "    let count = {};", callee.bounded_param(call.block, rays.count));
-    let averaged = Averaged::of(spec, callee)?;
+    let averaged = AveragedFunctions::of(spec, callee)?;
     for (name, function, _) in &averaged.functions {
         let zero = if function.ty == PortType::Mask {
             "0.0"
@@ -93,16 +93,16 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
 }
 
 /// Functions of a kernel that are averaged over rays, and functions that read these averages.
-struct Averaged<'k> {
+struct AveragedFunctions<'k> {
     /// Name of the variable, the function, and the call whose inputs the function takes.
     functions: Vec<(String, &'k Output, usize)>,
     /// Calls that read averages of passes.
     of_means: Vec<(usize, &'k Output)>,
 }
 
-impl<'k> Averaged<'k> {
-    fn of(spec: &KernelSpec, callee: Callee<'k>) -> Result<Averaged<'k>, LinkError> {
-        let mut averaged = Averaged {
+impl<'k> AveragedFunctions<'k> {
+    fn of(spec: &KernelSpec, callee: Callee<'k>) -> Result<AveragedFunctions<'k>, LinkError> {
+        let mut averaged = AveragedFunctions {
             functions: Vec::new(),
             of_means: Vec::new(),
         };

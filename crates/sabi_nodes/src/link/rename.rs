@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 /// A token of WGSL, in the detail needed for renaming.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Token<'a> {
+enum RenameToken<'a> {
     Word(&'a str),
     Number(&'a str),
     Mark(char),
@@ -20,21 +20,21 @@ pub(super) fn with_prefix(text: &str, prefix: &str) -> String {
     let declared = declared(&tokens);
     let mut out = String::with_capacity(text.len());
     let mut members = MemberScan::default();
-    let mut previous = Token::Space("");
+    let mut previous = RenameToken::Space("");
     for (index, token) in tokens.iter().enumerate() {
         let is_member = members.is_member(&tokens, index);
         match token {
-            Token::Word(word) => {
-                let after_mark = matches!(previous, Token::Mark('.' | '@'));
+            RenameToken::Word(word) => {
+                let after_mark = matches!(previous, RenameToken::Mark('.' | '@'));
                 if declared.contains(word) && !after_mark && !is_member {
                     out.push_str(prefix);
                 }
                 out.push_str(word);
             }
-            Token::Number(text) | Token::Space(text) => out.push_str(text),
-            Token::Mark(mark) => out.push(*mark),
+            RenameToken::Number(text) | RenameToken::Space(text) => out.push_str(text),
+            RenameToken::Mark(mark) => out.push(*mark),
         }
-        if !matches!(token, Token::Space(_)) {
+        if !matches!(token, RenameToken::Space(_)) {
             previous = *token;
         }
     }
@@ -50,21 +50,21 @@ struct MemberScan {
 }
 
 impl MemberScan {
-    fn is_member(&mut self, tokens: &[Token<'_>], index: usize) -> bool {
+    fn is_member(&mut self, tokens: &[RenameToken<'_>], index: usize) -> bool {
         match tokens[index] {
-            Token::Word("struct") => self.after_struct = true,
-            Token::Mark('{') if self.after_struct => {
+            RenameToken::Word("struct") => self.after_struct = true,
+            RenameToken::Mark('{') if self.after_struct => {
                 self.after_struct = false;
                 self.inside = true;
             }
-            Token::Mark('}') if self.inside => self.inside = false,
-            Token::Mark('(' | '<') if self.inside => self.depth += 1,
-            Token::Mark(')' | '>') if self.inside => self.depth = self.depth.saturating_sub(1),
-            Token::Word(_) if self.inside && self.depth == 0 => {
+            RenameToken::Mark('}') if self.inside => self.inside = false,
+            RenameToken::Mark('(' | '<') if self.inside => self.depth += 1,
+            RenameToken::Mark(')' | '>') if self.inside => self.depth = self.depth.saturating_sub(1),
+            RenameToken::Word(_) if self.inside && self.depth == 0 => {
                 let next = tokens[index + 1..]
                     .iter()
-                    .find(|token| !matches!(token, Token::Space(_)));
-                return next == Some(&Token::Mark(':'));
+                    .find(|token| !matches!(token, RenameToken::Space(_)));
+                return next == Some(&RenameToken::Mark(':'));
             }
             _ => {}
         }
@@ -73,16 +73,16 @@ impl MemberScan {
 }
 
 /// Returns the names that the text declares at module scope.
-fn declared<'a>(tokens: &[Token<'a>]) -> BTreeSet<&'a str> {
+fn declared<'a>(tokens: &[RenameToken<'a>]) -> BTreeSet<&'a str> {
     let mut names = BTreeSet::new();
     let mut depth = 0_i32;
     let mut declares = false;
     for token in tokens {
         match token {
-            Token::Mark('{' | '(') => depth += 1,
-            Token::Mark('}' | ')') => depth -= 1,
-            Token::Word("fn" | "struct" | "const" | "alias" | "override") if depth == 0 => declares = true,
-            Token::Word(word) if declares => {
+            RenameToken::Mark('{' | '(') => depth += 1,
+            RenameToken::Mark('}' | ')') => depth -= 1,
+            RenameToken::Word("fn" | "struct" | "const" | "alias" | "override") if depth == 0 => declares = true,
+            RenameToken::Word(word) if declares => {
                 names.insert(*word);
                 declares = false;
             }
@@ -92,7 +92,7 @@ fn declared<'a>(tokens: &[Token<'a>]) -> BTreeSet<&'a str> {
     names
 }
 
-fn tokens(text: &str) -> Vec<Token<'_>> {
+fn tokens(text: &str) -> Vec<RenameToken<'_>> {
     let mut tokens = Vec::new();
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
@@ -102,9 +102,9 @@ fn tokens(text: &str) -> Vec<Token<'_>> {
         }
         if rest.starts_with("/*") {
             let (comment, after) = rest.split_at(block_comment_length(rest));
-            tokens.push(Token::Space(" "));
+            tokens.push(RenameToken::Space(" "));
             // Keep line breaks, so that line numbers stay the same as in the file.
-            tokens.extend(comment.matches('\n').map(Token::Space));
+            tokens.extend(comment.matches('\n').map(RenameToken::Space));
             rest = after;
             continue;
         }
@@ -117,13 +117,13 @@ fn tokens(text: &str) -> Vec<Token<'_>> {
         };
         let piece = &rest[..length];
         tokens.push(if first.is_whitespace() {
-            Token::Space(piece)
+            RenameToken::Space(piece)
         } else if first.is_ascii_digit() {
-            Token::Number(piece)
+            RenameToken::Number(piece)
         } else if first.is_alphanumeric() || first == '_' {
-            Token::Word(piece)
+            RenameToken::Word(piece)
         } else {
-            Token::Mark(first)
+            RenameToken::Mark(first)
         });
         rest = &rest[length..];
     }

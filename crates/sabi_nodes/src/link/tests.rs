@@ -2,7 +2,9 @@
 
 use sabi_graph::PortType;
 
-use super::{Binding, Call, Convert, Domain, Format, Kernel, KernelSpec, LinkError, Operand, Store, Stored, link};
+use super::{
+    Binding, Call, Convert, Domain, Format, Kernel, KernelSpec, KernelStore, LinkError, Operand, StoredLayout, link,
+};
 use crate::Library;
 use crate::kind::{Channel, InputDefault};
 
@@ -31,15 +33,15 @@ fn call(kind: &str, function: &str, inputs: Vec<Binding>, block: usize) -> Call 
     }
 }
 
-fn mask() -> Stored {
-    Stored {
+fn mask() -> StoredLayout {
+    StoredLayout {
         ty: PortType::Mask,
         channels: Vec::new(),
     }
 }
 
-fn stores_mask(of: usize) -> Vec<Store> {
-    vec![Store {
+fn stores_mask(of: usize) -> Vec<KernelStore> {
+    vec![KernelStore {
         value: Operand::Call(of, Convert::None),
         stored: mask(),
         formats: vec![Format::R32Float],
@@ -113,7 +115,7 @@ fn every_result_of_every_kind_links_alone_with_all_inputs_switched() {
     let mut seen = 0;
     for kind in points() {
         for output in &kind.outputs {
-            let all = |ty| Stored {
+            let all = |ty| StoredLayout {
                 ty,
                 channels: if ty == PortType::Material {
                     Channel::ALL.to_vec()
@@ -131,7 +133,7 @@ fn every_result_of_every_kind_links_alone_with_all_inputs_switched() {
                     0,
                 )],
                 loads: kind.inputs.iter().map(|input| all(input.ty)).collect(),
-                stores: vec![Store {
+                stores: vec![KernelStore {
                     value: Operand::Call(0, Convert::None),
                     stored,
                     formats,
@@ -154,11 +156,11 @@ fn a_kind_that_shoots_rays_links_with_all_results_and_an_entry_point_for_rays() 
     assert!(kinds.len() >= 6);
     for kind in kinds {
         let store = |(at, output): (usize, &crate::kind::Output)| {
-            let stored = Stored {
+            let stored = StoredLayout {
                 ty: output.ty,
                 channels: Vec::new(),
             };
-            Store {
+            KernelStore {
                 value: Operand::Call(at, Convert::None),
                 formats: stored.planes().iter().map(|plane| plane.format()).collect(),
                 stored,
@@ -197,7 +199,7 @@ fn the_parameter_block_has_the_layout_that_naga_computes() {
             }
             crate::kind::Reads::Value => Binding::Default,
         });
-        let stored = |ty| Stored {
+        let stored = |ty| StoredLayout {
             ty,
             channels: Vec::new(),
         };
@@ -278,14 +280,14 @@ fn names_in_node_files_never_clash_with_other_files_or_generated_code() {
 
 #[test]
 fn a_loaded_result_can_be_stored_as_another_type() {
-    let color = Stored {
+    let color = StoredLayout {
         ty: PortType::Color,
         channels: Vec::new(),
     };
     let spec = KernelSpec {
         calls: Vec::new(),
         loads: vec![color],
-        stores: vec![Store {
+        stores: vec![KernelStore {
             value: Operand::Load(0, Convert::Luminance),
             stored: mask(),
             formats: vec![Format::R32Float],
@@ -297,7 +299,7 @@ fn a_loaded_result_can_be_stored_as_another_type() {
 }
 
 /// Returns the message of the error for a kernel with one call.
-fn refused(call: Call, loads: Vec<Stored>) -> String {
+fn refused(call: Call, loads: Vec<StoredLayout>) -> String {
     let spec = KernelSpec {
         calls: vec![call],
         loads,
@@ -377,7 +379,7 @@ fn a_shared_function_is_called_once_per_node_for_all_outputs() {
 
 #[test]
 fn switched_inputs_of_a_shared_function_are_declared_once_per_node() {
-    let vector = || Stored {
+    let vector = || StoredLayout {
         ty: PortType::Vector,
         channels: Vec::new(),
     };

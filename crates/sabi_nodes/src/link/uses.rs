@@ -6,9 +6,9 @@
 
 use std::collections::BTreeSet;
 
-use super::given::Given;
+use super::given_declarations::Given;
 use super::module::LinkedModule;
-use crate::annotations::{DocComment, Word, unknown_annotation};
+use crate::annotations::{AnnotationWord, DocComment, unknown_annotation};
 use crate::fault::{FAULTS_SHOWN, Fault, Text};
 use crate::scan;
 use crate::shader_files::{CORE, Libraries, shader_names, shared_path, shared_text};
@@ -19,25 +19,25 @@ pub(crate) const ATLAS: &str = "atlas";
 
 /// A declaration that a file requires from the host.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Required {
+struct RequiredDeclaration {
     name: String,
     /// Fault that is reported if the host does not provide it.
     missing: Fault,
 }
 
 /// The files that a module needs, directly or indirectly.
-pub(crate) struct Uses<'a> {
+pub(crate) struct FileUses<'a> {
     libraries: &'a Libraries,
     seen: BTreeSet<String>,
     /// Shared files in the order of first use, each once.
     pub(crate) names: Vec<String>,
-    required: Vec<Required>,
+    required: Vec<RequiredDeclaration>,
     pub(crate) faults: Vec<Fault>,
 }
 
-impl<'a> Uses<'a> {
-    pub(crate) fn new(libraries: &'a Libraries) -> Uses<'a> {
-        Uses {
+impl<'a> FileUses<'a> {
+    pub(crate) fn new(libraries: &'a Libraries) -> FileUses<'a> {
+        FileUses {
             libraries,
             seen: BTreeSet::new(),
             names: Vec::new(),
@@ -61,21 +61,22 @@ impl<'a> Uses<'a> {
             text: file,
         };
         let header = SharedHeader::read(text, &mut self.faults);
-        self.required.extend(header.given.iter().map(|word| Required {
-            name: word.text.clone(),
-            missing: text.fault(
-                word.range.clone(),
-                format!("Nothing gives `{}` to this file.", word.text),
-                "The program that links the file has to give it.",
-            ),
-        }));
+        self.required
+            .extend(header.given.iter().map(|word| RequiredDeclaration {
+                name: word.text.clone(),
+                missing: text.fault(
+                    word.range.clone(),
+                    format!("Nothing gives `{}` to this file.", word.text),
+                    "The program that links the file has to give it.",
+                ),
+            }));
         // Each level of this recursion adds a file to `seen`, so it ends.
         self.follow(text, &header.uses, name.contains('/'));
         true
     }
 
     /// Adds the files that a file names with `@use`. `may_use_all` is false for nodes and libraries, which may use only libraries.
-    pub(crate) fn follow(&mut self, text: Text<'_>, uses: &[Word], may_use_all: bool) {
+    pub(crate) fn follow(&mut self, text: Text<'_>, uses: &[AnnotationWord], may_use_all: bool) {
         for word in uses {
             if self.faults.len() >= FAULTS_SHOWN {
                 break;
@@ -87,7 +88,7 @@ impl<'a> Uses<'a> {
         }
     }
 
-    fn unknown_library(&self, text: Text<'_>, word: &Word, name: &str, may_use_all: bool) -> Fault {
+    fn unknown_library(&self, text: Text<'_>, word: &AnnotationWord, name: &str, may_use_all: bool) -> Fault {
         let mut names: Vec<&str> = self.libraries.names().filter(|name| *name != CORE).collect();
         if may_use_all {
             for name in shader_names() {
@@ -114,7 +115,7 @@ impl<'a> Uses<'a> {
                 module.push_shared(name, text);
             }
         }
-        let is_given = |required: &Required| given.iter().any(|given| given.name == required.name);
+        let is_given = |required: &RequiredDeclaration| given.iter().any(|given| given.name == required.name);
         if let Some(required) = self.required.iter().find(|required| !is_given(required)) {
             return Err(required.missing.clone());
         }
@@ -137,8 +138,8 @@ impl<'a> Uses<'a> {
 
 /// Header of a shared file.
 pub(crate) struct SharedHeader {
-    pub(crate) uses: Vec<Word>,
-    given: Vec<Word>,
+    pub(crate) uses: Vec<AnnotationWord>,
+    given: Vec<AnnotationWord>,
 }
 
 impl SharedHeader {

@@ -4,12 +4,12 @@ use naga::Function;
 use sabi_graph::PortType;
 
 use super::functions::{self, FunctionAnnotations};
-use super::{Draft, Gives, PortReader, function, port_type};
+use super::{FunctionDraft, Gives, PortReader, function, port_type};
 use crate::scan::Item;
 
 impl<'a> PortReader<'a> {
     /// Reads the comments of all documented functions.
-    pub(super) fn drafts(&mut self) -> Vec<Draft<'a>> {
+    pub(super) fn drafts(&mut self) -> Vec<FunctionDraft<'a>> {
         let mut drafts = Vec::new();
         for item in self.scan.functions().filter(|item| !item.docs.is_empty()) {
             let Some((_, function)) = function(self.module, &item.name) else {
@@ -29,7 +29,12 @@ impl<'a> PortReader<'a> {
         drafts
     }
 
-    fn draft(&mut self, item: &'a Item, function: &'a Function, annotations: FunctionAnnotations) -> Option<Draft<'a>> {
+    fn draft(
+        &mut self,
+        item: &'a Item,
+        function: &'a Function,
+        annotations: FunctionAnnotations,
+    ) -> Option<FunctionDraft<'a>> {
         let returned = function
             .result
             .as_ref()
@@ -64,7 +69,7 @@ impl<'a> PortReader<'a> {
                 "Return `vec3f`, or remove it.",
             );
         }
-        Some(Draft {
+        Some(FunctionDraft {
             item,
             function,
             annotations,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use naga::{Module, TypeInner};
 use sabi_graph::{PortType, Value};
 
-use super::{Draft, PortReader, is_field, port_type};
+use super::{FunctionDraft, PortReader, is_field, port_type};
 use crate::annotations::{Annotation, number};
 use crate::color::color_linear;
 use crate::fault::{Fault, Text};
@@ -109,7 +109,7 @@ impl InputAnnotations {
 /// Reads an argument that is an input port.
 pub(super) fn read_input(
     reader: &mut PortReader<'_>,
-    draft: &Draft<'_>,
+    draft: &FunctionDraft<'_>,
     member: &Member,
     ty: &naga::Type,
 ) -> Option<Input> {
@@ -178,7 +178,7 @@ fn starts(reader: &mut PortReader<'_>, annotation: &Annotation) -> Option<(Strin
 
 fn input_type(
     reader: &mut PortReader<'_>,
-    draft: &Draft<'_>,
+    draft: &FunctionDraft<'_>,
     member: &Member,
     ty: &naga::Type,
     annotations: &InputAnnotations,

@@ -3,13 +3,13 @@
 use naga::Type;
 use sabi_graph::PortType;
 
-use super::{Draft, PortReader, Ports, is_field, port_type};
+use super::{FunctionDraft, PortReader, Ports, is_field, port_type};
 use crate::kind::{Argument, Input, InputDefault, Reads};
 use crate::scan::Member;
 
 impl<'a> PortReader<'a> {
     /// Checks that the numbers of passes are unique, and records the passes for arguments that refer to them.
-    pub(super) fn check_passes(&mut self, drafts: &[Draft<'a>]) {
+    pub(super) fn check_passes(&mut self, drafts: &[FunctionDraft<'a>]) {
         for draft in drafts {
             let Some((number, range)) = draft.annotations.pass.clone() else {
                 continue;
@@ -27,7 +27,7 @@ impl<'a> PortReader<'a> {
     /// Reads an argument that has the name of a pass and receives its stored result.
     pub(super) fn pass_argument(
         &mut self,
-        draft: &Draft<'a>,
+        draft: &FunctionDraft<'a>,
         member: &Member,
         ty: &Type,
         index: usize,
@@ -62,7 +62,7 @@ impl<'a> PortReader<'a> {
     }
 
     /// Finds the inputs that passes exist for.
-    pub(super) fn find_inputs_of_passes(&mut self, drafts: &[Draft<'a>], ports: &mut Ports) {
+    pub(super) fn find_inputs_of_passes(&mut self, drafts: &[FunctionDraft<'a>], ports: &mut Ports) {
         for draft in drafts {
             let Some((name, range)) = draft.annotations.with.clone() else {
                 continue;
@@ -86,7 +86,7 @@ impl<'a> PortReader<'a> {
     }
 
     /// Checks that the first field argument of a repeated function has the type of its result, since it receives the previous result.
-    pub(super) fn check_repeat(&mut self, draft: &Draft<'a>, arguments: &[Argument]) {
+    pub(super) fn check_repeat(&mut self, draft: &FunctionDraft<'a>, arguments: &[Argument]) {
         let Some((_, range)) = draft.annotations.repeat.clone() else {
             return;
         };

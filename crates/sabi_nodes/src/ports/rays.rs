@@ -2,13 +2,13 @@
 
 use naga::Type;
 
-use super::{Draft, PortReader, Ports, is_u32};
+use super::{FunctionDraft, PortReader, Ports, is_u32};
 use crate::kind::{Argument, Output, Rays, Reads};
 use crate::scan::Member;
 
 impl<'a> PortReader<'a> {
     /// Reads the function that returns a `Ray`.
-    pub(super) fn rays(&mut self, draft: &Draft<'a>) -> Option<Rays> {
+    pub(super) fn rays(&mut self, draft: &FunctionDraft<'a>) -> Option<Rays> {
         let name = draft.item.name.as_str();
         let range = draft.item.name_range.clone();
         if name != "ray" {
@@ -71,7 +71,7 @@ impl<'a> PortReader<'a> {
     }
 
     /// Checks that all results of a node that shoots rays depend on rays or on means of passes, and that the node reads no textures.
-    pub(super) fn check_rays(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
+    pub(super) fn check_rays(&mut self, drafts: &[FunctionDraft<'a>], ports: &Ports) {
         if !self.faults.is_empty() {
             return;
         }
@@ -95,7 +95,7 @@ impl<'a> PortReader<'a> {
     }
 
     /// Checks that only means over rays are denoised, and all by the same method.
-    fn check_denoised(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
+    fn check_denoised(&mut self, drafts: &[FunctionDraft<'a>], ports: &Ports) {
         let mut first = None;
         for draft in drafts {
             let Some((denoise, range)) = &draft.annotations.denoise else {

@@ -4,18 +4,22 @@ use std::ops::Range;
 
 use sabi_graph::PortType;
 
-use super::{Draft, PortReader, Ports};
+use super::{FunctionDraft, PortReader, Ports};
 use crate::kind::{Argument, InputDefault, Param, Reads, SURVEY_GROUPINGS};
 use crate::words::list;
 
 /// Returns true if a function has an argument `survey`.
-pub(super) fn takes_survey(draft: &Draft<'_>) -> bool {
+pub(super) fn takes_survey(draft: &FunctionDraft<'_>) -> bool {
     draft.item.members.iter().any(|member| member.name == "survey")
 }
 
 impl<'a> PortReader<'a> {
     /// Finds the surveyed input. It must be required, and all passes must read the survey and no values of single places.
-    pub(super) fn surveyed_input(&mut self, drafts: &[Draft<'a>], ports: &Ports) -> Option<(usize, Option<usize>)> {
+    pub(super) fn surveyed_input(
+        &mut self,
+        drafts: &[FunctionDraft<'a>],
+        ports: &Ports,
+    ) -> Option<(usize, Option<usize>)> {
         let declared = drafts.iter().find_map(|draft| draft.annotations.surveys.clone());
         if !self.faults.is_empty() {
             return None;
@@ -80,7 +84,7 @@ impl<'a> PortReader<'a> {
     }
 
     /// Checks that all passes read the survey and nothing else, and that no other function reads it.
-    fn check_survey_readers(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
+    fn check_survey_readers(&mut self, drafts: &[FunctionDraft<'a>], ports: &Ports) {
         let passes = ports.passes.iter().map(|pass| (&pass.function, true));
         for (function, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {
             let reads_survey = function.arguments.contains(&Argument::Survey);

@@ -8,7 +8,7 @@ use crate::fault::{FAULTS_SHOWN, Fault, Text};
 
 /// Reads declarations, and returns whether the end was reached. Reading stops at text that is not WGSL, which naga reports.
 pub(super) fn read_items(text: Text<'_>, tokens: &[Token], faults: &mut Vec<Fault>) -> (Vec<Item>, bool) {
-    let mut reader = Reader {
+    let mut reader = ItemReader {
         text,
         tokens,
         at: 0,
@@ -22,7 +22,7 @@ pub(super) fn read_items(text: Text<'_>, tokens: &[Token], faults: &mut Vec<Faul
     (items, reader.is_at_end)
 }
 
-struct Reader<'a> {
+struct ItemReader<'a> {
     text: Text<'a>,
     tokens: &'a [Token],
     at: usize,
@@ -30,7 +30,7 @@ struct Reader<'a> {
     faults: &'a mut Vec<Fault>,
 }
 
-impl Reader<'_> {
+impl ItemReader<'_> {
     /// Reads the next declaration; `Some(None)` for a lone semicolon, `None` at the end.
     fn item(&mut self) -> Option<Option<Item>> {
         let docs = self.docs();

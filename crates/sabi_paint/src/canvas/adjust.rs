@@ -6,12 +6,12 @@ use sabi_surface::patch::{Site, walk};
 use super::Canvas;
 use super::grid::Grid;
 use super::painter::Painter;
-use super::patches::{LaidTriangle, Wanted};
+use super::patches::{LaidTriangle, PatchRequest};
 use super::stamps::{StampPlace, stamps_of};
-use super::strengths::Kept;
+use super::strengths::KeptValues;
 use super::texels::for_texels;
 use super::used_brush::UsedBrush;
-use crate::brush::Turn;
+use crate::brush::TipDirection;
 use crate::site::{passed, relocate_points};
 use crate::stroke::{Action, Stroke, StrokePoint};
 use crate::supplies::InputColors;
@@ -26,7 +26,7 @@ const BLUR: f64 = 0.12;
 const SMEAR_LIMIT: f64 = 0.5;
 
 /// A texel under a stamp.
-struct Touched {
+struct StampedTexel {
     texel: usize,
     plane: DVec2,
     /// 0 to 1.
@@ -35,13 +35,13 @@ struct Touched {
 
 /// A change that a stroke makes.
 #[derive(Clone, Copy)]
-struct Change<'a> {
+struct StrokeChange<'a> {
     action: Action,
     /// Node result that it copies; `None` if it changes the paint itself.
     input: Option<&'a InputColors<'a>>,
 }
 
-impl Change<'_> {
+impl StrokeChange<'_> {
     /// Reads the values of a texel of the paint or of the result that is copied.
     fn read(&self, canvas: &Canvas, texel: usize, values: &mut [f32]) {
         match self.input {
@@ -53,7 +53,7 @@ impl Change<'_> {
 
 /// Place from which a stamp copies.
 #[derive(Clone, Copy)]
-struct Source {
+struct CloneSource {
     site: Site,
     /// Rotates directions at the first stamp to directions at the source.
     turn: DQuat,
@@ -61,7 +61,7 @@ struct Source {
 
 /// Returns the lowest and the highest value of each channel under a stamp. Sharpening, however often it is repeated, stays
 /// within them. Paint that is smeared or copied from outside of the stamp has its own range.
-fn ranges_of(canvas: &Canvas, touched: &[Touched], action: Action) -> Vec<[f32; 2]> {
+fn ranges_of(canvas: &Canvas, touched: &[StampedTexel], action: Action) -> Vec<[f32; 2]> {
     let mut ranges = vec![[f32::NEG_INFINITY, f32::INFINITY]; canvas.channel_count()];
     if action != Action::Sharpen {
         return ranges;
@@ -81,7 +81,7 @@ impl Painter<'_> {
     /// Changes existing paint along a stroke. Returns the number of its points that the model no longer has.
     pub(super) fn adjust(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
         let (points, lost) = passed(self.surface, stroke);
-        let kept = Kept {
+        let kept = KeptValues {
             directions: false,
             colors: false,
         };
@@ -98,7 +98,7 @@ impl Painter<'_> {
         if !is_whole || (stroke.action == Action::Clone && source.is_none() && input.is_none()) {
             return lost; // The source of the copy does not exist.
         }
-        let change = Change {
+        let change = StrokeChange {
             action: stroke.action,
             input,
         };
@@ -113,14 +113,14 @@ impl Painter<'_> {
     fn adjust_along(
         &mut self,
         canvas: &mut Canvas,
-        change: Change<'_>,
+        change: StrokeChange<'_>,
         points: &[StrokePoint],
         source: Option<StrokePoint>,
         used: &UsedBrush,
     ) {
         let way = self.way_of(points, &used.brush);
         let mut from = match (source, way.first()) {
-            (Some(source), Some(first)) => Some(Source {
+            (Some(source), Some(first)) => Some(CloneSource {
                 turn: DQuat::from_rotation_arc(self.normal_under(first.site), self.normal_under(source.site)),
                 site: source.site,
             }),
@@ -149,15 +149,15 @@ impl Painter<'_> {
     fn adjust_under(
         &mut self,
         canvas: &mut Canvas,
-        change: Change<'_>,
+        change: StrokeChange<'_>,
         stamp: &StampPlace,
         moved: f64,
-        source: Option<Source>,
+        source: Option<CloneSource>,
         used: &UsedBrush,
     ) {
         let radius = used.brush.radius_at(&stamp.point.pose);
-        let ahead = self.ahead(stamp, Turn::Stroke);
-        let wanted = Wanted {
+        let ahead = self.ahead(stamp, TipDirection::Stroke);
+        let wanted = PatchRequest {
             from: stamp.point.site,
             to: None,
             ahead,
@@ -198,9 +198,9 @@ impl Painter<'_> {
     fn values_for(
         &mut self,
         canvas: &Canvas,
-        change: Change<'_>,
-        source: Option<Source>,
-        wanted: Wanted,
+        change: StrokeChange<'_>,
+        source: Option<CloneSource>,
+        wanted: PatchRequest,
         reach: f64,
         radius: f64,
     ) -> Option<Grid> {
@@ -208,7 +208,7 @@ impl Painter<'_> {
             (Action::Clone, None) => None,
             (Action::Clone, Some(source)) => {
                 let laid = self.patches.laid.clone();
-                let plane = self.patches.lay(Wanted {
+                let plane = self.patches.lay(PatchRequest {
                     from: source.site,
                     ahead: source.turn * wanted.ahead,
                     ..wanted
@@ -226,16 +226,16 @@ impl Painter<'_> {
     }
 
     /// Returns the texels under a stamp on the patch that was laid last, with the strength of the stamp there.
-    fn touched(&mut self, stamp: &StampPlace, radius: f64, used: &UsedBrush) -> Vec<Touched> {
+    fn touched(&mut self, stamp: &StampPlace, radius: f64, used: &UsedBrush) -> Vec<StampedTexel> {
         let mut touched = Vec::new();
         self.for_stamped(stamp, radius, used, |texel, plane, strength| {
-            touched.push(Touched { texel, plane, strength });
+            touched.push(StampedTexel { texel, plane, strength });
         });
         touched
     }
 
     /// Returns the values that a change copies or changes, on the patch that was laid last.
-    fn grid(&self, canvas: &Canvas, change: Change<'_>, reach: f64, radius: f64, side_limit: f64) -> Grid {
+    fn grid(&self, canvas: &Canvas, change: StrokeChange<'_>, reach: f64, radius: f64, side_limit: f64) -> Grid {
         let mut width = f64::INFINITY;
         let mut values = vec![0.0; canvas.channel_count()];
         let mut texels: Vec<(usize, DVec2)> = Vec::new();

@@ -7,10 +7,10 @@ use sabi_surface::NO_TWIN;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::patch::PlacedTriangle;
 
-use super::left::{Left, left_of};
 use super::painter::Painter;
+use super::remaining_paint::{RemainingPaint, left_of};
 use super::sight::Sight;
-use super::strengths::{Added, Strengths};
+use super::strengths::{AddedPaint, Strengths};
 use super::texels::{At, SurfaceTexels, for_texels};
 use super::used_brush::UsedBrush;
 use crate::stroke::{Area, StrokePoint};
@@ -35,11 +35,11 @@ impl Filler<'_> {
                 let surface = self.texels.surface;
                 left_of(surface, self.sight, texel, count, at, self.used, self.normal)
             }
-            None => Left::ALL,
+            None => RemainingPaint::ALL,
         };
-        let added = Added {
+        let added = AddedPaint {
             color: left.color.filter(|_| self.used.kept.colors),
-            ..Added::at_most(strength * left.share)
+            ..AddedPaint::at_most(strength * left.share)
         };
         self.strengths.add(texel, &added);
     }
@@ -68,7 +68,7 @@ impl<'a> Painter<'a> {
         let filled = triangles(surface, atlas, points, area, used.brush.side_degrees);
         let mut filler = self.filler(points, used);
         if area == Area::Gradient {
-            let gradient = Gradient::new(points);
+            let gradient = FillGradient::new(points);
             for_places(filler.texels, &filled, |texel, at| {
                 filler.add(texel, gradient.at(at.position), Some(at));
             });
@@ -98,16 +98,16 @@ impl<'a> Painter<'a> {
 }
 
 /// Strength along a straight line through space: 1 before its start and 0 behind its end; 1 everywhere for a single point.
-struct Gradient {
+struct FillGradient {
     start: DVec3,
     way: DVec3,
 }
 
-impl Gradient {
-    fn new(points: &[StrokePoint]) -> Gradient {
+impl FillGradient {
+    fn new(points: &[StrokePoint]) -> FillGradient {
         let position = |point: Option<&StrokePoint>| point.map_or(DVec3::ZERO, |point| point.site.position); // Without points nothing is filled.
         let start = position(points.first());
-        Gradient {
+        FillGradient {
             way: position(points.last()) - start,
             start,
         }

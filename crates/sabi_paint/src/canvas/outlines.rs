@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use sabi_surface::patch::{PlacedTriangle, axes};
 
 use super::texels::{At, SurfaceTexels, for_texels};
-use crate::limits::Eye;
+use crate::brush_limits::Eye;
 use crate::stroke::StrokePoint;
 
 /// Depth in front of and behind the outline that is filled, as a share of its width.
@@ -15,8 +15,8 @@ const MOST_CORNERS: usize = 1024;
 const LEAST_DEPTH: f64 = 1e-3;
 
 /// An outline in the plane perpendicular to the view.
-struct Outline {
-    view: View,
+struct FillOutline {
+    view: PlaneView,
     corners: Vec<DVec2>,
     low: DVec2,
     high: DVec2,
@@ -25,7 +25,7 @@ struct Outline {
 }
 
 /// The view onto a plane.
-struct View {
+struct PlaneView {
     /// Position of the eye; `None` without perspective.
     eye: Option<DVec3>,
     /// Direction of the view.
@@ -36,8 +36,8 @@ struct View {
     depth: f64,
 }
 
-impl View {
-    fn new(points: &[StrokePoint], eye: Option<Eye>) -> Option<View> {
+impl PlaneView {
+    fn new(points: &[StrokePoint], eye: Option<Eye>) -> Option<PlaneView> {
         let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
         let middle = points.iter().map(|point| point.site.position).sum::<DVec3>() / points.len() as f64;
         let normal = points.iter().map(|point| vector(point.normal)).sum::<DVec3>();
@@ -49,7 +49,7 @@ impl View {
         };
         let ahead = ahead.try_normalize()?;
         let (x, y) = axes(-ahead, ahead.any_orthonormal_vector());
-        let mut view = View {
+        let mut view = PlaneView {
             eye,
             ahead,
             x,
@@ -81,13 +81,13 @@ impl View {
     }
 }
 
-impl Outline {
+impl FillOutline {
     /// Returns `None` if the points enclose no area.
-    fn new(points: &[StrokePoint], eye: Option<Eye>) -> Option<Outline> {
+    fn new(points: &[StrokePoint], eye: Option<Eye>) -> Option<FillOutline> {
         if points.len() < 3 {
             return None;
         }
-        let view = View::new(points, eye)?;
+        let view = PlaneView::new(points, eye)?;
         // The number of corners is limited, since every texel is compared with every corner.
         let step = points.len().div_ceil(MOST_CORNERS);
         let corners = points.iter().step_by(step);
@@ -99,7 +99,7 @@ impl Outline {
             (near.min(depth), far.max(depth))
         });
         let margin = DEPTH * (high - low).max_element();
-        Some(Outline {
+        Some(FillOutline {
             depths: [near - margin, far + margin],
             view,
             corners,
@@ -139,7 +139,7 @@ pub(super) fn for_outline(
     eye: Option<Eye>,
     mut fill: impl FnMut(usize, f64, &At),
 ) {
-    let Some(outline) = Outline::new(points, eye) else {
+    let Some(outline) = FillOutline::new(points, eye) else {
         return;
     };
     let surface = texels.surface;

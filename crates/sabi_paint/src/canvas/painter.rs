@@ -11,7 +11,7 @@ use super::outlines::for_outline;
 use super::patches::Patches;
 use super::sight::Sight;
 use super::similar::similar_texels;
-use super::strengths::{Kept, LaidStroke, Strengths};
+use super::strengths::{KeptValues, LaidStroke, Strengths};
 use super::texels::{SurfaceTexels, ghosts_of_triangles};
 use super::used_brush::{UsedBrush, UsedStencil};
 use crate::brush::Brush;
@@ -68,7 +68,7 @@ impl<'a> Painter<'a> {
     /// Returns the paint of a stroke that does not depend on existing paint. With `keeps_direction`, it includes directions.
     pub fn lay(&mut self, stroke: &Stroke, keeps_direction: bool) -> LaidStroke {
         let (points, lost) = passed(self.surface, stroke);
-        let mut kept = Kept {
+        let mut kept = KeptValues {
             directions: keeps_direction,
             colors: false,
         };
@@ -84,7 +84,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Ends a stroke, and returns its paint.
-    pub(super) fn laid(&mut self, stroke: &Stroke, kept: Kept, lost: usize) -> LaidStroke {
+    pub(super) fn laid(&mut self, stroke: &Stroke, kept: KeptValues, lost: usize) -> LaidStroke {
         let mut laid = self.strengths.take(kept, lost);
         if let Some(input) = self.supplies.input.filter(|_| stroke.copies_in_place()) {
             laid.copy(input);
@@ -93,7 +93,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Prepares for a stroke for which these values are kept.
-    pub(super) fn begin(&mut self, kept: Kept) {
+    pub(super) fn begin(&mut self, kept: KeptValues) {
         self.strengths.prepare(kept);
         self.strengths.forget_grains();
         self.sight.clear();
@@ -101,7 +101,7 @@ impl<'a> Painter<'a> {
 
     /// Returns the brush of a stroke; `None` if the stroke leaves nothing, since it is hidden, or since its picture or the
     /// result that it copies is missing.
-    pub(super) fn used(&self, stroke: &Stroke, kept: Kept) -> Option<UsedBrush> {
+    pub(super) fn used(&self, stroke: &Stroke, kept: KeptValues) -> Option<UsedBrush> {
         let brush = stroke.brush.bounded();
         let picture = match &brush.picture {
             Some(tip) => Some((Arc::clone(self.supplies.pictures.get(&tip.picture)?), tip.part)),
@@ -121,7 +121,7 @@ impl<'a> Painter<'a> {
         if stroke.copies_in_place() && self.supplies.input.is_none() {
             return None;
         }
-        let kept = Kept {
+        let kept = KeptValues {
             // Areas are filled with the color of the brush, since no picture is stamped on them.
             colors: is_colored
                 || (matches!(picture, Some((_, PicturePart::Colors)))
@@ -178,7 +178,7 @@ impl<'a> Painter<'a> {
     /// Fills the areas around the points of a stroke that have similar paint. Returns the number of points that the model no longer has.
     fn fill_similar(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
         let (points, lost) = passed(self.surface, stroke);
-        let mut kept = Kept {
+        let mut kept = KeptValues {
             directions: false,
             colors: false,
         };

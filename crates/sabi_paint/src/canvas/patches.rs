@@ -38,7 +38,7 @@ pub(super) struct Patches<'a> {
 
 /// Description of the patch to unfold.
 #[derive(Clone, Copy)]
-pub(super) struct Wanted {
+pub(super) struct PatchRequest {
     pub(super) from: Site,
     pub(super) to: Option<Site>,
     /// Direction of the x axis of the plane on the surface.
@@ -49,7 +49,7 @@ pub(super) struct Wanted {
 }
 
 /// The plane of a patch: the end of the way in it, and the area that a stamp can reach.
-pub(super) struct Plane {
+pub(super) struct PatchPlane {
     /// The end of the way; its start is the origin. Also the origin if the surface does not lead to the end.
     pub(super) end: DVec2,
     pub(super) reach: f64,
@@ -68,9 +68,9 @@ impl<'a> Patches<'a> {
     }
 
     /// Unfolds the surface around a way from one site to another, or around a single site.
-    pub(super) fn lay(&mut self, wanted: Wanted) -> Plane {
+    pub(super) fn lay(&mut self, wanted: PatchRequest) -> PatchPlane {
         let connected = self.surface.connected();
-        let Wanted { from, ahead, .. } = wanted;
+        let PatchRequest { from, ahead, .. } = wanted;
         let chord = wanted.to.map_or(0.0, |to| from.position.distance(to.position));
         self.unfolder.unfold(connected, from, ahead, 0.0, &mut self.patch);
         // Adds half a texel to the radius, for the border of a hard brush.
@@ -96,7 +96,7 @@ impl<'a> Patches<'a> {
         if wanted.reaches_pieces {
             self.lay_other_pieces(from, ahead, reach + chord);
         }
-        Plane {
+        PatchPlane {
             end: end.unwrap_or(DVec2::ZERO),
             reach,
         }
@@ -104,7 +104,7 @@ impl<'a> Patches<'a> {
 
     /// Projects the surface around a site along a normal onto the plane perpendicular to it. Includes triangles that face the normal and
     /// are not farther from the plane than the radius. Includes only the site's own piece, unless other pieces are wanted.
-    pub(super) fn project(&mut self, wanted: Wanted, normal: DVec3) -> Plane {
+    pub(super) fn project(&mut self, wanted: PatchRequest, normal: DVec3) -> PatchPlane {
         let connected = self.surface.connected();
         let index = self.surface.index();
         let site = wanted.from;
@@ -134,7 +134,7 @@ impl<'a> Patches<'a> {
                 });
             }
         }
-        Plane {
+        PatchPlane {
             end: DVec2::ZERO,
             reach,
         }

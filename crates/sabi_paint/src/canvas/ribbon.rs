@@ -4,22 +4,22 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
-use super::left::left_of;
+use super::brush_shape::{LEAST_TEXEL, faded, grain_at};
 use super::painter::{Painter, direction};
-use super::patches::{LaidTriangle, Wanted};
-use super::shape::{LEAST_TEXEL, faded, grain_at};
+use super::patches::{LaidTriangle, PatchRequest};
+use super::remaining_paint::left_of;
 use super::stamps::{distance_to_line, stroke_seed};
-use super::strengths::Added;
+use super::strengths::AddedPaint;
 use super::texels::{At, for_texels};
 use super::used_brush::UsedBrush;
-use crate::pen::Pose;
-use crate::picture::{Ends, Stamped};
+use crate::pen::PenPose;
+use crate::picture::{PictureEnds, StampSample};
 use crate::surface::PaintSurface;
 use crate::tips::{Spot, Stamp};
 use crate::way::WayPoint;
 
 /// A part of a way without gaps, as used by the ribbon along it.
-struct Run<'a> {
+struct WayRun<'a> {
     points: &'a [WayPoint],
     /// Length of the way up to each point in model units.
     passed: Vec<f64>,
@@ -32,7 +32,7 @@ struct Run<'a> {
 }
 
 /// A texel next to a part of the way.
-struct Beside {
+struct RibbonTexel {
     texel: u32,
     part: u32,
     /// Distance from the way in model units. For this distance, the way is extended beyond its ends.
@@ -54,7 +54,7 @@ struct Beside {
 const FOUND_LIMIT: usize = 1 << 22;
 
 /// Keeps only the entry with the part of the way that is nearest to each texel; of equally near parts, the first.
-fn keep_nearest(all: &mut Vec<Beside>) {
+fn keep_nearest(all: &mut Vec<RibbonTexel>) {
     all.sort_unstable_by(|a, b| {
         let by_distance = a.rank.total_cmp(&b.rank);
         a.texel.cmp(&b.texel).then(by_distance).then(a.part.cmp(&b.part))
@@ -62,8 +62,8 @@ fn keep_nearest(all: &mut Vec<Beside>) {
     all.dedup_by_key(|beside| beside.texel);
 }
 
-impl<'a> Run<'a> {
-    fn new(points: &'a [WayPoint], stamp: f64, seed: u32) -> Run<'a> {
+impl<'a> WayRun<'a> {
+    fn new(points: &'a [WayPoint], stamp: f64, seed: u32) -> WayRun<'a> {
         let mut passed = vec![0.0];
         for pair in points.windows(2) {
             let length = pair[0].site.position.distance(pair[1].site.position);
@@ -72,7 +72,7 @@ impl<'a> Run<'a> {
         let length = passed[passed.len() - 1];
         let count = (length / stamp).round().max(1.0);
         let ends = [points.first(), points.last()].map(|end| end.map(|end| end.site.position));
-        Run {
+        WayRun {
             is_closed: points.len() > 2 && ends[0] == ends[1],
             stamp: length / count,
             passed,
@@ -105,7 +105,7 @@ impl<'a> Run<'a> {
     }
 
     /// Returns the share of a texel between the ends of the ribbon, which are cut straight.
-    fn inside(&self, beside: &Beside) -> f64 {
+    fn inside(&self, beside: &RibbonTexel) -> f64 {
         if self.is_closed {
             return 1.0;
         }
@@ -114,11 +114,11 @@ impl<'a> Run<'a> {
     }
 
     /// Returns the pose of the pen at the place of the way that is nearest to a texel.
-    fn pose(&self, beside: &Beside) -> Pose {
+    fn pose(&self, beside: &RibbonTexel) -> PenPose {
         let part = beside.part as usize;
         let [from, to] = [part, part + 1].map(|index| (self.passed[index], self.points[index].pose));
         let share = ((beside.along - from.0) / (to.0 - from.0)).clamp(0.0, 1.0);
-        Pose::between([from.1, to.1], share as f32)
+        PenPose::between([from.1, to.1], share as f32)
     }
 }
 
@@ -133,12 +133,12 @@ impl Painter<'_> {
         let seed = stroke_seed(way);
         for points in way.chunk_by(|_, next| !next.starts) {
             if points.len() > 1 {
-                self.draw_run(&Run::new(points, stamp, seed), used);
+                self.draw_run(&WayRun::new(points, stamp, seed), used);
             }
         }
     }
 
-    fn draw_run(&mut self, run: &Run<'_>, used: &UsedBrush) {
+    fn draw_run(&mut self, run: &WayRun<'_>, used: &UsedBrush) {
         if run.length() <= 0.0 {
             return;
         }
@@ -175,24 +175,24 @@ impl Painter<'_> {
             }
             let texel = beside.texel as usize;
             let left = left_of(surface, sight, texel, count, &at, used, normals[part]);
-            let added = Added {
+            let added = AddedPaint {
                 direction: used.kept.directions.then(|| direction(from, to).as_vec3().to_array()),
                 color: left.color.or(drawn.color).filter(|_| used.kept.colors),
-                ..Added::at_most(drawn.strength * left.share)
+                ..AddedPaint::at_most(drawn.strength * left.share)
             };
             strengths.add(texel, &added);
         }
     }
 
     /// Finds the texels next to a part of the way whose distance from it is not larger than the radius.
-    fn find_beside(&mut self, run: &Run<'_>, part: usize, used: &UsedBrush, found: &mut Vec<Beside>) {
+    fn find_beside(&mut self, run: &WayRun<'_>, part: usize, used: &UsedBrush, found: &mut Vec<RibbonTexel>) {
         let (from, to) = (&run.points[part], &run.points[part + 1]);
         let length = run.passed[part + 1] - run.passed[part];
         if length <= 0.0 {
             return;
         }
         let radius = used.brush.radius_at(&from.pose).max(used.brush.radius_at(&to.pose));
-        let plane = self.patches.lay(Wanted {
+        let plane = self.patches.lay(PatchRequest {
             from: from.site,
             to: Some(to.site),
             ahead: direction(from, to),
@@ -211,7 +211,7 @@ impl Painter<'_> {
             end.min(DVec2::ZERO) - DVec2::new(before, plane.reach),
             end.max(DVec2::ZERO) + DVec2::new(behind, plane.reach),
         ];
-        let part = Part {
+        let part = RibbonSegment {
             run,
             number: part,
             end,
@@ -227,8 +227,8 @@ impl Painter<'_> {
 }
 
 /// A part of the way in the plane of its patch.
-struct Part<'a> {
-    run: &'a Run<'a>,
+struct RibbonSegment<'a> {
+    run: &'a WayRun<'a>,
     number: usize,
     /// End in the plane; the start is the origin.
     end: DVec2,
@@ -236,10 +236,10 @@ struct Part<'a> {
     ends: [DVec3; 2],
 }
 
-impl Part<'_> {
+impl RibbonSegment<'_> {
     /// Returns the position of a texel relative to the part.
-    fn beside(&self, texel: u32, at: &At, laid: &LaidTriangle) -> Beside {
-        let Part { run, number, end, .. } = *self;
+    fn beside(&self, texel: u32, at: &At, laid: &LaidTriangle) -> RibbonTexel {
+        let RibbonSegment { run, number, end, .. } = *self;
         let (is_first, is_last) = (number == 0, number + 2 == run.points.len());
         let square = end.length_squared();
         let share = at.plane.dot(end) / square;
@@ -260,7 +260,7 @@ impl Part<'_> {
             (share, away.sqrt().max(apart))
         };
         let length = run.passed[number + 1] - run.passed[number];
-        Beside {
+        RibbonTexel {
             texel,
             part: number as u32,
             along: run.passed[number] + share * length,
@@ -275,7 +275,7 @@ impl Part<'_> {
 }
 
 /// Returns the position of a texel.
-fn at_of(surface: &PaintSurface<'_>, beside: &Beside) -> At {
+fn at_of(surface: &PaintSurface<'_>, beside: &RibbonTexel) -> At {
     let weights = DVec2::from(beside.weights.map(f64::from));
     let [first, second, third] = surface.connected().corners(beside.triangle);
     At {
@@ -289,13 +289,13 @@ fn at_of(surface: &PaintSurface<'_>, beside: &Beside) -> At {
 
 /// Returns the stamp of a ribbon at a texel on a surface with this normal.
 fn drawn(
-    run: &Run<'_>,
-    beside: &Beside,
+    run: &WayRun<'_>,
+    beside: &RibbonTexel,
     position: DVec3,
     normal: DVec3,
     used: &UsedBrush,
     stamps: &mut BTreeMap<u32, Stamp>,
-) -> Stamped {
+) -> StampSample {
     let brush = &used.brush;
     let pose = run.pose(beside);
     let radius = brush.radius_at(&pose);
@@ -309,8 +309,8 @@ fn drawn(
     let strength = brush.strength_at(&pose) * run.inside(beside);
     if let Some((picture, part)) = &used.picture {
         let width = beside.width * picture.half_sides().y / radius;
-        let stamped = picture.at(q, width, *part, Ends::Joined);
-        return Stamped {
+        let stamped = picture.at(q, width, *part, PictureEnds::Joined);
+        return StampSample {
             strength: stamped.strength * strength,
             color: stamped.color.or(Some(brush.color)),
         };
@@ -326,7 +326,7 @@ fn drawn(
     let stamp = stamps
         .entry(number as u32)
         .or_insert_with(|| brush.tip.stamp([run.seed, number as u32]));
-    Stamped {
+    StampSample {
         strength: strength * stamp.strength(&spot),
         color: None,
     }

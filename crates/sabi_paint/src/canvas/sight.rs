@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::texels::At;
-use crate::limits::{Eye, Limits};
+use crate::brush_limits::{BrushLimits, Eye};
 use crate::surface::PaintSurface;
 
 /// Range of cosines between the surface normal and the ray to the eye in which places that are seen nearly edge-on fade.
@@ -25,16 +25,16 @@ pub(super) struct Sight {
 
 /// Eye of a stroke, with the limits that depend on it.
 #[derive(Clone, Copy)]
-pub(super) struct Watched {
+pub(super) struct EyeLimits {
     pub(super) eye: Eye,
-    pub(super) limits: Limits,
+    pub(super) limits: BrushLimits,
 }
 
-impl Watched {
+impl EyeLimits {
     /// Returns `None` if no limit depends on the eye. A stroke without an eye, which was drawn in the 2D view, paints everything.
-    pub(super) fn of(eye: Option<Eye>, limits: Limits) -> Option<Watched> {
+    pub(super) fn of(eye: Option<Eye>, limits: BrushLimits) -> Option<EyeLimits> {
         let eye = eye.filter(|eye| eye.is_finite() && (limits.front_only || limits.seen_only))?;
-        Some(Watched { eye, limits })
+        Some(EyeLimits { eye, limits })
     }
 }
 
@@ -70,7 +70,7 @@ impl Sight {
         texel: usize,
         texels: usize,
         at: &At,
-        watched: &Watched,
+        watched: &EyeLimits,
     ) -> f64 {
         if self.shares.is_empty() {
             self.shares = vec![-1.0; texels];
@@ -83,7 +83,7 @@ impl Sight {
     }
 }
 
-fn found(surface: &PaintSurface<'_>, at: &At, watched: &Watched) -> f64 {
+fn found(surface: &PaintSurface<'_>, at: &At, watched: &EyeLimits) -> f64 {
     let (way, distance) = match watched.eye {
         Eye::Place(place) => {
             let way = DVec3::from(place.map(f64::from)) - at.position;

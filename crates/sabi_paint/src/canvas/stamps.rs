@@ -5,15 +5,15 @@ use std::ops::Range;
 use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::patch::{Site, axes};
 
-use super::left::left_of;
+use super::brush_shape::{BrushShape, ShapeSample, grain_at, random};
 use super::painter::{Painter, direction};
-use super::patches::Wanted;
-use super::shape::{Place, Shape, grain_at, random};
-use super::strengths::{Added, Strengths};
+use super::patches::PatchRequest;
+use super::remaining_paint::left_of;
+use super::strengths::{AddedPaint, Strengths};
 use super::texels::{At, SurfaceTexels, for_texels};
 use super::used_brush::UsedBrush;
-use crate::brush::{Brush, Turn};
-use crate::pen::Pose;
+use crate::brush::{Brush, TipDirection};
+use crate::pen::PenPose;
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::rightward;
 use crate::way::{WayPoint, spaced};
@@ -25,7 +25,7 @@ const LEAST_LEAN: f64 = 0.035;
 
 /// Way in which a shape is added to the strength of a stroke.
 #[derive(Clone, Copy)]
-struct Laying {
+struct StampBlend {
     /// Share of its strength that a stamp adds.
     flow: f64,
     /// True if overlapping stamps add up until they cover fully; otherwise the strength is that of the strongest stamp.
@@ -40,7 +40,7 @@ struct Laying {
     ends: [DVec3; 2],
 }
 
-impl Laying {
+impl StampBlend {
     /// Returns the distance in space of a place of another piece from the line; 0 on the same piece.
     fn apart(&self, is_other: bool, place: DVec3) -> f64 {
         if is_other {
@@ -74,14 +74,14 @@ impl Painter<'_> {
             let to = next.unwrap_or(point);
             let radii = [point, to].map(|point| brush.radius_at(&point.pose));
             let direction = direction(point, to);
-            let plane = self.patches.lay(Wanted {
+            let plane = self.patches.lay(PatchRequest {
                 from: point.site,
                 to: next.map(|next| next.site),
                 ahead: direction,
                 radius: radii[0].max(radii[1]),
                 reaches_pieces: brush.reaches_pieces,
             });
-            let shape = Shape::Capsule {
+            let shape = BrushShape::Capsule {
                 end: plane.end,
                 radii,
                 strengths: [point, to].map(|point| brush.strength_at(&point.pose)),
@@ -92,7 +92,7 @@ impl Painter<'_> {
                 plane.end.min(DVec2::ZERO) - DVec2::new(caps[0].min(plane.reach), plane.reach),
                 plane.end.max(DVec2::ZERO) + DVec2::new(caps[1].min(plane.reach), plane.reach),
             ];
-            let laying = Laying {
+            let laying = StampBlend {
                 flow: 1.0,
                 builds_up: false,
                 direction,
@@ -120,14 +120,14 @@ impl Painter<'_> {
             let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + turned(used, &stamp.point.pose);
             let middle = away * DVec2::new(around.cos(), around.sin());
             let ahead = self.ahead(stamp, brush.turn);
-            let plane = self.patches.lay(Wanted {
+            let plane = self.patches.lay(PatchRequest {
                 from: stamp.point.site,
                 to: None,
                 ahead,
                 radius: used.reach() * radius + away,
                 reaches_pieces: brush.reaches_pieces,
             });
-            let shape = Shape::Stamp {
+            let shape = BrushShape::Stamp {
                 middle,
                 radius,
                 strength: brush.strength_at(&stamp.point.pose) * (1.0 - f64::from(jitter.flow) * number(5)),
@@ -136,7 +136,7 @@ impl Painter<'_> {
                 stamp: brush.tip.stamp([seed, index as u32]),
             };
             let reach = DVec2::splat(plane.reach);
-            let laying = Laying {
+            let laying = StampBlend {
                 flow: f64::from(brush.flow),
                 builds_up: used.builds_up(),
                 direction: stamp.direction,
@@ -155,7 +155,7 @@ impl Painter<'_> {
         let Some(point) = points.first() else { return };
         let normal = self.normal_under(point.site);
         let radius = f64::from(used.brush.radius);
-        let wanted = Wanted {
+        let wanted = PatchRequest {
             from: point.site,
             to: None,
             ahead: rightward(normal),
@@ -166,7 +166,7 @@ impl Painter<'_> {
             Area::Decal => self.patches.project(wanted, normal),
             _ => self.patches.lay(wanted),
         };
-        let shape = Shape::Stamp {
+        let shape = BrushShape::Stamp {
             middle: DVec2::ZERO,
             radius,
             strength: 1.0,
@@ -178,7 +178,7 @@ impl Painter<'_> {
                 .stamp([stroke_seed(&self.way_of(&points[..1], &used.brush)), 0]),
         };
         let reach = DVec2::splat(plane.reach);
-        let laying = Laying {
+        let laying = StampBlend {
             flow: 1.0,
             builds_up: used.builds_up(),
             direction: rightward(normal),
@@ -198,7 +198,7 @@ impl Painter<'_> {
         used: &UsedBrush,
         mut visit: impl FnMut(usize, DVec2, f64),
     ) {
-        let shape = Shape::Stamp {
+        let shape = BrushShape::Stamp {
             middle: DVec2::ZERO,
             radius,
             strength: used.brush.strength_at(&stamp.point.pose),
@@ -206,7 +206,7 @@ impl Painter<'_> {
             tip_from_plane: DMat2::from_angle(-turned(used, &stamp.point.pose).to_radians()),
             stamp: used.brush.tip.stamp([0; 2]),
         };
-        let laying = Laying {
+        let laying = StampBlend {
             flow: f64::from(used.brush.flow) * f64::from(used.brush.opacity),
             builds_up: true,
             direction: stamp.direction,
@@ -221,7 +221,7 @@ impl Painter<'_> {
     }
 
     /// Adds a shape to the strength of the stroke.
-    fn stamp(&mut self, shape: &Shape, within: [DVec2; 2], used: &UsedBrush, laying: Laying) {
+    fn stamp(&mut self, shape: &BrushShape, within: [DVec2; 2], used: &UsedBrush, laying: StampBlend) {
         self.for_drawn(shape, within, used, laying, |strengths, texel, _, added| {
             strengths.add(texel, added);
         });
@@ -230,11 +230,11 @@ impl Painter<'_> {
     /// Calls `visit` for all texels, on the patch that was laid last, to which a shape adds strength, with their positions in its plane.
     fn for_drawn(
         &mut self,
-        shape: &Shape,
+        shape: &BrushShape,
         within: [DVec2; 2],
         used: &UsedBrush,
-        laying: Laying,
-        mut visit: impl FnMut(&mut Strengths, usize, DVec2, &Added),
+        laying: StampBlend,
+        mut visit: impl FnMut(&mut Strengths, usize, DVec2, &AddedPaint),
     ) {
         let Painter {
             surface,
@@ -256,7 +256,7 @@ impl Painter<'_> {
                 if !laying.builds_up && strengths.at(texel) >= most {
                     return;
                 }
-                let place = Place {
+                let place = ShapeSample {
                     grain: grain_of(strengths, texel, at, used),
                     plane: at.plane,
                     rise: laid.rise,
@@ -271,7 +271,7 @@ impl Painter<'_> {
                 }
                 let left = left_of(surface, sight, texel, count, at, used, laying.normal);
                 let color = left.color.or(drawn.color).or(laying.color);
-                let added = Added {
+                let added = AddedPaint {
                     strength: drawn.strength * left.share,
                     flow: laying.flow,
                     builds_up: laying.builds_up,
@@ -291,15 +291,15 @@ impl Painter<'_> {
 
     /// Returns the direction of the x axis of a stamp. For a single stamp, which has no direction, it is to the right as
     /// seen from outside.
-    pub(super) fn ahead(&self, stamp: &StampPlace, turn: Turn) -> DVec3 {
+    pub(super) fn ahead(&self, stamp: &StampPlace, turn: TipDirection) -> DVec3 {
         let normal = self.surface.connected().normal(stamp.point.site.triangle);
         let is_level = 1.0 - normal.y * normal.y < LEAST_SLOPE * LEAST_SLOPE;
         let toward = stamp.point.pose.lean.map_or(DVec3::ZERO, |lean| lean.toward.as_dvec3());
         match turn {
-            Turn::Down if !is_level => DVec3::NEG_Y,
-            Turn::Pen if toward.length_squared() > LEAST_LEAN * LEAST_LEAN => toward,
+            TipDirection::Down if !is_level => DVec3::NEG_Y,
+            TipDirection::Pen if toward.length_squared() > LEAST_LEAN * LEAST_LEAN => toward,
             _ if stamp.direction == DVec3::ZERO => rightward(normal),
-            Turn::Down | Turn::Stroke | Turn::Pen => stamp.direction,
+            TipDirection::Down | TipDirection::Stroke | TipDirection::Pen => stamp.direction,
         }
     }
 
@@ -337,8 +337,8 @@ fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
     // If the size of the brush changes, a part reaches beyond the adjacent part.
     let is_even = |others: [&WayPoint; 2]| {
         let pose = &way[index].pose;
-        let presses_alike = |other: &Pose| !brush.pressure.change_lines() || other.pressure == pose.pressure;
-        let leans_alike = |other: &Pose| !brush.tilt.change_lines() || other.lean == pose.lean;
+        let presses_alike = |other: &PenPose| !brush.pressure.change_lines() || other.pressure == pose.pressure;
+        let leans_alike = |other: &PenPose| !brush.tilt.change_lines() || other.lean == pose.lean;
         others
             .iter()
             .all(|other| presses_alike(&other.pose) && leans_alike(&other.pose))
@@ -378,7 +378,7 @@ pub(super) fn stamps_of(way: &[WayPoint], used: &UsedBrush) -> Vec<StampPlace> {
 }
 
 /// Returns the rotation of the tip for a pose of the pen in degrees, reversed in a mirror.
-fn turned(used: &UsedBrush, pose: &Pose) -> f64 {
+fn turned(used: &UsedBrush, pose: &PenPose) -> f64 {
     mirrored(used, used.brush.turn_at(pose))
 }
 

@@ -2,7 +2,7 @@
 
 use sabi_color::luminance;
 
-use super::{Canvas, Laid};
+use super::{Canvas, TexelPaint};
 use crate::stroke::{Action, Stroke};
 use crate::supplies::{InputColors, bounded};
 
@@ -43,14 +43,14 @@ impl SavedStrengths {
 
 /// Values of a stroke that are kept in addition to its strength.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) struct Kept {
+pub(super) struct KeptValues {
     pub(super) directions: bool,
     pub(super) colors: bool,
 }
 
 /// Paint that a stamp adds to a texel.
 #[derive(Clone, Copy)]
-pub(super) struct Added {
+pub(super) struct AddedPaint {
     /// 0 to 1.
     pub(super) strength: f64,
     /// Share of it that is added at once.
@@ -63,10 +63,10 @@ pub(super) struct Added {
     pub(super) color: Option<[f32; 3]>,
 }
 
-impl Added {
+impl AddedPaint {
     /// Returns a strength that has an effect only if it is the greatest.
-    pub(super) fn at_most(strength: f64) -> Added {
-        Added {
+    pub(super) fn at_most(strength: f64) -> AddedPaint {
+        AddedPaint {
             strength,
             flow: 1.0,
             builds_up: false,
@@ -118,7 +118,7 @@ impl Strengths {
     }
 
     /// Allocates memory for the values that are kept.
-    pub(super) fn prepare(&mut self, kept: Kept) {
+    pub(super) fn prepare(&mut self, kept: KeptValues) {
         let count = self.texels.len();
         if kept.directions && self.directions.is_empty() {
             self.directions = vec![[0.0; 3]; count];
@@ -129,7 +129,7 @@ impl Strengths {
     }
 
     /// Adds a stamp at a texel.
-    pub(super) fn add(&mut self, texel: usize, added: &Added) {
+    pub(super) fn add(&mut self, texel: usize, added: &AddedPaint) {
         if added.strength <= 0.0 {
             return;
         }
@@ -163,7 +163,7 @@ impl Strengths {
     }
 
     /// Returns the state of the stroke so far.
-    pub(super) fn saved(&self, kept: Kept) -> SavedStrengths {
+    pub(super) fn saved(&self, kept: KeptValues) -> SavedStrengths {
         let of_touched = |is_kept: bool, values: &[[f32; 3]]| match is_kept {
             true => self.touched.iter().map(|texel| values[*texel as usize]).collect(),
             false => Vec::new(),
@@ -200,7 +200,7 @@ impl Strengths {
     }
 
     /// Ends the stroke and returns its paint.
-    pub(super) fn take(&mut self, kept: Kept, lost: usize) -> LaidStroke {
+    pub(super) fn take(&mut self, kept: KeptValues, lost: usize) -> LaidStroke {
         let mut laid = LaidStroke {
             texels: Vec::with_capacity(self.touched.len()),
             directions: Vec::new(),
@@ -253,7 +253,7 @@ impl LaidStroke {
         for (index, (texel, strength)) in self.texels.iter().enumerate() {
             let direction = self.directions.get(index).copied().unwrap_or([0.0; 3]); // The direction is zero if it is not kept, in which case it is not read.
             let color = self.colors.get(index).copied().unwrap_or(brush.color); // Without a color of its own, the texel has the color of the brush.
-            let paint = Laid {
+            let paint = TexelPaint {
                 strength: strength * brush.opacity,
                 value: if self.is_copied { luminance(color) } else { brush.value },
                 height: if self.is_copied { 0.0 } else { brush.height },

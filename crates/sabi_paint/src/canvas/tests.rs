@@ -4,10 +4,10 @@ mod buckets;
 mod changes;
 mod growing;
 mod pens;
-mod pictures;
 mod plates;
 mod ribbons;
 mod shapes;
+mod stamped_pictures;
 mod stencils;
 
 use std::path::Path;
@@ -19,10 +19,10 @@ use sabi_surface::load::{LoadOptions, load};
 use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
 
-use super::{Canvas, Layers, Painter};
+use super::{Canvas, CanvasLayers, Painter};
 use crate::{Action, Area, Brush, CopyOf, PaintSurface, StampPictures, Stroke, StrokePoint, Supplies, SurfaceIndex};
 
-const VALUE: Layers = Layers {
+const VALUE: CanvasLayers = CanvasLayers {
     value: true,
     color: false,
     height: false,
@@ -63,7 +63,7 @@ fn painted_with(
     atlas: &Atlas,
     strokes: &[Stroke],
     pictures: &StampPictures,
-    layers: Layers,
+    layers: CanvasLayers,
 ) -> Canvas {
     let mut canvas = Canvas::empty(atlas.owners.len(), layers);
     let mut painter = Painter::new(surface, atlas, Supplies::of_pictures(pictures));

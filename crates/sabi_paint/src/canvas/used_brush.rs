@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 
-use super::sight::Watched;
-use super::strengths::Kept;
+use super::sight::EyeLimits;
+use super::strengths::KeptValues;
 use crate::brush::Brush;
 use crate::picture::{PicturePart, StampPicture};
 use crate::site::LocatedStroke;
@@ -37,10 +37,10 @@ pub(super) struct UsedBrush {
     pub(super) picture: Option<(Arc<StampPicture>, PicturePart)>,
     /// The stencil through which it paints, moved for a copy of the stroke.
     pub(super) stencil: Option<UsedStencil>,
-    pub(super) watched: Option<Watched>,
+    pub(super) watched: Option<EyeLimits>,
     /// True for a mirrored copy of the stroke.
     pub(super) is_mirrored: bool,
-    pub(super) kept: Kept,
+    pub(super) kept: KeptValues,
 }
 
 impl UsedBrush {
@@ -52,7 +52,7 @@ impl UsedBrush {
     /// Returns the brush for one of the copies of a stroke.
     pub(super) fn on(&self, copy: &LocatedStroke) -> UsedBrush {
         UsedBrush {
-            watched: Watched::of(copy.eye, self.brush.limits),
+            watched: EyeLimits::of(copy.eye, self.brush.limits),
             stencil: self.stencil.as_ref().map(|stencil| stencil.moved(&copy.moved)),
             is_mirrored: copy.is_mirrored,
             ..self.clone()

@@ -14,7 +14,7 @@ use super::*;
 use crate::tips::{Tip, random};
 use crate::{Action, Area, Brush, StampPictures, Step, StrokeBook, StrokeGroup, SurfaceIndex, Version, file};
 
-const ALL: Layers = Layers {
+const ALL: CanvasLayers = CanvasLayers {
     value: true,
     color: true,
     height: true,
@@ -27,12 +27,12 @@ const MOST: usize = 12;
 const OPERATIONS: u32 = 10_000;
 
 /// Random numbers of one operation, the same each time.
-struct Dice {
+struct OperationRandom {
     operation: u32,
     asked: i32,
 }
 
-impl Dice {
+impl OperationRandom {
     fn share(&mut self) -> f64 {
         self.asked += 1;
         random(self.operation, [self.asked, 11, 12])
@@ -63,7 +63,7 @@ fn square() -> Mesh {
     }
 }
 
-fn brush(dice: &mut Dice) -> Brush {
+fn brush(dice: &mut OperationRandom) -> Brush {
     let tips = [Tip::Round, Tip::Soft, Tip::Square, Tip::Chalk, Tip::Flakes, Tip::Leaks];
     let mut brush = Brush::default().with_tip(dice.pick(&tips));
     brush.radius = 0.05 + 0.2 * dice.share() as f32;
@@ -76,7 +76,7 @@ fn brush(dice: &mut Dice) -> Brush {
     brush
 }
 
-fn stroke(surface: &PaintSurface<'_>, dice: &mut Dice) -> Stroke {
+fn stroke(surface: &PaintSurface<'_>, dice: &mut OperationRandom) -> Stroke {
     let points = (0..1 + dice.below(3)).filter_map(|index| {
         let [x, y] = [dice.share(), dice.share()].map(|share| 0.1 + 0.8 * share);
         let site = Site {
@@ -109,7 +109,7 @@ fn stroke(surface: &PaintSurface<'_>, dice: &mut Dice) -> Stroke {
 }
 
 /// Returns a step from a list to another list.
-fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step {
+fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut OperationRandom) -> Step {
     if list.strokes.is_empty() || (list.strokes.len() < MOST && dice.below(3) > 0) {
         return Step::Add(Arc::new(stroke(surface, dice)));
     }
@@ -188,7 +188,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
     let (mut history, mut at) = (vec![Version::EMPTY], 0);
     let (mut undone, mut reopened) = (0, 0);
     for operation in 0..OPERATIONS {
-        let mut dice = Dice { operation, asked: 0 };
+        let mut dice = OperationRandom { operation, asked: 0 };
         match dice.below(8) {
             0 | 1 if at > 0 => {
                 at -= 1;
@@ -237,7 +237,7 @@ fn painting_can_be_stopped_anywhere_and_keeps_nothing() {
         Atlas::build(&mesh, &AtlasOptions::new(64)).unwrap(),
     );
     let whole = PaintSurface::new(&mesh, &index);
-    let mut dice = Dice { operation: 3, asked: 0 };
+    let mut dice = OperationRandom { operation: 3, asked: 0 };
     let strokes = (0..40).map(|number| {
         Arc::new(Stroke {
             id: Version([number; 8]),
@@ -277,12 +277,12 @@ fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
         Atlas::build(&mesh, &AtlasOptions::new(256)).unwrap(),
     );
     let surface = PaintSurface::new(&mesh, &index);
-    let mut dice = Dice { operation: 7, asked: 0 };
+    let mut dice = OperationRandom { operation: 7, asked: 0 };
     let mut list = StrokeList::default();
     let mut canvases = Canvases::default();
-    let layers = Layers {
+    let layers = CanvasLayers {
         value: true,
-        ..Layers::default()
+        ..CanvasLayers::default()
     };
     let counted = |canvases: &Canvases| {
         let mut tiles = BTreeSet::new();

@@ -9,7 +9,7 @@ use sabi_surface::patch::Site;
 use super::{StrokeFileError, read, store};
 use crate::step_bytes::{decode_step, encode_step};
 use crate::{
-    Action, Brush, Eye, Limits, PictureName, PicturePart, PictureTip, Shaft, Stencil, Step, Stroke, StrokeBook,
+    Action, Brush, BrushLimits, Eye, PictureName, PicturePart, PictureTip, Shaft, Stencil, Step, Stroke, StrokeBook,
     StrokePoint, Version,
 };
 
@@ -31,9 +31,9 @@ fn stroke(points: usize) -> Stroke {
             picture: PictureName::of(b"picture", "png").unwrap(),
             part: PicturePart::Dark,
         }),
-        limits: Limits {
+        limits: BrushLimits {
             angle_degrees: 50.0,
-            ..Limits::default()
+            ..BrushLimits::default()
         },
         ..Brush::default()
     };

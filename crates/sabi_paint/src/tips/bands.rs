@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::noise::{Dice, noise_2};
+use super::noise::{RandomSequence, noise_2};
 use super::spot::Spot;
 
 /// Ripples of a weld and strands of a rope along a stamp. They are whole numbers, so that the next stamp continues them.
@@ -25,7 +25,7 @@ fn round(across: f64, half: f64) -> f64 {
 
 /// Weld: a bead of overlapping ripples.
 pub(super) fn weld(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let lean = dice.between(-0.5, 0.5);
     move |spot| {
@@ -48,7 +48,7 @@ pub(super) fn weld(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
 
 /// A stitch of thread.
 pub(super) fn stitches(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let lean = dice.between(-0.22, 0.22);
     let [x, y] = [dice.between(-0.08, 0.08), dice.between(-0.07, 0.07)];
     let length = STITCH[0] * dice.between(0.86, 1.1);
@@ -66,7 +66,7 @@ pub(super) fn stitches(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
 
 /// Rope of twisted strands.
 pub(super) fn rope(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let sag = dice.between(-0.2, 0.2);
     move |spot| {
@@ -82,7 +82,7 @@ pub(super) fn rope(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
 
 /// A rivet.
 pub(super) fn rivets(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let middle = dice.in_disk(0.035);
     let radius = RIVET * dice.between(0.95, 1.05);
     let offset = dice.offset();

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::noise::{Dice, noise_2, noise_3, place_in, smooth_step, toward, turned};
+use super::noise::{RandomSequence, noise_2, noise_3, place_in, smooth_step, toward, turned};
 use super::spot::Spot;
 
 /// Most straight parts of a branching crack.
@@ -15,7 +15,7 @@ const MOST: f64 = 0.86;
 
 /// A straight part of a crack that narrows along its way.
 #[derive(Clone, Copy)]
-struct Part {
+struct CrackSegment {
     from: DVec2,
     way: DVec2,
     halves: [f64; 2],
@@ -25,7 +25,7 @@ struct Part {
 struct Branch {
     middle: DVec2,
     reach: f64,
-    parts: Vec<Part>,
+    parts: Vec<CrackSegment>,
 }
 
 /// Start of a branch that has not grown yet.
@@ -38,7 +38,7 @@ struct Bud {
 }
 
 /// Grows a branch; adds the buds of its own branches.
-fn branch(bud: &Bud, dice: &mut Dice, buds: &mut Vec<Bud>) -> Branch {
+fn branch(bud: &Bud, dice: &mut RandomSequence, buds: &mut Vec<Bud>) -> Branch {
     let (mut at, mut angle, mut grown) = (bud.at, bud.angle, 0.0);
     let half_at = |grown: f64| bud.half * (1.0 - 0.85 * grown / bud.length).max(0.0);
     let mut parts = Vec::new();
@@ -51,7 +51,7 @@ fn branch(bud: &Bud, dice: &mut Dice, buds: &mut Vec<Bud>) -> Branch {
         if (at + way).length() > 0.95 {
             break;
         }
-        parts.push(Part {
+        parts.push(CrackSegment {
             from: at,
             way,
             halves: [half_at(grown), half_at(grown + step)],
@@ -77,7 +77,7 @@ fn branch(bud: &Bud, dice: &mut Dice, buds: &mut Vec<Bud>) -> Branch {
 
 /// A crack that branches from the middle outward.
 pub(super) fn cracks(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let first = std::f64::consts::TAU * dice.unit();
     let middle = dice.in_disk(0.18);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::noise::{Dice, noise_2, smooth_step, stretched_noise};
+use super::noise::{RandomSequence, noise_2, smooth_step, stretched_noise};
 use super::spot::Spot;
 
 /// Drops of a stamp of splatter.
@@ -24,7 +24,7 @@ struct Drop {
 }
 
 /// Drops of a throw: a few large ones, satellites around those, and fine ones everywhere.
-fn thrown(dice: &mut Dice) -> [Drop; DROPS] {
+fn thrown(dice: &mut RandomSequence) -> [Drop; DROPS] {
     let mut large = [(DVec2::ZERO, 0.0); 4];
     std::array::from_fn(|index| {
         let around = large[(4.0 * dice.unit()) as usize % 4];
@@ -62,7 +62,7 @@ fn thrown(dice: &mut Dice) -> [Drop; DROPS] {
 
 /// Drops of different sizes.
 pub(super) fn splatter(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let drops = thrown(&mut dice);
     move |spot| {
@@ -92,7 +92,7 @@ fn melted(a: f64, b: f64) -> f64 {
 }
 
 /// A run of paint: a thin trail from `start` down to a drop at `end`.
-struct Run {
+struct PaintRun {
     y: f64,
     start: f64,
     end: f64,
@@ -102,16 +102,16 @@ struct Run {
 
 /// Runs that hang down from a wet edge, each with a drop at its end.
 pub(super) fn drips(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
-    let runs: [Run; RUNS] = std::array::from_fn(|index| {
+    let runs: [PaintRun; RUNS] = std::array::from_fn(|index| {
         let y = 1.36 * ((index as f64 + dice.between(0.1, 0.9)) / RUNS as f64 - 0.5);
         let half = dice.between(0.014, 0.034);
         let drop = half * dice.between(1.5, 2.1) + 0.008;
         let start = dice.between(-0.72, -0.6);
         let lowest = (0.9 - y * y).sqrt() - drop;
         let end = start + (lowest - start) * (0.14 + 0.86 * dice.unit() * dice.unit().sqrt());
-        Run {
+        PaintRun {
             y,
             start,
             end,
@@ -165,7 +165,7 @@ struct Streak {
 
 /// Streaks of rain and rust: dense and narrow where they start, wider and fainter below.
 pub(super) fn leaks(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let streaks: [Streak; STREAKS] = std::array::from_fn(|_| {
         let y = dice.between(-0.8, 0.8);
@@ -225,7 +225,7 @@ struct Tide {
 
 /// Stain of water that dried: a dark rim, sharp on the outside, with paler rims of earlier puddles within.
 pub(super) fn ring(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let tides: [Tide; 3] = std::array::from_fn(|index| {
         let share = [1.0, 0.8, 0.5][index] * dice.between(0.86, 1.0);

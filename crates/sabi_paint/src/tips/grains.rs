@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::noise::{Dice, block, noise_2, noise_3, numbers, seed_of};
+use super::noise::{RandomSequence, block, noise_2, noise_3, numbers, seed_of};
 use super::spot::{Spot, shown};
 
 /// Width of the grains of chalk.
@@ -27,7 +27,7 @@ pub(super) fn chalk_grain(model: DVec3, texel: f64) -> f64 {
 
 /// Print of a sponge: walls between pores of several sizes.
 pub(super) fn sponge(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let (seed, offset) = (seed_of(seeds), dice.offset());
     move |spot| {
         let place = spot.q + offset;

@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
-use super::noise::{Dice, block, noise_2, noise_3, numbers, random, seed_of, smooth_step, stretched_noise, toward};
+use super::noise::{
+    RandomSequence, block, noise_2, noise_3, numbers, random, seed_of, smooth_step, stretched_noise, toward,
+};
 use super::spot::Spot;
 
 /// Hairs across the bristles.
@@ -74,7 +76,7 @@ pub(super) fn dry_brush([stroke, _]: [u32; 2]) -> impl Fn(&Spot) -> f64 {
 
 /// Worn patch of many short, fine scratches that run the same way.
 pub(super) fn scuffs(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let seed = seed_of(seeds);
     let offset = dice.offset();
     let layers = SCUFFS.map(|(rows, columns, turn)| (rows, columns, toward(turn + dice.between(-0.03, 0.03))));
@@ -124,7 +126,7 @@ struct Hair {
     places: [DVec2; LINT[1] + 1],
 }
 
-fn hair(dice: &mut Dice) -> Hair {
+fn hair(dice: &mut RandomSequence) -> Hair {
     let from = dice.in_disk(0.75);
     let length = 0.35 + 1.1 * dice.unit() * dice.unit();
     let mut angle = std::f64::consts::TAU * dice.unit();
@@ -162,7 +164,7 @@ fn distance_to(place: DVec2, from: DVec2, to: DVec2) -> f64 {
 
 /// Household dust: curled hairs, crumbs and thin fluff.
 pub(super) fn lint(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let seed = seed_of(seeds);
     let offset = dice.offset();
     let hairs: [Hair; LINT[0]] = std::array::from_fn(|_| hair(&mut dice));

@@ -63,14 +63,14 @@ pub(super) fn seed_of([stroke, stamp]: [u32; 2]) -> u32 {
 }
 
 /// Random numbers in a row.
-pub(super) struct Dice {
+pub(super) struct RandomSequence {
     seed: u32,
     thrown: u32,
 }
 
-impl Dice {
-    pub(super) fn new(seeds: [u32; 2]) -> Dice {
-        Dice {
+impl RandomSequence {
+    pub(super) fn new(seeds: [u32; 2]) -> RandomSequence {
+        RandomSequence {
             seed: seed_of(seeds),
             thrown: 0,
         }

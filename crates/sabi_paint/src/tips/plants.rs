@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::noise::{Dice, noise_2, noise_3, place_in, smooth_step, turned};
+use super::noise::{RandomSequence, noise_2, noise_3, place_in, smooth_step, turned};
 use super::spot::Spot;
 
 /// Leaves of a stamp.
@@ -24,7 +24,7 @@ struct Leaf {
 }
 
 impl Leaf {
-    fn new(index: usize, dice: &mut Dice) -> Leaf {
+    fn new(index: usize, dice: &mut RandomSequence) -> Leaf {
         let half = [0.5, 0.36, 0.27, 0.2][index] * dice.between(0.85, 1.1);
         let around = std::f64::consts::TAU * (index as f64 / LEAVES as f64 + dice.between(0.0, 0.16));
         let middle = (0.94 - 1.3 * half) * dice.between(0.75, 1.0) * super::noise::toward(around);
@@ -71,7 +71,7 @@ fn texel_of(spot: &Spot, half: f64) -> f64 {
 
 /// A few fallen leaves with veins, each above the ones before it.
 pub(super) fn leaves(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let leaves: [Leaf; LEAVES] = std::array::from_fn(|index| Leaf::new(index, &mut dice));
     move |spot| {
@@ -161,7 +161,7 @@ impl Rosette {
 
 /// Rosettes of lichen: pale, lobed rims around a crumbling middle.
 pub(super) fn lichen(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let grain = dice.offset();
     let rosettes: [Rosette; ROSETTES] = std::array::from_fn(|index| {
         let radius = [0.46, 0.3, 0.24, 0.17, 0.13, 0.1, 0.075, 0.06][index] * dice.between(0.8, 1.15);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::noise::{Dice, noise_2, smooth_step};
+use super::noise::{RandomSequence, noise_2, smooth_step};
 use super::spot::Spot;
 
 /// Ridges of a finger along a radius.
@@ -10,7 +10,7 @@ const RIDGES: f64 = 9.2;
 
 /// Print of a fingertip that points to the left of a stroke: ridges that wind around a whorl and run out flat below it.
 pub(super) fn fingerprint(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let hand = if dice.unit() < 0.5 { 1.0 } else { -1.0 };
     let core = DVec2::new(dice.between(0.02, 0.2), hand * dice.between(0.0, 0.08));

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{Spot, Stamp, Tip};
-use crate::brush::{Brush, Turn};
+use crate::brush::{Brush, TipDirection};
 
 /// Texels along a radius.
 const FINE: i32 = 64;
@@ -184,7 +184,7 @@ fn names_in_files_stay_and_files_from_before_read_as_they_did() {
     use Tip::*;
     assert_eq!(tips, [Round, Square, Chalk, Bristles, Splatter, Spray]);
     let brush: Brush = serde_json::from_str(r#"{"tip": "chalk", "spacing": 0.1}"#).unwrap();
-    assert_eq!((brush.tip, brush.turn), (Chalk, Turn::Stroke));
+    assert_eq!((brush.tip, brush.turn), (Chalk, TipDirection::Stroke));
     // The name of a version is a hash of these bytes.
     assert!(!serde_json::to_string(&brush).unwrap().contains("\"turn\""));
     let hanging = brush.with_tip(Drips);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::noise::{Dice, block, noise_2, numbers, seed_of, smooth_step, stretched_noise, toward};
+use super::noise::{RandomSequence, block, noise_2, numbers, seed_of, smooth_step, stretched_noise, toward};
 use super::spot::Spot;
 
 /// Scratches of a stamp.
@@ -29,7 +29,7 @@ struct Scratch {
 
 /// Thin scratches of different length and depth that run nearly the same way.
 pub(super) fn scratches(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let scratches: [Scratch; SCRATCHES] = std::array::from_fn(|index| {
         let spread = if index % 5 == 4 { 0.7 } else { 0.13 };
@@ -76,7 +76,7 @@ pub(super) fn scratches(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
 
 /// A single groove with torn edges, deepest along its middle, with chips broken out beside it.
 pub(super) fn gouge(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let offset = dice.offset();
     let seed = seed_of(seeds);
     let lean = dice.between(-0.35, 0.35);
@@ -123,7 +123,7 @@ pub(super) fn gouge(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
 
 /// Paint that came off in chips with straight, sharp edges, some down to the primer only.
 pub(super) fn flakes(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let (seed, offset) = (seed_of(seeds), dice.offset());
     move |spot| {
         let place = 13.0 * spot.q + offset;
@@ -165,7 +165,7 @@ pub(super) fn flakes(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
 
 /// Pits of corrosion in clusters: bowls of all sizes, small ones around large ones.
 pub(super) fn pits(seeds: [u32; 2]) -> impl Fn(&Spot) -> f64 {
-    let mut dice = Dice::new(seeds);
+    let mut dice = RandomSequence::new(seeds);
     let (seed, offset) = (seed_of(seeds), dice.offset());
     move |spot| {
         let place = 6.0 * spot.q + offset;

@@ -1,11 +1,11 @@
 //! Kernels that are divided because they would be too large.
 
-use super::{Bench, FUSED, graph};
+use super::{FUSED, TestPlanner, graph};
 use crate::Step;
 
 #[test]
 fn a_kernel_is_cut_at_the_cost_limit() {
-    let mut bench = Bench::new();
+    let mut bench = TestPlanner::new();
     bench.limits.cost.all = 4 * bench.library.kind("noise/simplex").unwrap().cost.all + 400;
     let mut lines = "n0 noise/simplex\n".to_owned();
     for node in 1..10 {
@@ -30,7 +30,7 @@ fn a_kernel_is_cut_at_the_cost_limit() {
 fn a_kernel_is_cut_where_its_nodes_together_take_too_long() {
     let lines = "a noise/simplex\nb noise/simplex\nc noise/simplex\n\
                  ab blend/mask below=a above=b\nabc blend/mask below=ab above=c\nout output/mask source=abc";
-    let mut bench = Bench::new();
+    let mut bench = TestPlanner::new();
     assert_eq!(bench.plan(&graph(lines), FUSED).0.passes(), 1);
     let work = |kind: &str| bench.library.kind(kind).unwrap().work;
     let (noise, blend) = (work("noise/simplex"), work("blend/mask"));

@@ -1,9 +1,9 @@
 //! Messages for graphs that cannot be planned.
 
-use super::{Bench, FUSED, graph};
+use super::{FUSED, TestPlanner, graph};
 
 fn said(lines: &str) -> Vec<String> {
-    Bench::new()
+    TestPlanner::new()
         .plan(&graph(lines), FUSED)
         .1
         .iter()
@@ -86,7 +86,7 @@ fn a_fault_leaves_the_rest_of_the_graph_alone() {
         waits adjust/invert source=bad
         out output/mask source=a
         lost output/mask source=waits";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors.len(), 1);
     assert_eq!(plan.to_string(), "pass a -> s0\nresult mask s0\n");
 }

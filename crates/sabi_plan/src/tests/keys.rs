@@ -3,7 +3,7 @@
 use sabi_graph::PortType;
 use sabi_nodes::kind::Param;
 
-use super::{Bench, FUSED, UNFUSED, graph, kind, port};
+use super::{FUSED, TestPlanner, UNFUSED, graph, kind, port};
 use crate::{FileFault, FileFaultKind};
 
 const LINES: &str = "
@@ -14,7 +14,7 @@ const LINES: &str = "
     out output/mask source=m";
 
 fn key(lines: &str) -> [u8; 32] {
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
     plan.results[0].key
 }
@@ -36,8 +36,8 @@ fn what_changes_the_result_changes_its_key() {
 }
 
 /// Creates a planner with a source that has a parameter of each type.
-fn bench_with_source() -> Bench {
-    let mut bench = Bench::new();
+fn bench_with_source() -> TestPlanner {
+    let mut bench = TestPlanner::new();
     let mut own = kind("source/own", Vec::new(), vec![port("mask", PortType::Mask, &[])]);
     own.params = vec![
         Param::text("name", "a", ""),
@@ -142,8 +142,8 @@ fn a_knob_is_part_of_the_key_only_while_nothing_is_connected() {
 #[test]
 fn how_passes_are_cut_does_not_change_the_key() {
     let graph = graph(LINES);
-    let (fused, _) = Bench::new().plan(&graph, FUSED);
-    let (single, _) = Bench::new().plan(&graph, UNFUSED);
+    let (fused, _) = TestPlanner::new().plan(&graph, FUSED);
+    let (single, _) = TestPlanner::new().plan(&graph, UNFUSED);
     assert_eq!(fused.results[0].key, single.results[0].key);
 }
 

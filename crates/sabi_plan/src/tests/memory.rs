@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Bench, FUSED, graph};
+use super::{FUSED, TestPlanner, graph};
 use crate::{KernelStep, Level, Plan, SlotExtent, SlotRef, Step};
 
 /// Bytes of a texel of the finest level that a slot takes.
@@ -101,7 +101,7 @@ fn layers(count: usize) -> String {
 
 #[test]
 fn memory_does_not_grow_with_the_number_of_layers() {
-    let mut bench = Bench::new();
+    let mut bench = TestPlanner::new();
     let layer = bench.library.kind("effect/layer").unwrap().cost;
     bench.limits.cost.straight = 4 * layer.straight;
     let peaks = [3, 6, 12].map(|count| {
@@ -116,7 +116,7 @@ fn memory_does_not_grow_with_the_number_of_layers() {
 
 #[test]
 fn a_kernel_of_points_counts_once_for_what_it_writes_over_what_it_reads_last() {
-    let mut bench = Bench::new();
+    let mut bench = TestPlanner::new();
     bench.limits.cost.straight = bench.library.kind("effect/layer").unwrap().cost.straight + 100;
     let mut lines = "l0 source/material\n".to_owned();
     for layer in 1..=4 {

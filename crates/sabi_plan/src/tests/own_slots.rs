@@ -1,6 +1,6 @@
 //! Plans in which every value has a slot of its own.
 
-use super::{Bench, UNFUSED, graph};
+use super::{TestPlanner, UNFUSED, graph};
 
 #[test]
 fn each_value_has_a_slot_of_its_own_on_request() {
@@ -10,7 +10,7 @@ fn each_value_has_a_slot_of_its_own_on_request() {
         c adjust/invert source=b
         d adjust/invert source=c
         out output/mask source=d";
-    let (plan, _) = Bench::new().plan(&graph(lines), UNFUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(lines), UNFUSED);
     let expected = "\
         pass a -> s0\n\
         pass b <- s0 -> s1\n\

@@ -2,7 +2,7 @@
 
 use sabi_graph::Document;
 
-use super::{Bench, FUSED, UNFUSED, flat, graph};
+use super::{FUSED, TestPlanner, UNFUSED, flat, graph};
 use crate::{Level, Mode, Plan, Step};
 
 const TWELVE: &str = "
@@ -22,14 +22,14 @@ const TWELVE: &str = "
 
 #[test]
 fn a_chain_of_twelve_nodes_is_one_pass() {
-    let (plan, errors) = Bench::new().plan(&graph(TWELVE), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(TWELVE), FUSED);
     assert_eq!(errors, []);
     assert_eq!((plan.passes(), plan.nodes.len()), (1, 12), "{plan}");
 }
 
 #[test]
 fn each_node_of_a_fused_pass_is_called_once() {
-    let (plan, _) = Bench::new().plan(&graph(TWELVE), FUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(TWELVE), FUSED);
     let Step::Kernel(kernel) = &plan.steps[0] else {
         panic!("{plan}")
     };
@@ -38,7 +38,7 @@ fn each_node_of_a_fused_pass_is_called_once() {
 
 #[test]
 fn without_fusion_every_node_is_a_pass() {
-    let (plan, _) = Bench::new().plan(&graph(TWELVE), UNFUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(TWELVE), UNFUSED);
     assert_eq!(plan.passes(), 12, "{plan}");
 }
 
@@ -50,7 +50,7 @@ fn a_slot_is_reused_once_its_last_reader_has_run() {
         c adjust/invert source=b
         d adjust/invert source=c
         out output/mask source=d";
-    let (plan, _) = Bench::new().plan(&graph(lines), UNFUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(lines), UNFUSED);
     let expected = "\
         pass a -> s0\n\
         pass b <- s0 -> s1\n\
@@ -73,7 +73,7 @@ fn what_needs_most_memory_runs_while_little_else_is_stored() {
         abc blend/mask below=ab above=c
         all blend/mask below=abc above=soft
         out output/mask source=all";
-    let (bake, _) = Bench::new().plan(&graph(lines), UNFUSED);
+    let (bake, _) = TestPlanner::new().plan(&graph(lines), UNFUSED);
     let places = |plan: &Plan, node: &str| -> Vec<usize> {
         let steps = plan.steps.iter().enumerate();
         let of_node = steps.filter(|(_, step)| matches!(step, Step::Kernel(kernel) if kernel.nodes == [node]));
@@ -87,13 +87,13 @@ fn what_needs_most_memory_runs_while_little_else_is_stored() {
         "{bake}"
     );
     // In interactive mode all results are kept, and groups run in the order of their inputs.
-    let (live, _) = Bench::new().plan(&graph(lines), Mode::Interactive);
+    let (live, _) = TestPlanner::new().plan(&graph(lines), Mode::Interactive);
     assert!(places(&live, "a").first() < places(&live, "soft").first(), "{live}");
 }
 
 #[test]
 fn a_pass_for_a_position_runs_once_something_moves_it() {
-    let bench = Bench::new();
+    let bench = TestPlanner::new();
     let (still, errors) = bench.plan(&graph("net noise/cracks\nout output/mask source=net"), FUSED);
     assert_eq!(errors, []);
     assert_eq!(
@@ -121,7 +121,7 @@ fn a_hundred_nodes_in_a_chain_need_two_slots() {
         lines += &format!("n{node} adjust/invert source=n{}\n", node - 1);
     }
     lines += "out output/mask source=n99";
-    let (plan, _) = Bench::new().plan(&graph(&lines), UNFUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(&lines), UNFUSED);
     assert_eq!((plan.passes(), plan.slots.len()), (100, 2));
 }
 
@@ -134,7 +134,7 @@ fn a_field_separates_two_regions_and_fills_its_ghosts() {
         c adjust/invert source=soft
         d blend/mask below=c above=b
         out output/mask source=d";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
     let expected = "\
         pass a b -> s0\n\
@@ -146,7 +146,7 @@ fn a_field_separates_two_regions_and_fills_its_ghosts() {
 
 #[test]
 fn a_kernel_is_divided_at_the_number_of_textures_the_adapter_can_write() {
-    let mut bench = Bench::new();
+    let mut bench = TestPlanner::new();
     bench.limits.storage_textures = 2;
     let mut lines = String::new();
     for node in 0..5 {
@@ -167,7 +167,7 @@ fn only_what_is_asked_for_is_planned() {
         a noise/simplex
         idle noise/cells
         out output/mask source=a";
-    let (plan, _) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(plan.nodes, ["a"]);
 }
 
@@ -178,7 +178,7 @@ fn a_muted_node_passes_its_first_fitting_input_on() {
         b noise/cells
         mix blend/mask below=a above=b muted
         out output/mask source=mix";
-    let (plan, _) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(plan.to_string(), "pass a -> s0\nresult mask s0\n");
 }
 
@@ -188,7 +188,7 @@ fn a_muted_node_without_inputs_leaves_its_reader_its_knob() {
         a noise/simplex muted
         b adjust/invert source=a
         out output/mask source=b";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
     assert_eq!(plan.nodes, ["b"]);
 }
@@ -199,17 +199,17 @@ fn channels_that_nothing_sets_take_no_storage() {
         base source/material
         coat effect/layer base=base height_on=false
         out output/material material=coat";
-    let (plan, _) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(plan.slots.len(), 2, "color and surface only: {plan}");
     let raised = lines.replace("height_on=false", "height=0.1");
-    let (plan, _) = Bench::new().plan(&graph(&raised), FUSED);
+    let (plan, _) = TestPlanner::new().plan(&graph(&raised), FUSED);
     assert_eq!(plan.slots.len(), 3, "and height: {plan}");
 }
 
 #[test]
 fn a_knob_at_zero_takes_no_storage_and_a_wire_does() {
     let slots = |lines: &str| {
-        let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+        let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
         assert_eq!(errors, []);
         plan.slots.len()
     };
@@ -233,7 +233,7 @@ fn a_knob_at_zero_takes_no_storage_and_a_wire_does() {
 #[test]
 fn rewiring_an_interactive_graph_needs_no_new_kernel() {
     let specs = |lines: &str| {
-        let (plan, _) = Bench::new().plan(&graph(lines), Mode::Interactive);
+        let (plan, _) = TestPlanner::new().plan(&graph(lines), Mode::Interactive);
         let kernels = plan.steps.iter().map(|step| match step {
             Step::Kernel(kernel) => (kernel.spec.calls[0].kind.clone(), kernel.spec.clone()),
             other => panic!("{other:?}"),
@@ -293,7 +293,7 @@ fn a_graph_in_groups_six_deep_has_the_passes_of_its_flat_form() {
         groups.join(", ")
     );
     let document = Document::from_json(&nested).unwrap_or_else(|error| panic!("{error}"));
-    let (deep, errors) = Bench::new().plan(&flat(&document), FUSED);
+    let (deep, errors) = TestPlanner::new().plan(&flat(&document), FUSED);
     assert_eq!(errors, []);
     let lines = "
         m noise/simplex
@@ -302,7 +302,7 @@ fn a_graph_in_groups_six_deep_has_the_passes_of_its_flat_form() {
         e2 effect/layer base=e1 mask=m
         e3 effect/layer base=e2 mask=m
         out output/material material=e3";
-    let (plain, _) = Bench::new().plan(&graph(lines), FUSED);
+    let (plain, _) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!((deep.passes(), plain.passes()), (1, 1));
     assert_eq!(deep.nodes.len(), plain.nodes.len());
     assert_eq!(
@@ -318,7 +318,7 @@ fn a_muted_node_passes_on_the_first_input_that_leads_to_an_unmuted_node() {
         base source/material
         mix material/blend below=dead above=base muted
         out output/material material=mix";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
     assert_eq!(plan.nodes, ["base"]);
 }
@@ -330,7 +330,7 @@ fn a_color_is_converted_to_a_stored_mask_before_a_field_reads_it() {
         b filter/smooth source=a
         out output/mask source=b";
     for mode in [FUSED, Mode::Interactive] {
-        let (plan, errors) = Bench::new().plan(&graph(lines), mode);
+        let (plan, errors) = TestPlanner::new().plan(&graph(lines), mode);
         assert_eq!(errors, []);
         let steps: Vec<String> = plan.to_string().lines().map(str::to_owned).collect();
         assert!(steps[1].starts_with("convert <- s0 -> s1"), "{plan}");
@@ -346,7 +346,7 @@ fn a_ladder_of_thousands_of_nodes_is_cut_into_few_kernels() {
         lines += &format!("m{rung} blend/mask below=m{} above=m{}\n", rung - 1, rung - 2);
     }
     let graph = graph(&(lines + &format!("out output/mask source=m{}", rungs - 1)));
-    let bench = Bench::new();
+    let bench = TestPlanner::new();
     let (plan, errors) = bench.plan(&graph, FUSED);
     assert_eq!(errors, []);
     assert_eq!(plan.nodes.len(), rungs);
@@ -369,7 +369,7 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
             out output/mask source=b
             crisp output/mask source=c"
         );
-        let (plan, errors) = Bench::new().plan(&graph(&lines), FUSED);
+        let (plan, errors) = TestPlanner::new().plan(&graph(&lines), FUSED);
         assert_eq!(errors, []);
         plan
     };
@@ -414,7 +414,7 @@ fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved
         (0.9, vec![down(2)]),
     ] {
         let lines = format!("a surface/edges width={width}\nb adjust/levels source=a\nout output/mask source=b");
-        let (plan, errors) = Bench::new().plan(&graph(&lines), Mode::Interactive);
+        let (plan, errors) = TestPlanner::new().plan(&graph(&lines), Mode::Interactive);
         assert_eq!(errors, []);
         let moved = plan.steps.iter().filter_map(|step| match step {
             Step::Move(step) => Some((step.levels, step.result.is_some())),
@@ -428,7 +428,7 @@ fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved
 #[test]
 fn denoised_means_over_rays_are_stored_and_read_by_another_step() {
     let lines = "a surface/occlusion distance=0.0001\nb output/mask source=a\nc output/mask source=a.ao";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
     let text = plan.to_string();
     let steps: Vec<&str> = text.lines().filter(|line| !line.starts_with("result")).collect();
@@ -451,7 +451,7 @@ fn no_fused_kernel_has_more_parameters_than_a_block_holds() {
     for node in 1..=10 {
         lines += &format!("m{node} adjust/curve source=m{}\n", node - 1);
     }
-    let mut bench = Bench::new();
+    let mut bench = TestPlanner::new();
     // A curve takes 256 bytes, and so does a knob.
     bench.limits.block_bytes = 1024;
     let (plan, errors) = bench.plan(&graph(&(lines + "out output/mask source=m10")), FUSED);

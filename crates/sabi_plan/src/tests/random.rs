@@ -10,9 +10,9 @@ use sabi_nodes::formula::{Formula, Variables};
 use sabi_nodes::kind::{Argument, Cost, InputDefault, Kind, Memory, Output, ParamValue, Reads, Role, Shape};
 use sabi_nodes::link::Convert;
 
-use super::symbols::{Given, OPEN, call_symbol, converted, from_plan, moved, source_symbol, surveyed};
-use super::{Bench, FUSED, UNFUSED, WIDTHS, graph};
-use crate::resolved::{Behavior, ResolvedNode};
+use super::symbols::{CallArguments, OPEN, call_symbol, converted, from_plan, moved, source_symbol, surveyed};
+use super::{FUSED, TestPlanner, UNFUSED, WIDTHS, graph};
+use crate::resolved_graph::{Behavior, ResolvedNode};
 use crate::{Level, Limits, Mode, Planner};
 
 /// Lengths that are within, between and beyond the ranges of the levels.
@@ -98,7 +98,7 @@ fn lines(library: &Library, numbers: &[Numbers]) -> String {
 }
 
 /// A node of the graph with what it reads, as symbols.
-struct Reader<'n> {
+struct ReaderNode<'n> {
     kind: &'n Kind,
     ready: &'n ResolvedNode<'n>,
     /// The result to which each input is connected.
@@ -107,7 +107,7 @@ struct Reader<'n> {
     passes: Vec<(u64, Level)>,
 }
 
-impl Reader<'_> {
+impl ReaderNode<'_> {
     fn value(&self, formula: &Formula, texel: f64) -> f64 {
         let stored = |param: usize| match &self.ready.values[param] {
             ParamValue::Unsigned(value) => f64::from(*value),
@@ -162,8 +162,8 @@ impl Reader<'_> {
     }
 
     /// Returns what a function reads on a level, and its first texture.
-    fn given<'f>(&self, function: &'f Output, level: Level) -> (Given, Option<&'f Argument>) {
-        let mut given = Given {
+    fn given<'f>(&self, function: &'f Output, level: Level) -> (CallArguments, Option<&'f Argument>) {
+        let mut given = CallArguments {
             inputs: vec![OPEN; self.inputs.len()],
             passes: vec![0; self.kind.passes.len()],
             survey: None,
@@ -220,7 +220,7 @@ impl Reader<'_> {
     /// Returns the symbol and the level of the result of a pass that runs once, on the table of a survey.
     fn found(&self, function: &Output) -> (u64, Level) {
         let (symbol, convert) = self.inputs[self.kind.surveyed.unwrap()];
-        let given = Given {
+        let given = CallArguments {
             inputs: vec![OPEN; self.inputs.len()],
             passes: Vec::new(),
             survey: Some(surveyed(converted(symbol, convert))),
@@ -234,7 +234,7 @@ impl Reader<'_> {
     /// A mean over rays, on the level that they start from.
     fn mean(&self, function: &Output) -> (u64, Level) {
         let level = self.level(self.kind.rays.as_ref().and_then(|rays| rays.texel.as_ref()), None);
-        let given = Given {
+        let given = CallArguments {
             inputs: self.inputs_on(level),
             passes: Vec::new(),
             survey: None,
@@ -266,7 +266,7 @@ impl Reader<'_> {
         let reads_means = (0..self.passes.len()).any(|pass| takes(pass) && is_stored(&self.kind.passes[pass]));
         let reads = |pass: usize| reads_means && (takes(pass) || self.kind.shape == Shape::Ray);
         let passes = self.passes.iter().enumerate();
-        let given = Given {
+        let given = CallArguments {
             inputs: self.inputs_on(level),
             passes: passes
                 .map(|(pass, (symbol, _))| if reads(pass) { *symbol } else { 0 })
@@ -288,7 +288,7 @@ fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usiz
     let mut symbols = BTreeMap::new();
     for node in &resolved.order {
         let ready = resolved.nodes[*node].as_ref().unwrap();
-        let input = |input: &Option<crate::resolved::ResolvedInput>| {
+        let input = |input: &Option<crate::resolved_graph::ResolvedInput>| {
             input.map_or(OPEN, |input| (symbols[&(input.node, input.output)], input.convert))
         };
         match ready.behavior {
@@ -299,7 +299,7 @@ fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usiz
                 }
             }
             Behavior::Shader(kind) => {
-                let mut reader = Reader {
+                let mut reader = ReaderNode {
                     kind,
                     ready,
                     inputs: ready.inputs.iter().map(input).collect(),
@@ -331,7 +331,7 @@ proptest! {
         numbers in prop::collection::vec((0..10_000_usize, prop::array::uniform4(0..1000_usize), 0..1000_usize), 1..24),
         narrow in any::<bool>(),
     ) {
-        let mut bench = Bench::new();
+        let mut bench = TestPlanner::new();
         let graph = graph(&lines(bench.library, &numbers));
         if narrow {
             bench.limits = Limits { sampled_textures: 10, storage_textures: 5, cost: Cost { all: 1_400, straight: 400 }, work: 1 << 16, block_bytes: 1 << 11 };

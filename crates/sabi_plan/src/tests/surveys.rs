@@ -1,6 +1,6 @@
 //! Plans of nodes that read surveys, and of passes that exist for an input.
 
-use super::{Bench, FUSED, graph};
+use super::{FUSED, TestPlanner, graph};
 use crate::{Level, SlotExtent};
 
 #[test]
@@ -9,7 +9,7 @@ fn a_survey_comes_before_the_pass_that_reads_it_and_before_the_results() {
         a noise/simplex
         b adjust/coverage source=a
         out output/mask source=b";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
     assert_eq!(
         plan.to_string(),
@@ -25,7 +25,7 @@ fn a_survey_comes_before_the_pass_that_reads_it_and_before_the_results() {
             SlotExtent::Level(Level::FINEST)
         ]
     );
-    let (_, errors) = Bench::new().plan(&graph("b adjust/coverage\n out output/mask source=b"), FUSED);
+    let (_, errors) = TestPlanner::new().plan(&graph("b adjust/coverage\n out output/mask source=b"), FUSED);
     assert_eq!(errors.len(), 1, "what is surveyed has to be connected");
 }
 
@@ -35,7 +35,7 @@ fn a_survey_of_pieces_has_a_table_and_a_value_for_each() {
         a noise/simplex
         b adjust/coverage source=a each=piece
         out output/mask source=b";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    let (plan, errors) = TestPlanner::new().plan(&graph(lines), FUSED);
     assert_eq!(errors, []);
     assert_eq!(
         plan.to_string(),
@@ -57,7 +57,7 @@ fn a_survey_of_pieces_has_a_table_and_a_value_for_each() {
 fn a_pass_that_is_for_an_input_runs_once_something_is_connected_or_set_there() {
     let passes = |blur: &str| {
         let lines = format!("a noise/simplex\nm noise/dots\nb filter/blur source=a {blur}\nout output/mask source=b");
-        let (plan, errors) = Bench::new().plan(&graph(&lines), FUSED);
+        let (plan, errors) = TestPlanner::new().plan(&graph(&lines), FUSED);
         assert_eq!(errors, []);
         plan.passes()
     };

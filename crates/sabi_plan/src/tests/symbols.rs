@@ -20,7 +20,7 @@ pub(super) fn hash(parts: &[&[u8]]) -> u64 {
 
 /// Arguments of a function call, as symbols.
 #[derive(Default)]
-pub(super) struct Given {
+pub(super) struct CallArguments {
     pub(super) inputs: Vec<(u64, Convert)>,
     /// For each pass of the kind its symbol; 0 if the function does not read the pass.
     pub(super) passes: Vec<u64>,
@@ -31,7 +31,7 @@ pub(super) const OPEN: (u64, Convert) = (0, Convert::None);
 /// Symbol of the normals of all texels.
 const NORMALS: u64 = 1;
 
-pub(super) fn call_symbol(kind: &str, function: &str, params: &[u8], given: &Given) -> u64 {
+pub(super) fn call_symbol(kind: &str, function: &str, params: &[u8], given: &CallArguments) -> u64 {
     let inputs: Vec<u8> = given
         .inputs
         .iter()
@@ -85,7 +85,7 @@ fn moved_once(symbol: u64, from: Level, to: Level) -> u64 {
 
 /// Content of a slot.
 #[derive(Clone, Copy)]
-struct Held {
+struct SlotContent {
     symbol: u64,
     plane: Plane,
     /// The step that filled it.
@@ -95,7 +95,7 @@ struct Held {
 /// Execution of a plan.
 struct Execution<'p> {
     plan: &'p Plan,
-    slots: Vec<Option<Held>>,
+    slots: Vec<Option<SlotContent>>,
     /// Moves that were executed: the step that produced the plane, its slot, and the target level.
     moves: BTreeSet<(usize, usize, Level)>,
     step: usize,
@@ -115,7 +115,7 @@ pub(super) fn from_plan(plan: &Plan) -> Vec<u64> {
     }
     let results = plan.results.iter().map(|result| {
         let planes = result.stored.planes();
-        let held: Vec<Held> = result
+        let held: Vec<SlotContent> = result
             .slots
             .iter()
             .map(|slot| execution.read(*slot, SlotExtent::Level(Level::FINEST)))
@@ -167,7 +167,7 @@ impl Execution<'_> {
         }
     }
 
-    fn read(&self, slot: usize, extent: SlotExtent) -> Held {
+    fn read(&self, slot: usize, extent: SlotExtent) -> SlotContent {
         assert_eq!(
             self.plan.slots[slot].extent, extent,
             "the extent that step {} reads",
@@ -185,7 +185,7 @@ impl Execution<'_> {
             self.step
         );
         let step = self.step;
-        self.slots[slot] = Some(Held { symbol, plane, step });
+        self.slots[slot] = Some(SlotContent { symbol, plane, step });
     }
 
     fn run(&mut self, kernel: &KernelStep) {
@@ -228,7 +228,7 @@ impl Execution<'_> {
         for call in &kernel.spec.calls {
             let inputs = (0..call.inputs.len()).map(|input| self.input_symbol(kernel, call, input, &symbols, reads));
             let pass = |load: &Option<usize>| load.map_or(0, |load| self.held(kernel, load, reads));
-            let given = Given {
+            let given = CallArguments {
                 inputs: inputs.collect(),
                 passes: call.passes.iter().map(pass).collect(),
                 survey: call.survey.map(|load| self.held(kernel, load, reads)),

@@ -3,7 +3,7 @@
 use super::topology::{NO_TWIN, Topology};
 use crate::groups::Groups;
 use crate::model::Mesh;
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 
 /// Assignment of triangles to charts, which are numbered by material, then by first triangle.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 //! between them for both rings of ghosts. A ghost continues only one of the sides, so the other side would read values from
 //! elsewhere on the surface. The chart is divided there, and its parts are placed separately.
 
-use sabi_cancel::{Looking as _, look};
+use sabi_cancel::{CancelableIterator as _, look};
 use std::collections::{HashSet, VecDeque};
 
 use glam::{DVec2, DVec3};

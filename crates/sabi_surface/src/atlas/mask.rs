@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::fixed_point_uvs::{UNIT, Uvs};
 use super::raster::spans;
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 
 /// Texels that a chart covers in the user's layout, one bit each, in the smallest rectangle that contains them.
 #[derive(Clone, Debug, Default, PartialEq)]

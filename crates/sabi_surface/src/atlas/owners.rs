@@ -1,7 +1,7 @@
 //! Owners: the triangle of every texel whose center a chart covers.
 
 use rayon::prelude::*;
-use sabi_cancel::{Cancel, Looking as _};
+use sabi_cancel::{Cancel, CancelableIterator as _};
 
 use super::EMPTY;
 use super::chart_placement::ChartPlacement;

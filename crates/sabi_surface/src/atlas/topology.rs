@@ -1,7 +1,7 @@
 //! Half-edges of a mesh, paired in space regardless of texture coordinates.
 
 use rayon::prelude::*;
-use sabi_cancel::{Cancel, Looking as _};
+use sabi_cancel::{Cancel, CancelableIterator as _};
 
 use crate::model::Mesh;
 

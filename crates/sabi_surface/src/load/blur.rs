@@ -1,7 +1,7 @@
 //! Detects triangles that lose their shape, because 32-bit positions are too coarse at their distance from the origin.
 
 use glam::DVec3;
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 
 use super::warnings::{TRIANGLES, Warnings, counted};
 

@@ -1,6 +1,6 @@
 //! Faces with any number of corners, whose attributes have separate indices, and their conversion to triangles.
 
-use sabi_cancel::{Cancel, Looking as _};
+use sabi_cancel::{Cancel, CancelableIterator as _};
 use std::collections::HashMap;
 use std::ops::Range;
 

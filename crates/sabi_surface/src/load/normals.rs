@@ -2,7 +2,7 @@
 //! those of the file.
 
 use glam::{DVec3, Vec3};
-use sabi_cancel::{Cancel, Looking as _};
+use sabi_cancel::{Cancel, CancelableIterator as _};
 
 use super::submesh::{MadeNormals, Smoothing, Submesh};
 use super::unit_vector::unit;

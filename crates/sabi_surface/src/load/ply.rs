@@ -8,7 +8,7 @@
 mod body;
 mod header;
 
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 use std::collections::BTreeSet;
 
 use glam::DMat4;

@@ -3,7 +3,7 @@
 //! Facets are flat. Their outside is the side from which the corners are counter-clockwise; the normals in the file are ignored. Corners
 //! at exactly the same position become one vertex. The format defines neither units nor an up axis: lengths are read unchanged.
 
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 use std::collections::{BTreeSet, HashMap};
 
 use glam::DMat4;

@@ -1,6 +1,6 @@
 //! Triangles that become part of a [`Mesh`]: repaired, completed, placed.
 
-use sabi_cancel::{Cancel, Looking as _};
+use sabi_cancel::{Cancel, CancelableIterator as _};
 use std::collections::HashMap;
 
 use glam::{DMat4, DVec3, Vec3};

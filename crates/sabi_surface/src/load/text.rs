@@ -1,6 +1,6 @@
 //! Decoding of text files from old and new programs.
 
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 use std::borrow::Cow;
 
 /// Decodes UTF-8, or UTF-16 with a byte order mark, or otherwise Latin-1, which old programs write, so that different names

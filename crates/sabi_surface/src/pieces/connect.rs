@@ -1,7 +1,7 @@
 //! Connected components of the triangles of each part.
 
 use glam::{DVec3, Vec3};
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;

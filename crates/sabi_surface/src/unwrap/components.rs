@@ -1,6 +1,6 @@
 //! Connected components of a mesh, and groups of similar ones: copies that were moved, rotated or scaled.
 
-use sabi_cancel::{Looking as _, look};
+use sabi_cancel::{CancelableIterator as _, look};
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;

@@ -26,7 +26,7 @@ impl Stand {
         }
     }
 
-    fn pick(&self, ray: Ray) -> Option<Picked> {
+    fn pick(&self, ray: Ray) -> Option<PickedPoint> {
         pick(&self.bvh, &self.mesh, &self.atlas, ray, &self.placement)
     }
 }

@@ -15,7 +15,7 @@ pub(crate) enum PipelineKey {
     /// Shades the pixels of the model.
     Shade(Shading, Switches),
     /// Draws the picture behind the model, with the shade on the ground.
-    Background(Backing),
+    Background(BackgroundKey),
     Lines,
     /// Depth of the model as seen from a light. If a material has transparent places, its maps are used.
     Shadow(Option<Switches>),
@@ -87,7 +87,7 @@ impl Development {
 
 /// Picture behind the model: the overrides of `background.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Backing {
+pub(crate) struct BackgroundKey {
     /// `BACKDROP`.
     pub(crate) backdrop: Backdrop,
     /// `GROUND`.

@@ -1,6 +1,6 @@
 //! Parts of pipelines: entry points, vertex layouts, depth.
 
-use crate::target::DEPTH_FORMAT;
+use crate::render_target::DEPTH_FORMAT;
 
 /// Options by which the pipelines differ.
 pub(super) struct PipelineOptions<'r> {

@@ -10,8 +10,8 @@ use super::Renderer;
 use super::passes::color_attachment;
 use crate::error::ViewError;
 use crate::pipelines::{BloomStep, PipelineKey};
+use crate::render_target::{BloomLevels, RenderTarget};
 use crate::scene::Shot;
-use crate::target::{BloomLevels, Target};
 
 wgsl_struct! {
     "view/bloom" BloomPass:
@@ -29,7 +29,7 @@ impl Renderer {
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        target: &mut Target,
+        target: &mut RenderTarget,
         shot: &Shot,
     ) -> Result<(), ViewError> {
         let levels = match target.bloom.take() {

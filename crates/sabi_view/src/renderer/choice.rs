@@ -7,7 +7,7 @@ use sabi_gpu::Gpu;
 use super::{Renderer, development};
 use crate::error::ViewError;
 use crate::model::MaterialRange;
-use crate::pipelines::{Backdrop, Backing, BloomStep, PipelineKey, RasterVariant, Shading, Switches};
+use crate::pipelines::{Backdrop, BackgroundKey, BloomStep, PipelineKey, RasterVariant, Shading, Switches};
 use crate::scene::{Background, MaterialLook, Mode, Scene, Shot};
 
 /// Maximum number of looks in a picture: a stencil has eight bits, and 0 means no look.
@@ -79,7 +79,7 @@ pub(super) fn background(scene: &Scene<'_>, shot: &Shot) -> Option<PipelineKey> 
         Background::Plain(_) | Background::Clear if has_ground => Backdrop::NOTHING,
         Background::Plain(_) | Background::Clear => return None,
     };
-    Some(PipelineKey::Background(Backing {
+    Some(PipelineKey::Background(BackgroundKey {
         backdrop,
         has_ground,
         switches: match has_ground {

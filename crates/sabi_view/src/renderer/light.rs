@@ -2,10 +2,10 @@
 
 use sabi_gpu::Gpu;
 
-use super::{Renderer, Sample};
+use super::{PictureSample, Renderer};
 use crate::error::ViewError;
+use crate::render_target::RenderTarget;
 use crate::scene::{Scene, Shot};
-use crate::target::Target;
 
 impl Renderer {
     /// Returns the light of a shot of the lit material, the mean of all samples: linear, scene-referred and exposed,
@@ -14,7 +14,7 @@ impl Renderer {
     pub fn light(
         &self,
         gpu: &Gpu,
-        target: &mut Target,
+        target: &mut RenderTarget,
         scene: &Scene<'_>,
         shot: &Shot,
     ) -> Result<Vec<[f32; 4]>, ViewError> {
@@ -23,7 +23,7 @@ impl Renderer {
         let mut sums = vec![[0.0; 4]; width * height];
         let samples = shot.samples.max(1);
         for sample in 0..samples {
-            let next = Sample {
+            let next = PictureSample {
                 number: sample,
                 is_shown: false,
             };

@@ -4,13 +4,13 @@ use sabi_gpu::Gpu;
 use sabi_nodes::wgsl_struct;
 
 use super::Renderer;
-use super::bound::Bound;
+use super::bound_scene::BoundScene;
 use crate::error::ViewError;
 use crate::lights::{lights_of_sample, move_between_samples};
 use crate::pipelines::PipelineKey;
+use crate::render_target::VisibilityBuffer;
 use crate::scene::{Lines, MOST_LIGHTS, Mode, Scene, Shot};
 use crate::shadows::{ShadowMaps, layers_of, shadow_matrices};
-use crate::target::VisibilityBuffer;
 
 wgsl_struct! {
     "view/cast_shadow" Caster:
@@ -31,7 +31,7 @@ impl Renderer {
         gpu: &Gpu,
         scene: &Scene<'_>,
         shot: &Shot,
-        bound: &Bound,
+        bound: &BoundScene,
         known: Option<ShadowMaps>,
     ) -> Result<ShadowMaps, ViewError> {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
@@ -51,7 +51,7 @@ impl Renderer {
         scene: &Scene<'_>,
         shot: &Shot,
         sample: u32,
-        bound: &Bound,
+        bound: &BoundScene,
         maps: &mut ShadowMaps,
     ) -> Result<(), ViewError> {
         let is_lit = sample > 0 && shot.mode == Mode::Material;
@@ -68,7 +68,7 @@ impl Renderer {
         scene: &Scene<'_>,
         shot: &Shot,
         sample: u32,
-        bound: &Bound,
+        bound: &BoundScene,
         maps: &mut ShadowMaps,
     ) -> Result<(), ViewError> {
         let lights = lights_of_sample(scene, shot, sample);
@@ -111,7 +111,7 @@ impl Renderer {
 }
 
 /// Draws the model into a shadow map: all at once if it is opaque.
-fn draw_casters(pass: &mut wgpu::RenderPass<'_>, scene: &Scene<'_>, bound: &Bound, opaque: &wgpu::RenderPipeline) {
+fn draw_casters(pass: &mut wgpu::RenderPass<'_>, scene: &Scene<'_>, bound: &BoundScene, opaque: &wgpu::RenderPipeline) {
     pass.set_vertex_buffer(0, scene.model.vertices.slice(..));
     pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
     if !bound.is_veiled() {
@@ -135,7 +135,7 @@ pub(super) fn draw_raster(
     visibility: &VisibilityBuffer,
     scene: &Scene<'_>,
     frame: &wgpu::BindGroup,
-    bound: &Bound,
+    bound: &BoundScene,
 ) {
     let layer = |layer| {
         visibility.record.create_view(&wgpu::TextureViewDescriptor {
@@ -179,8 +179,8 @@ pub(super) fn draw_light(
     visibility_group: &wgpu::BindGroup,
     scene: &Scene<'_>,
     frame: &wgpu::BindGroup,
-    bound: &Bound,
-    parts: Option<&[Part]>,
+    bound: &BoundScene,
+    parts: Option<&[PixelRect]>,
 ) {
     let light = light.create_view(&wgpu::TextureViewDescriptor::default());
     let depth = visibility.depth.create_view(&wgpu::TextureViewDescriptor::default());
@@ -222,12 +222,12 @@ pub(super) fn draw_light(
 }
 
 /// Part of a picture that is drawn: its left, upper, right and lower border in pixels.
-pub(crate) type Part = [u32; 4];
+pub(crate) type PixelRect = [u32; 4];
 
 /// Returns an attachment. If there are parts, only they are drawn again, so the rest is kept.
 pub(super) fn part_attachment<'v>(
     view: &'v wgpu::TextureView,
-    parts: Option<&[Part]>,
+    parts: Option<&[PixelRect]>,
 ) -> wgpu::RenderPassColorAttachment<'v> {
     let attachment = color_attachment(view);
     match parts {
@@ -245,7 +245,7 @@ pub(super) fn part_attachment<'v>(
 /// Draws the whole picture, or the given parts one after another.
 pub(super) fn for_parts(
     pass: &mut wgpu::RenderPass<'_>,
-    parts: Option<&[Part]>,
+    parts: Option<&[PixelRect]>,
     draw: impl Fn(&mut wgpu::RenderPass<'_>),
 ) {
     let Some(parts) = parts else {

@@ -3,15 +3,15 @@
 use sabi_gpu::{DeviceMaps, Gpu};
 
 use super::passes::{draw_light, draw_raster};
-use super::{Renderer, Sample};
+use super::{PictureSample, Renderer};
 use crate::environment::Environment;
 use crate::error::ViewError;
-use crate::frame::Frame;
+use crate::frame::FrameUniforms;
 use crate::lights::STUDIO_LIGHTS;
 use crate::model::ViewModel;
+use crate::render_target::{RenderTarget, VisibilityBuffer};
 use crate::scene::{Light, MaterialLook, Mode, Scene, Shot};
 use crate::shadows::ShadowMaps;
-use crate::target::{Target, VisibilityBuffer};
 
 /// Lights of poses: those of a studio without soft shadows, so that all samples share their shadow maps.
 const POSE_LIGHTS: [Light; 2] = {
@@ -30,9 +30,9 @@ const POSE_LIGHTS: [Light; 2] = {
 
 /// One view of a model, for pictures of it with many looks. Its visibility is computed once, since on software drivers that
 /// takes far longer than shading a small picture.
-pub struct Pose {
+pub struct ModelPose {
     shot: Shot,
-    target: Target,
+    target: RenderTarget,
     /// Visibility buffer of each sample, with its bind group.
     visibility_buffers: Vec<(VisibilityBuffer, wgpu::BindGroup)>,
     shadows: ShadowMaps,
@@ -68,7 +68,7 @@ impl Renderer {
         model: &ViewModel,
         environment: &Environment,
         shot: &Shot,
-    ) -> Result<Pose, ViewError> {
+    ) -> Result<ModelPose, ViewError> {
         let shot = Shot {
             has_relief: false,
             lines: Vec::new(),
@@ -87,11 +87,11 @@ impl Renderer {
         };
         let bound = self.bound(gpu, size, &scene, &shot)?;
         let shadows = self.shadow_maps(gpu, &scene, &shot, &bound, None)?;
-        let target = Target::new(gpu, size)?;
+        let target = RenderTarget::new(gpu, size)?;
         let mut visibility_buffers = Vec::new();
         for sample in 0..shot.samples {
             let visibility = VisibilityBuffer::new(gpu, size)?;
-            let frame = self.frame_group(gpu, &shadows, &scene, &Frame::new(&scene, &shot, size, sample))?;
+            let frame = self.frame_group(gpu, &shadows, &scene, &FrameUniforms::new(&scene, &shot, size, sample))?;
             let mut encoder = gpu
                 .device()
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -100,7 +100,7 @@ impl Renderer {
             let group = self.visibility_group(gpu, &visibility, &scene);
             visibility_buffers.push((visibility, group));
         }
-        Ok(Pose {
+        Ok(ModelPose {
             shot,
             target,
             visibility_buffers,
@@ -114,11 +114,11 @@ impl Renderer {
     pub fn draw_look<'p>(
         &self,
         gpu: &Gpu,
-        pose: &'p mut Pose,
+        pose: &'p mut ModelPose,
         model: &ViewModel,
         environment: &Environment,
         look: &MaterialLook,
-    ) -> Result<&'p Target, ViewError> {
+    ) -> Result<&'p RenderTarget, ViewError> {
         let shot = Shot {
             mode: if look.node.is_some() {
                 Mode::Node
@@ -144,7 +144,7 @@ impl Renderer {
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for ((visibility, group), number) in pose.visibility_buffers.iter().zip(0..) {
-            let values = Frame::new(&scene, &shot, pose.target.size, number);
+            let values = FrameUniforms::new(&scene, &shot, pose.target.size, number);
             let frame = self.frame_group(gpu, &pose.shadows, &scene, &values)?;
             draw_light(
                 &mut encoder,
@@ -156,7 +156,7 @@ impl Renderer {
                 &bound,
                 None,
             );
-            let sample = Sample {
+            let sample = PictureSample {
                 number,
                 is_shown: number + 1 == shot.samples,
             };

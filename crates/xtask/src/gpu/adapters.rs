@@ -5,7 +5,7 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
-use super::pack::{Pack, Role};
+use super::pack::{Pack, ProgramRole};
 use xtask::project::{Project, TaskError, output_of};
 
 /// An adapter.
@@ -36,7 +36,7 @@ impl fmt::Display for Adapter {
 impl Adapter {
     /// Lists all adapters, the one that a user gets by default first.
     pub(super) fn find_all(project: &Project, pack: &Pack) -> Result<Vec<Adapter>, TaskError> {
-        let Some((_, sabi)) = pack.of(Role::Sabi).next() else {
+        let Some((_, sabi)) = pack.of(ProgramRole::Sabi).next() else {
             return Err(TaskError::failed(
                 "The pack has no sabi, which lists the adapters: pack it again.",
             ));

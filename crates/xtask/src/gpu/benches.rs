@@ -3,12 +3,12 @@
 use std::process::Stdio;
 
 use super::adapters::Adapter;
-use super::pack::{Pack, Role};
+use super::pack::{Pack, ProgramRole};
 use xtask::project::{Project, TaskError, output_of};
 
 /// A row of a bench's table.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Row {
+pub(super) struct BenchRow {
     /// Name of the measured quantity.
     pub(super) what: String,
     /// The number with its unit.
@@ -21,7 +21,7 @@ pub(super) struct BenchResults {
     /// The bench's name.
     pub(super) bench: String,
     /// Its table.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<BenchRow>,
     /// Cause of its failure, if it failed.
     pub(super) failure: Option<String>,
 }
@@ -29,7 +29,7 @@ pub(super) struct BenchResults {
 /// Runs all benches, one after the other.
 pub(super) fn run_all(project: &Project, pack: &Pack, adapter: &Adapter) -> Result<Vec<BenchResults>, TaskError> {
     let mut results = Vec::new();
-    for (name, program) in pack.of(Role::Bench) {
+    for (name, program) in pack.of(ProgramRole::Bench) {
         eprintln!("  bench: {name}");
         let mut command = project.command(program)?;
         command
@@ -52,13 +52,13 @@ pub(super) fn run_all(project: &Project, pack: &Pack, adapter: &Adapter) -> Resu
 }
 
 /// Rows of a table in Markdown whose first two columns are the measured quantity and the number.
-fn rows(printed: &str) -> Vec<Row> {
-    let cells = |line: &str| -> Option<Row> {
+fn rows(printed: &str) -> Vec<BenchRow> {
+    let cells = |line: &str| -> Option<BenchRow> {
         let inner = line.trim().strip_prefix('|')?.strip_suffix('|')?;
         let mut cells = inner.split('|').map(|cell| cell.trim().to_owned());
         let (what, measured) = (cells.next()?, cells.next()?);
         let is_row = what != "what" && !what.starts_with("---");
-        is_row.then_some(Row { what, measured })
+        is_row.then_some(BenchRow { what, measured })
     };
     printed.lines().filter_map(cells).collect()
 }
@@ -70,7 +70,7 @@ mod tests {
     #[test]
     fn the_head_of_a_table_is_no_measurement() {
         let printed = "llvmpipe\n\n| what | measured | aim |\n|---|---|---|\n| still | 12.0 ms | ≤ 120 ms |\n";
-        let row = Row {
+        let row = BenchRow {
             what: "still".into(),
             measured: "12.0 ms".into(),
         };

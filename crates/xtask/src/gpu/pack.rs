@@ -11,7 +11,7 @@ use xtask::project::{Project, TaskError, create_folder, output_of};
 
 /// Role of a program, which is also the prefix of its file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Role {
+pub(super) enum ProgramRole {
     /// Tests that use a device.
     Test,
     /// A bench that uses a device.
@@ -20,20 +20,20 @@ pub(super) enum Role {
     Sabi,
 }
 
-impl Role {
+impl ProgramRole {
     fn prefix(self) -> &'static str {
         match self {
-            Role::Test => "test-",
-            Role::Bench => "bench-",
-            Role::Sabi => "",
+            ProgramRole::Test => "test-",
+            ProgramRole::Bench => "bench-",
+            ProgramRole::Sabi => "",
         }
     }
 }
 
 /// A target of cargo: its package, its kind as cargo names it, and its own name.
-type Target = (&'static str, &'static str, &'static str);
+type CargoTarget = (&'static str, &'static str, &'static str);
 
-const TESTS: [Target; 6] = [
+const TESTS: [CargoTarget; 6] = [
     ("sabi_tests", "test", "pixels"),
     ("sabi_tests", "test", "closed_forms"),
     ("sabi_tests", "test", "views"),
@@ -41,7 +41,7 @@ const TESTS: [Target; 6] = [
     ("sabi_tests", "test", "memory"),
     ("sabi_gpu", "test", "device"),
 ];
-const BENCHES: [Target; 3] = [
+const BENCHES: [CargoTarget; 3] = [
     ("sabi_engine", "bench", "bake"),
     ("sabi_engine", "bench", "frames"),
     ("sabi_engine", "bench", "live"),
@@ -51,7 +51,7 @@ const BENCHES: [Target; 3] = [
 #[derive(Debug)]
 pub(super) struct Pack {
     /// Each program by its role and its target's name.
-    pub(super) programs: BTreeMap<(Role, String), PathBuf>,
+    pub(super) programs: BTreeMap<(ProgramRole, String), PathBuf>,
 }
 
 impl Pack {
@@ -72,7 +72,7 @@ impl Pack {
         Ok(pack)
     }
 
-    fn add(&mut self, built: &Path, folder: &Path, role: Role, name: &str) -> Result<(), TaskError> {
+    fn add(&mut self, built: &Path, folder: &Path, role: ProgramRole, name: &str) -> Result<(), TaskError> {
         let file = folder.join(file_name(role, name));
         copy(built, &file)?;
         self.programs.insert((role, name.to_owned()), file);
@@ -97,22 +97,22 @@ impl Pack {
     }
 
     /// Programs of a role with their names, in order.
-    pub(super) fn of(&self, role: Role) -> impl Iterator<Item = (&str, &Path)> {
+    pub(super) fn of(&self, role: ProgramRole) -> impl Iterator<Item = (&str, &Path)> {
         let of_role = self.programs.iter().filter(move |((own, _), _)| *own == role);
         of_role.map(|((_, name), file)| (name.as_str(), file.as_path()))
     }
 }
 
-fn targets() -> impl Iterator<Item = (Role, Target)> {
-    let tests = TESTS.map(|target| (Role::Test, target));
-    let benches = BENCHES.map(|target| (Role::Bench, target));
+fn targets() -> impl Iterator<Item = (ProgramRole, CargoTarget)> {
+    let tests = TESTS.map(|target| (ProgramRole::Test, target));
+    let benches = BENCHES.map(|target| (ProgramRole::Bench, target));
     tests
         .into_iter()
         .chain(benches)
-        .chain([(Role::Sabi, ("sabi", "bin", "sabi"))])
+        .chain([(ProgramRole::Sabi, ("sabi", "bin", "sabi"))])
 }
 
-fn file_name(role: Role, name: &str) -> String {
+fn file_name(role: ProgramRole, name: &str) -> String {
     format!("{}{name}{}", role.prefix(), env::consts::EXE_SUFFIX)
 }
 

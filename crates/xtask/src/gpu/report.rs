@@ -119,7 +119,7 @@ fn measurements<'r>(results: &[&'r Results]) -> Vec<(&'r str, &'r str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::benches::Row;
+    use super::super::benches::BenchRow;
     use super::*;
 
     fn results(name: &str, kind: &str, ms: &str, failed: &[&str]) -> Results {
@@ -139,7 +139,7 @@ mod tests {
             }],
             benches: vec![BenchResults {
                 bench: text("frames"),
-                rows: vec![Row {
+                rows: vec![BenchRow {
                     what: text("still"),
                     measured: text(ms),
                 }],

@@ -3,7 +3,7 @@
 use std::process::Stdio;
 
 use super::adapters::Adapter;
-use super::pack::{Pack, Role};
+use super::pack::{Pack, ProgramRole};
 use xtask::project::{Project, TaskError, output_of};
 
 /// Results of one program of tests.
@@ -27,7 +27,7 @@ pub(super) fn run_all(
     pictures: &str,
 ) -> Result<Vec<TestResults>, TaskError> {
     let mut results = Vec::new();
-    for (name, program) in pack.of(Role::Test) {
+    for (name, program) in pack.of(ProgramRole::Test) {
         eprintln!("  tests: {name}");
         let mut command = project.command(program)?;
         command

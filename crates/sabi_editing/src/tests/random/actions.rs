@@ -4,21 +4,21 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::super::*;
-use super::dice::Dice;
+use super::split_mix::SplitMix64;
 use crate::command::{ExposedCommand, LayerCommand, NodeSource, perform};
 use crate::dropped_layers::DroppedOn;
 
 /// A document, and a source of random actions on it.
-pub(super) struct Hands {
+pub(super) struct RandomActions {
     pub(super) document: OpenDocument,
-    pub(super) dice: Dice,
+    pub(super) dice: SplitMix64,
     pub(super) clipboard: String,
     pub(super) kinds: Vec<String>,
     /// Texts that may be on the disk: the one last reported as saved or kept, and those after it.
     pub(super) safe: Vec<String>,
 }
 
-impl Hands {
+impl RandomActions {
     pub(super) fn ids(&self) -> Vec<NodeId> {
         self.document.graph().ids().cloned().collect()
     }
@@ -284,7 +284,7 @@ impl Hands {
 
     fn change_groups(&mut self) -> bool {
         let (group, name, input, output) = (self.group(), self.name(), self.input(), self.output());
-        let of = |names: Vec<&String>, dice: &mut Dice| dice.pick(&names).cloned().unwrap_or_default();
+        let of = |names: Vec<&String>, dice: &mut SplitMix64| dice.pick(&names).cloned().unwrap_or_default();
         let port_in = of(ports::inputs(&self.document).keys().collect(), &mut self.dice);
         let port_out = of(ports::outputs(&self.document).keys().collect(), &mut self.dice);
         match self.dice.below(16) {

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use sabi_engine::Remedy;
 use sabi_engine::session::recoveries;
-use sabi_files::{Disk, Fault};
+use sabi_files::{Disk, DiskFault};
 
 use super::super::*;
-use super::actions::Hands;
-use super::dice::Dice;
+use super::actions::RandomActions;
+use super::split_mix::SplitMix64;
 
 /// Total number of random edits, and number of graphs that they are spread over.
 const EDITS: usize = 10_000;
@@ -19,7 +19,7 @@ const MOST_STEPS: usize = 60;
 /// Minimum number of kills in a run, so that the test tests something.
 const FEWEST_KILLS: usize = 40;
 
-impl Hands {
+impl RandomActions {
     /// Saves the graph to some file, or keeps a recovery copy. Notes what must be found after a kill.
     pub(super) fn keep(&mut self, folder: &Path) {
         let file = ["a.sabi", "deep/a.sabi", "deep/er/b.sabi"][self.dice.below(3)];
@@ -67,16 +67,16 @@ fn reopened(kept: &Path, file: Option<&PathBuf>, safe: &[String]) -> Session {
 fn edited_with_kills(graph: usize, folder: &Path) -> usize {
     let kept = folder.join("kept");
     let mut session = Session::new(Some(&kept));
-    let mut hands = Hands {
+    let mut hands = RandomActions {
         safe: vec![session.text().to_owned()],
         document: document_with(Session::new(None), 0),
-        dice: Dice(graph as u64),
+        dice: SplitMix64(graph as u64),
         clipboard: String::new(),
         kinds: kinds().catalog.entries().map(|entry| entry.id.clone()).collect(),
     };
     let (mut edits, mut kills) = (0, 0);
     while edits < EDITS / GRAPHS {
-        let disk = Disk::failing(Fault::End, hands.dice.below(MOST_STEPS));
+        let disk = Disk::failing(DiskFault::End, hands.dice.below(MOST_STEPS));
         hands.document = document_with(session.on_disk(&disk), kills as u64);
         while edits < EDITS / GRAPHS && !disk.has_ended() {
             hands.act(folder);

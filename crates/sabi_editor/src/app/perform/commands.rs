@@ -1,7 +1,7 @@
 //! Commands, performed by the owner of their group. No match here has a wildcard.
 
 use egui::Ui;
-use sabi_editing::arrangement::{Align, Axis};
+use sabi_editing::arrangement::{Align, DistributionAxis};
 use sabi_editing::command::{
     self as editing, ClipboardCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand, NavigationCommand,
     NodeCommand, SelectionCommand, WireCommand,
@@ -111,8 +111,10 @@ impl Editor {
             ArrangeCommand::AlignRight => editing::ArrangeCommand::Align(Align::Right).into(),
             ArrangeCommand::AlignTop => editing::ArrangeCommand::Align(Align::Top).into(),
             ArrangeCommand::AlignBottom => editing::ArrangeCommand::Align(Align::Bottom).into(),
-            ArrangeCommand::DistributeAcross => editing::ArrangeCommand::Distribute(Axis::Horizontal).into(),
-            ArrangeCommand::DistributeDown => editing::ArrangeCommand::Distribute(Axis::Vertical).into(),
+            ArrangeCommand::DistributeAcross => {
+                editing::ArrangeCommand::Distribute(DistributionAxis::Horizontal).into()
+            }
+            ArrangeCommand::DistributeDown => editing::ArrangeCommand::Distribute(DistributionAxis::Vertical).into(),
             ArrangeCommand::Straighten => editing::ArrangeCommand::Straighten.into(),
             ArrangeCommand::LayOut => editing::ArrangeCommand::LayOut.into(),
             ArrangeCommand::SelectAll => SelectionCommand::All.into(),

@@ -18,10 +18,10 @@ use crate::brush_shelf::{self, KeptBrush};
 use crate::command::BrushCommand;
 use crate::dock::Panel;
 use crate::files::system_dialog::PathFor;
-use crate::looks::ColorTarget;
 use crate::settings::brush::BrushChoices;
 use crate::settings::stencil::StencilChoices;
 use crate::settings::text_font::TextFont;
+use crate::shown_results::ColorTarget;
 
 impl Editor {
     pub(super) fn perform_painting(&mut self, action: PaintAction, ui: &Ui) {
@@ -69,7 +69,7 @@ impl Editor {
             PaintAction::AskForFont => self.ask_for_brush(PathFor::Font),
             PaintAction::TakeNode(result) => {
                 let (gpu, document) = (self.evaluation.gpu(), &self.documents.document);
-                self.node_tips.start(ui.ctx(), gpu, document, &result);
+                self.node_brush_tip.start(ui.ctx(), gpu, document, &result);
                 self.shell
                     .notify("The brush gets its tip once the node is evaluated on a square.");
             }
@@ -178,8 +178,8 @@ impl Editor {
     }
 
     /// Uses the rendered result of a node as the tip of the brush, if one has arrived.
-    pub(in crate::app) fn take_node_tip(&mut self) {
-        let Some(made) = self.node_tips.take() else { return };
+    pub(in crate::app) fn take_node_brush_tip(&mut self) {
+        let Some(made) = self.node_brush_tip.take() else { return };
         let taken = made.and_then(|made| {
             let part = if made.is_mask {
                 PicturePart::Light

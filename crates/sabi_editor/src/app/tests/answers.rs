@@ -7,9 +7,9 @@ use sabi_engine::baking::BakeRequest;
 use sabi_engine::live::ViewSubject;
 use sabi_graph::{NodeId, NodeRef};
 
-use super::{Editor, Folders};
+use super::{Editor, ProgramFolders};
 use crate::exports::ExportSource;
-use crate::looks::result_of;
+use crate::shown_results::result_of;
 
 impl Editor {
     /// Returns the subject that the model view shows.
@@ -57,7 +57,7 @@ impl Editor {
         self.shell.dock.is_use_view()
     }
 
-    pub(super) fn folders(&self) -> &Folders {
+    pub(super) fn folders(&self) -> &ProgramFolders {
         &self.documents.folders
     }
 

@@ -26,7 +26,7 @@ const NODES: &str = r#"
 "#;
 
 /// State before a command.
-pub(super) struct Before {
+pub(super) struct StateBefore {
     text: String,
     places: Vec<[f32; 2]>,
     zoom: f32,
@@ -35,7 +35,7 @@ pub(super) struct Before {
 
 impl Window {
     /// Resets the window, selects nodes, and puts the pointer where the keys of a scope act.
-    pub(super) fn prepare(&mut self, selected: &[&str], scope: Scope) -> Before {
+    pub(super) fn prepare(&mut self, selected: &[&str], scope: Scope) -> StateBefore {
         let editor = self.harness.state_mut();
         while editor.documents.document.session.undo_names().next().is_some() {
             history::undo(&mut editor.documents.document);
@@ -53,7 +53,7 @@ impl Window {
         let at = self.editor().shell.dock.rects[&panel].shrink(8.0).left_bottom();
         self.point(at);
         self.settle();
-        Before {
+        StateBefore {
             text: self.text(),
             places: self.places(),
             zoom: self.zoom(),

@@ -7,7 +7,7 @@ use egui::Key;
 use sabi_engine::Session;
 
 use super::safety::CLOUDS;
-use super::{Folders, Window, beside};
+use super::{ProgramFolders, Window, beside};
 use crate::files::Question;
 
 /// A window with unsaved work on `graph.sabi`. Returns it with the text of the work.
@@ -20,7 +20,7 @@ fn worked() -> (Window, String) {
     (window, text)
 }
 
-fn open(folders: &Folders) -> Session {
+fn open(folders: &ProgramFolders) -> Session {
     let file = beside(folders).join("graph.sabi");
     Session::open(&file, folders.recovery.as_deref()).expect("a graph that can be read")
 }

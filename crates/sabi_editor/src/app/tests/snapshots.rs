@@ -10,7 +10,7 @@ use sabi_editing::node_size::TITLE_HEIGHT;
 use super::Window;
 use super::hands::id;
 use crate::dock::Panel;
-use crate::theme::Shade;
+use crate::theme::ColorScheme;
 
 const NODES: &str = r##"
     "clouds": { "kind": "noise/simplex", "label": "Clouds", "pos": [0, 0] },
@@ -21,7 +21,7 @@ const NODES: &str = r##"
 
 impl Window {
     /// A window of a shade that shows a node's parameters and its result, without the pointer.
-    fn on(node: &str, shade: Shade) -> Window {
+    fn on(node: &str, shade: ColorScheme) -> Window {
         let mut window = Window::opened(NODES);
         let context = window.harness.ctx.clone();
         let editor = window.harness.state_mut();
@@ -66,10 +66,10 @@ impl Window {
 fn knobs_look_as_in_their_reviewed_pictures() {
     let mut results = SnapshotResults::new();
     for (node, shade, name) in [
-        ("rust", Shade::Dark, "knobs_of_a_layer"),
-        ("rust", Shade::Light, "knobs_of_a_layer_on_light"),
-        ("tones", Shade::Dark, "knobs_of_a_gradient"),
-        ("bend", Shade::Dark, "knobs_of_a_curve"),
+        ("rust", ColorScheme::Dark, "knobs_of_a_layer"),
+        ("rust", ColorScheme::Light, "knobs_of_a_layer_on_light"),
+        ("tones", ColorScheme::Dark, "knobs_of_a_gradient"),
+        ("bend", ColorScheme::Dark, "knobs_of_a_curve"),
     ] {
         let mut window = Window::on(node, shade);
         // A curve shows the histogram of its input above its points.
@@ -87,7 +87,7 @@ fn knobs_look_as_in_their_reviewed_pictures() {
 #[test]
 fn a_node_looks_as_in_its_reviewed_picture_except_for_the_time_in_its_title() {
     let mut results = SnapshotResults::new();
-    for (shade, name) in [(Shade::Dark, "node"), (Shade::Light, "node_on_light")] {
+    for (shade, name) in [(ColorScheme::Dark, "node"), (ColorScheme::Light, "node_on_light")] {
         let mut window = Window::on("rust", shade);
         let mut part = window.rect(&id("rust")).expand2(vec2(8.0, 4.0));
         part.min.y += TITLE_HEIGHT * window.zoom();
@@ -97,7 +97,7 @@ fn a_node_looks_as_in_its_reviewed_picture_except_for_the_time_in_its_title() {
 
 #[test]
 fn the_add_menu_looks_as_in_its_reviewed_picture() {
-    let mut window = Window::on("rust", Shade::Dark);
+    let mut window = Window::on("rust", ColorScheme::Dark);
     let at = window.on_canvas([0.05, 0.1]);
     window.point(at);
     window.key(Key::Tab);
@@ -108,7 +108,7 @@ fn the_add_menu_looks_as_in_its_reviewed_picture() {
 
 #[test]
 fn a_texture_with_its_histogram_looks_as_in_its_reviewed_picture() {
-    let mut window = Window::on("clouds", Shade::Dark);
+    let mut window = Window::on("clouds", ColorScheme::Dark);
     window.until("its picture", |editor| {
         let inspected = editor.evaluation.results.inspected.as_ref();
         inspected.is_some_and(|(node, values)| node.node == "clouds" && editor.views.flat.shows(values))

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use sabi_engine::Session;
 
 use super::{Editor, Window, beside, graph_text};
-use crate::app::Folders;
+use crate::app::ProgramFolders;
 use crate::paths::canonical_if_present;
 
 /// A graph of these nodes in `shared`, beside a folder `private`.
-fn shared(folders: &Folders, nodes: &str) -> PathBuf {
+fn shared(folders: &ProgramFolders, nodes: &str) -> PathBuf {
     let folder = beside(folders);
     for name in ["shared", "private"] {
         fs::create_dir_all(folder.join(name)).expect("a folder");
@@ -31,7 +31,7 @@ fn is_refused(editor: &Editor) -> bool {
 
 #[test]
 fn a_picture_from_elsewhere_is_read_once_its_folder_is_trusted() {
-    let open = |folders: &Folders| Session::open(&shared(folders, PHOTO), None).expect("a graph");
+    let open = |folders: &ProgramFolders| Session::open(&shared(folders, PHOTO), None).expect("a graph");
     let mut window = Window::with(open);
     window.until("the refusal", is_refused);
     assert!(window.says(OUTSIDE) && window.fault_of("photo").contains(OUTSIDE));
@@ -52,7 +52,7 @@ fn a_picture_from_elsewhere_is_read_once_its_folder_is_trusted() {
 
 #[test]
 fn a_model_that_was_chosen_is_shown_again_and_one_that_was_not_is_asked_about() {
-    let named = |folders: &Folders| {
+    let named = |folders: &ProgramFolders| {
         let file = shared(folders, "");
         let text = fs::read_to_string(&file).expect("a graph");
         fs::write(
@@ -88,7 +88,7 @@ fn a_model_that_was_chosen_is_shown_again_and_one_that_was_not_is_asked_about() 
 #[test]
 fn nodes_that_come_with_a_graph_are_used_once_the_user_trusts_them() {
     let level = "//! Level\n//! One value.\n\n/// The value.\nfn mask(at: Surface) -> f32 {\n    return 0.5;\n}\n";
-    let open = |folders: &Folders| {
+    let open = |folders: &ProgramFolders| {
         let file = shared(folders, r#""own": { "kind": "mine/level" }"#);
         let nodes = file.with_file_name("nodes").join("mine");
         fs::create_dir_all(&nodes).expect("a folder");

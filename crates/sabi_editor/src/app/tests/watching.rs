@@ -25,13 +25,13 @@ fn graph_of(nodes: &str) -> String {
 
 /// A window on a graph with files beside it, all of them watched, and the folder of the files. The window shows the
 /// node `seen`.
-struct Watched {
+struct WatchedWindow {
     window: Window,
     folder: PathBuf,
 }
 
-impl Watched {
-    fn of(nodes: &str, files: &[(&str, &[u8])], first: f32) -> Watched {
+impl WatchedWindow {
+    fn of(nodes: &str, files: &[(&str, &[u8])], first: f32) -> WatchedWindow {
         let mut folder = PathBuf::new();
         let mut window = Window::with(|folders| {
             folder = folders.examples.clone().expect("a folder for examples");
@@ -46,7 +46,7 @@ impl Watched {
         }
         let seen = "seen".parse().expect("an id");
         window.harness.state_mut().look_at(&seen, None);
-        let mut watched = Watched { window, folder };
+        let mut watched = WatchedWindow { window, folder };
         watched.until_value(first);
         watched.rest();
         watched
@@ -102,7 +102,7 @@ const LEVEL: &str = r#""seen": { "kind": "own/level" }"#;
 
 #[test]
 fn a_changed_node_file_changes_the_shown_result_and_a_broken_one_leaves_it() {
-    let mut watched = Watched::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
+    let mut watched = WatchedWindow::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
     watched.write("nodes/own/level.wgsl", level(0.5));
     watched.until_value(0.5);
     watched.write("nodes/own/level.wgsl", "fn mask() {");
@@ -129,7 +129,7 @@ fn slow(value: f32) -> String {
 
 #[test]
 fn a_node_that_blocks_the_device_is_stopped_and_muted_and_the_window_goes_on() {
-    let mut watched = Watched::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
+    let mut watched = WatchedWindow::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
     watched.window.editor().evaluation.gpu().set_impatient(true);
     watched.write("nodes/own/level.wgsl", slow(0.5));
     watched.window.until("a muted node", |editor| {
@@ -151,7 +151,7 @@ fn a_node_that_blocks_the_device_is_stopped_and_muted_and_the_window_goes_on() {
 
 #[test]
 fn the_first_node_file_beside_a_graph_is_found_and_asked_about() {
-    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let mut watched = WatchedWindow::of(PLAIN, &[], 1.0);
     watched.write("nodes/own/level.wgsl", level(0.5));
     watched.window.until("a question", |editor| {
         trust::untrusted_nodes(&editor.documents.document).is_some()
@@ -171,7 +171,7 @@ fn the_first_node_file_beside_a_graph_is_found_and_asked_about() {
 
 #[test]
 fn a_rewritten_model_is_shown_and_a_broken_one_leaves_the_last() {
-    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let mut watched = WatchedWindow::of(PLAIN, &[], 1.0);
     let triangles = |editor: &Editor| {
         let model = editor.evaluation.model.received.as_ref().expect("a model");
         model.linked.model.mesh.triangles.len()
@@ -208,7 +208,7 @@ fn picture(gray: u8) -> Vec<u8> {
 #[test]
 fn a_rewritten_picture_is_shown() {
     let image = r#""seen": { "kind": "source/image", "params": { "file": "gray.bmp" } }"#;
-    let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
+    let mut watched = WatchedWindow::of(image, &[("gray.bmp", &picture(0))], 0.0);
     watched.write("gray.bmp", picture(255));
     watched.until_value(1.0);
     fs::remove_file(watched.path("gray.bmp")).expect("the picture");
@@ -229,7 +229,7 @@ fn group(color: &str) -> String {
 #[test]
 fn a_group_file_that_another_program_saves_is_used() {
     let instance = r#""seen": { "kind": "graph/group", "group": "lib/wear.sabi" }"#;
-    let mut watched = Watched::of(instance, &[("lib/wear.sabi", group("#000000").as_bytes())], 0.0);
+    let mut watched = WatchedWindow::of(instance, &[("lib/wear.sabi", group("#000000").as_bytes())], 0.0);
     watched.write("lib/wear.sabi", group("#ffffff"));
     watched.until_value(1.0);
 }
@@ -238,7 +238,7 @@ const PLAIN: &str = r##""seen": { "kind": "color/constant", "params": { "color":
 
 #[test]
 fn a_graph_that_another_program_writes_is_asked_about_and_can_be_reloaded() {
-    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let mut watched = WatchedWindow::of(PLAIN, &[], 1.0);
     watched.write("graph.sabi", graph_of(&PLAIN.replace("#ffffff", "#000000")));
     watched
         .window
@@ -260,7 +260,7 @@ fn a_graph_that_another_program_writes_is_asked_about_and_can_be_reloaded() {
 
 #[test]
 fn the_open_graph_can_be_kept_when_another_program_writes_its_file() {
-    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let mut watched = WatchedWindow::of(PLAIN, &[], 1.0);
     let theirs = watched.written_by_another();
     watched.window.harness.run_steps(2);
     watched.window.harness.get_by_label("Keep the open graph").click();
@@ -276,9 +276,9 @@ fn the_open_graph_can_be_kept_when_another_program_writes_its_file() {
 
 #[test]
 fn a_save_over_the_version_of_another_program_asks_first() {
-    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let mut watched = WatchedWindow::of(PLAIN, &[], 1.0);
     let theirs = watched.written_by_another();
-    let on_disk = |watched: &Watched| fs::read_to_string(watched.path("graph.sabi")).expect("a file");
+    let on_disk = |watched: &WatchedWindow| fs::read_to_string(watched.path("graph.sabi")).expect("a file");
     watched.window.keys(Modifiers::COMMAND, Key::S);
     assert!(watched.window.says("Another program has written this file"));
     assert_eq!(on_disk(&watched), theirs);
@@ -290,7 +290,7 @@ fn a_save_over_the_version_of_another_program_asks_first() {
 #[test]
 fn a_save_of_the_window_is_not_reported_as_a_change_by_another_program() {
     let image = r#""seen": { "kind": "source/image", "params": { "file": "gray.bmp" } }"#;
-    let mut watched = Watched::of(image, &[("gray.bmp", &picture(0))], 0.0);
+    let mut watched = WatchedWindow::of(image, &[("gray.bmp", &picture(0))], 0.0);
     let editor = watched.window.harness.state_mut();
     let seen = "seen".parse().expect("an id");
     nodes::set_knob(
@@ -308,7 +308,7 @@ fn a_save_of_the_window_is_not_reported_as_a_change_by_another_program() {
 
 #[test]
 fn a_device_that_is_lost_while_nothing_is_evaluated_is_noticed() {
-    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let mut watched = WatchedWindow::of(PLAIN, &[], 1.0);
     watched.window.destroy_device();
     watched.window.until("a way out", |editor| editor.is_leaving);
     watched.window.harness.run_steps(3);
@@ -326,10 +326,10 @@ fn light(value: u8) -> Vec<u8> {
 
 #[test]
 fn a_rewritten_environment_is_shown_and_a_broken_one_leaves_the_last() {
-    let mut watched = Watched::of(PLAIN, &[("sky.hdr", &light(40))], 1.0);
+    let mut watched = WatchedWindow::of(PLAIN, &[("sky.hdr", &light(40))], 1.0);
     let sky = watched.path("sky.hdr");
-    let number = |watched: &Watched| watched.window.editor().views.model.environment.number();
-    let comes = |watched: &mut Watched, after: u64| {
+    let number = |watched: &WatchedWindow| watched.window.editor().views.model.environment.number();
+    let comes = |watched: &mut WatchedWindow, after: u64| {
         let is_other = move |editor: &Editor| editor.views.model.environment.number() > after;
         watched.window.until("the environment", is_other);
     };

@@ -9,15 +9,15 @@ const STEP_WIDTH: f64 = 1e-6;
 
 /// Part of the plane that a rectangle shows.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::knobs) struct View {
+pub(in crate::knobs) struct CurveView {
     pub(in crate::knobs) rect: Rect,
     pub(in crate::knobs) x: [f64; 2],
     pub(in crate::knobs) y: [f64; 2],
 }
 
-impl View {
+impl CurveView {
     /// A view of all points and of the usual range.
-    pub(in crate::knobs) fn of(rect: Rect, usual: [f64; 2], points: &[[f64; 2]]) -> View {
+    pub(in crate::knobs) fn of(rect: Rect, usual: [f64; 2], points: &[[f64; 2]]) -> CurveView {
         let ends = |axis: usize| {
             let all = points.iter().map(|point| point[axis]);
             let [low, high] = all.fold(usual, |[low, high], number| [low.min(number), high.max(number)]);
@@ -27,7 +27,7 @@ impl View {
                 [low - 0.5, low + 0.5]
             }
         };
-        View {
+        CurveView {
             rect,
             x: ends(0),
             y: ends(1),
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn a_point_of_a_curve_is_the_same_after_a_way_to_the_screen_and_back() {
         let rect = Rect::from_min_size(Pos2::new(10.0, 20.0), egui::vec2(200.0, 100.0));
-        let view = View::of(rect, [0.0, 1.0], &[[-1.0, 3.0]]);
+        let view = CurveView::of(rect, [0.0, 1.0], &[[-1.0, 3.0]]);
         let [x, y] = view.point(view.place([0.25, 1.5]));
         assert!((x - 0.25).abs() < 1e-4 && (y - 1.5).abs() < 1e-4);
         assert_eq!((view.x, view.y), ([-1.0, 1.0], [0.0, 3.0]));

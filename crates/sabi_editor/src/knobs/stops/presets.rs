@@ -13,7 +13,7 @@ use super::paint_ramp;
 use crate::knobs::buttons::focus_ring;
 use crate::knobs::knob_ui::KnobUi;
 use crate::knobs::text_painting::write;
-use crate::knobs::values::{Stop, color_of};
+use crate::knobs::values::{GradientStop, color_of};
 use crate::theme::{space, type_size};
 
 /// Size of the menu and width of its strips, points.
@@ -21,16 +21,16 @@ const MENU: Vec2 = Vec2::new(300.0, 380.0);
 const STRIP: f32 = 128.0;
 
 /// A gradient to begin with.
-pub(in crate::knobs) struct Preset {
+pub(in crate::knobs) struct GradientPreset {
     /// Title that it is listed under.
     pub(in crate::knobs) group: String,
     pub(in crate::knobs) name: String,
-    pub(in crate::knobs) stops: Vec<Stop>,
+    pub(in crate::knobs) stops: Vec<GradientStop>,
 }
 
 /// Choice in the menu.
-pub(super) enum Chosen {
-    Preset(&'static Preset),
+pub(super) enum PresetChoice {
+    Preset(&'static GradientPreset),
     /// Pick a gradient from a picture.
     Picture,
 }
@@ -44,24 +44,28 @@ struct WrittenPreset {
 }
 
 /// The gradients of `assets/gradients/presets.json`, by group.
-pub(in crate::knobs) fn presets() -> &'static [Preset] {
-    static PRESETS: OnceLock<Vec<Preset>> = OnceLock::new();
+pub(in crate::knobs) fn presets() -> &'static [GradientPreset] {
+    static PRESETS: OnceLock<Vec<GradientPreset>> = OnceLock::new();
     PRESETS.get_or_init(|| {
         let text = include_str!("../../../../../assets/gradients/presets.json");
         read(text).unwrap_or_default() // A test reads the file, so it has no faults.
     })
 }
 
-fn read(text: &str) -> Result<Vec<Preset>, String> {
+fn read(text: &str) -> Result<Vec<GradientPreset>, String> {
     let written: Vec<WrittenPreset> = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let preset = |preset: WrittenPreset| {
         let stop = |(at, code): &(f64, String)| {
             let color = typed_color(code).and(color_of(code));
             let color = color.ok_or_else(|| format!("'{code}' of '{}' is no color", preset.name))?;
-            Ok(Stop { at: *at, color })
+            Ok(GradientStop { at: *at, color })
         };
-        let stops = preset.stops.iter().map(stop).collect::<Result<Vec<Stop>, String>>()?;
-        Ok(Preset {
+        let stops = preset
+            .stops
+            .iter()
+            .map(stop)
+            .collect::<Result<Vec<GradientStop>, String>>()?;
+        Ok(GradientPreset {
             group: preset.group,
             name: preset.name,
             stops,
@@ -71,12 +75,12 @@ fn read(text: &str) -> Result<Vec<Preset>, String> {
 }
 
 /// Shows the menu of a button.
-pub(super) fn menu(button: &Response, knob_ui: &KnobUi<'_>) -> Option<Chosen> {
+pub(super) fn menu(button: &Response, knob_ui: &KnobUi<'_>) -> Option<PresetChoice> {
     let popup = Popup::menu(button).close_behavior(PopupCloseBehavior::CloseOnClick);
     popup.show(|ui| entries(ui, knob_ui, button.id))?.inner
 }
 
-fn entries(ui: &mut Ui, knob_ui: &KnobUi<'_>, id: Id) -> Option<Chosen> {
+fn entries(ui: &mut Ui, knob_ui: &KnobUi<'_>, id: Id) -> Option<PresetChoice> {
     ui.set_width(MENU.x);
     let mut chosen = None;
     let pick = entry(ui, knob_ui, id.with("picture"), "Pick from a picture…");
@@ -91,7 +95,7 @@ fn entries(ui: &mut Ui, knob_ui: &KnobUi<'_>, id: Id) -> Option<Chosen> {
         knob_ui.theme.text,
     );
     if pick.clicked() {
-        chosen = Some(Chosen::Picture);
+        chosen = Some(PresetChoice::Picture);
     }
     ui.separator();
     ScrollArea::vertical().max_height(MENU.y).show(ui, |ui| {
@@ -111,7 +115,7 @@ fn entries(ui: &mut Ui, knob_ui: &KnobUi<'_>, id: Id) -> Option<Chosen> {
                 paint_ramp(ui.painter(), strip, &preset.stops);
             }
             if response.clicked() {
-                chosen = Some(Chosen::Preset(preset));
+                chosen = Some(PresetChoice::Preset(preset));
             }
         }
     });
@@ -151,7 +155,7 @@ mod tests {
         assert!(presets.len() >= 16, "{}", presets.len());
         let names: BTreeSet<&str> = presets.iter().map(|preset| preset.name.as_str()).collect();
         assert_eq!(names.len(), presets.len());
-        for Preset { name, stops, .. } in &presets {
+        for GradientPreset { name, stops, .. } in &presets {
             assert!((2..=16).contains(&stops.len()), "{name}");
             assert_eq!((stops[0].at, stops[stops.len() - 1].at), (0.0, 1.0), "{name}");
             assert!(stops.is_sorted_by(|left, right| left.at < right.at), "{name}");

@@ -1,7 +1,7 @@
 use super::*;
 
-fn node(rows: impl IntoIterator<Item = Shown>, zoom: f32) -> Board {
-    board_of(rows, Shade::Dark, Some(zoom), Vec2::new(320.0, 600.0))
+fn node(rows: impl IntoIterator<Item = TestKnob>, zoom: f32) -> Board {
+    board_of(rows, ColorScheme::Dark, Some(zoom), Vec2::new(320.0, 600.0))
 }
 
 #[test]

@@ -212,7 +212,7 @@ fn pointing_at_a_name_shows_the_doc_of_its_parameter() {
 fn every_knob_of_every_kind_is_shown_under_its_name() {
     for entry in CATALOG.entries().filter(|entry| !entry.knobs.is_empty()) {
         let rows = entry.knobs.iter().map(shown);
-        let board = board_of(rows, Shade::Light, None, Vec2::new(320.0, 4000.0));
+        let board = board_of(rows, ColorScheme::Light, None, Vec2::new(320.0, 4000.0));
         for knob in &entry.knobs {
             let is_vector = matches!(knob.ty.default, Value::List(_)) && (2..=4).contains(&knob.ty.components());
             let name = if is_vector {

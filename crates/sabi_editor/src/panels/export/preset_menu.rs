@@ -1,7 +1,7 @@
 //! Choice of the preset, and the files that it writes.
 
 use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
-use sabi_engine::baking::preset_description::{PresetDescription, PresetFile, describe_preset};
+use sabi_engine::baking::preset_description::{PresetDescription, PresetFileDescription, describe_preset};
 use sabi_engine::baking::presets::{ListedPreset, default_preset_folder, export_presets};
 
 use crate::theme::{Theme, space};
@@ -114,7 +114,7 @@ fn table(preset: &PresetDescription, ui: &mut Ui, theme: &Theme) {
 }
 
 /// Format and condition of a file.
-fn details(file: &PresetFile) -> String {
+fn details(file: &PresetFileDescription) -> String {
     let color = if file.color_space == "srgb" {
         ", sRGB"
     } else {

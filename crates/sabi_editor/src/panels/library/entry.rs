@@ -8,11 +8,11 @@ use egui::{
 use egui_phosphor::regular as icon;
 use sabi_engine::catalog::Interface;
 
-use super::pictures::Side;
+use super::entry_pictures::PictureSize;
 use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
-use crate::panels::enlarged;
+use crate::panels::picture_tooltip;
 use crate::search::Candidate;
 use crate::theme::{Theme, space, type_size};
 
@@ -23,14 +23,14 @@ const WITH_PICTURE: f32 = 40.0;
 const STAR: f32 = 34.0;
 
 /// One entry of the library.
-pub(super) struct Entry<'a> {
+pub(super) struct LibraryEntry<'a> {
     pub(super) candidate: &'a Candidate,
     /// Its place among the favorites.
     pub(super) number: Option<usize>,
     /// True if it has a picture, loaded or not.
     pub(super) has_picture: bool,
     /// Its picture, once it is loaded.
-    pub(super) picture: &'a dyn Fn(Side) -> Option<TextureId>,
+    pub(super) picture: &'a dyn Fn(PictureSize) -> Option<TextureId>,
 }
 
 /// Outputs of an entry, each with its dot in the list.
@@ -49,7 +49,7 @@ fn outputs(ui: &mut Ui, interface: &Interface, theme: &Theme) {
     });
 }
 
-impl Entry<'_> {
+impl LibraryEntry<'_> {
     /// Shows the entry and returns the requested action.
     pub(super) fn show(&self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
@@ -100,12 +100,12 @@ impl Entry<'_> {
     /// and the words that it is found by.
     fn show_beside(&self, response: &Response, context: &ViewContext<'_>) {
         let interface = &self.candidate.interface;
-        let picture = || (self.picture)(Side::Large).or_else(|| (self.picture)(Side::Small));
+        let picture = || (self.picture)(PictureSize::Large).or_else(|| (self.picture)(PictureSize::Small));
         let picture: Option<&dyn Fn() -> Option<TextureId>> = match self.has_picture {
             true => Some(&picture),
             false => None,
         };
-        enlarged::show(response, context.theme, picture, |ui| {
+        picture_tooltip::show(response, context.theme, picture, |ui| {
             ui.strong(&interface.label);
             ui.label(&interface.summary);
             outputs(ui, interface, context.theme);
@@ -145,7 +145,7 @@ impl Entry<'_> {
         if self.has_picture {
             let place = Rect::from_min_size(pos2(left, rect.top() + 2.0), Vec2::splat(WITH_PICTURE - 4.0));
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            painter.add(match (self.picture)(Side::Small) {
+            painter.add(match (self.picture)(PictureSize::Small) {
                 Some(picture) => RectShape::filled(place, space::CORNER, Color32::WHITE).with_texture(picture, whole),
                 None => RectShape::filled(place, space::CORNER, theme.raised),
             });

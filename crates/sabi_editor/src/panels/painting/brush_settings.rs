@@ -3,15 +3,15 @@
 use egui::epaint::Hsva;
 use egui::{Button, Color32, Popup, PopupCloseBehavior, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
 use egui_phosphor::regular as icon;
-use sabi_paint::{Action as BrushAction, Area, CopyOf, Fade, FadeCurve, PicturePart, Turn};
+use sabi_paint::{Action as BrushAction, Area, CopyOf, Fade, FadeCurve, PicturePart, TipDirection};
 
 use super::swatches::Swatches;
-use super::{choice, pen, stencil, tips};
+use super::{brush_tips, choice, pen, stencil};
 use crate::action::{Action, PaintAction};
 use crate::context::ViewContext;
 use crate::knobs::{CurveMemory, curve_ui, picker, remember_color};
-use crate::looks::ColorTarget;
 use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, POINTS, SIZES, SPACINGS};
+use crate::shown_results::ColorTarget;
 
 /// Side of the colors that were used last, points.
 const COLOR_SIDE: f32 = 15.0;
@@ -67,7 +67,7 @@ pub(super) fn show(
         }
     });
     details(ui, brush);
-    actions.extend(tips::show(ui, context, swatches, text, brush));
+    actions.extend(brush_tips::show(ui, context, swatches, text, brush));
     if let Some(tip) = &mut brush.picture {
         ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));
     }
@@ -224,7 +224,7 @@ fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
     )
     .on_hover_text("Turn of the tip, counter-clockwise");
     ui.horizontal(|ui| {
-        choice(ui, "Follows", &mut brush.turn, &Turn::ALL);
+        choice(ui, "Follows", &mut brush.turn, &TipDirection::ALL);
         let drawn = Fade::Curve(brush.fade.curve());
         let fades: Vec<_> = Fade::ALL.into_iter().chain([(drawn, "Curve")]).collect();
         choice(ui, "Fades", &mut brush.fade, &fades);

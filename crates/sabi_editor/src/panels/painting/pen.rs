@@ -10,13 +10,13 @@ use crate::settings::brush::BrushChoices;
 const CURVE_SIDE: f32 = 56.0;
 
 /// Texts about the effects of pressure, or of tilt.
-struct Words {
+struct PenWords {
     title: &'static str,
-    /// Tips for the size, strength, hardness, scatter, turn, and the curve.
+    /// Tooltips of the size, strength, hardness, scatter, turn, and the curve.
     docs: [&'static str; 6],
 }
 
-const PRESSURE: Words = Words {
+const PRESSURE: PenWords = PenWords {
     title: "Pressure",
     docs: [
         "How much a light touch makes the brush smaller; below 0 larger",
@@ -28,7 +28,7 @@ const PRESSURE: Words = Words {
     ],
 };
 
-const TILT: Words = Words {
+const TILT: PenWords = PenWords {
     title: "Tilt",
     docs: [
         "How much an upright pen makes the brush smaller; below 0 a pen that lies flat does",
@@ -47,7 +47,7 @@ pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoi
     ui.weak(context.pens.status());
 }
 
-fn effects(ui: &mut Ui, words: &Words, effects: &mut PenEffects) {
+fn effects(ui: &mut Ui, words: &PenWords, effects: &mut PenEffects) {
     ui.push_id(words.title, |ui| {
         ui.label(words.title);
         let [size, strength, hardness, scatter, turn, curve] = words.docs;

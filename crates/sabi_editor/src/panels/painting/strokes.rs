@@ -13,8 +13,8 @@ use sabi_editing::painting::{strokes_of, strokes_on};
 use sabi_graph::NodeId;
 use sabi_paint::{Action as BrushAction, Area, Brush, Step, Stroke, StrokeGroup, StrokeList, Version};
 
-use order::{Row, rows_of};
-use tools::{Tools, tool};
+use order::{StrokeRow, rows_of};
+use tools::{StrokeTools, tool};
 
 use super::swatches::{SWATCH, Swatches};
 use crate::action::{Action, PaintAction};
@@ -31,10 +31,10 @@ const INDENT: f32 = 14.0;
 pub(super) struct StrokeRows {
     /// Row that a range is marked from.
     anchor: Option<usize>,
-    renamed: Option<(Named, String)>,
+    renamed: Option<(NameSubject, String)>,
     /// Numbers of the groups whose strokes are not shown.
     closed: BTreeSet<u32>,
-    tools: Tools,
+    tools: StrokeTools,
 }
 
 /// Strokes that are dragged to another place in the list, with their title.
@@ -42,13 +42,13 @@ struct DraggedStrokes(BTreeSet<Version>, String);
 
 /// Subject of a name that is typed.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Named {
+enum NameSubject {
     Stroke(Version),
     Group(u32),
 }
 
 /// State of the field for a name.
-enum Typed {
+enum NameFieldState {
     /// The field is not shown.
     Nothing,
     Still,
@@ -57,7 +57,7 @@ enum Typed {
 }
 
 /// Request of a row or a tool.
-enum Asked {
+enum StrokeListRequest {
     /// Change the list by these steps, with their name in the history.
     Steps(&'static str, Vec<Step>),
     /// Mark these strokes.
@@ -87,8 +87,8 @@ impl StrokeRows {
         let asked = done.or(self.rows(ui, context, swatches, &list));
         actions.extend(asked.map(|asked| {
             Action::Paint(match asked {
-                Asked::Mark(strokes) => PaintAction::Mark(strokes),
-                Asked::Steps(title, steps) => PaintAction::Change(PaintCommand::Steps {
+                StrokeListRequest::Mark(strokes) => PaintAction::Mark(strokes),
+                StrokeListRequest::Steps(title, steps) => PaintAction::Change(PaintCommand::Steps {
                     node: id.clone(),
                     model: name.clone(),
                     before: strokes_of(context.document, id).unwrap_or_default(), // It has a list.
@@ -106,7 +106,7 @@ impl StrokeRows {
         context: &ViewContext<'_>,
         swatches: &mut Swatches,
         list: &StrokeList,
-    ) -> Option<Asked> {
+    ) -> Option<StrokeListRequest> {
         let rows = rows_of(list, &self.closed);
         let mut asked = None;
         let mut places: Vec<Rect> = Vec::new();
@@ -116,11 +116,11 @@ impl StrokeRows {
             first = shown.start;
             for row in &rows[shown] {
                 let row = ui.horizontal(|ui| match row {
-                    Row::Group { group, top, .. } => {
+                    StrokeRow::Group { group, top, .. } => {
                         ui.push_id(("group", group.number, *top), |ui| self.group(ui, context, list, group))
                             .inner
                     }
-                    Row::Stroke(index) => {
+                    StrokeRow::Stroke(index) => {
                         let id = list.strokes[*index].id;
                         ui.push_id(id.0, |ui| self.row(ui, context, swatches, list, *index))
                             .inner
@@ -134,7 +134,7 @@ impl StrokeRows {
         if let Some((dragged, gap)) = reordering::dropped(ui, context.theme, &places, title) {
             let steps = order::moved(list, &dragged.0, order::below_gap(&rows, first + gap));
             if !steps.is_empty() {
-                asked = Some(Asked::Steps("Order of strokes", steps));
+                asked = Some(StrokeListRequest::Steps("Order of strokes", steps));
             }
         }
         asked
@@ -147,7 +147,7 @@ impl StrokeRows {
         context: &ViewContext<'_>,
         list: &StrokeList,
         group: &Arc<StrokeGroup>,
-    ) -> Option<Asked> {
+    ) -> Option<StrokeListRequest> {
         let is_closed = self.closed.contains(&group.number);
         let (caret, name) = match is_closed {
             true => (icon::CARET_RIGHT, "Open the group"),
@@ -161,18 +161,24 @@ impl StrokeRows {
                 is_hidden,
                 ..(**group).clone()
             };
-            return Some(Asked::Steps("Visibility of a group", vec![order::changed(list, group)]));
+            return Some(StrokeListRequest::Steps(
+                "Visibility of a group",
+                vec![order::changed(list, group)],
+            ));
         }
-        let typed = self.typed_name(ui, Named::Group(group.number), &group.name);
+        let typed = self.typed_name(ui, NameSubject::Group(group.number), &group.name);
         match typed {
-            Typed::Nothing => {}
-            Typed::Still => return None,
-            Typed::Name(name) => {
+            NameFieldState::Nothing => {}
+            NameFieldState::Still => return None,
+            NameFieldState::Name(name) => {
                 let group = StrokeGroup {
                     name,
                     ..(**group).clone()
                 };
-                return Some(Asked::Steps("Name of a group", vec![order::changed(list, group)]));
+                return Some(StrokeListRequest::Steps(
+                    "Name of a group",
+                    vec![order::changed(list, group)],
+                ));
             }
         }
         let members = order::members(list, group.number);
@@ -181,9 +187,9 @@ impl StrokeRows {
         let label = named_row(ui, is_marked, &title);
         label.dnd_set_drag_payload(DraggedStrokes(members.clone(), title));
         if label.double_clicked() {
-            self.renamed = Some((Named::Group(group.number), group.name.clone()));
+            self.renamed = Some((NameSubject::Group(group.number), group.name.clone()));
         }
-        label.clicked().then_some(Asked::Mark(members))
+        label.clicked().then_some(StrokeListRequest::Mark(members))
     }
 
     /// Row of a stroke.
@@ -194,7 +200,7 @@ impl StrokeRows {
         swatches: &mut Swatches,
         list: &StrokeList,
         index: usize,
-    ) -> Option<Asked> {
+    ) -> Option<StrokeListRequest> {
         let stroke = &list.strokes[index];
         if stroke.group.is_some() {
             ui.add_space(INDENT);
@@ -207,19 +213,19 @@ impl StrokeRows {
         };
         if let Some(is_hidden) = eye(ui, stroke.is_hidden, "the stroke") {
             let step = changed(stroke.name.clone(), is_hidden);
-            return Some(Asked::Steps("Visibility of a stroke", vec![step]));
+            return Some(StrokeListRequest::Steps("Visibility of a stroke", vec![step]));
         }
         let size = vec2(0.6 * SWATCH[0] as f32, 0.6 * SWATCH[1] as f32);
         match swatches.of(ui, context, &shown_brush(stroke)) {
             Some(texture) => ui.add(Image::new((texture, size))),
             None => ui.allocate_response(size, Sense::hover()),
         };
-        match self.typed_name(ui, Named::Stroke(stroke.id), &stroke.name) {
-            Typed::Nothing => {}
-            Typed::Still => return None,
-            Typed::Name(name) => {
+        match self.typed_name(ui, NameSubject::Stroke(stroke.id), &stroke.name) {
+            NameFieldState::Nothing => {}
+            NameFieldState::Still => return None,
+            NameFieldState::Name(name) => {
                 let step = changed(name, stroke.is_hidden);
-                return Some(Asked::Steps("Name of a stroke", vec![step]));
+                return Some(StrokeListRequest::Steps("Name of a stroke", vec![step]));
             }
         }
         let title = title_of(stroke, index);
@@ -232,31 +238,31 @@ impl StrokeRows {
         };
         label.dnd_set_drag_payload(DraggedStrokes(dragged, title));
         if label.double_clicked() {
-            self.renamed = Some((Named::Stroke(stroke.id), stroke.name.clone()));
+            self.renamed = Some((NameSubject::Stroke(stroke.id), stroke.name.clone()));
         } else if label.clicked() {
-            return Some(Asked::Mark(self.mark(ui, marked, list, index)));
+            return Some(StrokeListRequest::Mark(self.mark(ui, marked, list, index)));
         }
         None
     }
 
     /// The field for a name, while it is typed.
-    fn typed_name(&mut self, ui: &mut Ui, named: Named, before: &str) -> Typed {
+    fn typed_name(&mut self, ui: &mut Ui, named: NameSubject, before: &str) -> NameFieldState {
         let Some((_, text)) = self.renamed.as_mut().filter(|(other, _)| *other == named) else {
-            return Typed::Nothing;
+            return NameFieldState::Nothing;
         };
         let field = ui.add(TextEdit::singleline(text).hint_text("Name").desired_width(120.0));
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             self.renamed = None;
-            return Typed::Still;
+            return NameFieldState::Still;
         }
         if !field.lost_focus() {
             field.request_focus();
-            return Typed::Still;
+            return NameFieldState::Still;
         }
         let name = self.renamed.take().map(|(_, name)| name.trim().to_owned());
         match name.filter(|name| name != before) {
-            Some(name) => Typed::Name(name),
-            None => Typed::Still,
+            Some(name) => NameFieldState::Name(name),
+            None => NameFieldState::Still,
         }
     }
 

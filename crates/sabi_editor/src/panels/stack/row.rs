@@ -10,11 +10,11 @@ use sabi_editing::exposed_knobs;
 use sabi_editing::stack::Layer;
 use sabi_graph::Value;
 
-use super::Renaming;
+use super::LayerRename;
 use crate::action::Action;
 use crate::context::ViewContext;
 use crate::knobs::{KnobEvent, KnobRow, ParamMask, knob_inline, select_all};
-use crate::looks::result_of;
+use crate::shown_results::result_of;
 use crate::theme::{Theme, space, type_size};
 
 /// Height of a row.
@@ -38,7 +38,7 @@ pub(super) fn show(
     context: &ViewContext<'_>,
     layer: &Layer,
     command_for: impl Fn(RowChange) -> LayerCommand,
-    renaming: &mut Option<Renaming>,
+    renaming: &mut Option<LayerRename>,
     actions: &mut Vec<Action>,
 ) -> Response {
     let (document, theme) = (context.document, context.theme);
@@ -86,7 +86,7 @@ pub(super) fn show(
     end(ui, theme, layer, &mut room, &command_for, actions);
     name_and_opacity(ui, context, layer, room, &command_for, renaming, actions);
     if response.double_clicked() {
-        *renaming = Some(Renaming::of(layer));
+        *renaming = Some(LayerRename::of(layer));
     } else if response.clicked() {
         actions.push(Action::Select(vec![layer.node.clone()]));
         actions.push(Action::Show {
@@ -185,7 +185,7 @@ fn name_and_opacity(
     layer: &Layer,
     room: Rect,
     command_for: &impl Fn(RowChange) -> LayerCommand,
-    renaming: &mut Option<Renaming>,
+    renaming: &mut Option<LayerRename>,
     actions: &mut Vec<Action>,
 ) {
     let theme = context.theme;
@@ -241,7 +241,7 @@ fn name_and_opacity(
 }
 
 /// Field for the name of a layer. Returns the action that renames it.
-fn name_field(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<Action> {
+fn name_field(ui: &mut Ui, renaming: &mut Option<LayerRename>) -> Option<Action> {
     let open = renaming.as_mut()?;
     let field = ui.add(egui::TextEdit::singleline(&mut open.title).desired_width(f32::INFINITY));
     field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of the layer"));
@@ -253,7 +253,7 @@ fn name_field(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<Action> {
         return None;
     }
     let is_canceled = ui.input(|input| input.key_pressed(Key::Escape));
-    let Renaming { node, title, .. } = renaming.take()?;
+    let LayerRename { node, title, .. } = renaming.take()?;
     let name = title.trim().to_owned();
     (!is_canceled).then(|| Action::edit(NodeCommand::Rename { node, name }))
 }

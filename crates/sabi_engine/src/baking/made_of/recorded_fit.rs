@@ -7,32 +7,32 @@ use serde::{Serialize, Serializer};
 /// Either form.
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(untagged)]
-enum Written {
+enum FitText {
     Word(String),
     Length(f64),
 }
 
 pub(super) fn serialize<S: Serializer>(fit: &Option<Fit>, serializer: S) -> Result<S::Ok, S::Error> {
     let written = fit.map(|fit| match fit {
-        Fit::Unit => Written::Word("unit".to_owned()),
-        Fit::Metres => Written::Word("metres".to_owned()),
-        Fit::Piece => Written::Word("piece".to_owned()),
-        Fit::Length(meters) => Written::Length(meters),
+        Fit::Unit => FitText::Word("unit".to_owned()),
+        Fit::Metres => FitText::Word("metres".to_owned()),
+        Fit::Piece => FitText::Word("piece".to_owned()),
+        Fit::Length(meters) => FitText::Length(meters),
     });
     written.serialize(serializer)
 }
 
 pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Fit>, D::Error> {
-    let written = Option::<Written>::deserialize(deserializer)?;
+    let written = Option::<FitText>::deserialize(deserializer)?;
     let fit = written.map(|written| match written {
-        Written::Word(word) => match word.as_str() {
+        FitText::Word(word) => match word.as_str() {
             "unit" => Ok(Fit::Unit),
             "metres" => Ok(Fit::Metres),
             "piece" => Ok(Fit::Piece),
             _ => Err(D::Error::custom(format!("there is no fit '{word}'"))),
         },
-        Written::Length(meters) if meters.is_finite() && meters > 0.0 => Ok(Fit::Length(meters)),
-        Written::Length(meters) => Err(D::Error::custom(format!("a fit is a length above 0, not {meters}"))),
+        FitText::Length(meters) if meters.is_finite() && meters > 0.0 => Ok(Fit::Length(meters)),
+        FitText::Length(meters) => Err(D::Error::custom(format!("a fit is a length above 0, not {meters}"))),
     });
     fit.transpose()
 }

@@ -9,12 +9,12 @@ use sabi_plan::{FileContents, PlanError, Target};
 
 use super::{Job, Worker};
 use crate::evaluating::outputs::duplicate_map_names;
-use crate::live::event::{BlockedNode, Faults, LiveEvent, NodeFault};
+use crate::live::event::{BlockedNode, GraphFaults, LiveEvent, NodeFault};
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::groups::{OpenedGroups, open_groups};
 use crate::live::request::ViewSubject;
 use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
-use crate::source::{SourceKinds, pictures};
+use crate::source::{SourceKinds, session_pictures};
 use crate::warning::Warning;
 
 impl Worker {
@@ -40,21 +40,21 @@ impl Worker {
                 let other = error.messages;
                 self.send_faults_if_changed(
                     job,
-                    Faults {
+                    GraphFaults {
                         other,
-                        ..Faults::default()
+                        ..GraphFaults::default()
                     },
                 );
                 return None;
             }
         };
-        files.extend(pictures::files(
+        files.extend(session_pictures::files(
             &job.graph.base(),
             &job.graph.trusted,
             &graph,
             &request.kinds.sources,
         ));
-        refused.extend(pictures::refused(
+        refused.extend(session_pictures::refused(
             &job.graph.base(),
             &job.graph.trusted,
             &graph,
@@ -121,7 +121,7 @@ impl Worker {
         self.send_faults_if_changed(job, faults);
     }
 
-    fn send_faults_if_changed(&mut self, job: &Job, faults: Faults) {
+    fn send_faults_if_changed(&mut self, job: &Job, faults: GraphFaults) {
         if self.sent.faults.as_ref() == Some(&faults) {
             return;
         }
@@ -152,12 +152,12 @@ fn targets_of(named: Vec<NodeRef>, found: Vec<ResultOrigin>, other: &mut Vec<Str
     targets
 }
 
-fn is_named(faults: &Faults, node: &str) -> bool {
+fn is_named(faults: &GraphFaults, node: &str) -> bool {
     faults.blocked.iter().any(|blocked| blocked.node == node) || faults.faults.iter().any(|fault| fault.node == node)
 }
 
 /// Replaces the faults of the nodes that represent failed group instances by the reasons of their failures.
-fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String>) -> Faults {
+fn with_failed_groups(mut faults: GraphFaults, failed_groups: BTreeMap<String, String>) -> GraphFaults {
     faults.faults.retain(|fault| !failed_groups.contains_key(&fault.node));
     let failed_groups = failed_groups.into_iter();
     let told = failed_groups.map(|(node, sentence)| NodeFault { node, sentence });
@@ -166,7 +166,7 @@ fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String
 }
 
 /// Collects the faults of all nodes of a graph, whether or not their results are wanted.
-fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> Faults {
+fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> GraphFaults {
     let resolved = planner_without_model(graph, &job.request.kinds, contents).resolve(&targets_of_all_nodes(graph));
     let (warnings, errors): (Vec<&PlanError>, Vec<&PlanError>) =
         resolved.errors.iter().partition(|error| error.is_warning());
@@ -197,7 +197,7 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
         }
     }
     let blocked = blocked_by.iter().filter(|(index, _)| !graph.nodes[**index].muted);
-    Faults {
+    GraphFaults {
         blocked: blocked
             .map(|(index, on)| BlockedNode {
                 node: graph.nodes[*index].id.clone(),
@@ -227,6 +227,7 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
 /// Returns the nodes that read a file for which none is chosen. Muted nodes read no file.
 fn nodes_without_files<'g>(graph: &'g FlatGraph, sources: &SourceKinds) -> BTreeSet<&'g str> {
     let nodes = graph.nodes.iter().filter(|node| !node.muted);
-    let unchosen = nodes.filter(|node| pictures::named_file(node, sources).is_some_and(|(_, path)| path.is_empty()));
+    let unchosen =
+        nodes.filter(|node| session_pictures::named_file(node, sources).is_some_and(|(_, path)| path.is_empty()));
     unchosen.map(|node| node.id.as_str()).collect()
 }

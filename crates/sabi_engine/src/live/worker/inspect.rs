@@ -11,7 +11,7 @@ use super::show::evaluate;
 use super::{Job, Worker};
 use crate::error::EngineError;
 use crate::live::evaluation_error::EvaluationError;
-use crate::live::event::{Inspected, LiveEvent};
+use crate::live::event::{InspectedResult, LiveEvent};
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::loaded_model::LoadedModel;
 use crate::live::queue::WorkProgress;
@@ -102,9 +102,9 @@ impl SizedModel {
         run: &Run,
         result: &PlannedResult,
         set: Option<SetKey>,
-    ) -> Result<Inspected, EngineError> {
+    ) -> Result<InspectedResult, EngineError> {
         let (evaluator, set, texture_space) = self.texture_space(set)?;
-        Ok(Inspected {
+        Ok(InspectedResult {
             ty: result.stored.ty,
             size: texture_space.layout.size,
             set: set.clone(),

@@ -7,7 +7,7 @@ use std::time::Instant;
 use sabi_gpu::Run;
 use sabi_plan::{Plan, Target};
 
-use super::{Job, Key, SentLooks, Worker};
+use super::{Job, PictureHash, SentLooks, Worker};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::looks::{LookAssignment, ModelLooks};
 use crate::live::evaluation_error::EvaluationError;
@@ -240,7 +240,7 @@ pub(super) fn evaluate(
 }
 
 /// Returns a hash of the results that materials show, and whether they are approximate.
-fn looks_key(sized: &SizedModel, plan: &Plan, shows: &LookAssignment) -> Key {
+fn looks_key(sized: &SizedModel, plan: &Plan, shows: &LookAssignment) -> PictureHash {
     let mut hash = blake3::Hasher::new();
     hash.update(&[u8::from(sized.is_approximate(plan))]);
     match shows {

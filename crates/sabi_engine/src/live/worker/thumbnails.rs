@@ -7,7 +7,7 @@ use sabi_plan::{Plan, Target};
 use sabi_view::Pixels;
 
 use super::show::{evaluate, wanted};
-use super::{Job, Key, Worker};
+use super::{Job, PictureHash, Worker};
 use crate::error::EngineError;
 use crate::evaluating::looks::LookAssignment;
 use crate::live::evaluation_error::EvaluationError;
@@ -172,7 +172,7 @@ impl Worker {
 }
 
 /// Returns a hash of what the thumbnail of each result shows.
-fn keys(sized: &SizedModel, plan: &Plan, request: &LiveRequest) -> BTreeMap<Target, Key> {
+fn keys(sized: &SizedModel, plan: &Plan, request: &LiveRequest) -> BTreeMap<Target, PictureHash> {
     let marks = [
         u8::from(sized.is_approximate(plan)),
         u8::from(request.is_flat),
@@ -183,7 +183,7 @@ fn keys(sized: &SizedModel, plan: &Plan, request: &LiveRequest) -> BTreeMap<Targ
     } else {
         0
     };
-    let key = |content: &Key| {
+    let key = |content: &PictureHash| {
         *blake3::Hasher::new()
             .update(&marks)
             .update(&set.to_le_bytes())

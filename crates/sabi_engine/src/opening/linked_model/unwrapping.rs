@@ -6,7 +6,7 @@ use sabi_surface::atlas::{Repeats, repeats};
 use sabi_surface::model::{Model, ModelMaterial};
 use sabi_surface::unwrap::{UnwrapError, unwrap_cached, unwrap_materials};
 
-use super::{ModelOptions, Overlap, Unwrapping};
+use super::{ModelOptions, Overlap, UnwrapResult};
 
 /// Surface that is unwrapped.
 pub(super) enum Unwrap {
@@ -84,7 +84,7 @@ pub(super) fn unwrap_model(
     model: &mut Model,
     options: &ModelOptions,
     what: &Unwrap,
-) -> Result<Unwrapping, UnwrapError> {
+) -> Result<UnwrapResult, UnwrapError> {
     let folder = options.cache_folder();
     let (unwrapped, was_cached) = match what {
         Unwrap::All => unwrap_cached(folder.as_deref(), &model.mesh)?,
@@ -104,7 +104,7 @@ pub(super) fn unwrap_model(
         }
         None => last.map_or(0, |last| last.set.saturating_add(1)),
     };
-    Ok(Unwrapping {
+    Ok(UnwrapResult {
         uv_set,
         source_vertex: unwrapped.source_vertex,
         report: unwrapped.report,

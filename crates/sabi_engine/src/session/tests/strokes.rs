@@ -230,9 +230,9 @@ fn flattened_strokes_keep_what_is_there_and_lose_what_was_taken_away() {
             .len()
     };
     let before = size();
-    let trial = crate::stroke_chores::flatten_strokes(&file, true).unwrap();
+    let trial = crate::stroke_maintenance::flatten_strokes(&file, true).unwrap();
     assert_eq!(size(), before);
-    let report = crate::stroke_chores::flatten_strokes(&file, false).unwrap();
+    let report = crate::stroke_maintenance::flatten_strokes(&file, false).unwrap();
     assert_eq!(report, trial);
     let written = &report.files[0];
     assert_eq!(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sabi_surface::model::{Mesh, MissingUvs, Model, ModelImage, ModelMaterial, TextureRef, TextureUvs, Wrap};
 
 use super::{kind_for, open_materials};
-use crate::source::pictures::Pictures;
+use crate::source::session_pictures::SessionPictures;
 
 fn model(texture_uvs: Vec<TextureUvs>, missing_uvs: Vec<MissingUvs>) -> Model {
     Model {
@@ -91,7 +91,7 @@ fn triangles_without_the_set_of_a_picture_show_the_factor_with_a_warning() {
     };
     model.materials = vec![painted.clone(), painted];
     let mut warnings = Vec::new();
-    let materials = open_materials(&model, &Pictures::default(), u64::MAX, 16, &mut warnings);
+    let materials = open_materials(&model, &SessionPictures::default(), u64::MAX, 16, &mut warnings);
     let texture = materials[1].base_color.as_ref().unwrap();
     assert_eq!(
         [0, 1, 2, 3].map(|triangle| texture.covers(triangle)),
@@ -130,7 +130,7 @@ fn roughness_and_metallic_of_pictures_of_their_own_are_opened() {
     };
     model.materials = vec![worn, steel];
     let mut warnings = Vec::new();
-    let materials = open_materials(&model, &Pictures::default(), u64::MAX, 16, &mut warnings);
+    let materials = open_materials(&model, &SessionPictures::default(), u64::MAX, 16, &mut warnings);
     let open = |material: usize| {
         [
             materials[material].roughness.is_some(),

@@ -6,9 +6,9 @@ use sabi_files::Unread;
 use sabi_paint::Version;
 use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
 
-use super::{State, StrokeFile, base_of, picture_folder, stamp, stroke_file};
+use super::{StrokeFile, StrokesState, base_of, picture_folder, stamp, stroke_file};
 
-impl State {
+impl StrokesState {
     /// Returns the file of the strokes on a model: the existing one, otherwise one named after the model. If another model
     /// has a file whose name differs only by case, the name ends in a hash of the model's name, since on many disks both
     /// names would mean the same file.
@@ -48,7 +48,7 @@ impl State {
         if known.is_none_or(|known| known.fault.is_some() || known.stamp != stamp(&path)) {
             self.read_file(&path);
         }
-        let State { book, files, disk, .. } = self;
+        let StrokesState { book, files, disk, .. } = self;
         let file = files.entry(path.clone()).or_default();
         if file.stored.contains(&version) {
             return Ok(());

@@ -8,7 +8,7 @@ use sabi_paint::file::{FILE_LIMIT_BYTES, whole};
 use sabi_paint::{Step, StrokeBook, Version};
 use serde::Serialize;
 
-use super::{State, Strokes, paint_folder, versions_of};
+use super::{Strokes, StrokesState, paint_folder, versions_of};
 
 /// A file of strokes before and after it was flattened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -25,14 +25,14 @@ pub struct FlattenedFile {
 
 /// The strokes on a model without their history.
 #[derive(Default)]
-pub(crate) struct Flattened {
+pub(crate) struct FlattenedStrokes {
     book: StrokeBook,
     /// For each earlier version, the version that replaces it.
     after: BTreeMap<Version, Version>,
     strokes: usize,
 }
 
-impl Flattened {
+impl FlattenedStrokes {
     /// Returns the names of its versions in the form in which a node stores them.
     pub(crate) fn versions(&self) -> String {
         let names = self.after.values().map(Version::to_string);
@@ -59,7 +59,11 @@ impl Strokes {
     ///
     /// # Errors
     /// The end of a sentence about a version that is not known.
-    pub(crate) fn flattened(&self, written: &str, models: &mut BTreeMap<String, Flattened>) -> Result<String, String> {
+    pub(crate) fn flattened(
+        &self,
+        written: &str,
+        models: &mut BTreeMap<String, FlattenedStrokes>,
+    ) -> Result<String, String> {
         let mut state = self.lock();
         let mut names = Vec::new();
         for version in versions_of(written) {
@@ -91,7 +95,11 @@ impl Strokes {
     }
 
     /// Returns the sizes of the files of strokes, and their sizes after flattening.
-    pub(crate) fn file_sizes(&self, graph: &Path, flattened: &BTreeMap<String, Flattened>) -> Vec<FlattenedFile> {
+    pub(crate) fn file_sizes(
+        &self,
+        graph: &Path,
+        flattened: &BTreeMap<String, FlattenedStrokes>,
+    ) -> Vec<FlattenedFile> {
         let state = self.lock();
         let files = flattened.iter().map(|(model, flattened)| {
             let file = state.file_of(&paint_folder(graph), model);
@@ -109,7 +117,11 @@ impl Strokes {
     ///
     /// # Errors
     /// A file cannot be read, or the disk refuses.
-    pub(crate) fn copy_files(&self, graph: &Path, flattened: &BTreeMap<String, Flattened>) -> Result<(), String> {
+    pub(crate) fn copy_files(
+        &self,
+        graph: &Path,
+        flattened: &BTreeMap<String, FlattenedStrokes>,
+    ) -> Result<(), String> {
         let state = self.lock();
         for model in flattened.keys() {
             let file = state.file_of(&paint_folder(graph), model);
@@ -128,7 +140,11 @@ impl Strokes {
     ///
     /// # Errors
     /// The disk refuses; files that were not replaced are as they were.
-    pub(crate) fn replace_files(&self, graph: &Path, flattened: &BTreeMap<String, Flattened>) -> Result<(), String> {
+    pub(crate) fn replace_files(
+        &self,
+        graph: &Path,
+        flattened: &BTreeMap<String, FlattenedStrokes>,
+    ) -> Result<(), String> {
         let mut state = self.lock();
         for (model, flattened) in flattened {
             let file = state.file_of(&paint_folder(graph), model);
@@ -163,7 +179,8 @@ impl Strokes {
             version = state.book.push(version, step);
         }
         state.models.insert(version, model.to_owned());
-        let is_other = |state: &State, version: &Version| state.models.get(version).is_none_or(|other| other != model);
+        let is_other =
+            |state: &StrokesState, version: &Version| state.models.get(version).is_none_or(|other| other != model);
         let others: Vec<Version> = versions_of(written)
             .filter(|version| is_other(&state, version))
             .collect();

@@ -2,38 +2,38 @@
 
 use std::collections::BTreeSet;
 
-use super::super::material::{DocumentMap, DocumentMaterial, Look};
+use super::super::material::{ChannelSource, DocumentMap, DocumentMaterial};
 use super::super::numbers::list;
-use super::super::xml::Element;
+use super::super::xml::XmlElement;
 use crate::Channel;
 
 /// Node graph under construction. Nodes and outputs are created when they are first requested.
-pub(super) struct Graph<'m> {
+pub(super) struct MaterialXGraph<'m> {
     material: &'m DocumentMaterial,
     name: String,
-    nodes: Vec<Element>,
-    outputs: Vec<Element>,
+    nodes: Vec<XmlElement>,
+    outputs: Vec<XmlElement>,
     made: BTreeSet<String>,
 }
 
 /// A value in the graph: the name and the type of its node.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(super) struct MaterialXNode {
     pub(super) name: String,
     pub(super) ty: &'static str,
 }
 
 /// Argument of a node.
-pub(super) enum Argument<'a> {
+pub(super) enum NodeArgument<'a> {
     /// Result of another node.
-    Node(&'a Node),
+    Node(&'a MaterialXNode),
     /// Value of a type.
     Value(&'static str, String),
 }
 
-impl<'m> Graph<'m> {
-    pub(super) fn new(material: &'m DocumentMaterial) -> Graph<'m> {
-        Graph {
+impl<'m> MaterialXGraph<'m> {
+    pub(super) fn new(material: &'m DocumentMaterial) -> MaterialXGraph<'m> {
+        MaterialXGraph {
             material,
             name: format!("NG_{}", material.id),
             nodes: Vec::new(),
@@ -43,8 +43,8 @@ impl<'m> Graph<'m> {
     }
 
     /// The element of the graph; none if nothing is in it.
-    pub(super) fn finish(self) -> Option<Element> {
-        let mut element = Element::new("nodegraph").with("name", self.name);
+    pub(super) fn finish(self) -> Option<XmlElement> {
+        let mut element = XmlElement::new("nodegraph").with("name", self.name);
         if self.outputs.is_empty() {
             return None;
         }
@@ -54,17 +54,17 @@ impl<'m> Graph<'m> {
     }
 
     /// Returns an input of a shader with an unchanged channel; `None` if the material does not have the channel.
-    pub(super) fn input(&mut self, input: &'static str, channel: &Channel) -> Option<Element> {
+    pub(super) fn input(&mut self, input: &'static str, channel: &Channel) -> Option<XmlElement> {
         let (name, look) = (channel.name(), self.material.channels.get(channel)?);
         Some(match look {
-            Look::Value(value) => {
+            ChannelSource::Value(value) => {
                 let (ty, values) = match value {
-                    crate::Value::Number(number) => ("float", vec![*number]),
-                    crate::Value::Triple(values) => ("color3", values.to_vec()),
+                    crate::ConstantValue::Number(number) => ("float", vec![*number]),
+                    crate::ConstantValue::Triple(values) => ("color3", values.to_vec()),
                 };
                 constant(input, ty, list(&values))
             }
-            Look::Rgb(_) | Look::Component { .. } => {
+            ChannelSource::Rgb(_) | ChannelSource::Component { .. } => {
                 let node = self.channel(channel)?;
                 self.output(input, &name, &node)
             }
@@ -72,10 +72,10 @@ impl<'m> Graph<'m> {
     }
 
     /// The node with a channel that is in a file; none if it is in no file.
-    pub(super) fn channel(&mut self, channel: &Channel) -> Option<Node> {
+    pub(super) fn channel(&mut self, channel: &Channel) -> Option<MaterialXNode> {
         match *self.material.channels.get(channel)? {
-            Look::Value(_) => None,
-            Look::Rgb(map) => {
+            ChannelSource::Value(_) => None,
+            ChannelSource::Rgb(map) => {
                 let picture = self.picture(map)?;
                 // All components of a color have the same divisor.
                 let [[scale, _], ..] = self.material.maps.get(map)?.decoding;
@@ -94,7 +94,7 @@ impl<'m> Graph<'m> {
                     false => made,
                 })
             }
-            Look::Component { map, index } => {
+            ChannelSource::Component { map, index } => {
                 let picture = self.picture(map)?;
                 let [scale, bias] = self.material.maps.get(map)?.decoding.get(index).copied()?;
                 let mut value = match picture.ty {
@@ -113,16 +113,16 @@ impl<'m> Graph<'m> {
     }
 
     /// An input of a shader that reads a node, over an output of the graph.
-    pub(super) fn output(&mut self, input: &'static str, name: &str, node: &Node) -> Element {
+    pub(super) fn output(&mut self, input: &'static str, name: &str, node: &MaterialXNode) -> XmlElement {
         let output = format!("out_{name}");
         if self.made.insert(output.clone()) {
-            let element = Element::new("output")
+            let element = XmlElement::new("output")
                 .with("name", &output)
                 .with("type", node.ty)
                 .with("nodename", &node.name);
             self.outputs.push(element);
         }
-        Element::new("input")
+        XmlElement::new("input")
             .with("name", input)
             .with("type", node.ty)
             .with("nodegraph", &self.name)
@@ -135,20 +135,20 @@ impl<'m> Graph<'m> {
         tag: &'static str,
         name: &str,
         ty: &'static str,
-        arguments: &[(&'static str, Argument<'_>)],
-    ) -> Node {
-        let node = Node {
+        arguments: &[(&'static str, NodeArgument<'_>)],
+    ) -> MaterialXNode {
+        let node = MaterialXNode {
             name: name.to_owned(),
             ty,
         };
         if !self.made.insert(node.name.clone()) {
             return node;
         }
-        let mut element = Element::new(tag).with("name", name).with("type", ty);
+        let mut element = XmlElement::new(tag).with("name", name).with("type", ty);
         element.extend(arguments.iter().map(|(input, argument)| {
             match argument {
-                Argument::Value(ty, value) => constant(input, ty, value.clone()),
-                Argument::Node(of) => Element::new("input")
+                NodeArgument::Value(ty, value) => constant(input, ty, value.clone()),
+                NodeArgument::Node(of) => XmlElement::new("input")
                     .with("name", *input)
                     .with("type", of.ty)
                     .with("nodename", &of.name),
@@ -159,44 +159,47 @@ impl<'m> Graph<'m> {
     }
 
     /// Returns a component of an image.
-    pub(super) fn component(&mut self, picture: &Node, index: usize) -> Node {
+    pub(super) fn component(&mut self, picture: &MaterialXNode, index: usize) -> MaterialXNode {
         let name = format!("{}_{index}", picture.name);
-        let index = Argument::Value("integer", index.to_string());
-        let arguments = [("in", Argument::Node(picture)), ("index", index)];
+        let index = NodeArgument::Value("integer", index.to_string());
+        let arguments = [("in", NodeArgument::Node(picture)), ("index", index)];
         self.node("extract", &name, "float", &arguments)
     }
 
     /// A value with a number, by a node of two arguments.
-    pub(super) fn arithmetic(&mut self, tag: &'static str, value: &Node, number: f32) -> Node {
-        let number = Argument::Value("float", list(&[number]));
-        let arguments = [("in1", Argument::Node(value)), ("in2", number)];
+    pub(super) fn arithmetic(&mut self, tag: &'static str, value: &MaterialXNode, number: f32) -> MaterialXNode {
+        let number = NodeArgument::Value("float", list(&[number]));
+        let arguments = [("in1", NodeArgument::Node(value)), ("in2", number)];
         self.node(tag, &format!("{}_{tag}", value.name), value.ty, &arguments)
     }
 
-    fn converted(&mut self, value: &Node, ty: &'static str) -> Node {
+    fn converted(&mut self, value: &MaterialXNode, ty: &'static str) -> MaterialXNode {
         let name = format!("{}_{ty}", value.name);
-        self.node("convert", &name, ty, &[("in", Argument::Node(value))])
+        self.node("convert", &name, ty, &[("in", NodeArgument::Node(value))])
     }
 
     /// Returns the normal of the geometry, modified by a normal map.
-    fn normal(&mut self, picture: &Node) -> Node {
+    fn normal(&mut self, picture: &MaterialXNode) -> MaterialXNode {
         let frame = self.frame();
-        let mut arguments = vec![("in", Argument::Node(picture))];
+        let mut arguments = vec![("in", NodeArgument::Node(picture))];
         for (input, node) in ["tangent", "bitangent"].into_iter().zip(frame.iter().flatten()) {
-            arguments.push((input, Argument::Node(node)));
+            arguments.push((input, NodeArgument::Node(node)));
         }
         self.node("normalmap", "normal_map", "vector3", &arguments)
     }
 
     /// Returns tangent and bitangent of the UV set of the maps; `None` for the first set, which shaders use by default.
-    fn frame(&mut self) -> Option<[Node; 2]> {
+    fn frame(&mut self) -> Option<[MaterialXNode; 2]> {
         (self.material.uv_set != 0).then(|| ["tangent", "bitangent"].map(|tag| self.frame_vector(tag)))
     }
 
     /// A vector of the tangent frame, world space.
-    pub(super) fn frame_vector(&mut self, tag: &'static str) -> Node {
-        let space = ("space", Argument::Value("string", "world".to_owned()));
-        let index = ("index", Argument::Value("integer", self.material.uv_set.to_string()));
+    pub(super) fn frame_vector(&mut self, tag: &'static str) -> MaterialXNode {
+        let space = ("space", NodeArgument::Value("string", "world".to_owned()));
+        let index = (
+            "index",
+            NodeArgument::Value("integer", self.material.uv_set.to_string()),
+        );
         let arguments = [space, index];
         // Normals do not depend on a UV set.
         let count = if tag == "normal" { 1 } else { 2 };
@@ -204,37 +207,43 @@ impl<'m> Graph<'m> {
     }
 
     /// A file of the material.
-    fn picture(&mut self, map: usize) -> Option<Node> {
+    fn picture(&mut self, map: usize) -> Option<MaterialXNode> {
         let maps = &self.material.maps;
         let file = maps.get(map)?;
         let ty = self.picture_type(map, file);
         let name = format!("image_{}", file.id);
         if self.made.contains(&name) {
-            return Some(Node { name, ty });
+            return Some(MaterialXNode { name, ty });
         }
-        let mut path = Element::new("input")
+        let mut path = XmlElement::new("input")
             .with("name", "file")
             .with("type", "filename")
             .with("value", &file.file);
         if file.is_srgb {
             path = path.with("colorspace", "srgb_texture");
         }
-        let mut element = Element::new("image").with("name", &name).with("type", ty).holding(path);
+        let mut element = XmlElement::new("image")
+            .with("name", &name)
+            .with("type", ty)
+            .holding(path);
         if self.is_rgb_of(map, &Channel::Normal) {
             // If the file is missing, the surface stays flat.
             element.extend([constant("default", ty, flat_normal(ty))]);
         }
         if self.material.uv_set != 0 {
-            let index = [("index", Argument::Value("integer", self.material.uv_set.to_string()))];
+            let index = [(
+                "index",
+                NodeArgument::Value("integer", self.material.uv_set.to_string()),
+            )];
             let uv = self.node("texcoord", "uv", "vector2", &index);
-            element.extend([Element::new("input")
+            element.extend([XmlElement::new("input")
                 .with("name", "texcoord")
                 .with("type", uv.ty)
                 .with("nodename", &uv.name)]);
         }
         self.made.insert(name.clone());
         self.nodes.push(element);
-        Some(Node { name, ty })
+        Some(MaterialXNode { name, ty })
     }
 
     /// Returns the type of a file's pixels: color management is applied to colors but not to numbers. Alpha is read only
@@ -248,7 +257,7 @@ impl<'m> Graph<'m> {
         ];
         let is_color = file.is_srgb || colors.iter().any(|channel| self.is_rgb_of(map, channel));
         let reads_alpha = self.material.channels.values().any(|look| {
-            let Look::Component { map: of, index } = look else {
+            let ChannelSource::Component { map: of, index } = look else {
                 return false;
             };
             *of == map && *index == 3
@@ -263,13 +272,13 @@ impl<'m> Graph<'m> {
     }
 
     fn is_rgb_of(&self, map: usize, channel: &Channel) -> bool {
-        self.material.channels.get(channel) == Some(&Look::Rgb(map))
+        self.material.channels.get(channel) == Some(&ChannelSource::Rgb(map))
     }
 }
 
 /// An input with a value.
-pub(super) fn constant(name: &'static str, ty: &'static str, value: impl Into<String>) -> Element {
-    Element::new("input")
+pub(super) fn constant(name: &'static str, ty: &'static str, value: impl Into<String>) -> XmlElement {
+    XmlElement::new("input")
         .with("name", name)
         .with("type", ty)
         .with("value", value)

@@ -1,10 +1,10 @@
 //! The inputs of both shaders.
 
-use super::super::material::{DocumentMaterial, Look};
+use super::super::material::{ChannelSource, DocumentMaterial};
 use super::super::numbers::list;
-use super::super::xml::Element;
-use super::graph::{Argument, Graph, Node, constant};
-use crate::{Channel, Value};
+use super::super::xml::XmlElement;
+use super::graph::{MaterialXGraph, MaterialXNode, NodeArgument, constant};
+use crate::{Channel, ConstantValue};
 
 /// Mean free path below the surface, in units of the scene. A material only has a color for subsurface light, not a length.
 const SUBSURFACE_RADIUS: f32 = 0.01;
@@ -14,11 +14,11 @@ const LEAST: f32 = 1e-6;
 /// A shader with its inputs.
 pub(super) struct Shader {
     pub(super) node: &'static str,
-    pub(super) inputs: Vec<Element>,
+    pub(super) inputs: Vec<XmlElement>,
 }
 
 /// Returns the shader of glTF's materials. It does not support subsurface light.
-pub(super) fn gltf(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader {
+pub(super) fn gltf(material: &DocumentMaterial, graph: &mut MaterialXGraph<'_>) -> Shader {
     let same = [
         ("base_color", Channel::BaseColor),
         ("metallic", Channel::Metallic),
@@ -33,7 +33,7 @@ pub(super) fn gltf(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader
         ("sheen_roughness", Channel::SheenRoughness),
         ("transmission", Channel::Transmission),
     ];
-    let mut inputs: Vec<Element> = same
+    let mut inputs: Vec<XmlElement> = same
         .iter()
         .filter_map(|(input, channel)| graph.input(input, channel))
         .collect();
@@ -45,7 +45,7 @@ pub(super) fn gltf(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader
         inputs.extend(graph.input("clearcoat_normal", &Channel::Normal));
     }
     match material.channels.get(&Channel::Anisotropy) {
-        Some(Look::Value(value)) => {
+        Some(ChannelSource::Value(value)) => {
             inputs.push(constant("anisotropy_strength", "float", list(&[value.component(2)])));
             inputs.push(constant("anisotropy_rotation", "float", list(&[rotation(*value)])));
         }
@@ -64,7 +64,7 @@ pub(super) fn gltf(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader
 }
 
 /// Returns the OpenPBR shader. It does not support occlusion.
-pub(super) fn open_pbr(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Shader {
+pub(super) fn open_pbr(material: &DocumentMaterial, graph: &mut MaterialXGraph<'_>) -> Shader {
     let same = [
         ("base_color", Channel::BaseColor),
         ("base_metalness", Channel::Metallic),
@@ -77,7 +77,7 @@ pub(super) fn open_pbr(material: &DocumentMaterial, graph: &mut Graph<'_>) -> Sh
         ("fuzz_roughness", Channel::SheenRoughness),
         ("transmission_weight", Channel::Transmission),
     ];
-    let mut inputs: Vec<Element> = same
+    let mut inputs: Vec<XmlElement> = same
         .iter()
         .filter_map(|(input, channel)| graph.input(input, channel))
         .collect();
@@ -120,12 +120,12 @@ fn has(material: &DocumentMaterial, channel: &Channel) -> bool {
 
 /// A color as a weight, its largest component, and the color divided by it.
 fn weighted(
-    graph: &mut Graph<'_>,
+    graph: &mut MaterialXGraph<'_>,
     material: &DocumentMaterial,
     channel: &Channel,
     [weight, color]: [&'static str; 2],
-) -> Vec<Element> {
-    if let Some(Look::Value(value)) = material.channels.get(channel) {
+) -> Vec<XmlElement> {
+    if let Some(ChannelSource::Value(value)) = material.channels.get(channel) {
         let values = [0, 1, 2].map(|index| value.component(index));
         let largest = values.into_iter().fold(LEAST, f32::max);
         return vec![
@@ -148,26 +148,26 @@ fn weighted(
     ]
 }
 
-fn pair<'a>(one: &'a Node, other: &'a Node) -> [(&'static str, Argument<'a>); 2] {
-    [("in1", Argument::Node(one)), ("in2", Argument::Node(other))]
+fn pair<'a>(one: &'a MaterialXNode, other: &'a MaterialXNode) -> [(&'static str, NodeArgument<'a>); 2] {
+    [("in1", NodeArgument::Node(one)), ("in2", NodeArgument::Node(other))]
 }
 
 /// Angle of a direction from the tangent toward the bitangent, radians.
-fn rotation(value: Value) -> f32 {
+fn rotation(value: ConstantValue) -> f32 {
     let [x, y] = [0, 1].map(|index| 2.0 * value.component(index) - 1.0);
     y.atan2(x)
 }
 
 /// Strength and rotation of the anisotropy in a file, as KHR_materials_anisotropy has them: a direction in red and green, −1..1
 /// as 0..1, and the strength in blue.
-fn anisotropy(graph: &mut Graph<'_>) -> Option<[Node; 2]> {
+fn anisotropy(graph: &mut MaterialXGraph<'_>) -> Option<[MaterialXNode; 2]> {
     let picture = graph.channel(&Channel::Anisotropy)?;
     let [x, y, strength] = [0, 1, 2].map(|index| graph.component(&picture, index));
     let [x, y] = [x, y].map(|axis| {
         let doubled = graph.arithmetic("multiply", &axis, 2.0);
         graph.arithmetic("subtract", &doubled, 1.0)
     });
-    let arguments = [("iny", Argument::Node(&y)), ("inx", Argument::Node(&x))];
+    let arguments = [("iny", NodeArgument::Node(&y)), ("inx", NodeArgument::Node(&x))];
     Some([
         strength,
         graph.node("atan2", "anisotropy_rotation", "float", &arguments),
@@ -176,21 +176,21 @@ fn anisotropy(graph: &mut Graph<'_>) -> Option<[Node; 2]> {
 
 /// Returns the anisotropy of OpenPBR: a strength, and a tangent rotated toward the direction. OpenPBR interprets the
 /// strength differently from glTF, so highlights have only approximately the same length.
-fn drawn_out(graph: &mut Graph<'_>, material: &DocumentMaterial) -> Vec<Element> {
+fn drawn_out(graph: &mut MaterialXGraph<'_>, material: &DocumentMaterial) -> Vec<XmlElement> {
     let input = "specular_roughness_anisotropy";
     let (strength, turn) = match material.channels.get(&Channel::Anisotropy) {
-        Some(Look::Value(value)) => {
+        Some(ChannelSource::Value(value)) => {
             let strength = constant(input, "float", list(&[value.component(2)]));
             let turn = rotation(*value);
             if turn == 0.0 {
                 return vec![strength];
             }
-            (strength, Turn::Value(turn))
+            (strength, TangentAngle::Value(turn))
         }
         Some(_) => match anisotropy(graph) {
             Some([strength, rotation]) => (
                 graph.output(input, "anisotropy_strength", &strength),
-                Turn::Node(rotation),
+                TangentAngle::Node(rotation),
             ),
             None => return Vec::new(),
         },
@@ -198,25 +198,27 @@ fn drawn_out(graph: &mut Graph<'_>, material: &DocumentMaterial) -> Vec<Element>
     };
     // MaterialX rotates in the opposite direction: bxdf/gltf_pbr.mtlx also multiplies by −180/π.
     let turn = match turn {
-        Turn::Value(radians) => Turn::Value(-radians.to_degrees()),
-        Turn::Node(rotation) => Turn::Node(graph.arithmetic("multiply", &rotation, -180.0 / std::f32::consts::PI)),
+        TangentAngle::Value(radians) => TangentAngle::Value(-radians.to_degrees()),
+        TangentAngle::Node(rotation) => {
+            TangentAngle::Node(graph.arithmetic("multiply", &rotation, -180.0 / std::f32::consts::PI))
+        }
     };
     let degrees = match &turn {
-        Turn::Value(degrees) => Argument::Value("float", list(&[*degrees])),
-        Turn::Node(degrees) => Argument::Node(degrees),
+        TangentAngle::Value(degrees) => NodeArgument::Value("float", list(&[*degrees])),
+        TangentAngle::Node(degrees) => NodeArgument::Node(degrees),
     };
     let (tangent, normal) = (graph.frame_vector("tangent"), graph.frame_vector("normal"));
     let arguments = [
-        ("in", Argument::Node(&tangent)),
+        ("in", NodeArgument::Node(&tangent)),
         ("amount", degrees),
-        ("axis", Argument::Node(&normal)),
+        ("axis", NodeArgument::Node(&normal)),
     ];
     let turned = graph.node("rotate3d", "turned_tangent", "vector3", &arguments);
     vec![strength, graph.output("geometry_tangent", "tangent", &turned)]
 }
 
 /// Angle that the tangent is turned by.
-enum Turn {
+enum TangentAngle {
     Value(f32),
-    Node(Node),
+    Node(MaterialXNode),
 }

@@ -10,7 +10,7 @@ use crate::model_copy::CopiedFile;
 use crate::model_copy::companions::BUFFER_TYPE;
 use crate::model_copy::container::Container;
 use crate::model_copy::edit::{push, remove};
-use crate::model_copy::pictures::uri_of;
+use crate::model_copy::picture_slots::uri_of;
 
 const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;

@@ -106,7 +106,12 @@ impl FileBytes {
         }
     }
 
-    fn stored<'b>(&'b self, document: &Json, container: &'b Container, of: OfPrimitive) -> Result<Stored<'b>, String> {
+    fn stored<'b>(
+        &'b self,
+        document: &Json,
+        container: &'b Container,
+        of: OfPrimitive,
+    ) -> Result<AccessorBytes<'b>, String> {
         let OfPrimitive { accessor, primitive } = of;
         let unreadable = || format!("accessors[{accessor}] cannot be read");
         let json = document["accessors"].get(accessor).ok_or_else(unreadable)?;
@@ -118,7 +123,7 @@ impl FileBytes {
             (Some(bytes), _) => {
                 layout.count = bytes.len() / layout.size;
                 let stride = layout.size;
-                Some(Run { bytes, stride })
+                Some(StridedElements { bytes, stride })
             }
             (None, Some(_)) => Some(run(json, layout.size, layout.count).ok_or_else(unreadable)?),
             (None, None) => None,
@@ -139,7 +144,7 @@ impl FileBytes {
                 sparse.push((place, values.element(at, layout.size).ok_or_else(unreadable)?));
             }
         }
-        Ok(Stored { base, sparse, layout })
+        Ok(AccessorBytes { base, sparse, layout })
     }
 
     /// The elements that an accessor or a part of it refers to.
@@ -150,7 +155,7 @@ impl FileBytes {
         part: &Json,
         size: usize,
         count: usize,
-    ) -> Option<Run<'b>> {
+    ) -> Option<StridedElements<'b>> {
         let number = |of: &Json, key: &str| of.get(key)?.as_u64().and_then(|at| usize::try_from(at).ok());
         let index = number(part, "bufferView")?;
         let view = document["bufferViews"].get(index)?;
@@ -172,13 +177,13 @@ impl FileBytes {
         let bytes = bytes.get(number(part, "byteOffset").unwrap_or(0)..)?;
         let stride = number(view, "byteStride").unwrap_or(size);
         let needed = count.checked_sub(1)?.checked_mul(stride)?.checked_add(size)?;
-        (needed <= bytes.len()).then_some(Run { bytes, stride })
+        (needed <= bytes.len()).then_some(StridedElements { bytes, stride })
     }
 }
 
 /// Bytes of an accessor.
-struct Stored<'b> {
-    base: Option<Run<'b>>,
+struct AccessorBytes<'b> {
+    base: Option<StridedElements<'b>>,
     /// Elements that replace others.
     sparse: Vec<(u32, &'b [u8])>,
     layout: ElementLayout,
@@ -186,12 +191,12 @@ struct Stored<'b> {
 
 /// Elements at a constant stride.
 #[derive(Clone, Copy)]
-struct Run<'b> {
+struct StridedElements<'b> {
     bytes: &'b [u8],
     stride: usize,
 }
 
-impl<'b> Run<'b> {
+impl<'b> StridedElements<'b> {
     fn element(self, index: usize, size: usize) -> Option<&'b [u8]> {
         self.bytes.get(index.checked_mul(self.stride)?..)?.get(..size)
     }

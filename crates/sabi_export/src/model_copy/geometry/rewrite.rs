@@ -5,9 +5,9 @@ use serde_json::{Map, Value as Json, json};
 
 use super::arrays::NewArrays;
 use super::bytes::{DRACO, FileBytes, OfPrimitive};
-use super::frame::Frame;
-use super::slots::{Slots, Written};
-use super::{EditedGeometry, GeometryEdits, Part, SetName, Tangents, UvSets, changed};
+use super::inverse_transform::InverseTransform;
+use super::slots::{Slots, VertexValues};
+use super::{EditedGeometry, GeometryEdits, PrimitivePart, SetName, Tangents, UvSets, changed};
 use crate::model_copy::container::Container;
 use crate::model_copy::edit::remove;
 use crate::model_copy::from_mesh::MOST_SETS;
@@ -103,7 +103,7 @@ impl<'a> Rewriter<'a> {
         document: &mut Json,
         original: &Json,
         placed: &PlacedPrimitive,
-        part: &Part,
+        part: &PrimitivePart,
     ) -> Result<Json, String> {
         let mut primitive = original.clone();
         let place = part.tile.and_then(|tile| self.edits.tiles.1.get(&tile));
@@ -133,7 +133,7 @@ impl<'a> Rewriter<'a> {
         Ok(primitive)
     }
 
-    fn set(&self, placed: &PlacedPrimitive, part: &Part) -> Option<SetName> {
+    fn set(&self, placed: &PlacedPrimitive, part: &PrimitivePart) -> Option<SetName> {
         let udim = part.tile.and_then(|tile| tile.udim);
         Some((self.edits.material(placed)?, udim))
     }
@@ -158,7 +158,7 @@ impl<'a> Rewriter<'a> {
         document: &mut Json,
         primitive: &mut Json,
         placed: &PlacedPrimitive,
-        part: &Part,
+        part: &PrimitivePart,
         attributes: Attributes<'_>,
     ) -> Result<(), String> {
         if let WrittenTangents::Removed = attributes.tangents {
@@ -167,7 +167,7 @@ impl<'a> Rewriter<'a> {
         if attributes.are_as_stored() && !part.is_split && !placed.is_turned {
             return Ok(());
         }
-        let frame = Frame::of(placed);
+        let frame = InverseTransform::of(placed);
         let written = |vertex: usize| attributes.written(vertex);
         let slots = Slots::of(&part.triangles, self.edits.origins, frame.is_mirrored, &written);
         let positions = primitive["attributes"]["POSITION"].as_u64();
@@ -195,7 +195,7 @@ impl<'a> Rewriter<'a> {
     }
 
     /// Chooses the attributes that are written.
-    fn attributes(&self, primitive: &Json, placed: &PlacedPrimitive, part: &Part) -> Attributes<'a> {
+    fn attributes(&self, primitive: &Json, placed: &PlacedPrimitive, part: &PrimitivePart) -> Attributes<'a> {
         let model = self.edits.model;
         let mesh = &model.mesh;
         let material = self.edits.material(placed);
@@ -226,7 +226,7 @@ impl<'a> Rewriter<'a> {
     }
 
     /// Chooses the texture coordinates that are written.
-    fn uvs(&self, placed: &PlacedPrimitive, part: &Part) -> Option<WrittenUvs<'a>> {
+    fn uvs(&self, placed: &PlacedPrimitive, part: &PrimitivePart) -> Option<WrittenUvs<'a>> {
         let UvSets { chosen, unwrapped } = self.edits.uv_sets;
         let model = self.edits.model;
         let values = &model.mesh.uvs[..];
@@ -291,7 +291,7 @@ impl<'a> Rewriter<'a> {
         document: &mut Json,
         primitive: &mut Json,
         attributes: Attributes<'_>,
-        frame: &Frame,
+        frame: &InverseTransform,
         vertices: &[Option<u32>],
     ) {
         let number = |vertex: &Option<u32>| vertex.map(|vertex| vertex as usize);
@@ -342,7 +342,7 @@ impl Attributes<'_> {
     }
 
     /// Exact values at a vertex of the mesh; 0 for attributes that are not written.
-    fn written(&self, vertex: usize) -> Written {
+    fn written(&self, vertex: usize) -> VertexValues {
         let [u, v] = self.uvs.and_then(|uvs| uvs.at(vertex)).unwrap_or([0.0; 2]);
         let normal = self.normals.and_then(|normals| normals.get(vertex).copied());
         let [x, y, z] = normal.unwrap_or([0.0; 3]);

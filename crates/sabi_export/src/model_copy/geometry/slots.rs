@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use sabi_surface::model::FileOrigins;
 
 /// Exact values of the attributes that a copy writes for a vertex. Vertices with the same origin differ in these.
-pub(super) type Written = [u32; 9];
+pub(super) type VertexValues = [u32; 9];
 
 /// Vertices and triangles of a primitive. Vertices come in the order of the file.
 pub(super) struct Slots {
@@ -23,10 +23,10 @@ impl Slots {
         corners: &[[u32; 3]],
         origins: &FileOrigins,
         is_mirrored: bool,
-        written: &dyn Fn(usize) -> Written,
+        written: &dyn Fn(usize) -> VertexValues,
     ) -> Slots {
         let mut slot_of_vertex: HashMap<u32, u32> = HashMap::new();
-        let mut slot_of_value: HashMap<(u32, Written), u32> = HashMap::new();
+        let mut slot_of_value: HashMap<(u32, VertexValues), u32> = HashMap::new();
         let mut slots: Vec<(u32, u32)> = Vec::new();
         let mut slot = |vertex: u32| {
             *slot_of_vertex.entry(vertex).or_insert_with(|| {

@@ -16,7 +16,7 @@ pub enum Treatment {
 
 /// Object of the file that has a property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Owner {
+pub(super) enum PropertyOwner {
     Material,
     MetallicRoughness,
     /// The extensions of the material.
@@ -30,9 +30,9 @@ pub(super) enum Owner {
 /// Treatment of one property.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rule {
-    /// Name in the file; a pattern for [`Owner::OtherExtensions`].
+    /// Name in the file; a pattern for [`PropertyOwner::OtherExtensions`].
     pub(super) property: &'static str,
-    pub(super) owner: Owner,
+    pub(super) owner: PropertyOwner,
     pub(super) treatment: Treatment,
     /// Treatment where the look of the model is kept.
     pub(super) kept_look: Treatment,
@@ -45,7 +45,7 @@ impl Rule {
     }
 }
 
-const fn rule(owner: Owner, property: &'static str, treatments: [Treatment; 2]) -> Rule {
+const fn rule(owner: PropertyOwner, property: &'static str, treatments: [Treatment; 2]) -> Rule {
     let [treatment, kept_look] = treatments;
     Rule {
         property,
@@ -62,7 +62,7 @@ const REMOVED_WITH_LOOK: [Treatment; 2] = [Treatment::Removed, Treatment::Kept];
 
 /// All rules, in the order of the documents.
 pub(super) const RULES: [Rule; 32] = {
-    use Owner::{Extensions, Material, MetallicRoughness, OtherExtensions, Primitive};
+    use PropertyOwner::{Extensions, Material, MetallicRoughness, OtherExtensions, Primitive};
     [
         rule(MetallicRoughness, "baseColorFactor", SET),
         rule(MetallicRoughness, "baseColorTexture", SET),
@@ -103,7 +103,7 @@ pub(super) const RULES: [Rule; 32] = {
 pub(super) fn of_extension(name: &str) -> Option<&'static Rule> {
     let named = RULES
         .iter()
-        .find(|rule| rule.owner == Owner::Extensions && rule.property == name);
+        .find(|rule| rule.owner == PropertyOwner::Extensions && rule.property == name);
     named.or_else(|| {
         let pattern = match name {
             name if name.starts_with("MSFT_packing_") => "MSFT_packing_*",
@@ -112,6 +112,6 @@ pub(super) fn of_extension(name: &str) -> Option<&'static Rule> {
         };
         RULES
             .iter()
-            .find(|rule| rule.owner == Owner::OtherExtensions && rule.property == pattern)
+            .find(|rule| rule.owner == PropertyOwner::OtherExtensions && rule.property == pattern)
     })
 }

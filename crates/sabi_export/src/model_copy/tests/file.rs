@@ -8,19 +8,19 @@ pub(super) const U16: u32 = 5123;
 pub(super) const F32: u32 = 5126;
 
 /// A file that grows.
-pub(super) struct File {
+pub(super) struct GltfFile {
     pub(super) json: Json,
     bytes: Vec<u8>,
 }
 
-impl File {
-    pub(super) fn new() -> File {
+impl GltfFile {
+    pub(super) fn new() -> GltfFile {
         let json = json!({
             "asset": { "version": "2.0" }, "buffers": [{}], "bufferViews": [], "accessors": [], "meshes": [],
             "materials": [{ "name": "wood" }], "nodes": [], "scene": 0, "scenes": [{ "nodes": [] }],
         });
         let bytes = Vec::new();
-        File { json, bytes }
+        GltfFile { json, bytes }
     }
 
     pub(super) fn view(&mut self, bytes: &[u8], stride: Option<usize>) -> usize {

@@ -3,7 +3,7 @@
 use sabi_surface::load::Up;
 use sabi_surface::model::Mesh;
 
-use super::file::{F32, File, U8, U16, floats};
+use super::file::{F32, GltfFile, U8, U16, floats};
 use super::*;
 
 /// A strip of two squares with their normals. The second is mirrored on the map, so tangents split the two vertices between them.
@@ -21,16 +21,16 @@ const PLAIN: [[f32; 2]; 6] = [[0.0, 0.9], [0.0, 0.1], [0.5, 0.9], [0.5, 0.1], [1
 const CORNERS: [u16; 12] = [0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5];
 
 /// Position, texture coordinates, normal and tangent.
-type Corner = ([f32; 3], [f32; 2], [f32; 3], [f32; 4]);
+type CornerData = ([f32; 3], [f32; 2], [f32; 3], [f32; 4]);
 
-fn corners(mesh: &Mesh) -> Vec<Corner> {
+fn corners(mesh: &Mesh) -> Vec<CornerData> {
     let all = mesh.triangles.iter().flatten().map(|at| *at as usize);
     all.map(|at| (mesh.positions[at], mesh.uvs[at], mesh.normals[at], mesh.tangents[at]))
         .collect()
 }
 
 /// The copy of a file whose materials got maps, and the models of the file and of the copy.
-fn copy_of(file: &File, options: &LoadOptions) -> (FinishedCopy, Model, Model) {
+fn copy_of(file: &GltfFile, options: &LoadOptions) -> (FinishedCopy, Model, Model) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("it.glb");
     fs::write(&path, file.bytes()).unwrap();
@@ -54,7 +54,7 @@ fn close(a: &[f32], b: &[f32]) -> bool {
 }
 
 /// Checks that a copy has the corners of its model, with tangents of its own.
-fn assert_same(what: &str, file: &File, options: &LoadOptions) -> Json {
+fn assert_same(what: &str, file: &GltfFile, options: &LoadOptions) -> Json {
     let (finished, model, copied) = copy_of(file, options);
     assert!(finished.warnings.is_empty(), "{what}: {:?}", finished.warnings);
     let (was, is) = (corners(&model.mesh), corners(&copied.mesh));
@@ -108,7 +108,7 @@ fn elements(file: &[u8], accessor: &Json) -> Vec<Vec<f64>> {
 fn the_frame_of_the_maps_is_in_files_of_every_layout() {
     for (what, uvs, vertices) in [("whole", PLAIN, 6), ("split", MIRRORED, 8)] {
         for layout in ["separate", "interleaved", "strip", "no indices", "sparse"] {
-            let mut file = File::new();
+            let mut file = GltfFile::new();
             let mut primitive = primitive_of(&mut file, layout, &uvs);
             primitive["material"] = json!(0);
             file.mesh(&[primitive.clone()]);
@@ -126,7 +126,7 @@ fn the_frame_of_the_maps_is_in_files_of_every_layout() {
     }
 }
 
-fn primitive_of(file: &mut File, layout: &str, uvs: &[[f32; 2]; 6]) -> Json {
+fn primitive_of(file: &mut GltfFile, layout: &str, uvs: &[[f32; 2]; 6]) -> Json {
     match layout {
         "interleaved" => {
             let rows = (0..6).map(|at| [&POSITIONS[at][..], &uvs[at], &NORMALS[at]].concat());
@@ -174,7 +174,7 @@ fn primitive_of(file: &mut File, layout: &str, uvs: &[[f32; 2]; 6]) -> Json {
 
 #[test]
 fn tangents_are_those_of_the_mesh_wherever_nodes_place_it() {
-    let mut file = File::new();
+    let mut file = GltfFile::new();
     let mut primitive = primitive_of(&mut file, "separate", &MIRRORED);
     primitive["material"] = json!(0);
     file.mesh(&[primitive]);
@@ -199,7 +199,7 @@ fn tangents_are_those_of_the_mesh_wherever_nodes_place_it() {
 
 #[test]
 fn a_split_vertex_keeps_all_that_the_file_has_of_it() {
-    let mut file = File::new();
+    let mut file = GltfFile::new();
     let mut primitive = primitive_of(&mut file, "separate", &MIRRORED);
     let numbers: Vec<u8> = (0..6).flat_map(|at| [at, 0, 0, 0]).collect();
     let view = file.view(&numbers, None);
@@ -258,7 +258,7 @@ fn a_split_vertex_keeps_all_that_the_file_has_of_it() {
 
 #[test]
 fn primitives_that_share_vertices_get_tangents_of_their_own() {
-    let mut file = File::new();
+    let mut file = GltfFile::new();
     let whole = primitive_of(&mut file, "separate", &MIRRORED);
     let squares = CORNERS.chunks(6).map(|corners| {
         let mut primitive = whole.clone();
@@ -289,7 +289,7 @@ fn primitives_that_share_vertices_get_tangents_of_their_own() {
 
 #[test]
 fn new_uvs_of_a_file_with_a_set_of_any_number_come_behind_that() {
-    let mut file = File::new();
+    let mut file = GltfFile::new();
     let mut primitive = primitive_of(&mut file, "separate", &PLAIN);
     primitive["attributes"]["TEXCOORD_4294967294"] = primitive["attributes"]["TEXCOORD_0"].clone();
     primitive["material"] = json!(0);

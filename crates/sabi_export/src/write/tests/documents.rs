@@ -1,7 +1,7 @@
 //! Documents as a bake writes them.
 
 use super::*;
-use crate::preset::Document;
+use crate::preset::DocumentFormat;
 
 /// The layout of a tile of a material.
 fn tile(number: u32) -> SetLayout {
@@ -66,7 +66,7 @@ fn documents_are_listed_with_their_hashes_and_are_the_same_twice() {
     let written = bake_tiles(a.path(), &options, &sets);
     assert_eq!(written, bake_tiles(b.path(), &options, &sets));
     assert!(written.outputs.is_empty() && written.warnings.is_empty(), "{written:?}");
-    let listed: Vec<(&str, &str, Document)> = written
+    let listed: Vec<(&str, &str, DocumentFormat)> = written
         .documents
         .iter()
         .map(|document| (document.path.as_str(), document.preset.as_str(), document.format))
@@ -74,9 +74,9 @@ fn documents_are_listed_with_their_hashes_and_are_the_same_twice() {
     assert_eq!(
         listed,
         [
-            ("figure.usda", "usd", Document::Usda),
-            ("figure.usdz", "usd", Document::Usdz),
-            ("figure.mtlx", "materialx", Document::MaterialX)
+            ("figure.usda", "usd", DocumentFormat::Usda),
+            ("figure.usdz", "usd", DocumentFormat::Usdz),
+            ("figure.mtlx", "materialx", DocumentFormat::MaterialX)
         ]
     );
     for document in &written.documents {

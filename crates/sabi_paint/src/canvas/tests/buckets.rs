@@ -46,9 +46,9 @@ fn stamps_differ_in_color_within_limits_and_equally_each_time() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
-    let layers = Layers {
+    let layers = CanvasLayers {
         color: true,
-        ..Layers::default()
+        ..CanvasLayers::default()
     };
     let colors = |jitter: Jitter, tip: Tip| {
         let brush = Brush {

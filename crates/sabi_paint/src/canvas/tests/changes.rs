@@ -113,7 +113,7 @@ fn copied(source: Option<[f64; 2]>, halves: Option<[[f32; 3]; 2]>) -> CanvasTexe
     let border = texel_of_plate(&atlas, [0.0, 0.0]) % columns;
     let [left, right] = halves.unwrap_or_default(); // Not read if no node is connected.
     let input = |texel: usize| if texel % columns < border { left } else { right };
-    let layers = Layers {
+    let layers = CanvasLayers {
         color: true,
         height: true,
         direction: true,

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::plates::plate;
 use super::*;
-use crate::{Eye, Jitter, Limits, PenEffects, Tip};
+use crate::{BrushLimits, Eye, Jitter, PenEffects, Tip};
 
-const ALL: Layers = Layers {
+const ALL: CanvasLayers = CanvasLayers {
     value: true,
     color: true,
     height: true,
@@ -69,9 +69,9 @@ fn brushes() -> [(&'static str, Brush); 7] {
         (
             "within an angle",
             Brush {
-                limits: Limits {
+                limits: BrushLimits {
                     angle_degrees: 40.0,
-                    ..Limits::default()
+                    ..BrushLimits::default()
                 },
                 ..round.clone()
             },
@@ -79,10 +79,10 @@ fn brushes() -> [(&'static str, Brush); 7] {
         (
             "where the artist sees the front",
             Brush {
-                limits: Limits {
+                limits: BrushLimits {
                     front_only: true,
                     seen_only: true,
-                    ..Limits::default()
+                    ..BrushLimits::default()
                 },
                 ..round
             },

@@ -2,7 +2,7 @@
 
 use super::plates::plate;
 use super::*;
-use crate::{PenEffects, Symmetry, Tip, Turn, carried};
+use crate::{PenEffects, Symmetry, Tip, TipDirection, carried};
 
 /// Returns a point on the front of a plate with a pen that leans by an angle toward a direction.
 fn leaning(surface: &PaintSurface<'_>, at: [f64; 2], toward: DVec3, degrees: f32) -> StrokePoint {
@@ -63,7 +63,7 @@ fn the_size_follows_the_tilt_and_a_mouse_has_the_full_size() {
 fn the_tip_follows_a_leaning_pen_and_the_stroke_under_an_upright_pen() {
     on_plate(|_, surface, atlas| {
         let brush = Brush {
-            turn: Turn::Pen,
+            turn: TipDirection::Pen,
             ..plain(Tip::Square)
         };
         let lies = |toward, degrees| {
@@ -108,7 +108,7 @@ fn the_pen_of_a_mirrored_copy_leans_in_the_mirrored_direction() {
     on_plate(|_, surface, atlas| {
         let brush = Brush {
             radius: 0.2,
-            turn: Turn::Pen,
+            turn: TipDirection::Pen,
             symmetry: Symmetry {
                 mirrors: [true, false, false],
                 turns: 0,

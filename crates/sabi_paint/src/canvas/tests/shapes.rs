@@ -2,7 +2,7 @@
 
 use super::plates::plate;
 use super::*;
-use crate::{Jitter, Symmetry, Tip, Turn, stamp_swatch, swatch};
+use crate::{Jitter, Symmetry, Tip, TipDirection, stamp_swatch, swatch};
 
 /// Returns, for each triangle, true if a texel of it has a cover of more than a half.
 fn painted_triangles(atlas: &Atlas, canvas: &Canvas) -> Vec<bool> {
@@ -167,7 +167,7 @@ fn a_gradient_fades_evenly_between_its_ends_and_is_constant_beyond_them() {
 }
 
 /// Returns the mean position of the paint of a stroke of leaks.
-fn hangs(mesh: &Mesh, surface: &PaintSurface<'_>, atlas: &Atlas, way: [Site; 2], turn: Turn) -> DVec3 {
+fn hangs(mesh: &Mesh, surface: &PaintSurface<'_>, atlas: &Atlas, way: [Site; 2], turn: TipDirection) -> DVec3 {
     let points = [surface.point(way[0], 1.0, true), surface.point(way[1], 1.0, false)];
     let brush = Brush {
         radius: 0.2,
@@ -206,17 +206,17 @@ fn a_hanging_tip_points_down_a_wall_and_along_the_stroke_on_level_ground() {
     };
     // Stamps of leaks have more paint at their upper end.
     let wall = [site(0.0, 0.0, 1.0), site(0.08, 0.0, 1.0)];
-    let moved = |way: [Site; 2], turn: Turn| {
+    let moved = |way: [Site; 2], turn: TipDirection| {
         hangs(&mesh, &surface, &atlas, way, turn) - way[0].position.midpoint(way[1].position)
     };
-    let down = moved(wall, Turn::Down);
+    let down = moved(wall, TipDirection::Down);
     assert!(down.y > 0.02 && down.x.abs() < 0.5 * down.y, "{down}");
-    let along = moved(wall, Turn::Stroke);
+    let along = moved(wall, TipDirection::Stroke);
     assert!(along.x < -0.02 && along.y.abs() < -0.5 * along.x, "{along}");
     let mesh = mesh_of("cube");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
-    let on_top = |turn: Turn| {
+    let on_top = |turn: TipDirection| {
         let points = drawn(&surface, &bvh, 9, 9.0 * DVec3::Y, |t| DVec3::new(0.3 * t, 0.0, 0.1));
         let brush = Brush {
             turn,
@@ -224,7 +224,7 @@ fn a_hanging_tip_points_down_a_wall_and_along_the_stroke_on_level_ground() {
         };
         painted(&surface, &atlas, &[Stroke::new(brush, points)])
     };
-    assert_eq!(on_top(Turn::Down), on_top(Turn::Stroke));
+    assert_eq!(on_top(TipDirection::Down), on_top(TipDirection::Stroke));
 }
 
 #[test]

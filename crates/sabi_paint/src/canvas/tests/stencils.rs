@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::pictures::{COLORED, flag};
 use super::plates::plate;
+use super::stamped_pictures::{COLORED, flag};
 use super::*;
-use crate::{Eye, Limits, PicturePart, PictureTip, Stencil, Symmetry};
+use crate::{BrushLimits, Eye, PicturePart, PictureTip, Stencil, Symmetry};
 
 /// Returns a stencil in front of the middle of the front of a plate, half a unit wide to both sides, for an eye far above.
 fn stencil(picture: PictureTip) -> Option<Arc<Stencil>> {
@@ -108,7 +108,7 @@ fn fills_stay_within_the_limits_of_the_brush() {
     let mesh = plate(0.1);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
-    let area = |area: Area, limits: Limits| {
+    let area = |area: Area, limits: BrushLimits| {
         let brush = Brush {
             limits,
             ..Brush::default()
@@ -122,21 +122,21 @@ fn fills_stay_within_the_limits_of_the_brush() {
     };
     let all = 2.0 * 4.0 + 4.0 * 0.2;
     let limits = [
-        Limits {
+        BrushLimits {
             angle_degrees: 60.0,
-            ..Limits::default()
+            ..BrushLimits::default()
         },
-        Limits {
+        BrushLimits {
             front_only: true,
-            ..Limits::default()
+            ..BrushLimits::default()
         },
-        Limits {
+        BrushLimits {
             seen_only: true,
-            ..Limits::default()
+            ..BrushLimits::default()
         },
     ];
     for filled in [Area::All, Area::Similar, Area::Gradient, Area::Part] {
-        let whole = area(filled, Limits::default());
+        let whole = area(filled, BrushLimits::default());
         assert!((whole / all - 1.0).abs() < 0.02, "{filled:?} {whole}");
         for limits in limits {
             let front = area(filled, limits);

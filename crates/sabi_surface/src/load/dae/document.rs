@@ -1,6 +1,6 @@
 //! The tree of elements, and properties of the whole file.
 
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 use std::collections::HashMap;
 
 use glam::{DMat4, DVec3};

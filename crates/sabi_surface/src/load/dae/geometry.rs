@@ -1,6 +1,6 @@
 //! Meshes: lists of polygons, and the attributes of their corners.
 
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;

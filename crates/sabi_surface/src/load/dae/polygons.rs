@@ -1,7 +1,7 @@
 //! Lists of polygons: `triangles`, `polylist`, `polygons`, `trifans`, `tristrips`.
 
 use roxmltree::Node;
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 
 use super::document::{DaeDocument, child, children};
 use crate::load::error::{ModelFault, damaged};

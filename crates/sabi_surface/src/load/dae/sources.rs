@@ -1,6 +1,6 @@
 //! Sources: rows of numbers, which the corners of polygons index.
 
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 use std::collections::HashMap;
 use std::rc::Rc;
 

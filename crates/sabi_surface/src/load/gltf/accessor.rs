@@ -3,7 +3,7 @@
 use gltf::json;
 use json::accessor::{ComponentType, Type};
 use json::validation::Checked;
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 
 use super::source::GltfSource;
 use super::storage::{AccessorSemantic, Storage, largest};

@@ -4,7 +4,7 @@ use super::header::{NumberType, PlyElement, PlyEncoding};
 use crate::load::error::{ModelFault, damaged};
 use crate::load::numbers::number;
 use crate::load::warnings::Warnings;
-use sabi_cancel::Looking as _;
+use sabi_cancel::CancelableIterator as _;
 
 /// Value of a property.
 pub(super) enum PropertyValue {

@@ -7,14 +7,14 @@ use sabi_graph::NodeId;
 
 use super::super::Window;
 use super::super::hands::id;
-use super::Before;
+use super::StateBefore;
 use crate::command::{ArrangeCommand, CanvasCommand, Command, FileCommand, GraphCommand, LookCommand, WindowCommand};
 use crate::dock::Panel;
 use crate::files::Question;
 use crate::files::system_dialog::PathFor;
 
 /// Nodes that are selected for a command, and whether it did what its title says.
-pub(super) type Proof = (&'static [&'static str], fn(&mut Window, &Before) -> bool);
+pub(super) type Proof = (&'static [&'static str], fn(&mut Window, &StateBefore) -> bool);
 
 /// Proof of a command; `None` if another test proves it.
 pub(super) fn proof(command: Command) -> Option<Proof> {

@@ -7,7 +7,7 @@ use sabi_paint::{Step, Stroke, StrokeGroup, StrokeList, Version};
 
 /// A row of the list, the topmost first.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Row {
+pub(super) enum StrokeRow {
     /// Title of a group whose strokes follow, if it is open: indices of the lowest and the topmost of them.
     Group {
         group: Arc<StrokeGroup>,
@@ -18,19 +18,19 @@ pub(super) enum Row {
     Stroke(usize),
 }
 
-impl Row {
+impl StrokeRow {
     /// Index of the topmost stroke of the row.
     fn top(&self) -> usize {
         match self {
-            Row::Group { top, .. } => *top,
-            Row::Stroke(index) => *index,
+            StrokeRow::Group { top, .. } => *top,
+            StrokeRow::Stroke(index) => *index,
         }
     }
 }
 
 /// Rows of a list, without the strokes of groups that are closed. A group whose strokes are apart has a title for each
 /// part.
-pub(super) fn rows_of(list: &StrokeList, closed: &BTreeSet<u32>) -> Vec<Row> {
+pub(super) fn rows_of(list: &StrokeList, closed: &BTreeSet<u32>) -> Vec<StrokeRow> {
     let number = |stroke: &Stroke| stroke.group.as_ref().map(|group| group.number);
     let mut rows = Vec::new();
     let mut top = list.strokes.len();
@@ -41,10 +41,10 @@ pub(super) fn rows_of(list: &StrokeList, closed: &BTreeSet<u32>) -> Vec<Row> {
         if let Some(group) = run.first().and_then(|stroke| stroke.group.clone()) {
             is_open = !closed.contains(&group.number);
             let top = top - 1;
-            rows.push(Row::Group { group, lowest, top });
+            rows.push(StrokeRow::Group { group, lowest, top });
         }
         if is_open {
-            rows.extend((lowest..top).rev().map(Row::Stroke));
+            rows.extend((lowest..top).rev().map(StrokeRow::Stroke));
         }
         top = lowest;
     }
@@ -52,7 +52,7 @@ pub(super) fn rows_of(list: &StrokeList, closed: &BTreeSet<u32>) -> Vec<Row> {
 }
 
 /// Number of strokes below the gap before a row.
-pub(super) fn below_gap(rows: &[Row], gap: usize) -> usize {
+pub(super) fn below_gap(rows: &[StrokeRow], gap: usize) -> usize {
     rows.get(gap).map_or(0, |row| row.top() + 1)
 }
 
@@ -197,8 +197,8 @@ mod tests {
         let shown: Vec<String> = rows
             .iter()
             .map(|row| match row {
-                Row::Group { group, lowest, top } => format!("{} {lowest}-{top}", group.name),
-                Row::Stroke(index) => list.strokes[*index].name.clone(),
+                StrokeRow::Group { group, lowest, top } => format!("{} {lowest}-{top}", group.name),
+                StrokeRow::Stroke(index) => list.strokes[*index].name.clone(),
             })
             .collect();
         assert_eq!(shown, ["e", "Group 1 2-3", "d", "b", "c", "a"]);

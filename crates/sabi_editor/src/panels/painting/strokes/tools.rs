@@ -7,19 +7,19 @@ use egui::{Label, RichText, Slider, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_paint::{Brush, Path, Step, Stroke, StrokeGroup, StrokeList};
 
-use super::{Asked, order};
+use super::{StrokeListRequest, order};
 use crate::action::{Action, PaintAction};
 use crate::command::{Command, GraphCommand};
 use crate::context::ViewContext;
 
 /// Tools for marked strokes.
 #[derive(Default)]
-pub(super) struct Tools {
+pub(super) struct StrokeTools {
     /// Value of the opacity slider while it is dragged; a step is made when it is released.
     slid: Option<f32>,
 }
 
-impl Tools {
+impl StrokeTools {
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -27,7 +27,7 @@ impl Tools {
         list: &StrokeList,
         largest_side: f64,
         actions: &mut Vec<Action>,
-    ) -> Option<Asked> {
+    ) -> Option<StrokeListRequest> {
         let ids = &context.looks.marked_strokes;
         let is_marked = |stroke: &&Arc<Stroke>| ids.contains(&stroke.id);
         let marked: Vec<Arc<Stroke>> = list.strokes.iter().filter(is_marked).cloned().collect();
@@ -59,7 +59,7 @@ impl Tools {
         context: &ViewContext<'_>,
         list: &StrokeList,
         marked: &[Arc<Stroke>],
-    ) -> Option<Asked> {
+    ) -> Option<StrokeListRequest> {
         let group = order::group_of(list, &context.looks.marked_strokes);
         let (title, now) = match &group {
             Some(group) => ("Opacity of the group", group.opacity),
@@ -78,7 +78,10 @@ impl Tools {
                 opacity,
                 ..(*group).clone()
             };
-            return Some(Asked::Steps("Opacity of a group", vec![order::changed(list, group)]));
+            return Some(StrokeListRequest::Steps(
+                "Opacity of a group",
+                vec![order::changed(list, group)],
+            ));
         }
         let changed = marked.iter().map(|stroke| {
             let brush = Brush {
@@ -87,7 +90,7 @@ impl Tools {
             };
             with_brush(stroke, brush)
         });
-        Some(Asked::Steps("Opacity of strokes", changed.collect()))
+        Some(StrokeListRequest::Steps("Opacity of strokes", changed.collect()))
     }
 }
 
@@ -98,14 +101,14 @@ fn brush_tools(
     first: &Stroke,
     largest_side: f64,
     actions: &mut Vec<Action>,
-) -> Option<Asked> {
+) -> Option<StrokeListRequest> {
     let mut asked = None;
     let brush = context.settings.brush.brush(largest_side);
     if tool(ui, icon::PAINT_BRUSH, "Give them the present brush") {
         let steps = marked
             .iter()
             .map(|stroke| with_brush(stroke, placed(stroke, brush.clone())));
-        asked = Some(Asked::Steps("Brush of strokes", steps.collect()));
+        asked = Some(StrokeListRequest::Steps("Brush of strokes", steps.collect()));
     }
     if tool(ui, icon::EYEDROPPER_SAMPLE, "Take its brush") {
         let taken = context.settings.brush.like(first, largest_side);
@@ -113,24 +116,29 @@ fn brush_tools(
     }
     if tool(ui, icon::TRASH, "Remove the strokes") {
         let removed = marked.iter().map(|stroke| stroke.id).collect();
-        asked = Some(Asked::Steps("Remove strokes", vec![Step::Remove(removed)]));
+        asked = Some(StrokeListRequest::Steps("Remove strokes", vec![Step::Remove(removed)]));
     }
     // Fitting takes long for many strokes.
     let can_be_path = |stroke: &Arc<Stroke>| stroke.path.is_none() && Path::follows(stroke);
     if marked.iter().any(can_be_path) && tool(ui, icon::BEZIER_CURVE, "Make paths of them, with knots to bend") {
         let paths: Vec<Step> = marked.iter().filter_map(|stroke| as_path(stroke)).collect();
-        asked = Some(Asked::Steps("Path of a stroke", paths));
+        asked = Some(StrokeListRequest::Steps("Path of a stroke", paths));
     }
     asked
 }
 
-fn group_tools(ui: &mut Ui, context: &ViewContext<'_>, list: &StrokeList, marked: &[Arc<Stroke>]) -> Option<Asked> {
+fn group_tools(
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    list: &StrokeList,
+    marked: &[Arc<Stroke>],
+) -> Option<StrokeListRequest> {
     let ids = &context.looks.marked_strokes;
     if marked.iter().any(|stroke| stroke.group.is_some())
         && tool(ui, icon::FOLDER_MINUS, "Take them out of their group")
     {
         let strokes = marked.iter().map(|stroke| stroke.id).collect();
-        return Some(Asked::Steps(
+        return Some(StrokeListRequest::Steps(
             "Ungroup strokes",
             vec![Step::Group { strokes, group: None }],
         ));
@@ -138,7 +146,7 @@ fn group_tools(ui: &mut Ui, context: &ViewContext<'_>, list: &StrokeList, marked
     let is_group = order::group_of(list, ids).is_some();
     if !is_group && tool(ui, icon::FOLDER_PLUS, "Group the strokes") {
         let marked: BTreeSet<_> = marked.iter().map(|stroke| stroke.id).collect();
-        return Some(Asked::Steps("Group strokes", order::grouped(list, &marked)));
+        return Some(StrokeListRequest::Steps("Group strokes", order::grouped(list, &marked)));
     }
     None
 }
