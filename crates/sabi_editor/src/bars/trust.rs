@@ -66,7 +66,7 @@ fn refused_files(ui: &mut Ui, context: &ViewContext<'_>) -> Option<TrustAction> 
 }
 
 fn untrusted_nodes(ui: &mut Ui, context: &ViewContext<'_>) -> Option<TrustAction> {
-    let folder = trust::untrusted_nodes(&context.document).filter(|_| !context.leaves_nodes)?;
+    let folder = trust::untrusted_nodes(context.document).filter(|_| !context.leaves_nodes)?;
     let mut chosen = None;
     egui::Panel::top("untrusted nodes")
         .frame(bar(context.theme.panel, Margin::symmetric(8, 4)))

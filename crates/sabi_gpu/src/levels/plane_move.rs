@@ -32,8 +32,8 @@ impl PlaneMove<'_> {
     pub(crate) fn run(&self) -> Result<(), GpuError> {
         match self.step.levels {
             [Level::Texels(from), Level::Texels(to)] => self.between_texels([from, to]),
-            [Level::Texels(_), Level::Points(number)] => self.to_points(self.surfaces.points_of(number)?),
-            [Level::Points(number), Level::FINEST] => self.from_points(self.surfaces.points_of(number)?),
+            [Level::Texels(_), Level::Points(number)] => self.move_texels_to_points(self.surfaces.points_of(number)?),
+            [Level::Points(number), Level::FINEST] => self.move_points_to_texels(self.surfaces.points_of(number)?),
             [from, to] => Err(GpuError::Defect(format!(
                 "nothing moves from level {from} to level {to}"
             ))),
@@ -83,7 +83,7 @@ impl PlaneMove<'_> {
     }
 
     /// Moves from the texels of the cells to their points.
-    fn to_points(&self, points: &PointSurface) -> Result<(), GpuError> {
+    fn move_texels_to_points(&self, points: &PointSurface) -> Result<(), GpuError> {
         let (gpu, format) = (self.gpu, self.step.format);
         let entries = [table_entry(0), texture_entry(1), storage_entry(2, format)];
         let kernel = fixed_kernel(gpu, FixedShader::ToPoints(format), &entries)?;
@@ -96,7 +96,7 @@ impl PlaneMove<'_> {
     }
 
     /// Moves from points to the finest texels.
-    fn from_points(&self, points: &PointSurface) -> Result<(), GpuError> {
+    fn move_points_to_texels(&self, points: &PointSurface) -> Result<(), GpuError> {
         let (gpu, format) = (self.gpu, self.step.format);
         let entries = [
             uniform_entry(0),
