@@ -51,17 +51,37 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Returns a text of several lines, such as a file, with its line breaks and tabs but without characters that control a terminal.
+/// Returns a text of several lines, such as a file, with its line breaks and tabs but without characters that control a
+/// terminal. Only lines that a system would take for a command differ otherwise.
 pub(crate) fn printable_lines(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '\n' | '\t' => shown.push(letter),
-            letter if is_invisible(letter) => escape(&mut shown, letter),
-            letter => shown.push(letter),
+    for line in text.split_inclusive('\n') {
+        let (line, end) = line.strip_suffix('\n').map_or((line, ""), |line| (line, "\n"));
+        if is_command(line) {
+            shown.push_str(&printable(line));
+        } else {
+            for letter in line.chars() {
+                match letter {
+                    '\t' => shown.push(letter),
+                    letter if is_invisible(letter) => escape(&mut shown, letter),
+                    letter => shown.push(letter),
+                }
+            }
         }
+        shown.push_str(end);
     }
     shown
+}
+
+/// Returns true for a line that such systems treat as a command, such as `::error::` or `##vso[task]`. A heading in a
+/// comment, such as `## Maps`, is none.
+fn is_command(line: &str) -> bool {
+    let is_marked = |(at, _): (usize, &str)| {
+        let name = line[at..].trim_start_matches('#');
+        name.trim_start_matches(|letter: char| letter.is_ascii_alphabetic())
+            .starts_with('[')
+    };
+    COMMANDS.iter().any(|start| starts(line, start)) || line.match_indices(MARKS).any(is_marked)
 }
 
 /// Returns a JSON document with the same meaning, in which no string controls a terminal or is taken for a command.
@@ -222,6 +242,10 @@ mod tests {
         let mut page: Page = ["one\ntwo", "::warning::"].into_iter().collect();
         page.lines("a\nopenjd_env: b");
         assert_eq!(page.text(), "one\\ntwo\n\\u{3a}:warning::\na\n\\u{6f}penjd_env: b\n");
-        assert_eq!(printable_lines("a = 1\n# ## x\u{1b}\n"), "a = 1\n# ## x\\u{1b}\n");
+        let plain = "a = 1\n\t# ## x\u{1b}\n## [maps]\nend";
+        assert_eq!(printable_lines(plain), "a = 1\n\t# ## x\\u{1b}\n## [maps]\nend");
+        let commands = "'''\n::error::x\nopenjd_env: a\nx ##vso[y] ##[z]\n";
+        let broken = "'''\n\\u{3a}:error::x\n\\u{6f}penjd_env: a\nx \\u{23}#vso[y] \\u{23}#[z]\n";
+        assert_eq!(printable_lines(commands), broken);
     }
 }

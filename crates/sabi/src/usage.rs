@@ -5,7 +5,6 @@ use std::io::{self, Write as _};
 use std::path::Path;
 
 use clap::error::ErrorKind;
-use sabi_files::is_invisible;
 use sabi_graph::nearest;
 
 use crate::arguments::command_names;
@@ -43,9 +42,13 @@ pub(crate) fn mistyped_command_line(kind: ErrorKind) -> Option<String> {
     mistyped_command(Path::new(&first))
 }
 
-/// Prints the error of a command line. Its arguments may be names of files, so characters that control a terminal are removed.
+/// Prints the error of a command line. Its arguments may be names of files, so they neither control a terminal nor are
+/// taken for commands.
 pub(crate) fn print(error: &clap::Error) -> io::Result<()> {
-    let is_odd = |argument: std::ffi::OsString| argument.to_string_lossy().chars().any(is_invisible);
+    let is_odd = |argument: std::ffi::OsString| {
+        let argument = argument.to_string_lossy();
+        printable(&argument) != argument
+    };
     if !env::args_os().any(is_odd) {
         return error.print();
     }

@@ -18,6 +18,11 @@ use crate::matrix::Matrix;
 use crate::matrix_row::{Condition, Exclusion, ExclusionKey, MatrixRow, SeedChoice, VariantChoice};
 use crate::written_files::{WrittenFile, written_files};
 
+/// Maximum number of values that one item sets. Each of them is looked for in its graph.
+const MOST_VALUES: usize = 10_000;
+/// Maximum number of values that all items together set. The plan has a text for each.
+const MOST_VALUES_OF_ALL: u64 = 4_000_000;
+
 /// A combination of a table of the matrix.
 #[derive(Clone, Debug)]
 pub(crate) struct Draft<'m> {
@@ -94,7 +99,7 @@ struct RowValues {
 /// about missing files and variants, and returns the combinations of all others.
 ///
 /// # Errors
-/// There are more items than the matrix allows, or the work was canceled.
+/// There are more items than the matrix allows, or they set very many values, or the work was canceled.
 pub(crate) fn expanded<'m>(
     matrix: &'m Matrix,
     graphs: &mut Graphs,
@@ -102,15 +107,26 @@ pub(crate) fn expanded<'m>(
     progress: &dyn Progress,
 ) -> Result<Vec<Draft<'m>>, EngineError> {
     let mut drafts = Vec::new();
-    let mut count = 0u64;
+    let (mut count, mut value_count) = (0u64, 0u64);
     for row in &matrix.rows {
         let expansion = Expansion::of(matrix, row, graphs, faults, progress)?;
         count = count.saturating_add(expansion.count());
+        value_count = value_count.saturating_add(expansion.count().saturating_mul(expansion.value_count() as u64));
         if count > matrix.limit as u64 {
             let why = format!(
                 "{}: the matrix gives {count} items or more, and its limit is {}; if that is meant, raise 'limit'",
                 matrix.path.display(),
                 matrix.limit
+            );
+            return Err(EngineError::new(ErrorKind::BadInput, why));
+        }
+        if expansion.value_count() > MOST_VALUES || value_count > MOST_VALUES_OF_ALL {
+            let why = format!(
+                "{}: {}: an item would set {} values, and all items {value_count} or more; an item may set {MOST_VALUES}, and \
+                 all items {MOST_VALUES_OF_ALL}; leave out values that are those of the graph",
+                matrix.path.display(),
+                row.words,
+                expansion.value_count()
             );
             return Err(EngineError::new(ErrorKind::BadInput, why));
         }
@@ -219,6 +235,13 @@ impl<'m> Expansion<'m> {
         ];
         axes.into_iter()
             .fold(1, |product: u64, axis| product.saturating_mul(axis as u64))
+    }
+
+    /// Returns the greatest number of values that an item sets.
+    fn value_count(&self) -> usize {
+        let choices = self.graphs.iter().flat_map(|(_, choices)| choices);
+        let of_choice = choices.map(|choice| choice.set.len()).max().unwrap_or(0); // Without a graph there is no item.
+        self.values.set.len() + of_choice
     }
 
     fn add_to(&self, drafts: &mut Vec<Draft<'m>>) {

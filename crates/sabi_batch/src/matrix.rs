@@ -8,7 +8,7 @@ use sabi_files::PathBase;
 use sabi_graph::nearest;
 use toml::{Table, Value as Toml};
 
-use crate::matrix_row::{Exclusion, MatrixRow, all, exclusions};
+use crate::matrix_row::{Exclusion, MOST_FAULTS, MatrixRow, all, exclusions};
 
 /// Version of the format.
 const VERSION: i64 = 1;
@@ -55,7 +55,11 @@ impl Matrix {
     /// Reads the values of a file. The errors are clauses, one for each fault.
     fn of_table(path: &Path, mut table: Table) -> Result<Matrix, Vec<String>> {
         refuse_version(table.get("version")).map_err(|why| vec![why])?;
-        let mut faults: Vec<String> = table.keys().filter_map(|key| unknown_key(key)).collect();
+        let mut faults: Vec<String> = table
+            .keys()
+            .filter_map(|key| unknown_key(key))
+            .take(MOST_FAULTS)
+            .collect();
         let mut defaults = MatrixRow::new("defaults");
         if let Some(out) = table.remove("out") {
             faults.extend(defaults.take("out", out).err().into_iter().flatten());
@@ -228,6 +232,20 @@ mod tests {
             "'exclude' has no key 'sizes'; did you mean 'size'?; 'exclude' has no key 'graphs'; did you mean 'graph'?",
         ),
     ];
+
+    #[test]
+    fn a_matrix_with_very_many_unknown_keys_is_refused_after_the_first() {
+        let keys: String = (0..200_000).map(|at| format!("a{at} = 1\n")).collect();
+        let tables = "[[bake]]\nmodls = 1\n".repeat(100_000);
+        for text in [
+            format!("version = 1\n{keys}"),
+            format!("version = 1\n[defaults]\n{keys}"),
+            format!("version = 1\n{tables}"),
+        ] {
+            let faults = Matrix::of_table(Path::new("m.toml"), text.parse().expect("TOML")).expect_err("faults");
+            assert!((1000..1010).contains(&faults.len()), "{}", faults.len());
+        }
+    }
 
     #[test]
     fn keys_and_values_that_no_matrix_can_have_are_refused_by_name() {

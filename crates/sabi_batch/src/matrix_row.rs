@@ -13,6 +13,8 @@ use toml::{Table, Value as Toml};
 use crate::options::{ItemOptions, check_option, option_names};
 
 const DEFAULT_SIZE: u32 = 1024;
+/// Number of faults after which a matrix is read no further. It is more than an error shows.
+pub(crate) const MOST_FAULTS: usize = 1000;
 
 const KEYS: [&str; 11] = [
     "exclude", "graphs", "models", "name", "out", "presets", "seed", "set", "set_file", "sizes", "variants",
@@ -149,6 +151,9 @@ impl MatrixRow {
             if let Err(clauses) = self.take(&key, value) {
                 faults.extend(clauses.into_iter().map(|why| format!("{}: {why}", self.words)));
             }
+            if faults.len() >= MOST_FAULTS {
+                break;
+            }
         }
         match faults.is_empty() {
             true => Ok(()),
@@ -253,13 +258,16 @@ pub(crate) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, Vec<String>> {
     all(tables.into_iter().map(exclusion))
 }
 
-/// Collects values, or the faults of all that cannot be read.
+/// Collects values, or the faults of all that cannot be read; of very many faults, the first.
 pub(crate) fn all<T>(read: impl Iterator<Item = Result<T, Vec<String>>>) -> Result<Vec<T>, Vec<String>> {
     let (mut values, mut faults) = (Vec::new(), Vec::new());
     for read in read {
         match read {
             Ok(value) => values.push(value),
             Err(clauses) => faults.extend(clauses),
+        }
+        if faults.len() >= MOST_FAULTS {
+            break;
         }
     }
     if faults.is_empty() { Ok(values) } else { Err(faults) }

@@ -288,13 +288,17 @@ impl ItemPlanner<'_> {
     }
 }
 
-/// Returns the values of a draft. If a name occurs several times, the last value is used.
+/// Returns the values of a draft. If a name occurs several times, the last value is used, in its place: different names
+/// may mean the same parameter.
 fn values(draft: &Draft<'_>) -> Vec<(String, Value)> {
-    let mut set: Vec<(String, Value)> = Vec::new();
-    for (name, value) in &draft.set {
-        // The value is moved to the end, since different names may mean the same parameter.
-        set.retain(|(known, _)| known != name);
-        set.push((name.clone(), value.clone()));
-    }
+    let mut known = BTreeSet::new();
+    let mut set: Vec<(String, Value)> = draft
+        .set
+        .iter()
+        .rev()
+        .filter(|(name, _)| known.insert(name))
+        .cloned()
+        .collect();
+    set.reverse();
     set
 }

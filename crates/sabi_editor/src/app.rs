@@ -21,6 +21,7 @@ use sabi_gpu::Gpu;
 
 use crate::action::Action;
 use crate::bars;
+use crate::button_frames::ButtonFrames;
 use crate::choice_previews::{ChoicePreviews, PreviewSource};
 use crate::command::{Command, FileCommand};
 use crate::context::{View, ViewContext};
@@ -56,6 +57,7 @@ pub(crate) struct Editor {
     pub(crate) node_brush_tip: NodeBrushTip,
     packing: PackTask,
     pub(crate) pens: Pens,
+    button_frames: ButtonFrames,
     awaited_picture: AwaitedPicture,
     handover: Handover,
     /// Called once the window is closed for good and all work is kept.
@@ -100,6 +102,7 @@ impl Editor {
             node_brush_tip: NodeBrushTip::default(),
             packing: PackTask::default(),
             pens: Pens::default(),
+            button_frames: ButtonFrames::default(),
             awaited_picture: AwaitedPicture::default(),
             handover,
             at_end,
@@ -338,6 +341,7 @@ fn dropped_files(context: &Context) -> Vec<Action> {
 
 impl eframe::App for Editor {
     fn raw_input_hook(&mut self, context: &Context, raw: &mut RawInput) {
+        self.button_frames.enter_frame(raw);
         self.pens.enter_frame(raw, context.zoom_factor());
     }
 
@@ -358,6 +362,7 @@ impl eframe::App for Editor {
         }
         self.frame(ui);
         self.pens.end_frame(ui.ctx());
+        self.button_frames.end_frame(ui.ctx());
     }
 
     fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {

@@ -20,6 +20,7 @@ mod bars;
 mod brush;
 mod brush_shelf;
 mod builtin_models;
+mod button_frames;
 mod canvas;
 mod choice_previews;
 mod command;

@@ -68,24 +68,34 @@ impl FileLock {
     }
 
     /// Waits until no other holder has the lock, and locks the file. The file and its folder are created if they are
-    /// missing. Holders must not remove the file, otherwise two of them could have the lock. While waiting, `goes_on` is
-    /// called many times a second; when it returns false, the result is `None`.
+    /// missing, also when a holder has removed them. While waiting, `goes_on` is called many times a second; when it
+    /// returns false, the result is `None`.
     ///
     /// # Errors
     /// The file system does not offer locks, or the path is not an ordinary file.
     pub fn wait(path: &Path, goes_on: &mut dyn FnMut() -> bool) -> Result<Option<FileLock>, FileError> {
-        let file = open(path)?;
+        let mut tries = 0;
         loop {
-            match file.try_lock() {
-                Ok(()) => {
-                    return Ok(Some(FileLock {
-                        _file: file,
-                        path: path.to_owned(),
-                    }));
+            let file = match open(path) {
+                // A holder may have removed the folder after it was created here and before the file was.
+                Err(error) if error.source.kind() == std::io::ErrorKind::NotFound && tries < TRIES => {
+                    tries += 1;
+                    continue;
                 }
-                Err(TryLockError::WouldBlock) if goes_on() => std::thread::sleep(BETWEEN_LOOKS),
-                Err(TryLockError::WouldBlock) => return Ok(None),
-                Err(TryLockError::Error(error)) => return Err(FileError::new(Operation::Lock, path, error)),
+                opened => opened?,
+            };
+            loop {
+                match file.try_lock() {
+                    // Its holder removed the file that was opened here, and the next holder locks another one.
+                    Ok(()) if !is_at(&file, path) => break,
+                    Ok(()) => {
+                        let path = path.to_owned();
+                        return Ok(Some(FileLock { _file: file, path }));
+                    }
+                    Err(TryLockError::WouldBlock) if goes_on() => std::thread::sleep(BETWEEN_LOOKS),
+                    Err(TryLockError::WouldBlock) => return Ok(None),
+                    Err(TryLockError::Error(error)) => return Err(FileError::new(Operation::Lock, path, error)),
+                }
             }
         }
     }
@@ -188,6 +198,34 @@ mod tests {
             waits.recv().unwrap();
         });
         assert!(!is_locked(&path));
+    }
+
+    /// On Windows, a file that is open keeps its name.
+    #[cfg(unix)]
+    #[test]
+    fn whoever_waits_for_a_lock_whose_folder_is_removed_holds_one_that_others_see() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = folder.path().join("own");
+        let path = own.join("file.lock");
+        let first = FileLock::acquire(&path).unwrap();
+        std::thread::scope(|scope| {
+            let (waits, waiting) = std::sync::mpsc::channel();
+            let (holds, held) = std::sync::mpsc::channel();
+            let wanted = path.clone();
+            scope.spawn(move || {
+                let mut goes_on = || waits.send(()).is_ok();
+                holds
+                    .send(FileLock::wait(&wanted, &mut goes_on).unwrap().unwrap())
+                    .unwrap();
+            });
+            waiting.recv().unwrap();
+            fs::remove_file(&path).unwrap();
+            fs::remove_dir(&own).unwrap();
+            drop(first);
+            let second = held.recv().unwrap();
+            assert!(path.is_file() && is_locked(&path));
+            drop(second);
+        });
     }
 
     #[test]

@@ -242,6 +242,34 @@ fn too_many_items_are_refused_unless_they_are_meant() {
 }
 
 #[test]
+fn very_many_values_are_refused_before_their_graph_is_searched_for_them() {
+    let values: Vec<String> = (0..20_000).map(|at| format!("a{at} = 1")).collect();
+    let place = place_with(&format!(
+        "models = \"cube.glb\"\ngraphs = \"clouds.sabi\"\n[bake.set]\n{}",
+        values.join("\n")
+    ));
+    let run = place.sabi(&["plan", "matrix.toml"]).fails(65);
+    let why = "matrix.toml: bake 1: an item would set 20000 values, and all items 20000 or more; an item may set 10000";
+    assert!(run.stderr.contains(why), "{}", run.stderr);
+    assert!(!place.path("plan.jsonl").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_plan_whose_name_has_a_line_break_is_not_named_in_scripts() {
+    let place = place_with("models = \"cube.glb\"\ngraphs = \"clouds.sabi\"");
+    for format in ["commands", "slurm", "openjd"] {
+        let name = "a\nopenjd_env: X=y.jsonl";
+        let run = place
+            .sabi(&["plan", "matrix.toml", "--format", format, "-o", name])
+            .fails(73);
+        let why = "its name has a line break or another character that is not shown; name another file";
+        assert!(run.stderr.contains(why) && run.stdout.is_empty(), "{}", run.stderr);
+        assert!(!place.path(name).exists());
+    }
+}
+
+#[test]
 fn an_entry_that_leaves_nothing_out_is_told() {
     let place = place_with("models = \"cube.glb\"\ngraphs = \"clouds.sabi\"\nexclude = [{ size = 99 }]");
     let run = place.sabi(&["plan", "matrix.toml"]).good();

@@ -2,27 +2,18 @@
 
 use std::path::Path;
 
-use sabi_engine::{EngineError, ErrorKind};
+use sabi_engine::EngineError;
 
-use super::{RunFlags, not_text};
+use super::{RunFlags, line_of_text};
 use crate::plan_file::BakePlan;
 use crate::shell_word::shell_word;
 
 /// Returns the commands for the plan in this file, one for each item, for the folder from which the file is named.
 ///
 /// # Errors
-/// The path of the file is no text, or has control characters.
+/// The path of the file is no text, or has characters that are not shown.
 pub fn command_lines(file: &Path, plan: &BakePlan, flags: RunFlags) -> Result<String, EngineError> {
-    let path = file.to_str().ok_or_else(|| not_text(file))?;
-    // A program that runs lines would run the part after a line break as a second command, even inside quotes.
-    if path.contains(char::is_control) {
-        let why = format!(
-            "{} cannot be named in commands, each of which is a line, because it has a line break or another control character; \
-             name another file",
-            file.display()
-        );
-        return Err(EngineError::new(ErrorKind::CannotWrite, why));
-    }
+    let path = line_of_text(file, file.as_os_str())?;
     // A path must not look like an option.
     let path = if path.starts_with('-') {
         format!("./{path}")

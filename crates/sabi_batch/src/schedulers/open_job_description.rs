@@ -15,7 +15,7 @@ const TEMPLATE: &str = include_str!("open_job_description.yaml");
 /// Returns a template of a job for the plan in this file, to be used in its folder, from which its relative paths start.
 ///
 /// # Errors
-/// The name of the file is no text.
+/// The name of the file is no text, or has characters that are not shown.
 pub fn job_template(file: &Path, plan: &BakePlan, flags: RunFlags) -> Result<String, EngineError> {
     let [name, stem] = names(file)?;
     let job: String = stem

@@ -14,7 +14,7 @@ const MOST_JOBS: usize = 1000;
 /// Returns a script for the plan in this file, to be submitted from its folder.
 ///
 /// # Errors
-/// The name of the file is no text.
+/// The name of the file is no text, or has characters that are not shown.
 pub fn slurm_script(file: &Path, plan: &BakePlan, flags: RunFlags) -> Result<String, EngineError> {
     let [name, stem] = names(file)?;
     let job: String = stem

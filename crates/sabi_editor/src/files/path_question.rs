@@ -1,5 +1,6 @@
 //! The question for a path: a field for its name, and folders and files to choose from.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use egui::text::{CCursor, CCursorRange};
@@ -251,11 +252,14 @@ impl PathQuestion {
         }
         if std::mem::take(&mut self.is_new) {
             field.request_focus();
-            // Selects the name without its ending, so that the ending stays when another name is typed.
-            let stem = Path::new(&self.text)
-                .file_stem()
-                .map_or(0, |stem| stem.to_string_lossy().chars().count());
-            output.state.cursor.set_char_range(Some(select([0, stem])));
+            // Selects the name that is written without its ending, so that the ending stays when another name is typed. A
+            // file that is read has an ending of its own.
+            let replaced = match self.what.is_written() {
+                true => Path::new(&self.text).file_stem().unwrap_or_default().to_string_lossy(), // No name has no stem.
+                false => Cow::Borrowed(self.text.as_str()),
+            };
+            let end = replaced.chars().count();
+            output.state.cursor.set_char_range(Some(select([0, end])));
             output.state.store(ui.ctx(), id);
         }
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));

@@ -24,6 +24,9 @@ const PICTURE: f32 = 52.0;
 /// Width of the page, and margin above and below it, points.
 const WIDTH: f32 = 720.0;
 const MARGIN: f32 = 40.0;
+/// Time in which a click on a card chooses nothing after an offer of unsaved work has moved the cards, seconds: it may have
+/// been aimed at what was there before.
+const AFTER_MOVE: f64 = 0.6;
 /// Pixels along a side of a picture.
 const PIXELS: u32 = 104;
 
@@ -33,6 +36,8 @@ pub(crate) struct StartPage {
     /// Pictures of the examples, in their order, once the page was shown.
     examples: Vec<Option<TextureHandle>>,
     recovery_list: RecoveryList,
+    /// Number of offers of unsaved work, and time since when there are so many, seconds; `None` until the page was shown.
+    offers: Option<(usize, f64)>,
     /// True if a chosen graph opens with the model and its parameters only; `None` until the page was shown.
     opens_use_view: Option<bool>,
 }
@@ -43,6 +48,7 @@ impl StartPage {
             is_open,
             examples: Vec::new(),
             recovery_list: RecoveryList::default(),
+            offers: None,
             opens_use_view: None,
         }
     }
@@ -101,12 +107,23 @@ impl StartPage {
         ui.add_space(space::WIDE);
         let recovered = self.recovery_list.show(ui, context, actions);
         self.load_pictures(ui.ctx());
-        let chosen = self.cards(ui, context).or(recovered);
+        let is_still = self.is_still(context.recoveries.len(), ui.input(|input| input.time));
+        let chosen = self.cards(ui, context).filter(|_| is_still).or(recovered);
         ui.add_space(space::USUAL);
         let opens_use_view = self.opens_use_view.get_or_insert(context.is_use_view);
         let switch = ui.checkbox(opens_use_view, Command::Window(WindowCommand::UseView).title());
         switch.on_hover_text("For those who use a material and do not change its graph");
         chosen
+    }
+
+    /// Returns whether the cards stand where they stood a moment ago, with this number of offers of unsaved work above them.
+    fn is_still(&mut self, offer_count: usize, now: f64) -> bool {
+        let (known, since) = *self.offers.get_or_insert((offer_count, f64::NEG_INFINITY));
+        if known != offer_count {
+            self.offers = Some((offer_count, now));
+            return false;
+        }
+        now - since > AFTER_MOVE
     }
 
     /// Shows cards of graphs that can be opened. Returns the action of the clicked one.
@@ -229,4 +246,18 @@ fn card(ui: &mut Ui, theme: &Theme, title: &str, whole: &str, picture: PicturePl
         response
     };
     response.clicked()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::StartPage;
+
+    #[test]
+    fn cards_are_not_chosen_just_after_an_offer_of_unsaved_work_has_moved_them() {
+        let mut page = StartPage::new(true);
+        assert!(page.is_still(1, 10.0), "the page opens with it");
+        assert!(!page.is_still(2, 11.0) && !page.is_still(2, 11.5));
+        assert!(page.is_still(2, 11.7));
+        assert!(!page.is_still(1, 12.0), "a discarded offer moves them back");
+    }
 }

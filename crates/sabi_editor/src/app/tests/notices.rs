@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
+use egui::Key;
 use egui_kittest::kittest::Queryable;
 use sabi_engine::Session;
 
@@ -178,7 +179,9 @@ fn a_missing_picture_is_found_again_with_the_model_that_lies_beside_it() {
     assert!(window.says("There is no file old/rust.png") && window.says("There is no file old/hero.obj"));
     window.press("Find rust.png");
     assert!(window.says("Find a missing file"));
-    window.answer_path(&window.path("moved/rust.png"));
+    // Typed without selecting anything: the missing name is replaced as a whole.
+    window.typed(&window.path("moved/rust.png").display().to_string());
+    window.key(Key::Enter);
     window.until("the picture and the model", |editor| {
         editor.evaluation.faults.of("photo").is_none()
             && editor.evaluation.model.loaded().1
