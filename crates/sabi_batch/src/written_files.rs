@@ -94,7 +94,7 @@ fn matching(
 }
 
 /// A part of a pattern between two slashes.
-enum Part {
+enum PatternPart {
     /// Any number of folders, `**`.
     Folders,
     /// A name, or `..`.
@@ -105,7 +105,7 @@ enum Part {
 /// Search for the files that a pattern fits. It reads each folder once for each part of the pattern.
 struct Walk<'p, 'l> {
     written: &'p str,
-    parts: Vec<Part>,
+    parts: Vec<PatternPart>,
     /// Folders to read, each with the index of the part that their entries have to fit.
     open: Vec<(PathBuf, usize)>,
     known: HashSet<(PathBuf, usize)>,
@@ -124,12 +124,12 @@ impl<'p, 'l> Walk<'p, 'l> {
         let mut parts = Vec::new();
         for part in rest.split('/').filter(|part| !matches!(*part, "" | ".")) {
             parts.push(match part {
-                "**" if matches!(parts.last(), Some(Part::Folders)) => continue,
-                "**" => Part::Folders,
-                part if is_pattern(part) => Part::Fitting(
+                "**" if matches!(parts.last(), Some(PatternPart::Folders)) => continue,
+                "**" => PatternPart::Folders,
+                part if is_pattern(part) => PatternPart::Fitting(
                     Pattern::new(part).map_err(|error| format!("'{written}' is no pattern: {}", error.msg))?,
                 ),
-                part => Part::Name(part.to_owned()),
+                part => PatternPart::Name(part.to_owned()),
             });
         }
         let start = folder.join(start);
@@ -148,11 +148,11 @@ impl<'p, 'l> Walk<'p, 'l> {
             let is_last = at + 1 == self.parts.len();
             match self.parts.get(at) {
                 None => {}
-                Some(Part::Name(name)) => {
+                Some(PatternPart::Name(name)) => {
                     let path = folder.join(name);
                     self.take(path, at, is_last);
                 }
-                Some(Part::Folders) => {
+                Some(PatternPart::Folders) => {
                     if !is_last {
                         self.go(folder.clone(), at + 1);
                     }
@@ -164,7 +164,7 @@ impl<'p, 'l> Walk<'p, 'l> {
                         }
                     }
                 }
-                Some(Part::Fitting(pattern)) => {
+                Some(PatternPart::Fitting(pattern)) => {
                     let pattern = pattern.clone();
                     for entry in self.entries(&folder, progress)? {
                         if pattern.matches_with(&entry.file_name().to_string_lossy(), SHELL) {

@@ -307,6 +307,13 @@ pub struct PhaseTimes {
 }
 
 impl PhaseTimes {
+    /// Adds the time of an evaluation, and the part of it in which kernels were compiled.
+    pub(crate) fn add_evaluation(&mut self, taken: Duration, compile: Duration) {
+        let compile = compile.min(taken);
+        self.compile.add(compile);
+        self.run.add(taken - compile);
+    }
+
     /// Sum of all phases.
     pub fn total(&self) -> Duration {
         let phases = [self.load, self.atlas, self.compile, self.run, self.encode];

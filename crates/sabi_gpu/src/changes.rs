@@ -26,7 +26,7 @@ enum Change {
 const MOST_TILES: u32 = 4096;
 
 /// Step of which only some tiles are computed again.
-pub(crate) struct Part {
+pub(crate) struct PartialStep {
     /// The tiles.
     pub(crate) tiles: TileSet,
     /// Textures of the earlier results, by slot.
@@ -37,7 +37,7 @@ pub(crate) struct Part {
 #[derive(Default)]
 pub(crate) struct Changes {
     /// Steps of which only some tiles are computed, by their index.
-    pub(crate) parts: BTreeMap<usize, Part>,
+    pub(crate) parts: BTreeMap<usize, PartialStep>,
     /// Results whose differences from earlier results are known.
     pub(crate) results: ChangedResults,
 }
@@ -86,7 +86,7 @@ impl Changes {
             let tiles = known.iter().fold(TileSet::default(), |all, (_, tiles)| all.and(tiles));
             let taken = known.iter().filter_map(|(key, _)| cache.take(key));
             let textures = written.into_iter().zip(taken).collect();
-            found.parts.insert(*at, Part { tiles, textures });
+            found.parts.insert(*at, PartialStep { tiles, textures });
         }
         found
     }

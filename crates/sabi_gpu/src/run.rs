@@ -17,7 +17,7 @@ use sabi_plan::{KernelStep, MoveStep, Plan, SlotExtent, SlotRef, Step};
 use self::kept::{KeptResults, kept_slots};
 use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
-use crate::changes::{Changes, Part};
+use crate::changes::{Changes, PartialStep};
 use crate::coverage::Coverages;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -227,7 +227,12 @@ impl<'a> Runner<'a> {
     }
 
     /// Takes over cached results, and the textures that steps change in part.
-    fn take_known(&mut self, steps: &[usize], cached: BTreeMap<SlotRef, wgpu::Texture>, parts: BTreeMap<usize, Part>) {
+    fn take_known(
+        &mut self,
+        steps: &[usize],
+        cached: BTreeMap<SlotRef, wgpu::Texture>,
+        parts: BTreeMap<usize, PartialStep>,
+    ) {
         // A cached texture may be on screen, so a step that runs again writes to another texture.
         let rewritten = written_by(self.plan, steps);
         for (slot, texture) in cached {

@@ -35,13 +35,13 @@ pub enum Mean {
 
 /// Groups of texels of an atlas, on the device. In each group, the targets are set to the mean of the sources.
 pub struct Shares {
-    parts: Vec<Part>,
+    parts: Vec<ShareDispatch>,
     /// Tiles of sources, each paired with a tile of their targets.
     tiles: BTreeSet<[[u32; 3]; 2]>,
 }
 
 /// Groups that one dispatch processes.
-struct Part {
+struct ShareDispatch {
     count: u32,
     /// First index in `texels` of each group, as `share.wgsl` reads it.
     starts: wgpu::Buffer,
@@ -74,7 +74,7 @@ impl Shares {
         let (mut starts, mut texels) = (vec![0], Vec::new());
         for [sources, targets] in groups {
             if texels.len() + sources.len() + targets.len() >= MAX_PART_WORDS && starts.len() > 1 {
-                parts.push(Part::upload(gpu, &starts, &texels)?);
+                parts.push(ShareDispatch::upload(gpu, &starts, &texels)?);
                 starts.truncate(1);
                 texels.clear();
             }
@@ -87,7 +87,7 @@ impl Shares {
             starts.push(texels.len() as u32);
         }
         if starts.len() > 1 {
-            parts.push(Part::upload(gpu, &starts, &texels)?);
+            parts.push(ShareDispatch::upload(gpu, &starts, &texels)?);
         }
         Ok(Shares { parts, tiles })
     }
@@ -114,15 +114,15 @@ impl Shares {
     }
 }
 
-impl Part {
-    fn upload(gpu: &Gpu, starts: &[u32], texels: &[u32]) -> Result<Part, GpuError> {
+impl ShareDispatch {
+    fn upload(gpu: &Gpu, starts: &[u32], texels: &[u32]) -> Result<ShareDispatch, GpuError> {
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let buffer = |numbers: &[u32]| {
             let buffer = storage_buffer(gpu, "the texels that share a place", 4 * numbers.len() as u64, limit)?;
             gpu.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(numbers));
             Ok::<_, GpuError>(buffer)
         };
-        Ok(Part {
+        Ok(ShareDispatch {
             count: starts.len() as u32 - 1,
             starts: buffer(starts)?,
             texels: buffer(texels)?,

@@ -57,6 +57,24 @@ const TESTS: Check = (
 const DOC_TESTS: Check = ("Doc tests", &["test", "--doc", "--workspace", "--locked"]);
 const DOCUMENTATION: Check = ("Documentation", &["doc", "--workspace", "--no-deps", "--locked"]);
 
+/// Tests that read real and hostile files, which are no part of the project.
+const FILES_FROM_ELSEWHERE: Check = (
+    "Tests with files from elsewhere",
+    &[
+        "test",
+        "--workspace",
+        "--locked",
+        "--no-fail-fast",
+        "--lib",
+        "--bins",
+        "--tests",
+        "--",
+        "--ignored",
+    ],
+);
+/// Environment variable with the folder of these files.
+const FILES_VARIABLE: &str = "SABI_TEST_DATA";
+
 /// Checks that a change has to pass.
 const CHECKS: [Check; 4] = [FORMAT, CLIPPY, TESTS, DOC_TESTS];
 /// Checks that run once a night.
@@ -78,9 +96,13 @@ pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
     Ok(())
 }
 
-/// Runs the nightly checks, every fuzz target for a minute, and the soak for as many minutes as the arguments say.
+/// Runs the nightly checks, tests with files from elsewhere where a variable names their folder, every fuzz target for a minute, and the soak for as many minutes as the arguments say.
 pub(crate) fn run_nightly(project: &Project, arguments: &[String]) -> Result<(), TaskError> {
     run_all(project, &NIGHTLY_CHECKS)?;
+    match std::env::var_os(FILES_VARIABLE) {
+        Some(_) => run_all(project, &[FILES_FROM_ELSEWHERE])?,
+        None => eprintln!("\nThe tests with files from elsewhere are left out: {FILES_VARIABLE} names no folder."),
+    }
     fuzz::run(project, &[])?;
     soak::run(project, arguments)
 }

@@ -386,14 +386,16 @@ fn a_name_with_a_line_break_is_no_second_command() {
         "matrix.toml",
         "version = 1\nout = \"out\"\n[[bake]]\nmodels = \"cube.glb\"\ngraphs = \"clouds.sabi\"\n",
     );
-    let name = "a\ntouch evil\n.jsonl";
     let before = place.listing(".");
-    let arguments = ["plan", "matrix.toml", "-o", name, "--format", "commands"];
-    let refused = place.sabi(&arguments).fails(73);
-    assert!(
-        refused.stdout.is_empty() && refused.stderr.contains("it has a line break"),
-        "{refused:?}"
-    );
+    for name in ["a\ntouch evil\n.jsonl", "a\nopenjd_env: X=y.jsonl", "lnosj.\u{202e}a"] {
+        for format in ["commands", "slurm", "openjd"] {
+            let refused = place
+                .sabi(&["plan", "matrix.toml", "-o", name, "--format", format])
+                .fails(73);
+            let why = "its name has a line break or another character that is not shown; name another file";
+            assert!(refused.stdout.is_empty() && refused.stderr.contains(why), "{refused:?}");
+        }
+    }
     assert_eq!(place.listing("."), before);
 }
 

@@ -254,21 +254,6 @@ fn very_many_values_are_refused_before_their_graph_is_searched_for_them() {
     assert!(!place.path("plan.jsonl").exists());
 }
 
-#[cfg(unix)]
-#[test]
-fn a_plan_whose_name_has_a_line_break_is_not_named_in_scripts() {
-    let place = place_with("models = \"cube.glb\"\ngraphs = \"clouds.sabi\"");
-    for format in ["commands", "slurm", "openjd"] {
-        let name = "a\nopenjd_env: X=y.jsonl";
-        let run = place
-            .sabi(&["plan", "matrix.toml", "--format", format, "-o", name])
-            .fails(73);
-        let why = "its name has a line break or another character that is not shown; name another file";
-        assert!(run.stderr.contains(why) && run.stdout.is_empty(), "{}", run.stderr);
-        assert!(!place.path(name).exists());
-    }
-}
-
 #[test]
 fn an_entry_that_leaves_nothing_out_is_told() {
     let place = place_with("models = \"cube.glb\"\ngraphs = \"clouds.sabi\"\nexclude = [{ size = 99 }]");

@@ -48,10 +48,10 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
     let clock = PhaseClock::start();
     // An unknown preset is reported before anything is read.
-    set_options(request)?;
+    let options = set_options(request)?;
     let (graph, trusted) = (request.graph.clone(), request.evaluator.trusted_with(&request.graph));
     let (open, kinds) = OpenGraph::open_with_kinds(graph, trusted, progress)?;
-    bake_open(&open, kinds, clock, None, request, progress)
+    bake_open(&open, kinds, options, clock, None, request, progress)
 }
 
 /// Bakes a graph in memory, saved or not.
@@ -62,68 +62,69 @@ pub fn bake_graph(
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
     let clock = PhaseClock::start();
+    let options = set_options(request)?;
     let document = open.unsaved_text();
-    bake_open(open, kinds.clone(), clock, document, request, progress)
+    bake_open(open, kinds.clone(), options, clock, document, request, progress)
 }
 
 /// Checks a request in the same way as a bake before it reads the model.
 pub fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
     // An unknown preset is reported before the graph's faults.
-    set_options(request)?;
-    let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
-    let channels = map_channels(&graph, &checked_outputs(open, &graph, kinds)?);
-    let options = options_for(request, open, &channels)?;
+    let options = set_options(request)?;
+    let checked = CheckedGraph::of(open, kinds, options, request)?;
     // Names that are the same for one material are the same for every model, so one material is enough.
-    Ok(options.refuse_same_names(&[("material", None)], &channels, request.evaluator.model.size)?)
+    let (options, channels) = (&checked.options, &checked.map_channels);
+    Ok(options.refuse_same_names(&[("material", None)], channels, request.evaluator.model.size)?)
 }
 
-/// Bakes a graph. `clock` started when reading of the graph began. `document` is the text of the graph if it differs from its file.
+/// Bakes a graph. `options` are those of the presets. `clock` started when reading of the graph began. `document` is the
+/// text of the graph if it differs from its file.
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
+    options: SetOptions,
     mut clock: PhaseClock,
     document: Option<String>,
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    let graph = Evaluator::flat_graph(open, &kinds, &request.evaluator)?;
-    let outputs = checked_outputs(open, &graph, &kinds)?;
-    let map_channels = map_channels(&graph, &outputs);
-    let options = options_for(request, open, &map_channels)?;
+    let checked = CheckedGraph::of(open, &kinds, options, request)?;
     // A folder that cannot be written to is reported before the work.
-    let mut writer = open_writer(request, &graph, &options)?;
-    let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
-    evaluator.warn(open.unknown_keys());
-    let read = evaluator.read_files(open);
-    refuse_read_report(request, &read)?;
-    let conventions = Conventions::of(&options.presets);
+    let mut writer = open_writer(request, &checked.graph, &checked.options)?;
+    let loaded = LoadedBake::open(open, kinds, checked, request, progress)?;
+    let LoadedBake {
+        mut evaluator,
+        outputs,
+        map_channels,
+        options,
+        read,
+    } = loaded;
     let provenance = BakeProvenance::of(request, document, &read)?;
     writer.protect(read);
     let linked = evaluator.linked().clone();
-    evaluator.warn(materials_without_maps(&linked.model, &linked.atlas));
     let sets = checked_sets(&evaluator, request, &options, &map_channels, &writer)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, &linked.model, &linked.atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
-    if assignment.model_source.is_some() {
-        evaluator.append_model_source();
-    }
     let mut times = times_of_loading(&evaluator, clock.lap());
-    let mesh_targets = append_mesh_maps(&mut evaluator, &options);
-    let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
-    let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
+
+    let planned = PlannedBake::of(&mut evaluator, &outputs, &assignment, &options, request)?;
     times.compile.add(clock.lap());
-    let evaluate = || evaluator.run_once(&plan, SUBMISSION, progress);
+    let evaluate = || evaluator.run_once(&planned.plan, SUBMISSION, progress);
     let (mut run, pixels) = SetPixels::new_while(&linked, sets.first(), request.map_padding(), evaluate)?;
-    let evaluated = clock.lap();
-    let compiled = run.report.compile.min(evaluated);
-    times.compile.add(compiled);
-    times.run.add(evaluated - compiled);
-    let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes, &mesh_targets);
+    times.add_evaluation(clock.lap(), run.report.compile);
+
+    let sets = set_works(
+        evaluator.graph(),
+        &planned.plan,
+        sets,
+        &assignment.nodes,
+        &planned.mesh_targets,
+    );
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
-        plan: &plan,
+        plan: &planned.plan,
         options,
         padding: request.map_padding(),
         seams: ModelSeams::new(request.seams, &linked),
@@ -134,17 +135,117 @@ fn bake_open(
     write_copy(copy, &mut writer, &mut written)?;
     write_documents(request, &map_writer.options, &linked, &mut writer, &mut written)?;
     tell_losses(request, &map_writer.options, &writer, &mut written);
-    let warnings = evaluator.warnings().iter().chain(&written.warnings);
+
+    let warnings = evaluator.warnings().iter().chain(&written.warnings).cloned().collect();
+    let conventions = Conventions::of(&map_writer.options.presets);
     let report = BakeReport {
         maps_cached: writer.kept().to_vec(),
-        warnings: warnings.cloned().collect(),
-        ..report(request, &evaluator, &plan, &run, written, provenance, conventions)
+        warnings,
+        ..report(
+            request,
+            &evaluator,
+            &planned.plan,
+            &run,
+            written,
+            provenance,
+            conventions,
+        )
     };
     // The times in the folder's record end here.
     times.encode.add(clock.lap());
     let report = commit(writer, request, BakeReport { times, ..report }, progress)?;
     times.encode.add(clock.lap());
     Ok(BakeReport { times, ..report })
+}
+
+/// A graph without faults, and the maps that it gives, before its model is read.
+struct CheckedGraph {
+    graph: FlatGraph,
+    /// Its outputs, ordered by id.
+    outputs: Vec<usize>,
+    /// Channels of the outputs that become separate maps.
+    map_channels: Vec<Channel>,
+    options: SetOptions,
+}
+
+impl CheckedGraph {
+    /// Checks a graph for a bake with the options of its presets.
+    fn of(
+        open: &OpenGraph,
+        kinds: &Kinds,
+        options: SetOptions,
+        request: &BakeRequest,
+    ) -> Result<CheckedGraph, EngineError> {
+        let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
+        let outputs = checked_outputs(open, &graph, kinds)?;
+        let map_channels = map_channels(&graph, &outputs);
+        let options = with_outputs(options, request, open, &map_channels)?;
+        Ok(CheckedGraph {
+            graph,
+            outputs,
+            map_channels,
+            options,
+        })
+    }
+}
+
+/// A graph with its model, on a device.
+struct LoadedBake {
+    evaluator: Evaluator,
+    outputs: Vec<usize>,
+    map_channels: Vec<Channel>,
+    options: SetOptions,
+    /// Files that were read.
+    read: Vec<PathBuf>,
+}
+
+impl LoadedBake {
+    fn open(
+        open: &OpenGraph,
+        kinds: Kinds,
+        checked: CheckedGraph,
+        request: &BakeRequest,
+        progress: &dyn Progress,
+    ) -> Result<LoadedBake, EngineError> {
+        let mut evaluator = Evaluator::open(open, checked.graph, kinds, &request.evaluator, progress)?;
+        evaluator.warn(open.unknown_keys());
+        let read = evaluator.read_files(open);
+        refuse_read_report(request, &read)?;
+        let without_maps = materials_without_maps(&evaluator.linked().model, &evaluator.linked().atlas);
+        evaluator.warn(without_maps);
+        Ok(LoadedBake {
+            evaluator,
+            outputs: checked.outputs,
+            map_channels: checked.map_channels,
+            options: checked.options,
+            read,
+        })
+    }
+}
+
+/// What a bake evaluates.
+struct PlannedBake {
+    plan: Plan,
+    /// Results of the mesh maps.
+    mesh_targets: Vec<(MeshMap, Target)>,
+}
+
+impl PlannedBake {
+    fn of(
+        evaluator: &mut Evaluator,
+        outputs: &[usize],
+        assignment: &OutputAssignment,
+        options: &SetOptions,
+        request: &BakeRequest,
+    ) -> Result<PlannedBake, EngineError> {
+        if assignment.model_source.is_some() {
+            evaluator.append_model_source();
+        }
+        let mesh_targets = append_mesh_maps(evaluator, options);
+        let wanted = wanted(evaluator.graph(), outputs, assignment, &mesh_targets);
+        let plan = plan_with_cache(evaluator, &wanted, request)?;
+        Ok(PlannedBake { plan, mesh_targets })
+    }
 }
 
 /// Returns the times of a bake until everything was read and checked, which took `taken` in total. Everything except the
@@ -298,8 +399,12 @@ fn map_channels(graph: &FlatGraph, outputs: &[usize]) -> Vec<Channel> {
 }
 
 /// Returns the options for writing the sets of a graph with these outputs.
-fn options_for(request: &BakeRequest, open: &OpenGraph, outputs: &[Channel]) -> Result<SetOptions, EngineError> {
-    let mut options = set_options(request)?;
+fn with_outputs(
+    mut options: SetOptions,
+    request: &BakeRequest,
+    open: &OpenGraph,
+    outputs: &[Channel],
+) -> Result<SetOptions, EngineError> {
     // The seed that nodes get.
     options.dither_seed = request.evaluator.overrides.seed.unwrap_or(open.document.seed);
     let set = options.set_outputs(outputs);

@@ -115,10 +115,41 @@ pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Opti
     Some(*hash.finalize().as_bytes())
 }
 
+/// Result of a paint node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum PaintOutput {
+    Mask,
+    Color,
+    Height,
+    Direction,
+}
+
+impl PaintOutput {
+    /// Returns the result with this name, which is one that the kind declares.
+    fn named(name: &str) -> PaintOutput {
+        match name {
+            "mask" => PaintOutput::Mask,
+            "color" => PaintOutput::Color,
+            "height" => PaintOutput::Height,
+            _ => PaintOutput::Direction,
+        }
+    }
+
+    /// Returns what of the strokes it shows.
+    fn layers(self) -> CanvasLayers {
+        CanvasLayers {
+            value: self == PaintOutput::Mask,
+            color: self == PaintOutput::Color,
+            height: self == PaintOutput::Height,
+            direction: self == PaintOutput::Direction,
+        }
+    }
+}
+
 /// Paint of a node, in the form of its results.
 pub(crate) struct PaintedNode<'a> {
     surface: &'a SourceSurface<'a>,
-    output: &'a str,
+    output: PaintOutput,
     empty: f32,
     base: Option<&'a PlaneData>,
     canvas: Option<Arc<Canvas>>,
@@ -130,11 +161,12 @@ impl<'a> PaintedNode<'a> {
         surface: &'a SourceSurface<'a>,
         strokes: &Strokes,
         graph: &Path,
-        step: &'a SourceStep,
-        output: &'a str,
+        step: &SourceStep,
+        output: &str,
         inputs: &'a [Option<PlaneData>],
         warnings: &mut Vec<String>,
     ) -> Result<PaintedNode<'a>, NoSuchValue> {
+        let output = PaintOutput::named(output);
         let (written, empty) = (step.values.text("strokes")?, step.values.number("empty")?);
         let input = |port: usize| inputs.get(port).and_then(Option::as_ref);
         Ok(PaintedNode {
@@ -144,7 +176,7 @@ impl<'a> PaintedNode<'a> {
                 graph,
                 &step.id,
                 written,
-                layers_of(output),
+                output.layers(),
                 input(FROM),
                 warnings,
             ),
@@ -168,22 +200,21 @@ impl<'a> PaintedNode<'a> {
     fn texel(&self, texel: usize) -> [f32; 4] {
         let base = || self.base.map_or(self.empty, |base| base.texel(texel)[0]);
         let Some(canvas) = &self.canvas else {
-            return if self.output == "mask" {
-                [base(), 0.0, 0.0, 1.0]
-            } else {
-                [0.0, 0.0, 0.0, 1.0]
+            return match self.output {
+                PaintOutput::Mask => [base(), 0.0, 0.0, 1.0],
+                PaintOutput::Color | PaintOutput::Height | PaintOutput::Direction => [0.0, 0.0, 0.0, 1.0],
             };
         };
         let painted = canvas.texel(texel);
         let cover = painted.cover;
         match self.output {
-            "mask" => [painted.value + (1.0 - cover) * base(), 0.0, 0.0, 1.0],
-            "height" => [painted.height * self.surface.working_from_model as f32, 0.0, 0.0, 1.0],
-            "color" => {
+            PaintOutput::Mask => [painted.value + (1.0 - cover) * base(), 0.0, 0.0, 1.0],
+            PaintOutput::Height => [painted.height * self.surface.working_from_model as f32, 0.0, 0.0, 1.0],
+            PaintOutput::Color => {
                 let [red, green, blue] = painted.color.map(|value| if cover > 0.0 { value / cover } else { 0.0 });
                 [red, green, blue, 1.0]
             }
-            _ => {
+            PaintOutput::Direction => {
                 let [x, y, z] = painted.direction;
                 [x, y, z, 1.0]
             }
@@ -217,7 +248,7 @@ pub(crate) fn changed_tiles(
         return None;
     }
     let layers = now.writes.iter().fold(CanvasLayers::default(), |layers, (output, _)| {
-        layers.and(layers_of(output))
+        layers.and(PaintOutput::named(output).layers())
     });
     if strokes.copy_input(graph, &surface.model.stem, &new) {
         return None;
@@ -231,15 +262,6 @@ pub(crate) fn changed_tiles(
     let texels = strokes.changed_texels(&place, Strokes::first_version(&old), version)?;
     let tile = |texel: &u32| tile_of(*texel, surface.atlas.page_size);
     Some(TileSet::new(texels.iter().map(tile)))
-}
-
-fn layers_of(output: &str) -> CanvasLayers {
-    CanvasLayers {
-        value: output == "mask",
-        color: output == "color",
-        height: output == "height",
-        direction: output == "direction",
-    }
 }
 
 /// Returns the canvas of a node; `None` if nothing is painted on this model.

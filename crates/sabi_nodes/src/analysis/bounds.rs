@@ -2,7 +2,7 @@
 
 use naga::{BinaryOperator, Block, Expression, Function, Handle, LocalVariable, ScalarKind, Statement};
 
-use super::interval::{Frame, Interval, Intervals};
+use super::interval::{Interval, IntervalFrame, Intervals};
 use super::walk::{conjuncts, stores};
 
 /// A loop with a known bound.
@@ -15,7 +15,7 @@ pub(super) struct BoundedLoop {
 /// Returns the bound of a loop that has the form of a `for` loop, or the reason why it cannot be found.
 pub(super) fn bound<'m>(
     intervals: &Intervals<'m>,
-    frame: &Frame<'m>,
+    frame: &IntervalFrame<'m>,
     body: &'m Block,
     continuing: &'m Block,
 ) -> Result<BoundedLoop, String> {
@@ -44,7 +44,7 @@ pub(super) fn bound<'m>(
 /// Loop that continues while a variable is below a bound.
 struct CountedLoop<'a, 'm> {
     intervals: &'a Intervals<'m>,
-    frame: &'a Frame<'m>,
+    frame: &'a IntervalFrame<'m>,
     body: &'m Block,
     continuing: &'m Block,
     counter: Handle<LocalVariable>,

@@ -75,7 +75,7 @@ fn limits(kind: ScalarKind) -> (i64, i64) {
 }
 
 /// State of a function during one call of it.
-pub(super) struct Frame<'m> {
+pub(super) struct IntervalFrame<'m> {
     pub(super) function: &'m Function,
     /// Intervals of the arguments; `None` for arguments that are not whole numbers.
     pub(super) arguments: Vec<Option<Interval>>,
@@ -95,7 +95,7 @@ pub(super) struct Intervals<'m> {
 
 impl<'m> Intervals<'m> {
     /// Returns the interval of an expression in a frame; `None` for types other than `i32` and `u32`.
-    pub(super) fn of(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Interval> {
+    pub(super) fn of(&self, frame: &IntervalFrame<'m>, expression: Handle<Expression>) -> Option<Interval> {
         let kind = self.kind(frame, expression, DEPTH_LIMIT)?;
         let mut query = Query {
             intervals: self,
@@ -107,7 +107,7 @@ impl<'m> Intervals<'m> {
     }
 
     /// Returns whether an expression is signed or unsigned; `None` for other types.
-    fn kind(&self, frame: &Frame<'m>, expression: Handle<Expression>, depth: u32) -> Option<ScalarKind> {
+    fn kind(&self, frame: &IntervalFrame<'m>, expression: Handle<Expression>, depth: u32) -> Option<ScalarKind> {
         let next = depth.checked_sub(1)?;
         let of_type = |ty: Handle<Type>| match self.module.types[ty].inner {
             TypeInner::Scalar(Scalar {
@@ -152,7 +152,7 @@ impl<'m> Intervals<'m> {
         }
     }
 
-    fn is_scalar(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> bool {
+    fn is_scalar(&self, frame: &IntervalFrame<'m>, expression: Handle<Expression>) -> bool {
         // A conversion of a vector gives a vector, which cannot bound a loop.
         !matches!(
             frame.function.expressions[expression],
@@ -161,7 +161,7 @@ impl<'m> Intervals<'m> {
     }
 
     /// Returns the type of a member of `base` if `base` is of type `Params`.
-    fn member_type(&self, frame: &Frame<'m>, base: Handle<Expression>, index: u32) -> Option<Handle<Type>> {
+    fn member_type(&self, frame: &IntervalFrame<'m>, base: Handle<Expression>, index: u32) -> Option<Handle<Type>> {
         let Expression::FunctionArgument(argument) = frame.function.expressions[base] else {
             return None;
         };
@@ -190,7 +190,7 @@ impl<'m> Intervals<'m> {
 /// Search for one interval, with a limit on the work.
 struct Query<'q, 'm> {
     intervals: &'q Intervals<'m>,
-    frame: &'q Frame<'m>,
+    frame: &'q IntervalFrame<'m>,
     fuel: u32,
     /// Variables that are being analyzed.
     open: Vec<Handle<LocalVariable>>,

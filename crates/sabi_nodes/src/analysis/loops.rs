@@ -8,7 +8,7 @@ use super::Root;
 use super::bounds::bound;
 use super::effort::Effort;
 use super::fuel::Fuel;
-use super::interval::{Frame, Interval, Intervals};
+use super::interval::{Interval, IntervalFrame, Intervals};
 use super::walk::stores;
 use crate::fault::{FAULTS_SHOWN, Fault};
 use crate::kind::Param;
@@ -131,7 +131,7 @@ impl<'m> Counter<'_, 'm> {
         if !fuel.remember(size_of_val(&key) + bytes) || !fuel.step(function.expressions.len()) {
             return Effort::default();
         }
-        let mut frame = Frame {
+        let mut frame = IntervalFrame {
             function,
             arguments: key.1.clone(),
             stores: stores(function, &function.body),
@@ -143,7 +143,7 @@ impl<'m> Counter<'_, 'm> {
         effort
     }
 
-    fn block(&mut self, frame: &mut Frame<'m>, block: &'m Block) -> Effort {
+    fn block(&mut self, frame: &mut IntervalFrame<'m>, block: &'m Block) -> Effort {
         let mut sum = Effort::default();
         for (statement, span) in block.span_iter() {
             if !self.intervals.fuel.step(1) {
@@ -154,7 +154,7 @@ impl<'m> Counter<'_, 'm> {
         sum
     }
 
-    fn statement(&mut self, frame: &mut Frame<'m>, statement: &'m Statement, span: Span) -> Effort {
+    fn statement(&mut self, frame: &mut IntervalFrame<'m>, statement: &'m Statement, span: Span) -> Effort {
         match statement {
             Statement::Emit(range) => Effort::of_expressions(frame.function, range.clone()),
             Statement::Block(block) => self.block(frame, block),
@@ -201,7 +201,7 @@ impl<'m> Counter<'_, 'm> {
     /// Returns the effort of all rounds of a loop. Reports a fault if their number is unknown or too large.
     fn whole_loop(
         &mut self,
-        frame: &mut Frame<'m>,
+        frame: &mut IntervalFrame<'m>,
         span: Span,
         [body, continuing]: [&'m Block; 2],
         breaks_if: bool,
@@ -243,7 +243,7 @@ impl<'m> Counter<'_, 'm> {
     }
 
     /// Reports a fault at the loop, or, if the loop is in a library, at the call that leads to it.
-    fn refuse(&mut self, frame: &Frame<'_>, span: Span, message: String, advice: &str) {
+    fn refuse(&mut self, frame: &IntervalFrame<'_>, span: Span, message: String, advice: &str) {
         let fault = match (self.call_site, self.linked.library_at(span), &frame.function.name) {
             (Some(call_site), Some(library), Some(name)) => {
                 let message = format!("In `{name}` of lib/{library}.wgsl, which this calls: {message}");

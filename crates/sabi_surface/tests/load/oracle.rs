@@ -260,9 +260,9 @@ fn errors(verdict: &Value) -> impl Iterator<Item = (&str, &str)> {
 }
 
 #[test]
+#[ignore = "reads files that SABI_TEST_DATA names"]
 fn what_khronos_calls_an_error_is_refused_or_said() {
-    let Some(data) = data() else { return };
-    let folder = data.join("hostile/gltf-validator");
+    let folder = data().join("hostile/gltf-validator");
     let inputs = judged(&folder);
     let mut silent = Vec::new();
     for (input, verdict) in &inputs {

@@ -6,7 +6,7 @@ use super::writes::Writes;
 use crate::analysis::walk::{Calls, Store};
 
 /// State of a function during one call of it.
-pub(super) struct Frame<'m> {
+pub(super) struct WriteFrame<'m> {
     pub(super) function: &'m Function,
     /// Writes for each argument; used only for arguments that are materials.
     pub(super) arguments: Vec<Writes>,

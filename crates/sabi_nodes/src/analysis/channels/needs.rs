@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use naga::{BinaryOperator, Expression, Function, Handle, Literal, Module, ScalarKind, Type, UnaryOperator};
 
-use super::frame::Frame;
+use super::frame::WriteFrame;
 use super::writes::Need;
 use crate::analysis::walk::conjuncts;
 use crate::kind::{Argument, Memory, Param, Role};
@@ -23,7 +23,7 @@ pub(super) struct Needs<'m> {
 
 impl<'m> Needs<'m> {
     /// Returns the toggles that must be on for the conditions to have these values.
-    pub(super) fn toggles(&self, frame: &Frame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<Need> {
+    pub(super) fn toggles(&self, frame: &WriteFrame<'m>, conditions: &[(Handle<Expression>, bool)]) -> BTreeSet<Need> {
         let mut found = BTreeSet::new();
         for &(condition, taken) in conditions {
             let parts = if taken {
@@ -37,7 +37,7 @@ impl<'m> Needs<'m> {
     }
 
     /// Returns the toggle that must be on for `condition` to have the value `taken`.
-    fn toggle(&self, frame: &Frame<'m>, condition: Handle<Expression>, taken: bool) -> Option<Need> {
+    fn toggle(&self, frame: &WriteFrame<'m>, condition: Handle<Expression>, taken: bool) -> Option<Need> {
         let (op, left, right) = match frame.function.expressions[condition] {
             Expression::Unary {
                 op: UnaryOperator::LogicalNot,
@@ -77,13 +77,13 @@ impl<'m> Needs<'m> {
         if is_on { self.toggle_param(frame, param) } else { None }
     }
 
-    fn toggle_param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
+    fn toggle_param(&self, frame: &WriteFrame<'m>, expression: Handle<Expression>) -> Option<Need> {
         let index = self.param(frame, expression)?;
         (self.params.get(index)?.ty.role == Role::Toggle).then_some(Need::Param(index))
     }
 
     /// Returns the parameter that an expression reads.
-    fn param(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<usize> {
+    fn param(&self, frame: &WriteFrame<'m>, expression: Handle<Expression>) -> Option<usize> {
         let Expression::AccessIndex { base, index } = frame.function.expressions[expression] else {
             return None;
         };
@@ -95,7 +95,7 @@ impl<'m> Needs<'m> {
     }
 
     /// Returns the parameter or input that an expression reads as a number.
-    pub(super) fn need(&self, frame: &Frame<'m>, expression: Handle<Expression>) -> Option<Need> {
+    pub(super) fn need(&self, frame: &WriteFrame<'m>, expression: Handle<Expression>) -> Option<Need> {
         if let Some(index) = self.param(frame, expression) {
             let is_number = matches!(self.params.get(index)?.ty.memory, Memory::F32 | Memory::Vec3);
             return is_number.then_some(Need::Param(index));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use naga::{BinaryOperator, Expression, Function, Handle, LocalVariable, MathFunction, Type, UnaryOperator};
 
-use super::frame::Frame;
+use super::frame::WriteFrame;
 use super::members::Members;
 use super::needs::Needs;
 use super::writes::{Write, Writes, always, both, either, join};
@@ -66,7 +66,7 @@ impl<'m> Tracer<'m> {
         if !self.fuel.scan(function.expressions.len()) {
             return self.members.all_set();
         }
-        let mut frame = Frame {
+        let mut frame = WriteFrame {
             function,
             arguments,
             stores: stores(function, &function.body),
@@ -83,7 +83,7 @@ impl<'m> Tracer<'m> {
     }
 
     /// Returns the conditions under which an expression of type material sets each member.
-    fn material(&mut self, frame: &mut Frame<'m>, expression: Handle<Expression>, depth: u32) -> Writes {
+    fn material(&mut self, frame: &mut WriteFrame<'m>, expression: Handle<Expression>, depth: u32) -> Writes {
         let (Some(depth), true) = (depth.checked_sub(1), self.fuel.visit()) else {
             return self.members.all_set();
         };
@@ -130,7 +130,7 @@ impl<'m> Tracer<'m> {
         }
     }
 
-    fn material_local(&mut self, frame: &mut Frame<'m>, local: Handle<LocalVariable>, depth: u32) -> Writes {
+    fn material_local(&mut self, frame: &mut WriteFrame<'m>, local: Handle<LocalVariable>, depth: u32) -> Writes {
         let mut writes = self.members.none_set();
         if frame.open.contains(&local) {
             return writes;
@@ -172,7 +172,13 @@ impl<'m> Tracer<'m> {
     }
 
     /// Returns the conditions under which storing `expression` in `member` sets it; `None` if it never does.
-    fn value(&mut self, frame: &mut Frame<'m>, expression: Handle<Expression>, member: usize, depth: u32) -> Write {
+    fn value(
+        &mut self,
+        frame: &mut WriteFrame<'m>,
+        expression: Handle<Expression>,
+        member: usize,
+        depth: u32,
+    ) -> Write {
         let (Some(depth), true) = (depth.checked_sub(1), self.fuel.visit()) else {
             return always();
         };
@@ -220,7 +226,13 @@ impl<'m> Tracer<'m> {
     }
 
     /// Returns the conditions under which storing the value behind `pointer` in `member` sets it.
-    fn value_behind(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, member: usize, depth: u32) -> Write {
+    fn value_behind(
+        &mut self,
+        frame: &mut WriteFrame<'m>,
+        pointer: Handle<Expression>,
+        member: usize,
+        depth: u32,
+    ) -> Write {
         let function = frame.function;
         match function.expressions[pointer] {
             Expression::LocalVariable(local) => self.value_local(frame, local, member, depth),
@@ -236,7 +248,13 @@ impl<'m> Tracer<'m> {
     }
 
     /// Returns the conditions under which storing a local variable in `member` sets it.
-    fn value_local(&mut self, frame: &mut Frame<'m>, local: Handle<LocalVariable>, member: usize, depth: u32) -> Write {
+    fn value_local(
+        &mut self,
+        frame: &mut WriteFrame<'m>,
+        local: Handle<LocalVariable>,
+        member: usize,
+        depth: u32,
+    ) -> Write {
         if frame.open.contains(&local) {
             return None;
         }
@@ -271,7 +289,7 @@ impl<'m> Tracer<'m> {
         fun: MathFunction,
         arg: Handle<Expression>,
         other: Option<Handle<Expression>>,
-        frame: &mut Frame<'m>,
+        frame: &mut WriteFrame<'m>,
         member: usize,
         depth: u32,
     ) -> Write {
