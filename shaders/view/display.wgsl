@@ -1,7 +1,7 @@
 //! From light to a picture: exposure, view transform, samples brought together, sRGB.
 //! @use view/cover view/srgb view/bright
 
-struct Display {
+struct DisplayUniforms {
     // Display-referred linear color of the background; transparent where w is 0.
     backdrop: vec4f,
     // Factor of the light, applied first.
@@ -26,7 +26,7 @@ override TRANSFORM: u32 = STANDARD;
 // 1 where light above white spreads.
 override BLOOM: u32 = 0u;
 
-@group(0) @binding(0) var<uniform> display: Display;
+@group(0) @binding(0) var<uniform> display: DisplayUniforms;
 @group(0) @binding(1) var light: texture_2d<f32>;
 // The sum of the samples before this one, display-referred and linear, alpha premultiplied.
 @group(0) @binding(2) var earlier: texture_2d<f32>;

@@ -10,7 +10,7 @@ struct Light {
     color: vec4f,
 }
 
-struct Frame {
+struct FrameUniforms {
     clip_from_view: mat4x4f,
     view_from_clip: mat4x4f,
     // Position of the camera with w 1; for parallel rays the direction towards it with w 0.
@@ -41,7 +41,7 @@ struct Frame {
     openness_size: f32,
 }
 
-@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(0) var<uniform> frame: FrameUniforms;
 @group(0) @binding(1) var smooth_sampler: sampler;
 @group(0) @binding(2) var reflections: texture_cube<f32>;
 @group(0) @binding(3) var directional_albedo: texture_2d<f32>;

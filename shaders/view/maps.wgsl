@@ -1,13 +1,13 @@
 //! The maps of a material on the linked atlas. Ghosts hold the values over a seam, so a place between four texels is read
 //! alike on both sides of it.
 
-struct Material {
+struct BoundMaterial {
     // Values of channels without a map: base color and alpha; roughness, metallic, occlusion.
     color: vec4f,
     surface: vec4f,
 }
 
-@group(1) @binding(0) var<uniform> material: Material;
+@group(1) @binding(0) var<uniform> material: BoundMaterial;
 // Base color and alpha, or a node's own result.
 @group(1) @binding(1) var colors: texture_2d_array<f32>;
 @group(1) @binding(2) var surfaces: texture_2d_array<f32>;

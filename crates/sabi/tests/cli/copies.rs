@@ -84,6 +84,35 @@ fn a_model_in_udim_tiles_gets_a_material_for_each_in_its_copy() {
 }
 
 #[test]
+fn a_copy_uses_the_color_and_opacity_of_a_preset_that_writes_them_as_one_map() {
+    let place = CliFolder::new();
+    unlit(&place);
+    // Opacity that varies, and the same opacity everywhere.
+    for (name, mask) in [("varying", ", \"mask\": \"clouds\""), ("even", "")] {
+        let nodes = format!(
+            r##"    "base": {{ "kind": "source/material", "params": {{ "color": "#3c5a6e" }} }},
+    "clouds": {{ "kind": "noise/simplex" }},
+    "glass": {{ "kind": "effect/layer", "inputs": {{ "base": "base"{mask} }},
+      "params": {{ "color": "#8090a0", "alpha_on": true, "alpha": 0.4 }} }},
+    "stain": {{ "kind": "effect/layer", "inputs": {{ "base": "glass", "mask": "clouds" }}, "params": {{ "color": "#402010" }} }},
+    "out": {{ "kind": "output/material", "inputs": {{ "material": "stain" }} }}"##
+        );
+        place.write("glass.sabi", graph(&nodes));
+        place
+            .bake("glass.sabi", "unlit.gltf", &["--model", "--preset", "gltf", "-o", name])
+            .good();
+        let files = place.listing(name);
+        assert!(!files.iter().any(|file| file.contains("base_color")), "{files:?}");
+        let copy: Json = serde_json::from_slice(&place.read(&format!("{name}/unlit.gltf"))).unwrap();
+        let pbr = &copy["materials"][0]["pbrMetallicRoughness"];
+        let image = &copy["images"][pbr["baseColorTexture"]["index"].as_u64().unwrap() as usize];
+        assert!(image["uri"].as_str().unwrap().ends_with("_BaseColor.png"), "{copy}");
+        assert_eq!(pbr.get("baseColorFactor"), None, "the map has all of it");
+        assert_eq!(copy["materials"][0]["alphaMode"], "BLEND", "{copy}");
+    }
+}
+
+#[test]
 fn an_embedded_copy_names_no_file() {
     let place = CliFolder::new();
     unlit(&place);

@@ -91,7 +91,7 @@ impl ChannelInput<'_> {
 }
 
 /// All components of a channel.
-fn whole(channel: &Channel) -> Vec<ComponentSource> {
+pub(super) fn whole(channel: &Channel) -> Vec<ComponentSource> {
     let component = |at| ComponentSource::Channel(channel.clone(), at);
     (0..channel.components()).map(component).collect()
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_image::ImageError;
 
 use super::finish_maps::{FinishCollector, FinishMaps};
-use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
+use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png, whole};
 use crate::encode::{CodeMapping, ComponentPlane, FileEncoding, codes_8, encode, planes};
 use crate::preset::{ComponentSource, MapFormat};
 use crate::{Channel, ChannelPixels, ConstantValue, SetKey};
@@ -144,6 +144,10 @@ impl MapCollector {
             return Ok(());
         };
         let alpha = opacity.number();
+        // A file with both, such as that of the preset for glTF, is completed by opacity.
+        let mut both = whole(&Channel::BaseColor);
+        both.extend(whole(&Channel::Opacity));
+        let with_opacity = || input.written(&both, true, false);
         // If opacity varies, it is in the map, and its factor is 1.
         let mut factor = [1.0, 1.0, 1.0, alpha.unwrap_or(1.0)];
         let file = match (&color, alpha) {
@@ -158,14 +162,17 @@ impl MapCollector {
                 }
                 Some(rgba(input, |_| [255; 3], opacity)?)
             }
-            (CodedChannel::Codes(codes), None) => Some(rgba(
-                input,
-                |pixel| std::array::from_fn(|at| codes[3 * pixel + at]),
-                opacity,
-            )?),
-            (CodedChannel::Codes(codes), Some(_)) => Some(match written {
+            (CodedChannel::Codes(codes), None) => Some(match with_opacity() {
                 Some(file) => file,
-                None => own_map(input, "base_color", png(input.layout.size, 3, codes, true)?),
+                None => rgba(input, |pixel| std::array::from_fn(|at| codes[3 * pixel + at]), opacity)?,
+            }),
+            (CodedChannel::Codes(codes), Some(_)) => Some(match (written, with_opacity()) {
+                (Some(file), _) => file,
+                (None, Some(file)) => {
+                    factor[3] = 1.0;
+                    file
+                }
+                (None, None) => own_map(input, "base_color", png(input.layout.size, 3, codes, true)?),
             }),
             (CodedChannel::Constant(ConstantValue::Number(_)), Some(_)) => None,
         };

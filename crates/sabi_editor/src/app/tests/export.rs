@@ -66,12 +66,17 @@ fn maps_are_written_to_the_folder_that_was_named() {
     for map in &maps {
         fs::remove_file(map).expect("removed");
     }
-    let switch = window
-        .harness
-        .get_by_role_and_label(Role::CheckBox, "Export at every save")
-        .rect()
-        .center();
-    window.click_at(switch);
+    let switch = |window: &Window| {
+        let found = window
+            .harness
+            .get_by_role_and_label(Role::CheckBox, "Export at every save");
+        found.scroll_to_me();
+        found.rect().center()
+    };
+    switch(&window);
+    window.settle();
+    let place = switch(&window);
+    window.click_at(place);
     assert!(window.editor().exports.place.again);
     window.open(Panel::Parameters);
     for detail in ["3", "4"] {

@@ -165,7 +165,11 @@ fn a_whole_graph_is_built_from_nothing_and_its_file_is_as_expected() {
     assert_eq!(read, file_of_the_graph(), "{text}");
     let steps = window.steps();
     window.undo(steps);
-    assert_eq!(window.text(), empty, "as many steps lead back to nothing");
+    // The model that was shown when the first node was added is named without a step, for the recovery of a graph that was
+    // never saved.
+    let shown = "  \"preview\": {\n    \"mesh\": \"../examples/cube.glb\"\n  },\n  \"nodes\"";
+    let nothing = empty.replace("  \"nodes\"", shown);
+    assert_eq!(window.text(), nothing, "as many steps lead back to nothing");
     window.redo(steps);
     assert_eq!(window.text(), built, "and forth to the same bytes");
 }
