@@ -7,8 +7,10 @@ mod opening;
 mod perform;
 mod recoveries;
 mod shell;
+mod shown_models;
 #[cfg(test)]
 mod tests;
+mod trust;
 mod variant_pictures;
 
 use std::sync::Arc;
@@ -40,6 +42,7 @@ use documents::{Documents, autosave_at_end};
 pub(crate) use opening::{Handover, InitialState};
 use opening::{LostWindow, OpenedWindow};
 use shell::Shell;
+use shown_models::ShownModels;
 use variant_pictures::AwaitedPicture;
 
 /// The window. Each field owns a part of its state; this type connects them in each frame, and performs actions
@@ -108,7 +111,7 @@ impl Editor {
         };
         editor.recall_choices();
         editor.claim_file();
-        beside.iter().for_each(|model| editor.show_beside(model));
+        beside.iter().for_each(|model| editor.models().show_beside(model));
         editor
     }
 
@@ -157,6 +160,16 @@ impl Editor {
         (context, views, &mut shell.dock)
     }
 
+    /// The shown model and the models beside it.
+    pub(crate) fn models(&mut self) -> ShownModels<'_> {
+        ShownModels {
+            documents: &mut self.documents,
+            evaluation: &mut self.evaluation,
+            row: &mut self.row,
+            shell: &mut self.shell,
+        }
+    }
+
     /// Draws the window and performs the requested actions.
     pub(crate) fn frame(&mut self, ui: &mut Ui) {
         let began = Instant::now();
@@ -166,9 +179,9 @@ impl Editor {
         let context = ui.ctx().clone();
         self.evaluation.take_events(&context);
         self.mute_what_takes_too_long();
-        self.follow_model();
-        self.follow_reading();
-        self.follow_row(&context);
+        self.models().follow();
+        self.models().follow_reading();
+        self.models().follow_row(&context);
         self.follow_exports(&context);
         self.take_node_brush_tip();
         match self.packing.take() {
@@ -197,7 +210,7 @@ impl Editor {
             actions.push(Action::Do(Command::File(FileCommand::SaveAs)));
         }
         self.perform_all(actions, ui);
-        self.remember_chosen();
+        trust::remember_chosen(&mut self.documents, &mut self.shell.settings);
         self.set_title();
         // Before the device gets work that may block the window.
         self.autosave(&context);

@@ -67,6 +67,12 @@ impl ProgramFolders {
         model.map(|model| in_canonical_folder(&model))
     }
 
+    /// Returns whether a model is one of Sabi's own, which are offered without being on the strip.
+    pub(super) fn is_own_model(&self, model: &Path) -> bool {
+        let folder = self.examples.as_deref();
+        folder.is_some_and(|folder| examples::models(folder).any(|own| own == model))
+    }
+
     /// Folders below which every graph may open files.
     pub(super) fn trusted(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.effects, &self.library, &self.examples].into_iter().flatten()

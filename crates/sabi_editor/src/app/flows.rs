@@ -1,10 +1,8 @@
 //! Operations that involve several owners: opening and saving, the model, closing the window, and files that change.
 
 mod dropped_files;
-mod models;
 mod recovery;
 mod saving;
-mod trust;
 
 use std::path::Path;
 use std::time::Duration;
@@ -15,7 +13,7 @@ use sabi_engine::catalog::node_file::NodeDraft;
 use sabi_engine::{ErrorKind, Session};
 use sabi_files::io_reason;
 
-use super::Editor;
+use super::{Editor, trust};
 use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
 use crate::exports::ExportSource;
@@ -105,7 +103,7 @@ impl Editor {
         self.choice_previews.forget_variants();
         let shown = canonical_if_present(self.evaluation.model.file());
         match model.filter(|model| canonical_if_present(model) != shown) {
-            Some(model) => self.take_model(&model),
+            Some(model) => self.models().take(&model),
             None => self.documents.models.add(self.evaluation.model.file()),
         }
     }
@@ -203,10 +201,7 @@ impl Editor {
                 "'{id}' is in {}, and among the nodes that can be added.",
                 file.display()
             ));
-            self.shell.settings.trust_nodes(folder);
-            self.documents.trust_nodes(folder);
-            self.documents
-                .reread_kinds(&self.shell.context, std::slice::from_ref(folder));
+            trust::trust_nodes(&mut self.documents, &mut self.shell, folder);
             self.views.page.saved(node);
         }
     }
@@ -294,19 +289,6 @@ impl Editor {
         if changes.graph {
             let deleted = self.documents.check_file();
             deleted.into_iter().for_each(|sentence| self.shell.notify(sentence));
-        }
-    }
-
-    /// Reads the graph again from its file, which another program has changed.
-    pub(super) fn reload(&mut self) {
-        let before = self.documents.written_model();
-        let read = self.documents.document.read_again();
-        if self.shell.report(read).is_some() {
-            self.documents.is_file_foreign = false;
-            let model = self.documents.written_model();
-            if let Some(model) = self.documents.named_model().filter(|_| before != model) {
-                self.take_model(&model);
-            }
         }
     }
 

@@ -15,12 +15,12 @@ use sabi_editing::command::{
     WireCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{history, knob_target, navigation, node_paths, nodes, variants};
+use sabi_editing::{OpenDocument, history, knob_target, navigation, node_paths, nodes, relative_paths, variants};
 use sabi_graph::{NodeId, SlotRef, Value};
 use sabi_nodes::kind::Role;
 
-use super::Editor;
-use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, ModelAction};
+use super::{Editor, trust};
+use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, ModelAction, TrustAction};
 use crate::dock::Panel;
 use crate::files::new_graph;
 use crate::knobs::KnobEvent;
@@ -77,7 +77,7 @@ impl Editor {
             Action::SaveVariant(name) => self.save_variant(name),
             Action::File(action) => self.perform_on_file(action),
             Action::Model(action) => self.perform_on_model(action),
-            Action::Trust(action) => self.trust(action),
+            Action::Trust(action) => self.perform_on_trust(action),
             Action::Dropped(path) => self.take_dropped(&path, ui),
             Action::ImportPictures(path) => self.import_pictures(&path, ui),
             Action::ShowSet(set) => self.views.flat.set = Some(set),
@@ -120,8 +120,8 @@ impl Editor {
             FileAction::AskForMissing(lost) => {
                 self.views.questions.ask_for_missing(&self.documents.document, lost);
             }
-            FileAction::Find { lost, file } => self.find_missing(&lost, &file),
-            FileAction::Reload => self.reload(),
+            FileAction::Find { lost, file } => self.models().find_missing(&lost, &file),
+            FileAction::Reload => self.models().reload(),
             FileAction::KeepOpen => {
                 self.documents.is_file_foreign = false;
                 self.documents.document.session.graph_file.keep_document();
@@ -135,7 +135,7 @@ impl Editor {
             }
             FileAction::AskForPicture => self.views.questions.ask_for_picture(&self.documents.document),
             FileAction::SavePicture(file) => self.views.model.saved_picture.save_to(file),
-            FileAction::SetImage { parameter, file } => self.set_image(&parameter, &file),
+            FileAction::SetImage { parameter, file } => set_image(&mut self.documents.document, &parameter, &file),
             FileAction::PickGradient { parameter, file } => {
                 let context = self.shell.context.clone();
                 self.views.gradient_picker.open(&context, parameter, file);
@@ -146,13 +146,25 @@ impl Editor {
     fn perform_on_model(&mut self, action: ModelAction) {
         match action {
             ModelAction::Ask => self.views.questions.ask_for_model(self.evaluation.model.file()),
-            ModelAction::Show(path) => self.take_chosen_model(&path),
-            ModelAction::Read(reading) => self.read_model(reading),
-            ModelAction::CancelReading => self.cancel_reading(),
-            ModelAction::Remove(path) => self.remove_model(&path),
+            ModelAction::Show(path) => self.models().take_chosen(&path),
+            ModelAction::Read(reading) => self.models().read(reading),
+            ModelAction::CancelReading => self.models().cancel_reading(),
+            ModelAction::Remove(path) => self.models().remove(&path),
             ModelAction::AskBeside => self.views.questions.ask_for_model_beside(self.evaluation.model.file()),
-            ModelAction::ShowBeside(path) => self.show_chosen_beside(&path),
+            ModelAction::ShowBeside(path) => self.models().show_chosen_beside(&path),
             ModelAction::RemoveBeside(path) => self.row.remove(&path, &self.shell.context),
+        }
+    }
+
+    /// Performs an action about trust. Trusted paths hold for this graph and all later ones.
+    fn perform_on_trust(&mut self, action: TrustAction) {
+        match action {
+            TrustAction::Folder(folder) => {
+                trust::trust_path(&mut self.documents, &mut self.shell.settings, &folder);
+                self.models().take_named();
+            }
+            TrustAction::Nodes(folder) => trust::trust_nodes(&mut self.documents, &mut self.shell, &folder),
+            TrustAction::LeaveNodes => self.documents.leaves_nodes = true,
         }
     }
 
@@ -388,6 +400,16 @@ impl Editor {
         self.shell.dock.bring_up(Panel::Canvas);
         self.views.canvas.camera.frame_nodes(document, [&id].into_iter());
         self.looks.show(document, &id, None);
+    }
+}
+
+/// Gives an image file to a parameter.
+fn set_image(document: &mut OpenDocument, parameter: &KnobTarget, file: &Path) {
+    match relative_paths::chosen(document, file) {
+        Ok(text) => {
+            knob_target::set(document, parameter, Value::Text(text));
+        }
+        Err(refused) => document.notify(refused.to_string()),
     }
 }
 

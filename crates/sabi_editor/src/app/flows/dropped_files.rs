@@ -25,7 +25,7 @@ impl Editor {
                 let is_dirty = self.documents.document.session.is_dirty();
                 self.views.questions.ask_next(is_dirty, Next::Open(path.to_owned()));
             }
-            Some(ending) if MODEL_ENDINGS.contains(&ending) => self.take_chosen_model(path),
+            Some(ending) if MODEL_ENDINGS.contains(&ending) => self.models().take_chosen(path),
             Some("hdr") => self.take_environment(path),
             Some("exr") if !is_on_canvas => self.take_environment(path),
             Some(ending) if IMAGES.contains(&ending) => self.add_image(path, ui),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use sabi_engine::session::is_open_in_a_window;
 use sabi_engine::{EngineError, Remedy};
 
-use super::super::Editor;
+use super::super::{Editor, trust};
 use crate::exports::ExportSource;
 use crate::files::ReplaceReason;
 use crate::notices::Work;
@@ -123,7 +123,7 @@ impl Editor {
         // A save deletes the copies of the graph, but node files may still need theirs.
         self.documents.autosave.invalidate();
         self.shell.settings.remember(file);
-        self.remember_named();
+        trust::remember_named(&mut self.documents, &mut self.shell.settings, &self.evaluation);
         self.shell.notify(format!("Saved to {}", file.display()));
         self.store_picture_of_graph(file);
         self.exports.place = std::mem::take(&mut self.exports.place).beside(file);

@@ -241,7 +241,7 @@ fn a_save_does_not_replace_exported_textures_by_those_of_another_model() {
     window.harness.state_mut().exports.place.again = true;
     let other = window.path("other.glb");
     fs::copy(window.editor().evaluation.model.file(), &other).expect("a model");
-    window.harness.state_mut().take_model(&other);
+    window.harness.state_mut().models().take(&other);
     window.settle();
     window.keys(Modifiers::COMMAND, Key::S);
     assert!(window.editor().exports.running.is_none());

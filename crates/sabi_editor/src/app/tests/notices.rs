@@ -32,7 +32,7 @@ impl Window {
     fn shows(&mut self, name: &str, text: &str) {
         let file = self.path(name);
         fs::write(&file, text).expect("a model");
-        self.harness.state_mut().take_chosen_model(&file);
+        self.harness.state_mut().models().take_chosen(&file);
         self.until("the model", |editor| editor.evaluation.model.loaded().1);
     }
 }
@@ -149,7 +149,7 @@ fn the_bench_and_the_crate_give_no_warnings_at_the_usual_size() {
     let is_meant = |file: &std::path::PathBuf| file.ends_with("bench.glb") || file.ends_with("crate.glb");
     for file in examples::models(&folder).filter(is_meant) {
         examples::write_model(&folder, &file).expect("a model");
-        window.harness.state_mut().take_chosen_model(&file);
+        window.harness.state_mut().models().take_chosen(&file);
         window.until("the model at its full size", |editor| {
             let model = &editor.evaluation.model;
             model.loaded().1 && model.received.as_ref().is_some_and(|model| model.size == USUAL)
@@ -320,7 +320,7 @@ fn reading_a_model_can_be_canceled_and_the_previous_one_stays() {
     let before = window.editor().evaluation.model.file().to_owned();
     let grid = window.path("grid.obj");
     write_grid(&grid, 400);
-    window.harness.state_mut().take_chosen_model(&grid);
+    window.harness.state_mut().models().take_chosen(&grid);
     window.settle();
     assert!(window.editor().evaluation.model.is_replacing());
     window.until("the cover", |editor| {

@@ -108,7 +108,7 @@ fn a_graph_that_was_never_saved_comes_back_on_its_model() {
     let mut window = Window::with(|folders| Session::new(folders.recovery.as_deref()));
     let model = window.path("hero.glb");
     fs::copy(window.editor().evaluation.model.file(), &model).expect("a model");
-    window.harness.state_mut().take_chosen_model(&model);
+    window.harness.state_mut().models().take_chosen(&model);
     window.settle();
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.add([0.2, 0.2], "cells");
