@@ -2,16 +2,17 @@
 
 mod documents;
 mod flows;
+mod model_pictures;
 mod model_reading;
 mod opening;
 mod perform;
 mod recoveries;
+mod saving;
 mod shell;
 mod shown_models;
 #[cfg(test)]
 mod tests;
 mod trust;
-mod variant_pictures;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -39,11 +40,12 @@ use crate::shown_results::ShownResults;
 use crate::views::Views;
 pub(crate) use documents::ProgramFolders;
 use documents::{Documents, autosave_at_end};
+use model_pictures::{AwaitedPicture, ModelPictures};
 pub(crate) use opening::{Handover, InitialState};
 use opening::{LostWindow, OpenedWindow};
+use saving::{Saving, claim_file};
 use shell::Shell;
 use shown_models::ShownModels;
-use variant_pictures::AwaitedPicture;
 
 /// The window. Each field owns a part of its state; this type connects them in each frame, and performs actions
 /// (`app/perform.rs`).
@@ -110,7 +112,7 @@ impl Editor {
             may_close: false,
         };
         editor.recall_choices();
-        editor.claim_file();
+        claim_file(&mut editor.documents, &mut editor.views.questions);
         beside.iter().for_each(|model| editor.models().show_beside(model));
         editor
     }
@@ -170,6 +172,29 @@ impl Editor {
         }
     }
 
+    /// Pictures of the model as it looks now.
+    fn pictures(&mut self) -> ModelPictures<'_> {
+        ModelPictures {
+            documents: &mut self.documents,
+            evaluation: &self.evaluation,
+            looks: &self.looks,
+            shell: &mut self.shell,
+            model: &self.views.model,
+        }
+    }
+
+    /// Saving of the open graph.
+    pub(crate) fn saving(&mut self) -> Saving<'_> {
+        Saving {
+            documents: &mut self.documents,
+            evaluation: &self.evaluation,
+            looks: &self.looks,
+            shell: &mut self.shell,
+            views: &mut self.views,
+            exports: &mut self.exports,
+        }
+    }
+
     /// Draws the window and performs the requested actions.
     pub(crate) fn frame(&mut self, ui: &mut Ui) {
         let began = Instant::now();
@@ -224,7 +249,23 @@ impl Editor {
             &context,
         );
         self.shell.report(kept);
-        self.keep_picture_of_variant(&context);
+        let Editor {
+            documents,
+            evaluation,
+            looks,
+            shell,
+            views,
+            awaited_picture,
+            ..
+        } = self;
+        let mut pictures = ModelPictures {
+            documents,
+            evaluation,
+            looks,
+            shell,
+            model: &views.model,
+        };
+        awaited_picture.keep(&mut pictures, &context);
         self.shell.keyboard.end_frame(&context);
         self.shell.add_frame_time(began.elapsed());
     }

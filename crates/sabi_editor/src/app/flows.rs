@@ -2,7 +2,6 @@
 
 mod dropped_files;
 mod recovery;
-mod saving;
 
 use std::path::Path;
 use std::time::Duration;
@@ -13,6 +12,7 @@ use sabi_engine::catalog::node_file::NodeDraft;
 use sabi_engine::{ErrorKind, Session};
 use sabi_files::io_reason;
 
+use super::saving::claim_file;
 use super::{Editor, trust};
 use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
@@ -21,7 +21,7 @@ use crate::files::Question;
 use crate::files::{examples, new_graph};
 use crate::notices::Work;
 use crate::paths::canonical_if_present;
-use crate::saved_pictures::{OF_GRAPH, OF_GROUP};
+use crate::saved_pictures::OF_GROUP;
 
 /// Time until the next check whether files are watched.
 const WATCH_AGAIN: Duration = Duration::from_millis(100);
@@ -92,7 +92,7 @@ impl Editor {
     pub(crate) fn take_session(&mut self, session: Session) {
         self.remember_choices();
         let model = self.documents.replace(&self.shell.context, session);
-        self.claim_file();
+        claim_file(&mut self.documents, &mut self.views.questions);
         self.recall_choices();
         self.views.canvas = Default::default();
         self.views.export.forget_dialog();
@@ -105,20 +105,6 @@ impl Editor {
         match model.filter(|model| canonical_if_present(model) != shown) {
             Some(model) => self.models().take(&model),
             None => self.documents.models.add(self.evaluation.model.file()),
-        }
-    }
-
-    /// Stores the model as it looks now as the picture of a graph, for the start page.
-    fn store_picture_of_graph(&mut self, file: &Path) {
-        if !self.shows_outputs_at_rest() {
-            return;
-        }
-        if let Some(picture) = self.views.model.pictures.shown(self.evaluation.gpu()) {
-            let stored = self
-                .documents
-                .pictures
-                .store(&self.shell.context, file, OF_GRAPH, &picture);
-            self.shell.report(stored);
         }
     }
 

@@ -11,11 +11,10 @@ use std::path::Path;
 
 use egui::{Color32, Rgba, Ui};
 use sabi_editing::command::{
-    EditCommand, ExposedCommand, KnobCommand, NodeCommand, NodeSource, Outcome, PortCommand, VariantCommand,
-    WireCommand, perform,
+    EditCommand, ExposedCommand, KnobCommand, NodeCommand, NodeSource, Outcome, PortCommand, WireCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{OpenDocument, history, knob_target, navigation, node_paths, nodes, relative_paths, variants};
+use sabi_editing::{OpenDocument, history, knob_target, navigation, node_paths, nodes, relative_paths};
 use sabi_graph::{NodeId, SlotRef, Value};
 use sabi_nodes::kind::Role;
 
@@ -74,7 +73,7 @@ impl Editor {
             Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
             Action::Knob { node, event } => self.change_knob(node, event, ui),
             Action::TurnExposed(event) => self.change_exposed_value(event, ui),
-            Action::SaveVariant(name) => self.save_variant(name),
+            Action::SaveVariant(name) => self.pictures().save_variant(name),
             Action::File(action) => self.perform_on_file(action),
             Action::Model(action) => self.perform_on_model(action),
             Action::Trust(action) => self.perform_on_trust(action),
@@ -111,10 +110,10 @@ impl Editor {
                 self.views.questions.ask_next(is_dirty, next);
             }
             FileAction::Proceed(next) => self.proceed(next),
-            FileAction::Save => self.save(),
-            FileAction::SaveAs(file) => self.save_as(file),
-            FileAction::Overwrite(file) => self.save_to(&file),
-            FileAction::SaveBesideTheirs => self.save_beside_theirs(),
+            FileAction::Save => self.saving().save(),
+            FileAction::SaveAs(file) => self.saving().save_as(file),
+            FileAction::Overwrite(file) => self.saving().save_to(&file),
+            FileAction::SaveBesideTheirs => self.saving().save_beside_theirs(),
             FileAction::AllowSaving => self.documents.document.session.graph_file.set_read_only(false),
             FileAction::Pack(file) => self.pack_into(file),
             FileAction::AskForMissing(lost) => {
@@ -368,27 +367,6 @@ impl Editor {
             }
             None => {}
         }
-    }
-
-    /// Saves the present values as a variant, with the model as it looks now.
-    fn save_variant(&mut self, name: String) {
-        let command = VariantCommand::Save(name.clone());
-        if perform(&mut self.documents.document, command.into()) == Outcome::Done {
-            self.store_picture_of_variant(name.trim());
-        }
-    }
-
-    /// Stores the model as it looks now as the picture of a variant.
-    fn store_picture_of_variant(&mut self, name: &str) {
-        let documents = &mut self.documents;
-        let values = documents.document.graph().variants().get(name);
-        let Some((picture, values)) = self.views.model.pictures.shown(self.evaluation.gpu()).zip(values) else {
-            return;
-        };
-        let file = documents.document.session.file().unwrap_or(Path::new(""));
-        let text = variants::as_text(&documents.document, values);
-        let stored = documents.pictures.store(&self.shell.context, file, &text, &picture);
-        self.shell.report(stored);
     }
 
     /// Selects a node in the group that it is in, and shows it on the canvas.

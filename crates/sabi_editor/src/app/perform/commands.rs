@@ -41,7 +41,7 @@ impl Editor {
         match command {
             FileCommand::New => self.perform_on_file(FileAction::Ask(Next::New)),
             FileCommand::Open => self.views.questions.ask_to_open(&self.documents.document),
-            FileCommand::Save => self.save(),
+            FileCommand::Save => self.saving().save(),
             FileCommand::SaveAs => self.views.questions.ask_to_save(&self.documents.document),
             FileCommand::Export => {
                 self.shell.dock.bring_up(Panel::Export);

@@ -167,7 +167,7 @@ fn exporting_at_every_save() -> Window {
 fn a_save_during_an_export_exports_once_more() {
     let mut window = exporting_at_every_save();
     let editor = window.harness.state_mut();
-    editor.save();
+    editor.saving().save();
     assert!(!window.editor().exports.queued.is_empty());
     window.until("both", |editor| {
         editor.exports.running.is_none() && editor.exports.queued.is_empty()
@@ -381,7 +381,7 @@ fn textures_of_a_saved_graph_are_written_although_another_one_is_opened_meanwhil
     let editor = window.harness.state_mut();
     // The second export has other file names, which shows that it ran.
     editor.shell.settings.export.names = "saved_{channel}".to_owned();
-    editor.save();
+    editor.saving().save();
     let other = window.path("deeper").join("other.sabi");
     fs::create_dir_all(window.path("deeper")).expect("a folder");
     fs::write(&other, super::graph_text("")).expect("a graph");

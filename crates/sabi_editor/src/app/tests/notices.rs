@@ -50,7 +50,7 @@ fn a_failed_save_is_reported_until_the_user_closes_it_or_a_save_succeeds() {
         let mut permissions = fs::metadata(&file).expect("a file").permissions();
         permissions.set_readonly(true);
         fs::set_permissions(&file, permissions.clone()).expect("a file of one's own");
-        window.harness.state_mut().save();
+        window.harness.state_mut().saving().save();
         // Longer than a notice is shown.
         window
             .harness
@@ -66,7 +66,7 @@ fn a_failed_save_is_reported_until_the_user_closes_it_or_a_save_succeeds() {
             #[expect(clippy::permissions_set_readonly_false, reason = "the file is the test's own")]
             permissions.set_readonly(false);
             fs::set_permissions(&file, permissions).expect("a file of one's own");
-            window.harness.state_mut().save();
+            window.harness.state_mut().saving().save();
             window.settle();
         }
         assert!(!window.has_failure("write-protected"));

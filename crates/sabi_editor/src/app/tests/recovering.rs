@@ -94,7 +94,7 @@ fn a_file_of_another_window_can_be_saved_once_that_window_is_closed() {
     drop(first);
     window.mute();
     let text = window.text();
-    window.harness.state_mut().save();
+    window.harness.state_mut().saving().save();
     window.settle();
     assert!(!window.says("This graph is open already"));
     assert!(

@@ -163,7 +163,7 @@ fn a_saved_graph_opens_a_model_of_several_files_that_the_command_line_named() {
     window.until("the model", |editor| {
         editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.gltf")
     });
-    window.harness.state_mut().save_to(&file);
+    window.harness.state_mut().saving().save_to(&file);
     window.settle();
     window.harness.state_mut().save_settings();
     let folder = window.folder;
