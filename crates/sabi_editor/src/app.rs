@@ -1,7 +1,9 @@
 //! The window, which connects the owners of its state in each frame.
 
 mod documents;
+mod drop_targets;
 mod flows;
+mod graph_edits;
 mod model_pictures;
 mod model_reading;
 mod opening;
@@ -40,6 +42,8 @@ use crate::shown_results::ShownResults;
 use crate::views::Views;
 pub(crate) use documents::ProgramFolders;
 use documents::{Documents, autosave_at_end};
+use drop_targets::{DropTargets, mark_hovered_file};
+use graph_edits::GraphEdits;
 use model_pictures::{AwaitedPicture, ModelPictures};
 pub(crate) use opening::{Handover, InitialState};
 use opening::{LostWindow, OpenedWindow};
@@ -162,6 +166,27 @@ impl Editor {
         (context, views, &mut shell.dock)
     }
 
+    /// Edits of the open graph.
+    fn edits(&mut self) -> GraphEdits<'_> {
+        GraphEdits {
+            documents: &mut self.documents,
+            looks: &mut self.looks,
+            views: &mut self.views,
+            shell: &mut self.shell,
+        }
+    }
+
+    /// Targets of a node that is dragged from the library.
+    fn drop_targets(&self) -> DropTargets<'_> {
+        DropTargets {
+            documents: &self.documents,
+            evaluation: &self.evaluation,
+            looks: &self.looks,
+            shell: &self.shell,
+            views: &self.views,
+        }
+    }
+
     /// The shown model and the models beside it.
     pub(crate) fn models(&mut self) -> ShownModels<'_> {
         ShownModels {
@@ -227,7 +252,7 @@ impl Editor {
         self.documents.refresh_candidates();
         self.keep_open(ui);
         actions.extend(self.show(ui));
-        self.mark_hovered_file(ui);
+        mark_hovered_file(ui, &self.shell.theme);
         self.shell.leave_hidden_panel(&mut self.views);
         let document = &self.documents.document;
         let said = |sentence: &str| node_paths::with_titles(document, sentence);
@@ -314,8 +339,7 @@ impl Editor {
         self.evaluation.request(document, wanted);
         // A drag may end outside of the window.
         if self.documents.is_dragging && !context.input(|input| input.pointer.any_down()) {
-            self.documents.document.session.end();
-            self.documents.is_dragging = false;
+            self.documents.end_drag();
             context.request_repaint();
         }
     }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
-use sabi_editing::{OpenDocument, library, relative_paths, trust};
+use sabi_editing::{OpenDocument, history, library, relative_paths, trust};
 use sabi_engine::catalog::node_file::NodeDraft;
 use sabi_engine::opening::linked_model::SavedReading;
 use sabi_engine::session::{FileState, Keeping};
@@ -242,6 +242,26 @@ impl Documents {
     /// Returns the open graph and leaves an empty one in its place. Called when the window ends.
     pub(crate) fn take(&mut self) -> OpenDocument {
         std::mem::replace(&mut self.document, OpenDocument::before_kinds(Session::new(None)))
+    }
+
+    /// Begins the drag of a parameter: all of it is one step to undo, and results are quick meanwhile.
+    pub(crate) fn begin_drag(&mut self) {
+        self.document.session.begin("");
+        self.is_dragging = true;
+    }
+
+    /// Ends the drag of a parameter, unless it has ended already because its row disappeared.
+    pub(crate) fn end_drag(&mut self) {
+        if self.is_dragging {
+            self.document.session.end();
+            self.is_dragging = false;
+        }
+    }
+
+    /// Cancels the drag of a parameter.
+    pub(crate) fn cancel_drag(&mut self) {
+        history::cancel_step(&mut self.document);
+        self.is_dragging = false;
     }
 
     /// Nodes and groups that can be added.

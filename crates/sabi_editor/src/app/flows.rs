@@ -1,6 +1,5 @@
 //! Operations that involve several owners: opening and saving, the model, closing the window, and files that change.
 
-mod dropped_files;
 mod recovery;
 
 use std::path::Path;
@@ -10,17 +9,20 @@ use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::{library, node_paths, nodes};
 use sabi_engine::catalog::node_file::NodeDraft;
 use sabi_engine::{ErrorKind, Session};
-use sabi_files::io_reason;
+use sabi_files::{io_reason, path_text};
+use sabi_surface::load::MODEL_ENDINGS;
 
 use super::saving::claim_file;
+use super::shell::Shell;
 use super::{Editor, trust};
 use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
 use crate::exports::ExportSource;
 use crate::files::Question;
 use crate::files::{examples, new_graph};
+use crate::model_view::ModelView;
 use crate::notices::Work;
-use crate::paths::canonical_if_present;
+use crate::paths::{IMAGES, canonical_if_present, lowercase_ending};
 use crate::saved_pictures::OF_GROUP;
 
 /// Time until the next check whether files are watched.
@@ -285,4 +287,36 @@ impl Editor {
             self.looks.color_target = None;
         }
     }
+
+    /// Uses a file by its type: a graph is opened, a model shown, an environment used as light, an image added as a node.
+    pub(super) fn take_dropped(&mut self, path: &Path, ui: &Ui) {
+        if path.is_dir() {
+            return self.edits().add_folder(path, ui);
+        }
+        let is_on_canvas = self.shell.keyboard.active == Panel::Canvas;
+        match lowercase_ending(path).as_deref() {
+            Some("sabi") => {
+                let is_dirty = self.documents.document.session.is_dirty();
+                self.views.questions.ask_next(is_dirty, Next::Open(path.to_owned()));
+            }
+            Some(ending) if MODEL_ENDINGS.contains(&ending) => self.models().take_chosen(path),
+            Some("hdr") => use_environment(&mut self.views.model, &mut self.shell, path),
+            Some("exr") if !is_on_canvas => use_environment(&mut self.views.model, &mut self.shell, path),
+            Some(ending) if IMAGES.contains(&ending) => self.edits().add_image(path, ui),
+            _ => self.shell.notify(format!(
+                "{} cannot be used here; drop a graph, a model, an image or an environment",
+                path.display()
+            )),
+        }
+    }
+}
+
+/// Lights the model by a file.
+fn use_environment(model: &mut ModelView, shell: &mut Shell, path: &Path) {
+    let Some(choice) = shell.report(path_text(&canonical_if_present(path))) else {
+        return;
+    };
+    model.environment.choose(&choice);
+    model.environment.read_again();
+    shell.settings.environment = choice;
 }

@@ -1,20 +1,12 @@
 //! Commands, performed by the owner of their group. No match here has a wildcard.
 
 use egui::Ui;
-use sabi_editing::arrangement::{Align, DistributionAxis};
-use sabi_editing::command::{
-    self as editing, ClipboardCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand, NavigationCommand,
-    NodeCommand, SelectionCommand, WireCommand,
-};
 use sabi_editing::navigation;
-use sabi_graph::NodeRows;
 
 use super::Editor;
 use crate::action::{FileAction, LookAction, Next};
-use crate::command::{
-    ArrangeCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, LookCommand, ViewportCommand,
-    WindowCommand,
-};
+use crate::app::graph_edits::arrangement;
+use crate::command::{CanvasCommand, Command, FileCommand, LookCommand, ViewportCommand, WindowCommand};
 use crate::dock::Panel;
 
 /// Factor of one step of the interface's size.
@@ -26,14 +18,14 @@ impl Editor {
         match command {
             Command::File(command) => self.file_command(command),
             Command::Window(command) => self.window_command(command),
-            Command::Graph(command) => self.graph_command(command, ui),
-            Command::Arrange(command) => self.arrange_command(command, ui),
+            Command::Graph(command) => self.edits().command(command, ui),
+            Command::Arrange(command) => self.edits().edit(arrangement(command), ui),
             Command::Canvas(command) => self.canvas_command(command, ui),
             Command::Look(command) => self.look_command(command),
             Command::Viewport(command) => self.viewport_command(command, ui),
             Command::Texture(command) => self.views.flat.command(command),
             Command::Brush(command) => self.brush_command(command, ui),
-            Command::Favorite(favorite) => self.add_favorite(favorite, ui),
+            Command::Favorite(favorite) => self.edits().add_favorite(favorite, ui),
         }
     }
 
@@ -69,60 +61,6 @@ impl Editor {
             WindowCommand::Larger => self.shell.scale_by(SCALE_STEP),
             WindowCommand::Smaller => self.shell.scale_by(1.0 / SCALE_STEP),
         }
-    }
-
-    fn graph_command(&mut self, command: GraphCommand, ui: &Ui) {
-        let document = &self.documents.document;
-        let edit: EditCommand = match command {
-            GraphCommand::Undo => HistoryCommand::Undo.into(),
-            GraphCommand::Redo => HistoryCommand::Redo.into(),
-            GraphCommand::Delete => NodeCommand::DeleteSelected { reconnects: false }.into(),
-            GraphCommand::Heal => NodeCommand::DeleteSelected { reconnects: true }.into(),
-            GraphCommand::TakeOut => WireCommand::DetachSelected.into(),
-            GraphCommand::SwapInputs => WireCommand::SwapInputs.into(),
-            GraphCommand::Mute => NodeCommand::ToggleMuted.into(),
-            GraphCommand::Collapse => NodeCommand::ToggleRows(NodeRows::None).into(),
-            GraphCommand::HidePorts => NodeCommand::ToggleRows(NodeRows::Wired).into(),
-            GraphCommand::NameWires => NodeCommand::ToggleNamedWires.into(),
-            GraphCommand::Duplicate => NodeCommand::DuplicateSelected { keeps_inputs: false }.into(),
-            GraphCommand::DuplicateWired => NodeCommand::DuplicateSelected { keeps_inputs: true }.into(),
-            GraphCommand::Copy if document.selection().is_empty() => {
-                return self.shell.notify("Select the nodes to copy first");
-            }
-            GraphCommand::Copy => ClipboardCommand::Copy.into(),
-            GraphCommand::Cut => ClipboardCommand::Cut.into(),
-            GraphCommand::Paste => return self.shell.keyboard.request_paste(ui.ctx()),
-            GraphCommand::Frame => FrameCommand::Add.into(),
-            GraphCommand::Group => GroupCommand::Make.into(),
-            GraphCommand::Ungroup => GroupCommand::Dissolve.into(),
-            GraphCommand::Enter => match document.selected_one() {
-                Some(id) => NavigationCommand::Enter(id.clone()).into(),
-                None => return,
-            },
-            GraphCommand::Leave if self.views.canvas.cancel_drag() => return,
-            GraphCommand::Leave => NavigationCommand::Leave.into(),
-        };
-        self.edit(edit, ui);
-    }
-
-    fn arrange_command(&mut self, command: ArrangeCommand, ui: &Ui) {
-        let edit: EditCommand = match command {
-            ArrangeCommand::AlignLeft => editing::ArrangeCommand::Align(Align::Left).into(),
-            ArrangeCommand::AlignRight => editing::ArrangeCommand::Align(Align::Right).into(),
-            ArrangeCommand::AlignTop => editing::ArrangeCommand::Align(Align::Top).into(),
-            ArrangeCommand::AlignBottom => editing::ArrangeCommand::Align(Align::Bottom).into(),
-            ArrangeCommand::DistributeAcross => {
-                editing::ArrangeCommand::Distribute(DistributionAxis::Horizontal).into()
-            }
-            ArrangeCommand::DistributeDown => editing::ArrangeCommand::Distribute(DistributionAxis::Vertical).into(),
-            ArrangeCommand::Straighten => editing::ArrangeCommand::Straighten.into(),
-            ArrangeCommand::LayOut => editing::ArrangeCommand::LayOut.into(),
-            ArrangeCommand::SelectAll => SelectionCommand::All.into(),
-            ArrangeCommand::SelectMuted => SelectionCommand::Muted.into(),
-            ArrangeCommand::SelectUp => SelectionCommand::Upstream.into(),
-            ArrangeCommand::SelectDown => SelectionCommand::Downstream.into(),
-        };
-        self.edit(edit, ui);
     }
 
     fn canvas_command(&mut self, command: CanvasCommand, ui: &Ui) {
@@ -187,20 +125,5 @@ impl Editor {
             self.looks.followed = None;
             self.shell.keyboard.active = Panel::Viewport;
         }
-    }
-
-    /// Adds a node of a favorite where the pointer is.
-    fn add_favorite(&mut self, favorite: Favorite, ui: &Ui) {
-        let key = self.shell.settings.favorites.get(favorite.index());
-        let mut candidates = self.documents.candidates().iter();
-        let found = key.and_then(|key| candidates.find(|known| known.is_favorite(key)));
-        let Some(new) = found.map(|found| found.new.clone()) else {
-            let number = favorite.index() + 1;
-            return self.shell.notify(format!(
-                "Favorite {number} is empty; click a star in the library to fill it."
-            ));
-        };
-        let place = self.views.canvas.camera.place_for_new(ui);
-        self.add_uncovering(new, place, ui);
     }
 }

@@ -37,27 +37,27 @@ impl Editor {
             }
             PaintAction::Begin => {
                 self.find_brush_picture();
-                self.begin_drag();
+                self.documents.begin_drag();
             }
-            PaintAction::Lay(command) => self.edit(command, ui),
+            PaintAction::Lay(command) => self.edits().edit(command, ui),
             PaintAction::Change(command) => {
                 self.find_brush_picture();
-                self.edit(command, ui);
+                self.edits().edit(command, ui);
                 self.keep_strokes();
             }
             PaintAction::End => {
-                self.end_drag();
+                self.documents.end_drag();
                 self.keep_strokes();
                 self.shell.settings.remember_brush_color();
                 self.views.flat.set = self.set_of_last_stroke().or(self.views.flat.set);
             }
-            PaintAction::Cancel => self.cancel_drag(),
+            PaintAction::Cancel => self.documents.cancel_drag(),
             PaintAction::MarkNew => self.mark_new_decal(),
             PaintAction::Mark(strokes) => self.looks.marked_strokes = strokes,
             PaintAction::CopyStrokes(strokes) => self.copy_strokes(&strokes, ui),
             PaintAction::PasteStrokes(text) => self.paste_strokes(&text, ui),
             PaintAction::Choose(brush) => self.choose_brush(*brush),
-            PaintAction::TakeColor => self.toggle_color_target(ColorTarget::Brush),
+            PaintAction::TakeColor => self.edits().toggle_color_target(ColorTarget::Brush),
             PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
             PaintAction::AskForBrush => self.ask_for_brush(PathFor::Brush),
             PaintAction::TakePicture(file) => self.take_brush_picture(&file),

@@ -61,7 +61,7 @@ impl Editor {
             title: "Paste strokes".to_owned(),
             steps,
         };
-        self.edit(command, ui);
+        self.edits().edit(command, ui);
         self.keep_strokes();
         let list = strokes_on(&self.documents.document, &node, &model).unwrap_or_default(); // Nothing is painted yet.
         let pasted = list.strokes.iter().rev().take(count).map(|stroke| stroke.id);
