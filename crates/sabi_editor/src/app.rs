@@ -4,9 +4,11 @@ mod documents;
 mod drop_targets;
 mod flows;
 mod graph_edits;
+mod held_brush;
 mod model_pictures;
 mod model_reading;
 mod opening;
+mod painting;
 mod perform;
 mod recoveries;
 mod saving;
@@ -47,6 +49,7 @@ use graph_edits::GraphEdits;
 use model_pictures::{AwaitedPicture, ModelPictures};
 pub(crate) use opening::{Handover, InitialState};
 use opening::{LostWindow, OpenedWindow};
+use painting::Painting;
 use saving::{Saving, claim_file};
 use shell::Shell;
 use shown_models::ShownModels;
@@ -176,6 +179,20 @@ impl Editor {
         }
     }
 
+    /// Painting on the selected node.
+    fn painting(&mut self) -> Painting<'_> {
+        Painting {
+            edits: GraphEdits {
+                documents: &mut self.documents,
+                looks: &mut self.looks,
+                views: &mut self.views,
+                shell: &mut self.shell,
+            },
+            evaluation: &self.evaluation,
+            node_brush_tip: &mut self.node_brush_tip,
+        }
+    }
+
     /// Targets of a node that is dragged from the library.
     fn drop_targets(&self) -> DropTargets<'_> {
         DropTargets {
@@ -233,7 +250,7 @@ impl Editor {
         self.models().follow_reading();
         self.models().follow_row(&context);
         self.follow_exports(&context);
-        self.take_node_brush_tip();
+        self.painting().take_node_tip();
         match self.packing.take() {
             Some(Ok(told)) => self.shell.notify(told),
             Some(Err(refused)) => self.shell.fail(refused),

@@ -14,6 +14,7 @@ use sabi_editing::{OpenDocument, history, library, relative_paths, trust};
 use sabi_engine::catalog::node_file::NodeDraft;
 use sabi_engine::opening::linked_model::SavedReading;
 use sabi_engine::session::{FileState, Keeping};
+use sabi_engine::source::Strokes;
 use sabi_engine::{EngineError, ErrorKind, Remedy, Session};
 use sabi_files::{Refusal, TrustedPaths};
 use sabi_graph::Preview;
@@ -262,6 +263,21 @@ impl Documents {
     pub(crate) fn cancel_drag(&mut self) {
         history::cancel_step(&mut self.document);
         self.is_dragging = false;
+    }
+
+    /// Strokes of the open document.
+    pub(super) fn strokes(&self) -> Strokes {
+        self.document.session.graph().strokes.clone()
+    }
+
+    /// Stores the strokes, and makes the next autosave store the graph that names them.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub(super) fn keep_strokes(&mut self) -> Result<(), EngineError> {
+        let kept = self.document.session.keep_strokes();
+        self.autosave.invalidate();
+        kept
     }
 
     /// Nodes and groups that can be added.

@@ -3,8 +3,6 @@
 
 mod commands;
 mod packing;
-mod painting;
-mod stroke_clipboard;
 
 use std::path::Path;
 
@@ -100,7 +98,7 @@ impl Editor {
                 knob_target::set(document, &parameter, stops);
             }
             Action::AskForGradient(parameter) => self.views.questions.ask_for_gradient(document, parameter),
-            Action::Paint(action) => self.perform_painting(action, ui),
+            Action::Paint(action) => self.painting().perform(action, ui),
             Action::Setting(action) => self.shell.set(action),
             Action::ShowPanel(panel) => self.shell.dock.bring_up(panel),
             Action::Arrange(workspace) => self.shell.dock.arrange(workspace),

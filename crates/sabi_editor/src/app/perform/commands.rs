@@ -24,7 +24,7 @@ impl Editor {
             Command::Look(command) => self.look_command(command),
             Command::Viewport(command) => self.viewport_command(command, ui),
             Command::Texture(command) => self.views.flat.command(command),
-            Command::Brush(command) => self.brush_command(command, ui),
+            Command::Brush(command) => self.painting().command(command, ui),
             Command::Favorite(favorite) => self.edits().add_favorite(favorite, ui),
         }
     }
