@@ -1,19 +1,24 @@
 //! The window, which connects the owners of its state in each frame.
 
+mod changed_files;
+mod closing;
 mod documents;
 mod drop_targets;
-mod flows;
 mod graph_edits;
 mod held_brush;
+mod library_files;
 mod model_pictures;
 mod model_reading;
 mod opening;
+mod packing;
 mod painting;
 mod perform;
 mod recoveries;
+mod recovery_offers;
 mod saving;
 mod shell;
 mod shown_models;
+mod switching;
 #[cfg(test)]
 mod tests;
 mod trust;
@@ -22,8 +27,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Context, RawInput, Ui, ViewportCommand};
-use sabi_editing::node_paths;
+use egui::{Context, RawInput, Ui};
+use sabi_editing::{OpenDocument, node_paths, nodes};
 use sabi_gpu::Gpu;
 
 use crate::action::Action;
@@ -33,7 +38,7 @@ use crate::command::{Command, FileCommand};
 use crate::context::{View, ViewContext};
 use crate::dock::{Dock, Panel};
 use crate::evaluation::{Evaluation, WantedResults};
-use crate::exports::Exports;
+use crate::exports::{ExportSource, Exports};
 use crate::model_row::ModelRow;
 use crate::node_brush_tip::NodeBrushTip;
 use crate::notices::Work;
@@ -42,17 +47,19 @@ use crate::panels::input_histogram;
 use crate::pen::Pens;
 use crate::shown_results::ShownResults;
 use crate::views::Views;
+use documents::Documents;
 pub(crate) use documents::ProgramFolders;
-use documents::{Documents, autosave_at_end};
 use drop_targets::{DropTargets, mark_hovered_file};
 use graph_edits::GraphEdits;
 use model_pictures::{AwaitedPicture, ModelPictures};
+use opening::OpenedWindow;
 pub(crate) use opening::{Handover, InitialState};
-use opening::{LostWindow, OpenedWindow};
 use painting::Painting;
+use recovery_offers::follow_recoveries;
 use saving::{Saving, claim_file};
 use shell::Shell;
 use shown_models::ShownModels;
+use switching::{recall_choices, remember_choices};
 
 /// The window. Each field owns a part of its state; this type connects them in each frame, and performs actions
 /// (`app/perform.rs`).
@@ -118,7 +125,7 @@ impl Editor {
             is_leaving: false,
             may_close: false,
         };
-        editor.recall_choices();
+        recall_choices(&mut editor.documents, &mut editor.exports, &editor.shell.settings);
         claim_file(&mut editor.documents, &mut editor.views.questions);
         beside.iter().for_each(|model| editor.models().show_beside(model));
         editor
@@ -245,11 +252,15 @@ impl Editor {
         }
         let context = ui.ctx().clone();
         self.evaluation.take_events(&context);
-        self.mute_what_takes_too_long();
+        mute_slow_nodes(
+            &mut self.documents.document,
+            &self.evaluation.faults.all.too_long,
+            &mut self.shell,
+        );
         self.models().follow();
         self.models().follow_reading();
         self.models().follow_row(&context);
-        self.follow_exports(&context);
+        self.exports.follow(&context, &mut self.shell.notices);
         self.painting().take_node_tip();
         match self.packing.take() {
             Some(Ok(told)) => self.shell.notify(told),
@@ -261,8 +272,8 @@ impl Editor {
             return;
         }
         self.follow_files();
-        self.follow_recoveries(&context);
-        self.cancel_color_target(&context);
+        follow_recoveries(&mut self.documents, &mut self.views, &mut self.shell, &context);
+        self.looks.cancel_color_target(&context);
         let is_dragging = self.documents.is_dragging;
         let mut actions = self.shell.keys_pressed(ui, &self.views, is_dragging);
         actions.extend(dropped_files(&context));
@@ -278,7 +289,9 @@ impl Editor {
         }
         self.perform_all(actions, ui);
         trust::remember_chosen(&mut self.documents, &mut self.shell.settings);
-        self.set_title();
+        let is_dirty = self.documents.document.session.is_dirty();
+        let name = bars::marked_name(&self.documents.document, is_dirty);
+        self.shell.set_title(format!("{name} – Sabi"));
         // Before the device gets work that may block the window.
         self.autosave(&context);
         self.request_results(&context);
@@ -310,6 +323,17 @@ impl Editor {
         awaited_picture.keep(&mut pictures, &context);
         self.shell.keyboard.end_frame(&context);
         self.shell.add_frame_time(began.elapsed());
+    }
+
+    /// Starts an export with the choices of its panel.
+    pub(crate) fn export(&mut self, force: bool) {
+        let source = ExportSource {
+            document: &self.documents.document,
+            evaluation: &self.evaluation,
+            choices: &self.shell.settings.export,
+        };
+        let started = self.exports.start(&self.shell.context, source, force);
+        self.shell.report_on(Work::Export, started);
     }
 
     /// Draws the bars and the views, and returns the requested actions.
@@ -376,50 +400,21 @@ impl Editor {
 
     /// Saves the settings, with the choices of views and exports.
     fn save_settings(&mut self) {
-        self.remember_choices();
+        remember_choices(&self.documents, &self.exports, &mut self.shell.settings);
         self.shell.settings.view = self.views.model.choices();
         self.shell.save_settings();
     }
+}
 
-    fn set_title(&mut self) {
-        let document = &mut self.documents.document;
-        let is_dirty = document.session.is_dirty();
-        let name = bars::marked_name(document, is_dirty);
-        self.shell.set_title(format!("{name} – Sabi"));
-    }
-
-    /// Hands the session over to a window on another device, since this one's is lost.
-    fn hand_over(&mut self, context: &Context) {
-        self.documents.name_model_of_unsaved(&self.evaluation);
-        let mut document = self.documents.take();
-        // In case the other window cannot be opened.
-        autosave_at_end(&mut document, &self.views.page.unsaved());
-        self.views.canvas.cancel_all();
-        if let Ok(mut handover) = self.handover.lock() {
-            *handover = Some(LostWindow {
-                document,
-                canvas: std::mem::take(&mut self.views.canvas),
-                model: self.evaluation.model.file().to_owned(),
-                beside: self.row.files(),
-                drafts: self.views.page.take_drafts(),
-                was_exporting: self.exports.running.is_some(),
-            });
-        }
-        self.evaluation.lost = None;
-        self.is_leaving = true;
-        context.send_viewport_cmd(ViewportCommand::Close);
-    }
-
-    /// Closes the open graph as the window ends. Changes that were neither saved nor discarded are kept for recovery, since
-    /// a system may end programs without a question.
-    fn end(&mut self) {
-        self.documents.name_model_of_unsaved(&self.evaluation);
-        let mut document = self.documents.take();
-        let drafts = self.views.page.unsaved();
-        if self.may_close || !document.session.is_dirty() && drafts.is_empty() {
-            document.session.close();
-        } else {
-            autosave_at_end(&mut document, &drafts);
+/// Mutes nodes that keep the device busy for too long. For a node in a group, the group is muted.
+fn mute_slow_nodes(document: &mut OpenDocument, too_long: &[String], shell: &mut Shell) {
+    for full_id in too_long {
+        let title = node_paths::title(document, full_id);
+        let of_main_graph = full_id.split('/').next().and_then(|id| id.parse().ok());
+        if of_main_graph.is_some_and(|id| nodes::mute_in_main_graph(document, &id)) {
+            shell.notify(format!(
+                "'{title}' keeps the device busy for too long and is muted. Change it before you unmute it."
+            ));
         }
     }
 }

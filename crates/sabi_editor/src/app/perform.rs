@@ -2,7 +2,6 @@
 //! not compile.
 
 mod commands;
-mod packing;
 
 use std::path::Path;
 
@@ -11,6 +10,8 @@ use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{OpenDocument, history, knob_target, relative_paths};
 use sabi_graph::Value;
 
+use super::library_files::{save_node, save_to_library};
+use super::packing::pack_into;
 use super::{Editor, trust};
 use crate::action::{Action, ExportAction, FileAction, ModelAction, TrustAction};
 
@@ -57,8 +58,12 @@ impl Editor {
                     self.edits().drop_on(target, new, ui);
                 }
             }
-            Action::AddToLibrary(library) => self.save_to_library(library),
-            Action::SaveNode(node) => self.save_node(&node),
+            Action::AddToLibrary(library) => {
+                save_to_library(&mut self.documents, &self.evaluation, &mut self.shell, library)
+            }
+            Action::SaveNode(node) => {
+                save_node(&mut self.documents, &mut self.shell, &mut self.views.page, &node);
+            }
             Action::Replace { node, by } => self.edits().replace(node, by),
             Action::Select(ids) => self.edits().select(ids),
             Action::Arrow(key) => {
@@ -106,7 +111,8 @@ impl Editor {
         }
     }
 
-    fn perform_on_file(&mut self, action: FileAction) {
+    /// Performs an action about the graph's file.
+    pub(super) fn perform_on_file(&mut self, action: FileAction) {
         match action {
             FileAction::Ask(next) => {
                 let is_dirty = self.documents.document.session.is_dirty();
@@ -118,7 +124,15 @@ impl Editor {
             FileAction::Overwrite(file) => self.saving().save_to(&file),
             FileAction::SaveBesideTheirs => self.saving().save_beside_theirs(),
             FileAction::AllowSaving => self.documents.document.session.graph_file.set_read_only(false),
-            FileAction::Pack(file) => self.pack_into(file),
+            FileAction::Pack(file) => {
+                pack_into(
+                    &mut self.packing,
+                    &mut self.documents,
+                    &self.evaluation,
+                    &mut self.shell,
+                    file,
+                );
+            }
             FileAction::AskForMissing(lost) => {
                 self.views.questions.ask_for_missing(&self.documents.document, lost);
             }

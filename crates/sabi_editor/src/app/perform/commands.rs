@@ -1,13 +1,16 @@
 //! Commands, performed by the owner of their group. No match here has a wildcard.
 
 use egui::Ui;
-use sabi_editing::navigation;
+use sabi_editing::{OpenDocument, navigation};
 
 use super::Editor;
 use crate::action::{FileAction, LookAction, Next};
 use crate::app::graph_edits::arrangement;
+use crate::app::packing::ask_to_pack;
+use crate::app::shell::Shell;
 use crate::command::{CanvasCommand, Command, FileCommand, LookCommand, ViewportCommand, WindowCommand};
 use crate::dock::Panel;
+use crate::shown_results::ShownResults;
 
 /// Factor of one step of the interface's size.
 const SCALE_STEP: f32 = 1.1;
@@ -21,7 +24,9 @@ impl Editor {
             Command::Graph(command) => self.edits().command(command, ui),
             Command::Arrange(command) => self.edits().edit(arrangement(command), ui),
             Command::Canvas(command) => self.canvas_command(command, ui),
-            Command::Look(command) => self.look_command(command),
+            Command::Look(command) => {
+                look_command(command, &self.documents.document, &mut self.looks, &mut self.shell);
+            }
             Command::Viewport(command) => self.viewport_command(command, ui),
             Command::Texture(command) => self.views.flat.command(command),
             Command::Brush(command) => self.painting().command(command, ui),
@@ -40,7 +45,14 @@ impl Editor {
                 self.export(false);
             }
             FileCommand::ImportPictures => self.views.questions.ask_for_pictures(&self.documents.document),
-            FileCommand::Pack => self.ask_to_pack(),
+            FileCommand::Pack => {
+                ask_to_pack(
+                    &self.packing,
+                    &mut self.documents,
+                    &mut self.shell,
+                    &mut self.views.questions,
+                );
+            }
         }
     }
 
@@ -76,37 +88,6 @@ impl Editor {
         }
     }
 
-    fn look_command(&mut self, command: LookCommand) {
-        let document = &self.documents.document;
-        let settings = &mut self.shell.settings;
-        match command {
-            LookCommand::FlatPictures => settings.is_flat = !settings.is_flat,
-            LookCommand::MiniMap => settings.has_mini_map = !settings.has_mini_map,
-            LookCommand::Preview => match document.selected_one() {
-                Some(id) => {
-                    self.looks.show(document, id, None);
-                    self.looks.perform(LookAction::Follow, settings);
-                }
-                None => self.shell.notify("Select the node to show first."),
-            },
-            LookCommand::Follow => {
-                settings.follows = !settings.follows;
-                let sentence = match settings.follows {
-                    true => "The model shows the node that is clicked.",
-                    false => "The model always shows the outputs.",
-                };
-                self.shell.notify(sentence);
-            }
-            LookCommand::Pin => match document.selected_one() {
-                None if self.looks.pinned_3d.is_none() => {
-                    self.shell.notify("Select the node to pin to the 3D view first.")
-                }
-                id => self.looks.toggle_pin_3d(document, id),
-            },
-            LookCommand::Compare => self.looks.is_compared = !self.looks.is_compared,
-        }
-    }
-
     fn viewport_command(&mut self, command: ViewportCommand, ui: &Ui) {
         let Some(rect) = self.shell.dock.rects.get(&Panel::Viewport).copied() else {
             return;
@@ -125,5 +106,34 @@ impl Editor {
             self.looks.followed = None;
             self.shell.keyboard.active = Panel::Viewport;
         }
+    }
+}
+
+/// Changes the results that the views show, or how they show them.
+fn look_command(command: LookCommand, document: &OpenDocument, looks: &mut ShownResults, shell: &mut Shell) {
+    let settings = &mut shell.settings;
+    match command {
+        LookCommand::FlatPictures => settings.is_flat = !settings.is_flat,
+        LookCommand::MiniMap => settings.has_mini_map = !settings.has_mini_map,
+        LookCommand::Preview => match document.selected_one() {
+            Some(id) => {
+                looks.show(document, id, None);
+                looks.perform(LookAction::Follow, settings);
+            }
+            None => shell.notify("Select the node to show first."),
+        },
+        LookCommand::Follow => {
+            settings.follows = !settings.follows;
+            let sentence = match settings.follows {
+                true => "The model shows the node that is clicked.",
+                false => "The model always shows the outputs.",
+            };
+            shell.notify(sentence);
+        }
+        LookCommand::Pin => match document.selected_one() {
+            None if looks.pinned_3d.is_none() => shell.notify("Select the node to pin to the 3D view first."),
+            id => looks.toggle_pin_3d(document, id),
+        },
+        LookCommand::Compare => looks.is_compared = !looks.is_compared,
     }
 }

@@ -9,6 +9,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::Window;
 use super::hands::id;
+use crate::action::FileAction;
 use sabi_editing::{exposed_knobs, exposed_values, nodes, variants};
 use sabi_graph::Value;
 
@@ -299,7 +300,8 @@ fn the_graph_is_packed_with_its_model_once_it_is_saved() {
     window.settle();
     let archive = window.path("worn.zip");
     let pack = |window: &mut Window| {
-        window.harness.state_mut().pack_into(archive.clone());
+        let pack = FileAction::Pack(archive.clone());
+        window.harness.state_mut().perform_on_file(pack);
         window.settle();
     };
     pack(&mut window);

@@ -11,6 +11,7 @@ use sabi_engine::Session;
 use super::safety::CLOUDS;
 use super::{Editor, Window};
 use crate::action::LibraryKind;
+use crate::app::library_files::save_to_library;
 use crate::dock::Panel;
 
 #[test]
@@ -111,7 +112,13 @@ fn a_group_in_the_library_is_not_replaced_by_another_of_the_same_name() {
         .select([super::hands::id("clouds")]);
     window.keys(Modifiers::COMMAND, Key::G);
     let keep = |window: &mut Window| {
-        window.harness.state_mut().save_to_library(LibraryKind::User);
+        let Editor {
+            documents,
+            evaluation,
+            shell,
+            ..
+        } = window.harness.state_mut();
+        save_to_library(documents, evaluation, shell, LibraryKind::User);
         window.settle();
         fs::read_dir(window.path("library")).expect("a library").count()
     };
