@@ -38,7 +38,7 @@ use crate::command::{Command, FileCommand};
 use crate::context::{View, ViewContext};
 use crate::dock::{Dock, Panel};
 use crate::evaluation::{Evaluation, WantedResults};
-use crate::exports::{ExportSource, Exports};
+use crate::exports::Exports;
 use crate::model_row::ModelRow;
 use crate::node_brush_tip::NodeBrushTip;
 use crate::notices::Work;
@@ -47,6 +47,7 @@ use crate::panels::input_histogram;
 use crate::pen::Pens;
 use crate::shown_results::ShownResults;
 use crate::views::Views;
+use changed_files::follow_files;
 use documents::Documents;
 pub(crate) use documents::ProgramFolders;
 use drop_targets::{DropTargets, mark_hovered_file};
@@ -218,17 +219,7 @@ impl Editor {
             evaluation: &mut self.evaluation,
             row: &mut self.row,
             shell: &mut self.shell,
-        }
-    }
-
-    /// Pictures of the model as it looks now.
-    fn pictures(&mut self) -> ModelPictures<'_> {
-        ModelPictures {
-            documents: &mut self.documents,
-            evaluation: &self.evaluation,
-            looks: &self.looks,
-            shell: &mut self.shell,
-            model: &self.views.model,
+            questions: &mut self.views.questions,
         }
     }
 
@@ -271,7 +262,13 @@ impl Editor {
             self.hand_over(&context);
             return;
         }
-        self.follow_files();
+        follow_files(
+            &mut self.documents,
+            &mut self.evaluation,
+            &mut self.row,
+            &mut self.views.model,
+            &mut self.shell,
+        );
         follow_recoveries(&mut self.documents, &mut self.views, &mut self.shell, &context);
         self.looks.cancel_color_target(&context);
         let is_dragging = self.documents.is_dragging;
@@ -323,17 +320,6 @@ impl Editor {
         awaited_picture.keep(&mut pictures, &context);
         self.shell.keyboard.end_frame(&context);
         self.shell.add_frame_time(began.elapsed());
-    }
-
-    /// Starts an export with the choices of its panel.
-    pub(crate) fn export(&mut self, force: bool) {
-        let source = ExportSource {
-            document: &self.documents.document,
-            evaluation: &self.evaluation,
-            choices: &self.shell.settings.export,
-        };
-        let started = self.exports.start(&self.shell.context, source, force);
-        self.shell.report_on(Work::Export, started);
     }
 
     /// Draws the bars and the views, and returns the requested actions.

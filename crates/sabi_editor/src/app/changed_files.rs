@@ -4,50 +4,54 @@ use std::time::Duration;
 
 use sabi_editing::trust;
 
-use super::Editor;
+use super::documents::Documents;
+use super::shell::Shell;
+use crate::evaluation::Evaluation;
+use crate::model_row::ModelRow;
+use crate::model_view::ModelView;
 
 /// Time until the next check whether files are watched.
 const WATCH_AGAIN: Duration = Duration::from_millis(100);
 
-impl Editor {
-    /// Reads files again that have changed.
-    pub(super) fn follow_files(&mut self) {
-        let environment = self.views.model.environment.file();
-        self.documents.watch(&self.evaluation, &self.row, environment);
-        match self.documents.watching.take_library_reread() {
-            Some(true) => self.documents.library.invalidate(),
-            Some(false) => {}
-            None => self.shell.context.request_repaint_after(WATCH_AGAIN),
+/// Reads files again that have changed.
+pub(super) fn follow_files(
+    documents: &mut Documents,
+    evaluation: &mut Evaluation,
+    row: &mut ModelRow,
+    model: &mut ModelView,
+    shell: &mut Shell,
+) {
+    documents.watch(evaluation, row, model.environment.file());
+    match documents.watching.take_library_reread() {
+        Some(true) => documents.library.invalidate(),
+        Some(false) => {}
+        None => shell.context.request_repaint_after(WATCH_AGAIN),
+    }
+    documents.kinds_reading.take(&shell.context, &mut documents.document);
+    let Some(changes) = documents.watching.changes() else {
+        return;
+    };
+    if changes.nodes {
+        let folders = trust::node_folders(&documents.document);
+        documents.reread_kinds(&shell.context, &folders);
+    }
+    if changes.model {
+        evaluation.model.reread();
+    }
+    row.reread(&changes.files);
+    if let Some(watched) = documents.watching.watched() {
+        if watched.library.iter().any(|file| changes.files.contains(file)) {
+            documents.library.invalidate();
         }
-        let documents = &mut self.documents;
-        documents
-            .kinds_reading
-            .take(&self.shell.context, &mut documents.document);
-        let Some(changes) = self.documents.watching.changes() else {
-            return;
-        };
-        if changes.nodes {
-            let folders = trust::node_folders(&self.documents.document);
-            self.documents.reread_kinds(&self.shell.context, &folders);
+        if watched.environment.iter().any(|file| changes.files.contains(file)) {
+            model.environment.read_again();
         }
-        if changes.model {
-            self.evaluation.model.reread();
+        if !changes.files.is_disjoint(&watched.named) {
+            documents.document.files_changed(&changes.files);
         }
-        self.row.reread(&changes.files);
-        if let Some(watched) = self.documents.watching.watched() {
-            if watched.library.iter().any(|file| changes.files.contains(file)) {
-                self.documents.library.invalidate();
-            }
-            if watched.environment.iter().any(|file| changes.files.contains(file)) {
-                self.views.model.environment.read_again();
-            }
-            if !changes.files.is_disjoint(&watched.named) {
-                self.documents.document.files_changed(&changes.files);
-            }
-        }
-        if changes.graph {
-            let deleted = self.documents.check_file();
-            deleted.into_iter().for_each(|sentence| self.shell.notify(sentence));
-        }
+    }
+    if changes.graph {
+        let deleted = documents.check_file();
+        deleted.into_iter().for_each(|sentence| shell.notify(sentence));
     }
 }

@@ -4,7 +4,6 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use sabi_editing::command::{Outcome, VariantCommand, perform};
 use sabi_editing::variants;
 use sabi_engine::live::ViewSubject;
 
@@ -63,16 +62,8 @@ impl ModelPictures<'_> {
         }
     }
 
-    /// Saves the present values as a variant, with the model as it looks now.
-    pub(super) fn save_variant(&mut self, name: String) {
-        let command = VariantCommand::Save(name.clone());
-        if perform(&mut self.documents.document, command.into()) == Outcome::Done {
-            self.store_of_variant(name.trim());
-        }
-    }
-
     /// Stores the model as it looks now as the picture of a variant.
-    fn store_of_variant(&mut self, name: &str) {
+    pub(super) fn store_of_variant(&mut self, name: &str) {
         let documents = &mut *self.documents;
         let values = documents.document.graph().variants().get(name);
         let Some((picture, values)) = self.model.pictures.shown(self.evaluation.gpu()).zip(values) else {

@@ -10,10 +10,12 @@ use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{OpenDocument, history, knob_target, relative_paths};
 use sabi_graph::Value;
 
+use super::Editor;
 use super::library_files::{save_node, save_to_library};
 use super::packing::pack_into;
-use super::{Editor, trust};
-use crate::action::{Action, ExportAction, FileAction, ModelAction, TrustAction};
+use crate::action::{Action, ExportAction, FileAction};
+use crate::exports::ExportSource;
+use crate::notices::Work;
 
 impl Editor {
     /// Performs the actions of a frame, and what follows from them.
@@ -81,10 +83,10 @@ impl Editor {
             Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
             Action::Knob { node, event } => self.edits().change_knob(node, event, ui),
             Action::TurnExposed(event) => self.edits().change_exposed_value(event, ui),
-            Action::SaveVariant(name) => self.pictures().save_variant(name),
+            Action::SaveVariant(name) => self.saving().save_variant(name),
             Action::File(action) => self.perform_on_file(action),
-            Action::Model(action) => self.perform_on_model(action),
-            Action::Trust(action) => self.perform_on_trust(action),
+            Action::Model(action) => self.models().perform(action),
+            Action::Trust(action) => self.models().perform_on_trust(action),
             Action::Dropped(path) => self.take_dropped(&path, ui),
             Action::ImportPictures(path) => self.edits().import_pictures(&path, ui),
             Action::ShowSet(set) => self.views.flat.set = Some(set),
@@ -159,34 +161,18 @@ impl Editor {
         }
     }
 
-    fn perform_on_model(&mut self, action: ModelAction) {
+    /// Performs an action about exports.
+    pub(super) fn perform_export(&mut self, action: ExportAction) {
         match action {
-            ModelAction::Ask => self.views.questions.ask_for_model(self.evaluation.model.file()),
-            ModelAction::Show(path) => self.models().take_chosen(&path),
-            ModelAction::Read(reading) => self.models().read(reading),
-            ModelAction::CancelReading => self.models().cancel_reading(),
-            ModelAction::Remove(path) => self.models().remove(&path),
-            ModelAction::AskBeside => self.views.questions.ask_for_model_beside(self.evaluation.model.file()),
-            ModelAction::ShowBeside(path) => self.models().show_chosen_beside(&path),
-            ModelAction::RemoveBeside(path) => self.row.remove(&path, &self.shell.context),
-        }
-    }
-
-    /// Performs an action about trust. Trusted paths hold for this graph and all later ones.
-    fn perform_on_trust(&mut self, action: TrustAction) {
-        match action {
-            TrustAction::Folder(folder) => {
-                trust::trust_path(&mut self.documents, &mut self.shell.settings, &folder);
-                self.models().take_named();
+            ExportAction::Start { force } => {
+                let source = ExportSource {
+                    document: &self.documents.document,
+                    evaluation: &self.evaluation,
+                    choices: &self.shell.settings.export,
+                };
+                let started = self.exports.start(&self.shell.context, source, force);
+                self.shell.report_on(Work::Export, started);
             }
-            TrustAction::Nodes(folder) => trust::trust_nodes(&mut self.documents, &mut self.shell, &folder),
-            TrustAction::LeaveNodes => self.documents.leaves_nodes = true,
-        }
-    }
-
-    fn perform_export(&mut self, action: ExportAction) {
-        match action {
-            ExportAction::Start { force } => self.export(force),
             ExportAction::Cancel => self.exports.cancel(),
             ExportAction::Choose(choices) => self.shell.settings.export = choices,
             ExportAction::Target(place) => {

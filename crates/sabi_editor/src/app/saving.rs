@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use sabi_editing::command::{Outcome, VariantCommand, perform};
 use sabi_engine::session::is_open_in_a_window;
 use sabi_engine::{EngineError, Remedy};
 
@@ -157,6 +158,14 @@ impl Saving<'_> {
             questions.ask_to_make_folder(file);
         } else {
             self.save_to(&file);
+        }
+    }
+
+    /// Saves the present values as a variant, with the model as it looks now.
+    pub(super) fn save_variant(&mut self, name: String) {
+        let command = VariantCommand::Save(name.clone());
+        if perform(&mut self.documents.document, command.into()) == Outcome::Done {
+            self.pictures().store_of_variant(name.trim());
         }
     }
 

@@ -11,8 +11,9 @@ use sabi_files::io_reason;
 use super::documents::Documents;
 use super::shell::Shell;
 use super::trust;
+use crate::action::{ModelAction, TrustAction};
 use crate::evaluation::{Evaluation, ModelOutcome};
-use crate::files::examples;
+use crate::files::{Questions, examples};
 use crate::import_options::ImportOptions;
 use crate::model_row::ModelRow;
 use crate::paths::{canonical_if_present, file_stem, in_canonical_folder};
@@ -26,9 +27,36 @@ pub(crate) struct ShownModels<'a> {
     pub(super) evaluation: &'a mut Evaluation,
     pub(super) row: &'a mut ModelRow,
     pub(super) shell: &'a mut Shell,
+    pub(super) questions: &'a mut Questions,
 }
 
 impl ShownModels<'_> {
+    /// Performs an action about a model.
+    pub(super) fn perform(&mut self, action: ModelAction) {
+        match action {
+            ModelAction::Ask => self.questions.ask_for_model(self.evaluation.model.file()),
+            ModelAction::Show(path) => self.take_chosen(&path),
+            ModelAction::Read(reading) => self.read(reading),
+            ModelAction::CancelReading => self.cancel_reading(),
+            ModelAction::Remove(path) => self.remove(&path),
+            ModelAction::AskBeside => self.questions.ask_for_model_beside(self.evaluation.model.file()),
+            ModelAction::ShowBeside(path) => self.show_chosen_beside(&path),
+            ModelAction::RemoveBeside(path) => self.row.remove(&path, &self.shell.context),
+        }
+    }
+
+    /// Performs an action about trust: a model may be opened then. Trusted paths hold for this graph and all later ones.
+    pub(super) fn perform_on_trust(&mut self, action: TrustAction) {
+        match action {
+            TrustAction::Folder(folder) => {
+                trust::trust_path(self.documents, &mut self.shell.settings, &folder);
+                self.take_named();
+            }
+            TrustAction::Nodes(folder) => trust::trust_nodes(self.documents, self.shell, &folder),
+            TrustAction::LeaveNodes => self.documents.leaves_nodes = true,
+        }
+    }
+
     /// Requests another model.
     pub(super) fn take(&mut self, path: &Path) {
         let path = in_canonical_folder(path);
@@ -67,7 +95,7 @@ impl ShownModels<'_> {
     }
 
     /// Takes a model off the strip. If it is shown, the next one is shown; the only one stays.
-    pub(super) fn remove(&mut self, model: &Path) {
+    fn remove(&mut self, model: &Path) {
         let models = &mut self.documents.models.files;
         let Some(at) = models.iter().position(|known| known == model) else {
             return;
@@ -83,7 +111,7 @@ impl ShownModels<'_> {
     }
 
     /// Reads the shown model with other options, now and whenever it is shown again.
-    pub(super) fn read(&mut self, reading: ImportOptions) {
+    fn read(&mut self, reading: ImportOptions) {
         let file = self.evaluation.model.file().to_owned();
         self.keep_reading(&file, &reading);
         self.evaluation.model.replace(&file, reading);
@@ -91,7 +119,7 @@ impl ShownModels<'_> {
 
     /// Cancels the reading of the requested model. The previous one is shown again; if there is none, a built-in one is
     /// shown.
-    pub(super) fn cancel_reading(&mut self) {
+    fn cancel_reading(&mut self) {
         if let Some((file, reading)) = self.evaluation.model.cancel() {
             return self.keep_reading(&file, &reading);
         }
@@ -183,7 +211,7 @@ impl ShownModels<'_> {
     }
 
     /// Shows the model that the graph names, if it may be opened and is not shown.
-    pub(super) fn take_named(&mut self) {
+    fn take_named(&mut self) {
         let shown = canonical_if_present(self.evaluation.model.file());
         let named = self.documents.named_model();
         if let Some(model) = named.filter(|model| canonical_if_present(model) != shown) {
@@ -199,7 +227,7 @@ impl ShownModels<'_> {
     }
 
     /// Shows a model that the user chose beside the main one.
-    pub(super) fn show_chosen_beside(&mut self, file: &Path) {
+    fn show_chosen_beside(&mut self, file: &Path) {
         self.trust(file);
         self.show_beside(file);
     }

@@ -1,6 +1,6 @@
 //! Opens another graph in place of the open one.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use egui::{Ui, ViewportCommand};
 use sabi_engine::Session;
@@ -9,7 +9,7 @@ use sabi_surface::load::MODEL_ENDINGS;
 
 use super::Editor;
 use super::closing::is_held_open;
-use super::documents::Documents;
+use super::documents::{Documents, ProgramFolders};
 use super::saving::claim_file;
 use super::shell::Shell;
 use crate::action::Next;
@@ -31,7 +31,11 @@ impl Editor {
                 }
             }
             Next::Open(path) => self.open_file(&path),
-            Next::Example(at) => self.open_example(at),
+            Next::Example(at) => {
+                if let Some(file) = example(&self.documents.folders, &mut self.shell, at) {
+                    self.open_file(&file);
+                }
+            }
             Next::Recover(at) => self.recover(at),
             Next::Close if is_held_open(&mut self.views, &mut self.shell, &self.exports) => {}
             Next::Close => {
@@ -48,20 +52,6 @@ impl Editor {
             self.shell.settings.remember(path);
             self.take_session(session);
             self.documents.recoveries.look();
-        }
-    }
-
-    fn open_example(&mut self, at: usize) {
-        let Some(folder) = self.documents.folders.examples.clone() else {
-            let why = "This system has no folder for examples; open one of the project's graphs instead.";
-            return self.shell.notify(why);
-        };
-        match examples::unpack(&folder, at) {
-            Ok(Some(file)) => self.open_file(&file),
-            Ok(None) => {}
-            Err(error) => self
-                .shell
-                .fail(format!("{} cannot be written: {}", folder.display(), io_reason(&error))),
         }
     }
 
@@ -123,6 +113,17 @@ impl Editor {
             )),
         }
     }
+}
+
+/// Writes the files of an example, and returns its graph file.
+fn example(folders: &ProgramFolders, shell: &mut Shell, at: usize) -> Option<PathBuf> {
+    let Some(folder) = &folders.examples else {
+        shell.notify("This system has no folder for examples; open one of the project's graphs instead.");
+        return None;
+    };
+    let file = examples::unpack(folder, at);
+    let file = file.map_err(|error| format!("{} cannot be written: {}", folder.display(), io_reason(&error)));
+    shell.report(file).flatten()
 }
 
 /// Lights the model by a file.

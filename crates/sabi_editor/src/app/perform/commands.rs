@@ -4,11 +4,11 @@ use egui::Ui;
 use sabi_editing::{OpenDocument, navigation};
 
 use super::Editor;
-use crate::action::{FileAction, LookAction, Next};
+use crate::action::{ExportAction, FileAction, LookAction, Next};
 use crate::app::graph_edits::arrangement;
 use crate::app::packing::ask_to_pack;
 use crate::app::shell::Shell;
-use crate::command::{CanvasCommand, Command, FileCommand, LookCommand, ViewportCommand, WindowCommand};
+use crate::command::{CanvasCommand, Command, FileCommand, LookCommand, WindowCommand};
 use crate::dock::Panel;
 use crate::shown_results::ShownResults;
 
@@ -27,7 +27,14 @@ impl Editor {
             Command::Look(command) => {
                 look_command(command, &self.documents.document, &mut self.looks, &mut self.shell);
             }
-            Command::Viewport(command) => self.viewport_command(command, ui),
+            Command::Viewport(command) => {
+                if let Some(rect) = self.shell.dock.rects.get(&Panel::Viewport).copied() {
+                    let pointer = ui.input(|input| input.pointer.hover_pos());
+                    let seen = self.looks.on_model(&self.documents.document, &self.shell.settings);
+                    let model = &mut self.views.model;
+                    model.command(command, &self.evaluation, &seen, rect, pointer);
+                }
+            }
             Command::Texture(command) => self.views.flat.command(command),
             Command::Brush(command) => self.painting().command(command, ui),
             Command::Favorite(favorite) => self.edits().add_favorite(favorite, ui),
@@ -42,7 +49,7 @@ impl Editor {
             FileCommand::SaveAs => self.views.questions.ask_to_save(&self.documents.document),
             FileCommand::Export => {
                 self.shell.dock.bring_up(Panel::Export);
-                self.export(false);
+                self.perform_export(ExportAction::Start { force: false });
             }
             FileCommand::ImportPictures => self.views.questions.ask_for_pictures(&self.documents.document),
             FileCommand::Pack => {
@@ -56,7 +63,8 @@ impl Editor {
         }
     }
 
-    fn window_command(&mut self, command: WindowCommand) {
+    /// Performs a command about the window around the views.
+    pub(in crate::app) fn window_command(&mut self, command: WindowCommand) {
         match command {
             WindowCommand::NextPanel => self.shell.step_panel(true),
             WindowCommand::PreviousPanel => self.shell.step_panel(false),
@@ -69,7 +77,14 @@ impl Editor {
                 self.shell.dock.bring_up(Panel::Page);
             }
             WindowCommand::Keys => self.views.key_list.is_open = !self.views.key_list.is_open,
-            WindowCommand::UseView => self.toggle_use_view(),
+            WindowCommand::UseView => {
+                if self.shell.dock.toggle_use_view() {
+                    // Only the model and the exposed parameters of the whole graph are shown.
+                    navigation::leave_to(&mut self.documents.document, 0);
+                    self.looks.followed = None;
+                    self.shell.keyboard.active = Panel::Viewport;
+                }
+            }
             WindowCommand::Larger => self.shell.scale_by(SCALE_STEP),
             WindowCommand::Smaller => self.shell.scale_by(1.0 / SCALE_STEP),
         }
@@ -85,26 +100,6 @@ impl Editor {
         }
         for action in self.views.canvas.command(command, ui, &self.documents.document) {
             self.perform(action, ui);
-        }
-    }
-
-    fn viewport_command(&mut self, command: ViewportCommand, ui: &Ui) {
-        let Some(rect) = self.shell.dock.rects.get(&Panel::Viewport).copied() else {
-            return;
-        };
-        let pointer = ui.input(|input| input.pointer.hover_pos());
-        let seen = self.looks.on_model(&self.documents.document, &self.shell.settings);
-        self.views
-            .model
-            .command(command, &self.evaluation, &seen, rect, pointer);
-    }
-
-    /// Shows only the model and the exposed parameters of the whole graph, or all panels again.
-    pub(crate) fn toggle_use_view(&mut self) {
-        if self.shell.dock.toggle_use_view() {
-            navigation::leave_to(&mut self.documents.document, 0);
-            self.looks.followed = None;
-            self.shell.keyboard.active = Panel::Viewport;
         }
     }
 }

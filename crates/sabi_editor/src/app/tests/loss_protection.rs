@@ -10,8 +10,9 @@ use sabi_engine::Session;
 
 use super::safety::CLOUDS;
 use super::{Editor, Window};
-use crate::action::LibraryKind;
+use crate::action::{ExportAction, LibraryKind};
 use crate::app::library_files::save_to_library;
+use crate::command::WindowCommand;
 use crate::dock::Panel;
 
 #[test]
@@ -145,7 +146,7 @@ fn the_window_stays_open_until_textures_are_written() {
     let editor = window.harness.state_mut();
     editor.shell.settings.export.size = 512;
     editor.exports.place.folder = "maps".to_owned();
-    editor.export(false);
+    editor.perform_export(ExportAction::Start { force: false });
     assert!(!window.asks_to_close());
     assert!(window.says("An export is running"));
     window.press("Keep the window open");
@@ -166,7 +167,7 @@ fn exporting_at_every_save() -> Window {
     editor.shell.settings.export.size = 512;
     editor.exports.place.folder = "maps".to_owned();
     editor.exports.place.again = true;
-    editor.export(false);
+    editor.perform_export(ExportAction::Start { force: false });
     window
 }
 
@@ -334,7 +335,7 @@ fn keys_of_the_window_work_while_text_is_typed_but_letters_run_no_commands() {
 #[test]
 fn showing_a_panel_that_the_use_view_lacks_ends_that_view() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().toggle_use_view();
+    window.harness.state_mut().window_command(WindowCommand::UseView);
     window.settle();
     window.harness.state_mut().shell.dock.bring_up(Panel::Export);
     assert!(window.editor().is_use_view());

@@ -10,6 +10,7 @@ use sabi_engine::Session;
 
 use super::safety::CLOUDS;
 use super::{Window, beside, graph_text};
+use crate::action::ExportAction;
 use crate::dock::Panel;
 use crate::files::examples;
 use crate::notices::Work;
@@ -98,7 +99,7 @@ fn a_failed_export_is_reported_whichever_panel_is_in_front() {
     let editor = window.harness.state_mut();
     editor.shell.settings.export.size = 64;
     editor.exports.place.folder = "maps".to_owned();
-    editor.export(false);
+    editor.perform_export(ExportAction::Start { force: false });
     window.until("the end", |editor| editor.exports.running.is_none());
     let folder = window.path("maps");
     assert!(
