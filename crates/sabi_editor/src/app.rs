@@ -1,5 +1,7 @@
 //! The window, which connects the owners of its state in each frame.
 
+mod autosave;
+mod candidates;
 mod changed_files;
 mod closing;
 mod documents;
@@ -62,8 +64,9 @@ use shell::Shell;
 use shown_models::ShownModels;
 use switching::{recall_choices, remember_choices};
 
-/// The window. Each field owns a part of its state; this type connects them in each frame, and performs actions
-/// (`app/perform.rs`).
+/// The window. Each field owns a part of its state. This type connects them in each frame, opens another graph in place
+/// of the open one, closes, and hands each action (`app/perform.rs`) to what it is about: an owner, or a borrower of a few
+/// owners, such as [`GraphEdits`], [`Painting`], [`ShownModels`] or [`Saving`].
 pub(crate) struct Editor {
     pub(crate) documents: Documents,
     pub(crate) evaluation: Evaluation,
@@ -374,14 +377,16 @@ impl Editor {
     /// Saves recovery copies of unsaved work, and settings that changed.
     fn autosave(&mut self, context: &Context) {
         let drafts_revision = self.views.page.revision();
-        if self.documents.is_autosave_due() {
+        if self.documents.autosave.is_due(&self.documents.document) {
             self.documents.name_model_of_unsaved(&self.evaluation);
             let drafts = self.views.page.unsaved();
-            let saved = self.documents.autosave(&drafts, drafts_revision);
+            let Documents { autosave, document, .. } = &mut self.documents;
+            let saved = autosave.save(document, &drafts, drafts_revision);
             self.shell.report_on(Work::Autosave, saved);
             self.save_settings();
         }
-        self.documents.schedule_autosave(context, drafts_revision);
+        let Documents { autosave, document, .. } = &self.documents;
+        autosave.schedule(context, document, drafts_revision);
     }
 
     /// Saves the settings, with the choices of views and exports.

@@ -3,7 +3,7 @@
 use egui::{Context, Ui, ViewportCommand};
 
 use super::Editor;
-use super::documents::autosave_at_end;
+use super::autosave::autosave_at_end;
 use super::opening::LostWindow;
 use super::shell::Shell;
 use crate::action::Next;

@@ -1,5 +1,5 @@
-//! The one place where actions are performed. No match here has a wildcard: an action or a command that is not handled does
-//! not compile.
+//! The one place where actions are performed or handed to the part of the window that they are about. No match of actions
+//! or commands has a wildcard: one that is not handled does not compile.
 
 mod commands;
 
