@@ -70,7 +70,7 @@ pub fn bake_graph(
 pub fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
     // An unknown preset is reported before the graph's faults.
     set_options(request)?;
-    let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
+    let graph = request.evaluator.flat_graph(open, kinds)?;
     let channels = map_channels(&graph, &checked_outputs(open, &graph, kinds)?);
     let options = options_for(request, open, &channels)?;
     // Names that are the same for one material are the same for every model, so one material is enough.
@@ -86,7 +86,7 @@ fn bake_open(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    let graph = Evaluator::flat_graph(open, &kinds, &request.evaluator)?;
+    let graph = request.evaluator.flat_graph(open, &kinds)?;
     let outputs = checked_outputs(open, &graph, &kinds)?;
     let map_channels = map_channels(&graph, &outputs);
     let options = options_for(request, open, &map_channels)?;
