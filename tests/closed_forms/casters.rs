@@ -19,7 +19,7 @@ fn graph(kind: &str, params: &str) -> String {
 /// Share of owned texels at which the casters differ.
 fn differing(on_mesh: &mut OnMesh, component: &str) -> f64 {
     let mut by = |caster| {
-        on_mesh.evaluator.rays_mut().caster = caster;
+        on_mesh.evaluator.rays.caster = caster;
         on_mesh.evaluate("rays").component(component)
     };
     let [processor, device] = [by(CasterChoice::Cpu), by(CasterChoice::Gpu)];
@@ -65,7 +65,7 @@ fn both_casters_handle_one_triangle_and_a_triangle_without_area() {
         let made = MeshFile::new(quads).write();
         let mut on_mesh = OnMesh::new(&graph("curvature", r#""radius": 0.3"#), made.path(), 64);
         for caster in [CasterChoice::Cpu, CasterChoice::Gpu] {
-            on_mesh.evaluator.rays_mut().caster = caster;
+            on_mesh.evaluator.rays.caster = caster;
             let bend = on_mesh.evaluate("rays").component("mask");
             eprintln!(
                 "{caster} {:?}",
@@ -101,13 +101,13 @@ fn hits_of_longer_rays_give_the_results_of_shorter_rays() {
         for (setting, length_now) in settings.into_iter().zip([0.02, 0.05]) {
             on_mesh.set_graph(&graph(kind, &format!(r#""{length}": {length_now}, {setting}"#)));
             let shot = on_mesh.evaluate("rays").components();
-            on_mesh.evaluator.rays_mut().hits = Hits::Cached;
+            on_mesh.evaluator.rays.hits = Hits::Cached;
             let asked = EvaluationOptions {
                 mode: Mode::Interactive,
                 cache: Some(&mut cache),
             };
             let remembered = on_mesh.evaluate_as("rays", asked).components();
-            on_mesh.evaluator.rays_mut().hits = Hits::Cast;
+            on_mesh.evaluator.rays.hits = Hits::Cast;
             for ((name, shot), (_, remembered)) in shot.iter().zip(&remembered) {
                 let apart = owned.iter().filter(|&&at| (shot[at] - remembered[at]).abs() > 1e-3);
                 let share = apart.count() as f64 / owned.len() as f64;
@@ -121,7 +121,7 @@ fn hits_of_longer_rays_give_the_results_of_shorter_rays() {
 fn shorter_rays_reuse_the_hits_of_longer_ones() {
     let path = project("assets/meshes/figure.glb");
     let mut on_mesh = OnMesh::new(&graph("edges", ""), &path, 128);
-    on_mesh.evaluator.rays_mut().hits = Hits::Cached;
+    on_mesh.evaluator.rays.hits = Hits::Cached;
     let mut cache = ResultCache::new(1 << 30);
     let mut held = |params: &str| {
         on_mesh.set_graph(&graph("edges", params));
@@ -178,7 +178,7 @@ fn a_first_picture_of_a_few_rays_has_the_same_mean_and_is_not_kept() {
     let mut on_mesh = OnMesh::new(&graph("occlusion", r#""rays": 64, "distance": 0.3"#), &path, 128);
     let mut cache = ResultCache::new(1 << 30);
     let mut picture = |most_rays| {
-        on_mesh.evaluator.rays_mut().most_rays = most_rays;
+        on_mesh.evaluator.rays.most_rays = most_rays;
         let asked = EvaluationOptions {
             mode: Mode::Interactive,
             cache: Some(&mut cache),

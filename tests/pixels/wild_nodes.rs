@@ -59,7 +59,7 @@ fn rays_that_are_no_numbers_go_nowhere_with_either_caster() {
         assert!(kinds.faults.is_empty(), "{:?}", kinds.faults);
         let mut on_mesh = OnMesh::with_kinds(GRAPH, kinds, &project("assets/meshes/figure.glb"), 64);
         for caster in [CasterChoice::Cpu, CasterChoice::Gpu] {
-            on_mesh.evaluator.rays_mut().caster = caster;
+            on_mesh.evaluator.rays.caster = caster;
             let after = on_mesh.evaluate("after").component("mask");
             let hits = on_mesh.owned().filter(|(index, _)| after[*index] != 1.0).count();
             assert_eq!(hits, 0, "{caster}: {origin}, {reach}, {direction}");

@@ -1,22 +1,36 @@
 //! The window, which connects the owners of its state in each frame.
 
+mod autosave;
+mod candidates;
+mod changed_files;
+mod closing;
 mod documents;
-mod flows;
+mod drop_targets;
+mod graph_edits;
+mod held_brush;
+mod library_files;
+mod model_pictures;
 mod model_reading;
 mod opening;
+mod packing;
+mod painting;
 mod perform;
 mod recoveries;
+mod recovery_offers;
+mod saving;
 mod shell;
+mod shown_models;
+mod switching;
 #[cfg(test)]
 mod tests;
-mod variant_pictures;
+mod trust;
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Context, RawInput, Ui, ViewportCommand};
-use sabi_editing::node_paths;
+use egui::{Context, RawInput, Ui};
+use sabi_editing::{OpenDocument, node_paths, nodes};
 use sabi_gpu::Gpu;
 
 use crate::action::Action;
@@ -36,15 +50,24 @@ use crate::panels::input_histogram;
 use crate::pen::Pens;
 use crate::shown_results::ShownResults;
 use crate::views::Views;
+use changed_files::follow_files;
+use documents::Documents;
 pub(crate) use documents::ProgramFolders;
-use documents::{Documents, autosave_at_end};
+use drop_targets::{DropTargets, mark_hovered_file};
+use graph_edits::GraphEdits;
+use model_pictures::{AwaitedPicture, ModelPictures};
+use opening::OpenedWindow;
 pub(crate) use opening::{Handover, InitialState};
-use opening::{LostWindow, OpenedWindow};
+use painting::Painting;
+use recovery_offers::follow_recoveries;
+use saving::{Saving, claim_file};
 use shell::Shell;
-use variant_pictures::AwaitedPicture;
+use shown_models::ShownModels;
+use switching::{recall_choices, remember_choices};
 
-/// The window. Each field owns a part of its state; this type connects them in each frame, and performs actions
-/// (`app/perform.rs`).
+/// The window. Each field owns a part of its state. This type connects them in each frame, opens another graph in place
+/// of the open one, closes, and hands each action (`app/perform.rs`) to what it is about: an owner, or a borrower of a few
+/// owners, such as [`GraphEdits`], [`Painting`], [`ShownModels`] or [`Saving`].
 pub(crate) struct Editor {
     pub(crate) documents: Documents,
     pub(crate) evaluation: Evaluation,
@@ -109,9 +132,9 @@ impl Editor {
             is_leaving: false,
             may_close: false,
         };
-        editor.recall_choices();
-        editor.claim_file();
-        beside.iter().for_each(|model| editor.show_beside(model));
+        recall_choices(&mut editor.documents, &mut editor.exports, &editor.shell.settings);
+        claim_file(&mut editor.documents, &mut editor.views.questions);
+        beside.iter().for_each(|model| editor.models().show_beside(model));
         editor
     }
 
@@ -160,6 +183,64 @@ impl Editor {
         (context, views, &mut shell.dock)
     }
 
+    /// Edits of the open graph.
+    fn edits(&mut self) -> GraphEdits<'_> {
+        GraphEdits {
+            documents: &mut self.documents,
+            looks: &mut self.looks,
+            views: &mut self.views,
+            shell: &mut self.shell,
+        }
+    }
+
+    /// Painting on the selected node.
+    fn painting(&mut self) -> Painting<'_> {
+        Painting {
+            edits: GraphEdits {
+                documents: &mut self.documents,
+                looks: &mut self.looks,
+                views: &mut self.views,
+                shell: &mut self.shell,
+            },
+            evaluation: &self.evaluation,
+            node_brush_tip: &mut self.node_brush_tip,
+        }
+    }
+
+    /// Targets of a node that is dragged from the library.
+    fn drop_targets(&self) -> DropTargets<'_> {
+        DropTargets {
+            documents: &self.documents,
+            evaluation: &self.evaluation,
+            looks: &self.looks,
+            shell: &self.shell,
+            views: &self.views,
+        }
+    }
+
+    /// The shown model and the models beside it.
+    pub(crate) fn models(&mut self) -> ShownModels<'_> {
+        ShownModels {
+            documents: &mut self.documents,
+            evaluation: &mut self.evaluation,
+            row: &mut self.row,
+            shell: &mut self.shell,
+            questions: &mut self.views.questions,
+        }
+    }
+
+    /// Saving of the open graph.
+    pub(crate) fn saving(&mut self) -> Saving<'_> {
+        Saving {
+            documents: &mut self.documents,
+            evaluation: &self.evaluation,
+            looks: &self.looks,
+            shell: &mut self.shell,
+            views: &mut self.views,
+            exports: &mut self.exports,
+        }
+    }
+
     /// Draws the window and performs the requested actions.
     pub(crate) fn frame(&mut self, ui: &mut Ui) {
         let began = Instant::now();
@@ -168,12 +249,16 @@ impl Editor {
         }
         let context = ui.ctx().clone();
         self.evaluation.take_events(&context);
-        self.mute_what_takes_too_long();
-        self.follow_model();
-        self.follow_reading();
-        self.follow_row(&context);
-        self.follow_exports(&context);
-        self.take_node_brush_tip();
+        mute_slow_nodes(
+            &mut self.documents.document,
+            &self.evaluation.faults.all.too_long,
+            &mut self.shell,
+        );
+        self.models().follow();
+        self.models().follow_reading();
+        self.models().follow_row(&context);
+        self.exports.follow(&context, &mut self.shell.notices);
+        self.painting().take_node_tip();
         match self.packing.take() {
             Some(Ok(told)) => self.shell.notify(told),
             Some(Err(refused)) => self.shell.fail(refused),
@@ -183,16 +268,22 @@ impl Editor {
             self.hand_over(&context);
             return;
         }
-        self.follow_files();
-        self.follow_recoveries(&context);
-        self.cancel_color_target(&context);
+        follow_files(
+            &mut self.documents,
+            &mut self.evaluation,
+            &mut self.row,
+            &mut self.views.model,
+            &mut self.shell,
+        );
+        follow_recoveries(&mut self.documents, &mut self.views, &mut self.shell, &context);
+        self.looks.cancel_color_target(&context);
         let is_dragging = self.documents.is_dragging;
         let mut actions = self.shell.keys_pressed(ui, &self.views, is_dragging);
         actions.extend(dropped_files(&context));
         self.documents.refresh_candidates();
         self.keep_open(ui);
         actions.extend(self.show(ui));
-        self.mark_hovered_file(ui);
+        mark_hovered_file(ui, &self.shell.theme);
         self.shell.leave_hidden_panel(&mut self.views);
         let document = &self.documents.document;
         let said = |sentence: &str| node_paths::with_titles(document, sentence);
@@ -200,8 +291,10 @@ impl Editor {
             actions.push(Action::Do(Command::File(FileCommand::SaveAs)));
         }
         self.perform_all(actions, ui);
-        self.remember_chosen();
-        self.set_title();
+        trust::remember_chosen(&mut self.documents, &mut self.shell.settings);
+        let is_dirty = self.documents.document.session.is_dirty();
+        let name = bars::marked_name(&self.documents.document, is_dirty);
+        self.shell.set_title(format!("{name} – Sabi"));
         // Before the device gets work that may block the window.
         self.autosave(&context);
         self.request_results(&context);
@@ -214,7 +307,23 @@ impl Editor {
             &context,
         );
         self.shell.report(kept);
-        self.keep_picture_of_variant(&context);
+        let Editor {
+            documents,
+            evaluation,
+            looks,
+            shell,
+            views,
+            awaited_picture,
+            ..
+        } = self;
+        let mut pictures = ModelPictures {
+            documents,
+            evaluation,
+            looks,
+            shell,
+            model: &views.model,
+        };
+        awaited_picture.keep(&mut pictures, &context);
         self.shell.keyboard.end_frame(&context);
         self.shell.add_frame_time(began.elapsed());
     }
@@ -263,8 +372,7 @@ impl Editor {
         self.evaluation.request(document, wanted);
         // A drag may end outside of the window.
         if self.documents.is_dragging && !context.input(|input| input.pointer.any_down()) {
-            self.documents.document.session.end();
-            self.documents.is_dragging = false;
+            self.documents.end_drag();
             context.request_repaint();
         }
     }
@@ -272,62 +380,35 @@ impl Editor {
     /// Saves recovery copies of unsaved work, and settings that changed.
     fn autosave(&mut self, context: &Context) {
         let drafts_revision = self.views.page.revision();
-        if self.documents.is_autosave_due() {
+        if self.documents.autosave.is_due(&self.documents.document) {
             self.documents.name_model_of_unsaved(&self.evaluation);
             let drafts = self.views.page.unsaved();
-            let saved = self.documents.autosave(&drafts, drafts_revision);
+            let Documents { autosave, document, .. } = &mut self.documents;
+            let saved = autosave.save(document, &drafts, drafts_revision);
             self.shell.report_on(Work::Autosave, saved);
             self.save_settings();
         }
-        self.documents.schedule_autosave(context, drafts_revision);
+        let Documents { autosave, document, .. } = &self.documents;
+        autosave.schedule(context, document, drafts_revision);
     }
 
     /// Saves the settings, with the choices of views and exports.
     fn save_settings(&mut self) {
-        self.remember_choices();
+        remember_choices(&self.documents, &self.exports, &mut self.shell.settings);
         self.shell.settings.view = self.views.model.choices();
         self.shell.save_settings();
     }
+}
 
-    fn set_title(&mut self) {
-        let document = &mut self.documents.document;
-        let is_dirty = document.session.is_dirty();
-        let name = bars::marked_name(document, is_dirty);
-        self.shell.set_title(format!("{name} – Sabi"));
-    }
-
-    /// Hands the session over to a window on another device, since this one's is lost.
-    fn hand_over(&mut self, context: &Context) {
-        self.documents.name_model_of_unsaved(&self.evaluation);
-        let mut document = self.documents.take();
-        // In case the other window cannot be opened.
-        autosave_at_end(&mut document, &self.views.page.unsaved());
-        self.views.canvas.cancel_all();
-        if let Ok(mut handover) = self.handover.lock() {
-            *handover = Some(LostWindow {
-                document,
-                canvas: std::mem::take(&mut self.views.canvas),
-                model: self.evaluation.model.file().to_owned(),
-                beside: self.row.files(),
-                drafts: self.views.page.take_drafts(),
-                was_exporting: self.exports.running.is_some(),
-            });
-        }
-        self.evaluation.lost = None;
-        self.is_leaving = true;
-        context.send_viewport_cmd(ViewportCommand::Close);
-    }
-
-    /// Closes the open graph as the window ends. Changes that were neither saved nor discarded are kept for recovery, since
-    /// a system may end programs without a question.
-    fn end(&mut self) {
-        self.documents.name_model_of_unsaved(&self.evaluation);
-        let mut document = self.documents.take();
-        let drafts = self.views.page.unsaved();
-        if self.may_close || !document.session.is_dirty() && drafts.is_empty() {
-            document.session.close();
-        } else {
-            autosave_at_end(&mut document, &drafts);
+/// Mutes nodes that keep the device busy for too long. For a node in a group, the group is muted.
+fn mute_slow_nodes(document: &mut OpenDocument, too_long: &[String], shell: &mut Shell) {
+    for full_id in too_long {
+        let title = node_paths::title(document, full_id);
+        let of_main_graph = full_id.split('/').next().and_then(|id| id.parse().ok());
+        if of_main_graph.is_some_and(|id| nodes::mute_in_main_graph(document, &id)) {
+            shell.notify(format!(
+                "'{title}' keeps the device busy for too long and is muted. Change it before you unmute it."
+            ));
         }
     }
 }

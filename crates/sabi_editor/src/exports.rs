@@ -16,6 +16,7 @@ use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::Overrides;
 
 use crate::evaluation::Evaluation;
+use crate::notices::{Notices, Work};
 use crate::paths::{canonical_if_present, file_name};
 use crate::settings::export::{ExportChoices, ExportPlace};
 use crate::task::TaskFailure;
@@ -71,6 +72,24 @@ impl Exports {
         self.place = place;
         self.asks_force = false;
         self.result = None;
+    }
+
+    /// Takes the results of exports, and reports a failure even if the export panel is hidden.
+    pub(crate) fn follow(&mut self, context: &Context, notices: &mut Notices) {
+        let Some(folder) = self.poll(context) else {
+            return;
+        };
+        match &self.result {
+            Some(Err(error)) if error.kind != ErrorKind::Interrupted => {
+                let folder = folder.display();
+                notices.fail(
+                    Work::Export,
+                    format!("The textures were not exported to {folder}: {error}"),
+                );
+            }
+            Some(Ok(_)) => notices.succeed(Work::Export),
+            _ => {}
+        }
     }
 
     /// Takes over the result of an export that has ended, and starts the next one. Returns the folder of the one that has ended.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use egui::{Context, Key, Modifiers};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{OpenDocument, node_paths, painting};
 use sabi_engine::catalog::Port;
@@ -165,6 +166,14 @@ impl ShownResults {
             self.color_target = Some(target);
         }
         !was_target
+    }
+
+    /// Ends the choice of a color on Escape, which has no other effect then.
+    pub(crate) fn cancel_color_target(&mut self, context: &Context) {
+        let is_taking = self.color_target.is_some();
+        if is_taking && context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.color_target = None;
+        }
     }
 
     /// Performs an action of a menu.

@@ -40,7 +40,7 @@ fn evaluator() -> Evaluator {
     let path = root().join("tests/graphs/weathered-paint.sabi");
     let open = OpenGraph::open(&path).unwrap();
     let kinds = Kinds::beside(Some(&path), &open.trusted);
-    let graph = Evaluator::flat_graph(&open, &kinds, &options).unwrap();
+    let graph = options.flat_graph(&open, &kinds).unwrap();
     Evaluator::open(&open, graph, kinds, &options, &NoProgress).unwrap()
 }
 

@@ -13,51 +13,59 @@ use crate::step_builder::StepBuilder;
 /// Most attempts to find a better order. Each looks at all steps.
 const MOST_ATTEMPTS: usize = 256;
 
-impl StepBuilder<'_, '_> {
+/// Groups that are to be ordered, with their steps.
+pub(crate) struct GroupOrder<'b> {
+    built: &'b [Vec<UnassignedStep>],
+    /// For each group those that produce what it reads, in the order of inputs.
+    inputs: Vec<Vec<usize>>,
+    /// Index of the group that produces each value.
+    producer: &'b BTreeMap<ResultRef, usize>,
+    wanted: &'b [ResultRef],
+}
+
+impl<'b> GroupOrder<'b> {
+    /// `built` has the steps of each group.
+    pub(crate) fn new(
+        builder: &'b StepBuilder<'_, '_>,
+        groups: &[FusionGroup],
+        built: &'b [Vec<UnassignedStep>],
+        wanted: &'b [ResultRef],
+    ) -> GroupOrder<'b> {
+        GroupOrder {
+            built,
+            inputs: groups.iter().map(|group| producers_of(builder, group)).collect(),
+            producer: &builder.producer,
+            wanted,
+        }
+    }
+
     /// Orders groups from inputs to results, depth first, so that results are freed soon. If results are kept anyway,
     /// inputs are followed in their order. Otherwise this order is compared with that of Sethi and Ullman ("The generation
     /// of optimal code for arithmetic expressions", 1970), in which the input that needs the most memory in addition to its
     /// result comes first, while little else is stored. The order that needs less memory is used.
-    pub(crate) fn order(
-        &self,
-        groups: &[FusionGroup],
-        built: &[Vec<UnassignedStep>],
-        wanted: &[ResultRef],
-    ) -> Vec<usize> {
-        let inputs: Vec<Vec<usize>> = groups.iter().map(|group| self.producers_of(group)).collect();
-        let as_written = self.depth_first(&inputs, wanted);
-        if self.planner.mode == Mode::Interactive {
+    pub(crate) fn order(&self, mode: Mode) -> Vec<usize> {
+        let as_written = self.depth_first(&self.inputs);
+        if mode == Mode::Interactive {
             return as_written;
         }
-        let largest_first = self.depth_first(&largest_first(built, &inputs, &as_written), wanted);
+        let largest_first = self.depth_first(&largest_first(self.built, &self.inputs, &as_written));
         let orders = [as_written, largest_first];
         // Of two orders that are as good the first one is taken.
-        let least = orders
-            .into_iter()
-            .min_by_key(|order| self.memory_use(built, order, wanted).peak());
+        let least = orders.into_iter().min_by_key(|order| self.memory_use(order).peak());
         let least = least.unwrap_or_else(|| unreachable!("there are two orders"));
-        self.better(least, built, &inputs, wanted)
+        self.better(least)
     }
 
     /// Lets the group that needs most memory run earlier, with all that it needs: before one of those whose results are stored
     /// meanwhile. Goes on as long as that makes the order better.
-    fn better(
-        &self,
-        mut order: Vec<usize>,
-        built: &[Vec<UnassignedStep>],
-        inputs: &[Vec<usize>],
-        wanted: &[ResultRef],
-    ) -> Vec<usize> {
-        let mut known = self.memory_use(built, &order, wanted);
+    fn better(&self, mut order: Vec<usize>) -> Vec<usize> {
+        let mut known = self.memory_use(&order);
         let mut attempts = 0;
         loop {
-            let Some(group) = known
-                .peak_step()
-                .and_then(|step| self.group_of_step(built, &order, step))
-            else {
+            let Some(group) = known.peak_step().and_then(|step| self.group_of_step(&order, step)) else {
                 return order;
             };
-            let needed = with_producers(group, inputs);
+            let needed = with_producers(group, &self.inputs);
             let makers = self.makers(&known.stored_at_peak);
             let places = order.iter().take_while(|other| **other != group);
             let places = places
@@ -68,9 +76,7 @@ impl StepBuilder<'_, '_> {
                 .map(|(place, _)| moved_to(place, &needed, &order))
                 .collect();
             attempts += tried.len();
-            let tried = tried
-                .into_iter()
-                .map(|order| (self.memory_use(built, &order, wanted), order));
+            let tried = tried.into_iter().map(|order| (self.memory_use(&order), order));
             let best = tried.min_by_key(|(of, _)| of.badness());
             match best.filter(|(of, _)| of.badness() < known.badness()) {
                 Some((of, other)) => (known, order) = (of, other),
@@ -91,26 +97,19 @@ impl StepBuilder<'_, '_> {
     }
 
     /// The group with a step of an order.
-    fn group_of_step(&self, built: &[Vec<UnassignedStep>], order: &[usize], step: usize) -> Option<usize> {
+    fn group_of_step(&self, order: &[usize], step: usize) -> Option<usize> {
         let steps = order
             .iter()
-            .flat_map(|group| built[*group].iter().map(move |step| (*group, step)));
+            .flat_map(|group| self.built[*group].iter().map(move |step| (*group, step)));
         first_moves(steps).nth(step).map(|(group, _)| group)
-    }
-
-    /// Returns the groups that produce what a group reads, in the order of inputs.
-    fn producers_of(&self, group: &FusionGroup) -> Vec<usize> {
-        let nodes: BTreeSet<usize> = group.values().into_iter().map(|(node, _)| node).collect();
-        let inputs = nodes.iter().flat_map(|node| self.node(*node).inputs.iter().flatten());
-        inputs.map(|input| self.producer[&(input.node, input.output)]).collect()
     }
 
     /// Returns the groups that the wanted values need, each after all groups that it reads. `inputs` lists the groups that
     /// each group reads, in the order in which they are followed.
-    fn depth_first(&self, inputs: &[Vec<usize>], wanted: &[ResultRef]) -> Vec<usize> {
+    fn depth_first(&self, inputs: &[Vec<usize>]) -> Vec<usize> {
         let mut seen = BTreeSet::new();
         let mut order = Vec::new();
-        for value in wanted {
+        for value in self.wanted {
             // An explicit stack is used, since graphs may be deeper than the stack of a thread allows. It is not petgraph's
             // `DfsPostOrder`: a petgraph graph does not say in which order it lists the edges of a node, and that order decides
             // here how much memory is in use.
@@ -130,16 +129,27 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Memory in use when groups run in an order.
-    fn memory_use(&self, built: &[Vec<UnassignedStep>], order: &[usize], wanted: &[ResultRef]) -> MemoryUse {
+    fn memory_use(&self, order: &[usize]) -> MemoryUse {
         let is_wanted = |plane: &StoredPlane| {
-            is_result(plane) && matches!(plane.0.content, TextureContent::Result(value) if wanted.contains(&value))
+            is_result(plane) && matches!(plane.0.content, TextureContent::Result(value) if self.wanted.contains(&value))
         };
         let steps = order
             .iter()
-            .flat_map(|group| built[*group].iter().map(move |step| (*group, step)));
+            .flat_map(|group| self.built[*group].iter().map(move |step| (*group, step)));
         let steps: Vec<&UnassignedStep> = first_moves(steps).map(|(_, step)| step).collect();
         MemoryUse::of(&steps, is_wanted)
     }
+}
+
+/// Returns the groups that produce what a group reads, in the order of inputs.
+fn producers_of(builder: &StepBuilder<'_, '_>, group: &FusionGroup) -> Vec<usize> {
+    let nodes: BTreeSet<usize> = group.values().into_iter().map(|(node, _)| node).collect();
+    let inputs = nodes
+        .iter()
+        .flat_map(|node| builder.node(*node).inputs.iter().flatten());
+    inputs
+        .map(|input| builder.producer[&(input.node, input.output)])
+        .collect()
 }
 
 /// Steps of groups, without moves of planes that an earlier one has moved to the same level.

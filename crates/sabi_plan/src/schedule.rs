@@ -7,6 +7,7 @@ use sabi_nodes::link::{Binding, Convert, Domain, Operand, Plane, StoredLayout, c
 
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, FusionGroup, ResultRef};
+use crate::group_order::GroupOrder;
 use crate::kernel_builder::KernelBuilder;
 use crate::keys::result_key;
 use crate::plan::{Plan, SourceStep, Step};
@@ -33,7 +34,7 @@ impl Planner<'_> {
         let groups = fuse::groups(&resolved, &readers, &values, self.mode, &self.limits);
         let builder = StepBuilder::new(self, &resolved, &groups, readers);
         let built: Vec<Vec<UnassignedStep>> = groups.iter().map(|group| builder.steps(group, &values)).collect();
-        let order = builder.order(&groups, &built, &values);
+        let order = GroupOrder::new(&builder, &groups, &built, &values).order(self.mode);
         let mut steps = in_order(built, &order);
         keep_first_moves(&mut steps);
         (builder.assign_slots(steps, wanted), errors)

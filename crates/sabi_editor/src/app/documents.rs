@@ -1,23 +1,22 @@
 //! The open graph with everything that belongs to it: nodes and groups that can be added, saved pictures, autosave and
 //! watched files.
 
-use std::collections::BTreeSet;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
-use sabi_editing::{OpenDocument, library, relative_paths, trust};
-use sabi_engine::catalog::node_file::NodeDraft;
+use sabi_editing::{OpenDocument, history, relative_paths, trust};
 use sabi_engine::opening::linked_model::SavedReading;
-use sabi_engine::session::{FileState, Keeping};
+use sabi_engine::session::FileState;
+use sabi_engine::source::Strokes;
 use sabi_engine::{EngineError, ErrorKind, Remedy, Session};
 use sabi_files::{Refusal, TrustedPaths};
 use sabi_graph::Preview;
 
+use super::autosave::Autosave;
+use super::candidates::Candidates;
 use super::recoveries::Recoveries;
 use crate::action::LibraryKind;
 use crate::brush_shelf::BrushShelf;
@@ -29,12 +28,9 @@ use crate::library::GroupLibrary;
 use crate::model_row::ModelRow;
 use crate::paths::{canonical_if_present, in_canonical_folder};
 use crate::saved_pictures::SavedPictures;
-use crate::search::{Candidate, LibraryGroup, candidates};
+use crate::search::Candidate;
 use crate::settings::{ModelStrip, Settings};
 use crate::window_watcher::{WatchedFiles, WindowWatcher};
-
-/// Time between two autosaves.
-const AUTOSAVE_EVERY: Duration = Duration::from_secs(3);
 
 /// Folders of the program on this machine; `None` where the system has no such folder.
 #[derive(Clone, Debug, Default)]
@@ -65,6 +61,12 @@ impl ProgramFolders {
             refused.with_remedies([Remedy::NameModel])
         });
         model.map(|model| in_canonical_folder(&model))
+    }
+
+    /// Returns whether a model is one of Sabi's own, which are offered without being on the strip.
+    pub(super) fn is_own_model(&self, model: &Path) -> bool {
+        let folder = self.examples.as_deref();
+        folder.is_some_and(|folder| examples::models(folder).any(|own| own == model))
     }
 
     /// Folders below which every graph may open files.
@@ -103,46 +105,6 @@ pub(crate) struct Documents {
     /// True if the user wants no question about the node files beside the open graph.
     pub(crate) leaves_nodes: bool,
     candidates: Candidates,
-}
-
-/// Nodes and groups that can be added, with the state that they were listed for.
-#[derive(Default)]
-struct Candidates {
-    all: Vec<Candidate>,
-    /// State that `all` was listed for: the numbers of the interfaces and of the node kinds, and the graph's own
-    /// groups.
-    of: Option<(u64, u64, Vec<String>)>,
-    /// Revision of the graph that `own` was made for.
-    revision: Option<u64>,
-    own: Vec<String>,
-}
-
-/// Copies of unsaved work, in case the program ends.
-pub(crate) struct Autosave {
-    at: Instant,
-    /// Revisions of the graph and of node files that were saved last.
-    saved: Option<(u64, u64)>,
-    /// Revision of the graph that was saved last, and the hash of the kinds of its nodes.
-    kinds: Option<(u64, u64)>,
-    pub(crate) every: Duration,
-}
-
-impl Default for Autosave {
-    fn default() -> Autosave {
-        Autosave {
-            at: Instant::now(),
-            saved: None,
-            kinds: None,
-            every: AUTOSAVE_EVERY,
-        }
-    }
-}
-
-impl Autosave {
-    /// Makes the next autosave write copies even if nothing was edited.
-    pub(crate) fn invalidate(&mut self) {
-        self.saved = None;
-    }
 }
 
 impl Documents {
@@ -238,35 +200,54 @@ impl Documents {
         std::mem::replace(&mut self.document, OpenDocument::before_kinds(Session::new(None)))
     }
 
+    /// Begins the drag of a parameter: all of it is one step to undo, and results are quick meanwhile.
+    pub(crate) fn begin_drag(&mut self) {
+        self.document.session.begin("");
+        self.is_dragging = true;
+    }
+
+    /// Ends the drag of a parameter, unless it has ended already because its row disappeared.
+    pub(crate) fn end_drag(&mut self) {
+        if self.is_dragging {
+            self.document.session.end();
+            self.is_dragging = false;
+        }
+    }
+
+    /// Cancels the drag of a parameter.
+    pub(crate) fn cancel_drag(&mut self) {
+        history::cancel_step(&mut self.document);
+        self.is_dragging = false;
+    }
+
+    /// Strokes of the open document.
+    pub(super) fn strokes(&self) -> Strokes {
+        self.document.session.graph().strokes.clone()
+    }
+
+    /// Stores the strokes, and makes the next autosave store the graph that names them.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub(super) fn keep_strokes(&mut self) -> Result<(), EngineError> {
+        let kept = self.document.session.keep_strokes();
+        self.autosave.invalidate();
+        kept
+    }
+
     /// Nodes and groups that can be added.
     pub(crate) fn candidates(&self) -> &[Candidate] {
         &self.candidates.all
     }
 
-    /// Updates the list of nodes and groups that can be added, if the graph, the node kinds or the library have
-    /// changed.
+    /// Updates the list of nodes and groups that can be added.
     pub(crate) fn refresh_candidates(&mut self) {
         let folders = self.library_folders();
         let has_changed = self.library.has_changed(&folders);
         self.document.library_folders = named_folders(&folders);
         let library_groups = self.library.groups(folders, self.document.catalog());
-        let revision = self.document.session.revision();
-        // The candidates wait for the end of the drag of a parameter, since each of its frames has a new revision.
-        if has_changed || (self.candidates.revision != Some(revision) && !self.is_dragging) {
-            self.candidates.revision = Some(revision);
-            self.candidates.own = own_groups(&self.document, library_groups);
-        }
-        let now = (
-            self.document.interfaces_number(),
-            self.document.node_kinds().revision,
-            self.candidates.own.clone(),
-        );
-        if self.candidates.of.as_ref() == Some(&now) && !has_changed {
-            return;
-        }
-        let (catalog, interfaces) = (self.document.catalog(), self.document.interfaces());
-        self.candidates.all = candidates(catalog, interfaces, &now.2, library_groups);
-        self.candidates.of = Some(now);
+        self.candidates
+            .refresh(&self.document, library_groups, has_changed, self.is_dragging);
     }
 
     /// Folder of a library. The project has one only once the graph has a file.
@@ -290,60 +271,6 @@ impl Documents {
     /// Reads node kinds again from these folders.
     pub(crate) fn reread_kinds(&mut self, context: &Context, folders: &[PathBuf]) {
         self.kinds_reading.read_again(context, &mut self.document, folders);
-    }
-
-    /// Saves copies of the graph and of node files in the background, if they have changed.
-    ///
-    /// # Errors
-    /// They cannot be written; the error is a sentence.
-    pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
-        self.autosave.at = Instant::now();
-        self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
-        self.autosave.kinds = Some((self.document.session.revision(), self.kinds_hash()));
-        match self.document.session.keep_meanwhile(drafts) {
-            Ok(Keeping::Done) => Ok(()),
-            Ok(keeping) => {
-                // The next autosave checks whether the copies were written.
-                self.autosave.saved = None;
-                if keeping == Keeping::Postponed {
-                    self.autosave.kinds = None;
-                }
-                Ok(())
-            }
-            Err(error) => {
-                self.autosave.saved = None;
-                Err(format!("Autosave failed: {error}"))
-            }
-        }
-    }
-
-    /// Returns whether the next autosave is due: after some time, and at once after nodes were added, deleted or replaced, since a
-    /// driver that compiles a new kernel may hold up the window.
-    pub(crate) fn is_autosave_due(&self) -> bool {
-        // Most frames change nothing, so that nothing is hashed in them.
-        let has_new_kinds = self
-            .autosave
-            .kinds
-            .is_none_or(|(revision, hash)| revision != self.document.session.revision() && hash != self.kinds_hash());
-        has_new_kinds || self.autosave.at.elapsed() >= self.autosave.every
-    }
-
-    /// Hash of the nodes of the graph and of its groups with their kinds.
-    fn kinds_hash(&self) -> u64 {
-        let contents = self.document.contents();
-        let groups = contents.groups.values().map(|group| &group.graph);
-        let mut hasher = DefaultHasher::new();
-        for graph in groups.chain([&contents.graph]) {
-            graph.nodes().for_each(|(id, node)| (id, &node.kind).hash(&mut hasher));
-        }
-        hasher.finish()
-    }
-
-    /// Requests a frame for the next autosave, if there is something to save.
-    pub(crate) fn schedule_autosave(&self, context: &Context, drafts_revision: u64) {
-        if self.autosave.saved != Some((self.document.session.revision(), drafts_revision)) {
-            context.request_repaint_after(self.autosave.every);
-        }
     }
 
     /// Names the shown model in the graph before it is saved, so that the graph opens on that model again. This is no
@@ -435,26 +362,6 @@ fn model_files(evaluation: &Evaluation) -> Vec<PathBuf> {
         _ => files.extend(file.parent().map(Path::to_owned)),
     }
     files
-}
-
-/// Saves recovery copies when no window is left to report an error.
-pub(crate) fn autosave_at_end(document: &mut OpenDocument, drafts: &[NodeDraft]) {
-    // A drag may have left an undo step open.
-    document.session.end();
-    if let Err(error) = document.session.keep(drafts) {
-        tracing::error!("what is not saved cannot be kept: {error}");
-    }
-}
-
-/// Names of the graph's groups that are neither linked to a library nor saved in one with the same content: those are
-/// listed with the library, and would be listed twice.
-fn own_groups(document: &OpenDocument, library_groups: &[LibraryGroup]) -> Vec<String> {
-    let saved = library_groups.iter().filter(|group| group.library != LibraryKind::Sabi);
-    let in_library = saved.filter_map(|group| library::group_in(document, &group.graph, &group.file));
-    let in_library: BTreeSet<String> = in_library.collect();
-    let groups = document.contents().groups.iter();
-    let own = groups.filter(|(name, group)| group.library.is_none() && !in_library.contains(*name));
-    own.map(|(name, _)| name.clone()).collect()
 }
 
 /// Folders of libraries by the names that links begin with. Links to the project's library are paths.

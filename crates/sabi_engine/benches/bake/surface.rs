@@ -115,7 +115,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         budget_bytes: DEFAULT_BUDGET_BYTES,
     };
     let kinds = Kinds::builtin();
-    let graph = Evaluator::flat_graph(&open, &kinds, &options).unwrap();
+    let graph = options.flat_graph(&open, &kinds).unwrap();
     let node = graph.nodes.iter().position(|node| node.id == "filter").unwrap();
     let mut evaluator = Evaluator::open(&open, graph, kinds, &options, &NoProgress).unwrap();
     evaluator.time_ghosts();

@@ -176,7 +176,7 @@ impl CheckedGraph {
         options: SetOptions,
         request: &BakeRequest,
     ) -> Result<CheckedGraph, EngineError> {
-        let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
+        let graph = request.evaluator.flat_graph(open, kinds)?;
         let outputs = checked_outputs(open, &graph, kinds)?;
         let map_channels = map_channels(&graph, &outputs);
         let options = with_outputs(options, request, open, &map_channels)?;

@@ -60,7 +60,8 @@ pub struct Evaluator {
     surface: EvaluatedSurface,
     fixed: FixedSettings,
     gpu: Arc<Gpu>,
-    rays: RaySettings,
+    /// Settings of the rays for the next plan and run.
+    pub rays: RaySettings,
     ray_cache: RayCache,
     kept_results: Option<ProgramCache>,
     budget: TextureBudget,
@@ -105,6 +106,29 @@ impl EvaluatorOptions {
         files.fold(trusted, |trusted, text| trusted.with_path(&base.resolve(text)))
     }
 
+    /// Flattens a graph with the overrides of these options. Refuses values that no node takes.
+    pub fn flat_graph(&self, open: &OpenGraph, kinds: &Kinds) -> Result<FlatGraph, EngineError> {
+        self.flat_graph_and_find(open, kinds, &[]).map(|(graph, _)| graph)
+    }
+
+    /// Flattens a graph, and finds the nodes from which the results of some nodes of the document come.
+    pub(crate) fn flat_graph_and_find(
+        &self,
+        open: &OpenGraph,
+        kinds: &Kinds,
+        wanted: &[NodeRef],
+    ) -> Result<(FlatGraph, Vec<ResultOrigin>), EngineError> {
+        let overrides = Overrides {
+            fit: self.fit.or(self.overrides.fit),
+            ..self.overrides.clone()
+        };
+        let typed = read_typed(open, kinds, &overrides);
+        let flat = open.flatten_and_find(&typed, wanted);
+        let (graph, found) = flat.map_err(|first| all_override_faults(open, kinds, &overrides, first))?;
+        refuse_bad_values(open, &graph, kinds, &typed)?;
+        Ok((graph, found))
+    }
+
     /// Returns the limit of textures in addition to a model that takes `model_bytes`. A driver that runs on the processor
     /// keeps textures in the memory of the process, so the memory limit applies to them as well.
     fn texture_budget(&self, kind: AdapterKind, model_bytes: u64) -> TextureBudget {
@@ -119,30 +143,7 @@ impl EvaluatorOptions {
 }
 
 impl Evaluator {
-    /// Flattens the graph with the overrides of the options. Refuses values that no node takes.
-    pub fn flat_graph(open: &OpenGraph, kinds: &Kinds, options: &EvaluatorOptions) -> Result<FlatGraph, EngineError> {
-        Evaluator::flat_graph_and_find(open, kinds, options, &[]).map(|(graph, _)| graph)
-    }
-
-    /// Flattens the graph, and finds the nodes from which the results of some nodes of the document come.
-    pub(crate) fn flat_graph_and_find(
-        open: &OpenGraph,
-        kinds: &Kinds,
-        options: &EvaluatorOptions,
-        wanted: &[NodeRef],
-    ) -> Result<(FlatGraph, Vec<ResultOrigin>), EngineError> {
-        let overrides = Overrides {
-            fit: options.fit.or(options.overrides.fit),
-            ..options.overrides.clone()
-        };
-        let typed = read_typed(open, kinds, &overrides);
-        let flat = open.flatten_and_find(&typed, wanted);
-        let (graph, found) = flat.map_err(|first| all_override_faults(open, kinds, &overrides, first))?;
-        refuse_bad_values(open, &graph, kinds, &typed)?;
-        Ok((graph, found))
-    }
-
-    /// Loads the model, opens the device and creates the evaluator. `graph` is from [`Evaluator::flat_graph`].
+    /// Loads the model, opens the device and creates the evaluator. `graph` is from [`EvaluatorOptions::flat_graph`].
     pub fn open(
         open: &OpenGraph,
         graph: FlatGraph,
@@ -322,16 +323,6 @@ impl Evaluator {
             borders: Some(self.surface.borders(&self.gpu)?),
             changes_results: false,
         })
-    }
-
-    /// Returns the settings of the rays for the next plan and run.
-    pub fn rays(&self) -> RaySettings {
-        self.rays
-    }
-
-    /// Returns the settings of the rays for the next plan and run, for changing them.
-    pub fn rays_mut(&mut self) -> &mut RaySettings {
-        &mut self.rays
     }
 
     /// Limits runs to the parts of the surface that maps and pictures show, and to the parts on which these depend. If

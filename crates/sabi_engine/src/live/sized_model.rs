@@ -147,7 +147,7 @@ impl SizedModel {
         self.unused_outputs = unused_outputs;
         self.sources.clear();
         self.traces_rays = false;
-        self.evaluator.rays_mut().hits = if request.is_moving { Hits::Cached } else { Hits::Cast };
+        self.evaluator.rays.hits = if request.is_moving { Hits::Cached } else { Hits::Cast };
         let is_another = self.evaluator.fit() != self.model.fit;
         if is_another {
             self.model = live_model(&self.evaluator, self.model.model_revision)?;
@@ -175,7 +175,7 @@ impl SizedModel {
 
     /// Plans the targets as far as possible. While a knob is dragged, coarse pictures use few rays, which are not cached.
     pub(super) fn plan(&mut self, targets: &[Target]) -> Plan {
-        self.evaluator.rays_mut().most_rays = None;
+        self.evaluator.rays.most_rays = None;
         let mut plan = self.try_plan(targets);
         let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.contains(key));
         let traces_rays = |step: &Step| match step {
@@ -183,7 +183,7 @@ impl SizedModel {
             _ => false,
         };
         if self.is_coarse && self.is_moving() && plan.steps.iter().any(traces_rays) {
-            self.evaluator.rays_mut().most_rays = Some(FEW_RAYS);
+            self.evaluator.rays.most_rays = Some(FEW_RAYS);
             plan = self.try_plan(targets);
         }
         self.traces_rays |= plan.steps.iter().any(has_rays);
@@ -226,7 +226,7 @@ impl SizedModel {
     }
 
     fn is_moving(&self) -> bool {
-        self.evaluator.rays().hits == Hits::Cached
+        self.evaluator.rays.hits == Hits::Cached
     }
 
     /// Returns true if results of a plan may differ, by rounding or noise, from those after the knob is released.

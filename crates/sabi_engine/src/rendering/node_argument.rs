@@ -4,7 +4,7 @@ use sabi_graph::{FlatGraph, NodeRef, advice_on};
 use sabi_plan::Target;
 
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
+use crate::evaluating::evaluator::EvaluatorOptions;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 
@@ -24,7 +24,7 @@ pub(crate) fn graph_and_target(
         node: id.to_owned(),
         port,
     };
-    let (graph, found) = Evaluator::flat_graph_and_find(open, kinds, options, &[wanted])?;
+    let (graph, found) = options.flat_graph_and_find(open, kinds, &[wanted])?;
     let refused = |why: String| EngineError::new(ErrorKind::Usage, open.with_path(why));
     let found = found
         .into_iter()

@@ -127,7 +127,7 @@ pub fn render_graph(
             let (graph, target) = graph_and_target(open, &kinds, &request.evaluator, node)?;
             (graph, Some(target))
         }
-        None => (Evaluator::flat_graph(open, &kinds, &request.evaluator)?, None),
+        None => (request.evaluator.flat_graph(open, &kinds)?, None),
     };
     let of_outputs = || targets(outputs(&graph));
     let faulty = seen.clone().map_or_else(of_outputs, |target| vec![target]);

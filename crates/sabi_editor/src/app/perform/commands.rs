@@ -1,21 +1,16 @@
 //! Commands, performed by the owner of their group. No match here has a wildcard.
 
 use egui::Ui;
-use sabi_editing::arrangement::{Align, DistributionAxis};
-use sabi_editing::command::{
-    self as editing, ClipboardCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand, NavigationCommand,
-    NodeCommand, SelectionCommand, WireCommand,
-};
-use sabi_editing::navigation;
-use sabi_graph::NodeRows;
+use sabi_editing::{OpenDocument, navigation};
 
 use super::Editor;
-use crate::action::{FileAction, LookAction, Next};
-use crate::command::{
-    ArrangeCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, LookCommand, ViewportCommand,
-    WindowCommand,
-};
+use crate::action::{ExportAction, FileAction, LookAction, Next};
+use crate::app::graph_edits::arrangement;
+use crate::app::packing::ask_to_pack;
+use crate::app::shell::Shell;
+use crate::command::{CanvasCommand, Command, FileCommand, LookCommand, WindowCommand};
 use crate::dock::Panel;
+use crate::shown_results::ShownResults;
 
 /// Factor of one step of the interface's size.
 const SCALE_STEP: f32 = 1.1;
@@ -26,14 +21,23 @@ impl Editor {
         match command {
             Command::File(command) => self.file_command(command),
             Command::Window(command) => self.window_command(command),
-            Command::Graph(command) => self.graph_command(command, ui),
-            Command::Arrange(command) => self.arrange_command(command, ui),
+            Command::Graph(command) => self.edits().command(command, ui),
+            Command::Arrange(command) => self.edits().edit(arrangement(command), ui),
             Command::Canvas(command) => self.canvas_command(command, ui),
-            Command::Look(command) => self.look_command(command),
-            Command::Viewport(command) => self.viewport_command(command, ui),
+            Command::Look(command) => {
+                look_command(command, &self.documents.document, &mut self.looks, &mut self.shell);
+            }
+            Command::Viewport(command) => {
+                if let Some(rect) = self.shell.dock.rects.get(&Panel::Viewport).copied() {
+                    let pointer = ui.input(|input| input.pointer.hover_pos());
+                    let seen = self.looks.on_model(&self.documents.document, &self.shell.settings);
+                    let model = &mut self.views.model;
+                    model.command(command, &self.evaluation, &seen, rect, pointer);
+                }
+            }
             Command::Texture(command) => self.views.flat.command(command),
-            Command::Brush(command) => self.brush_command(command, ui),
-            Command::Favorite(favorite) => self.add_favorite(favorite, ui),
+            Command::Brush(command) => self.painting().command(command, ui),
+            Command::Favorite(favorite) => self.edits().add_favorite(favorite, ui),
         }
     }
 
@@ -41,18 +45,26 @@ impl Editor {
         match command {
             FileCommand::New => self.perform_on_file(FileAction::Ask(Next::New)),
             FileCommand::Open => self.views.questions.ask_to_open(&self.documents.document),
-            FileCommand::Save => self.save(),
+            FileCommand::Save => self.saving().save(),
             FileCommand::SaveAs => self.views.questions.ask_to_save(&self.documents.document),
             FileCommand::Export => {
                 self.shell.dock.bring_up(Panel::Export);
-                self.export(false);
+                self.perform_export(ExportAction::Start { force: false });
             }
             FileCommand::ImportPictures => self.views.questions.ask_for_pictures(&self.documents.document),
-            FileCommand::Pack => self.ask_to_pack(),
+            FileCommand::Pack => {
+                ask_to_pack(
+                    &self.packing,
+                    &mut self.documents,
+                    &mut self.shell,
+                    &mut self.views.questions,
+                );
+            }
         }
     }
 
-    fn window_command(&mut self, command: WindowCommand) {
+    /// Performs a command about the window around the views.
+    pub(in crate::app) fn window_command(&mut self, command: WindowCommand) {
         match command {
             WindowCommand::NextPanel => self.shell.step_panel(true),
             WindowCommand::PreviousPanel => self.shell.step_panel(false),
@@ -65,64 +77,17 @@ impl Editor {
                 self.shell.dock.bring_up(Panel::Page);
             }
             WindowCommand::Keys => self.views.key_list.is_open = !self.views.key_list.is_open,
-            WindowCommand::UseView => self.toggle_use_view(),
+            WindowCommand::UseView => {
+                if self.shell.dock.toggle_use_view() {
+                    // Only the model and the exposed parameters of the whole graph are shown.
+                    navigation::leave_to(&mut self.documents.document, 0);
+                    self.looks.followed = None;
+                    self.shell.keyboard.active = Panel::Viewport;
+                }
+            }
             WindowCommand::Larger => self.shell.scale_by(SCALE_STEP),
             WindowCommand::Smaller => self.shell.scale_by(1.0 / SCALE_STEP),
         }
-    }
-
-    fn graph_command(&mut self, command: GraphCommand, ui: &Ui) {
-        let document = &self.documents.document;
-        let edit: EditCommand = match command {
-            GraphCommand::Undo => HistoryCommand::Undo.into(),
-            GraphCommand::Redo => HistoryCommand::Redo.into(),
-            GraphCommand::Delete => NodeCommand::DeleteSelected { reconnects: false }.into(),
-            GraphCommand::Heal => NodeCommand::DeleteSelected { reconnects: true }.into(),
-            GraphCommand::TakeOut => WireCommand::DetachSelected.into(),
-            GraphCommand::SwapInputs => WireCommand::SwapInputs.into(),
-            GraphCommand::Mute => NodeCommand::ToggleMuted.into(),
-            GraphCommand::Collapse => NodeCommand::ToggleRows(NodeRows::None).into(),
-            GraphCommand::HidePorts => NodeCommand::ToggleRows(NodeRows::Wired).into(),
-            GraphCommand::NameWires => NodeCommand::ToggleNamedWires.into(),
-            GraphCommand::Duplicate => NodeCommand::DuplicateSelected { keeps_inputs: false }.into(),
-            GraphCommand::DuplicateWired => NodeCommand::DuplicateSelected { keeps_inputs: true }.into(),
-            GraphCommand::Copy if document.selection().is_empty() => {
-                return self.shell.notify("Select the nodes to copy first");
-            }
-            GraphCommand::Copy => ClipboardCommand::Copy.into(),
-            GraphCommand::Cut => ClipboardCommand::Cut.into(),
-            GraphCommand::Paste => return self.shell.keyboard.request_paste(ui.ctx()),
-            GraphCommand::Frame => FrameCommand::Add.into(),
-            GraphCommand::Group => GroupCommand::Make.into(),
-            GraphCommand::Ungroup => GroupCommand::Dissolve.into(),
-            GraphCommand::Enter => match document.selected_one() {
-                Some(id) => NavigationCommand::Enter(id.clone()).into(),
-                None => return,
-            },
-            GraphCommand::Leave if self.views.canvas.cancel_drag() => return,
-            GraphCommand::Leave => NavigationCommand::Leave.into(),
-        };
-        self.edit(edit, ui);
-    }
-
-    fn arrange_command(&mut self, command: ArrangeCommand, ui: &Ui) {
-        let edit: EditCommand = match command {
-            ArrangeCommand::AlignLeft => editing::ArrangeCommand::Align(Align::Left).into(),
-            ArrangeCommand::AlignRight => editing::ArrangeCommand::Align(Align::Right).into(),
-            ArrangeCommand::AlignTop => editing::ArrangeCommand::Align(Align::Top).into(),
-            ArrangeCommand::AlignBottom => editing::ArrangeCommand::Align(Align::Bottom).into(),
-            ArrangeCommand::DistributeAcross => {
-                editing::ArrangeCommand::Distribute(DistributionAxis::Horizontal).into()
-            }
-            ArrangeCommand::DistributeDown => editing::ArrangeCommand::Distribute(DistributionAxis::Vertical).into(),
-            ArrangeCommand::Straighten => editing::ArrangeCommand::Straighten.into(),
-            ArrangeCommand::LayOut => editing::ArrangeCommand::LayOut.into(),
-            ArrangeCommand::SelectAll => SelectionCommand::All.into(),
-            ArrangeCommand::SelectMuted => SelectionCommand::Muted.into(),
-            ArrangeCommand::SelectUp => SelectionCommand::Upstream.into(),
-            ArrangeCommand::SelectDown => SelectionCommand::Downstream.into(),
-        };
-        self.edit(edit, ui);
     }
 
     fn canvas_command(&mut self, command: CanvasCommand, ui: &Ui) {
@@ -137,70 +102,33 @@ impl Editor {
             self.perform(action, ui);
         }
     }
+}
 
-    fn look_command(&mut self, command: LookCommand) {
-        let document = &self.documents.document;
-        let settings = &mut self.shell.settings;
-        match command {
-            LookCommand::FlatPictures => settings.is_flat = !settings.is_flat,
-            LookCommand::MiniMap => settings.has_mini_map = !settings.has_mini_map,
-            LookCommand::Preview => match document.selected_one() {
-                Some(id) => {
-                    self.looks.show(document, id, None);
-                    self.looks.perform(LookAction::Follow, settings);
-                }
-                None => self.shell.notify("Select the node to show first."),
-            },
-            LookCommand::Follow => {
-                settings.follows = !settings.follows;
-                let sentence = match settings.follows {
-                    true => "The model shows the node that is clicked.",
-                    false => "The model always shows the outputs.",
-                };
-                self.shell.notify(sentence);
+/// Changes the results that the views show, or how they show them.
+fn look_command(command: LookCommand, document: &OpenDocument, looks: &mut ShownResults, shell: &mut Shell) {
+    let settings = &mut shell.settings;
+    match command {
+        LookCommand::FlatPictures => settings.is_flat = !settings.is_flat,
+        LookCommand::MiniMap => settings.has_mini_map = !settings.has_mini_map,
+        LookCommand::Preview => match document.selected_one() {
+            Some(id) => {
+                looks.show(document, id, None);
+                looks.perform(LookAction::Follow, settings);
             }
-            LookCommand::Pin => match document.selected_one() {
-                None if self.looks.pinned_3d.is_none() => {
-                    self.shell.notify("Select the node to pin to the 3D view first.")
-                }
-                id => self.looks.toggle_pin_3d(document, id),
-            },
-            LookCommand::Compare => self.looks.is_compared = !self.looks.is_compared,
+            None => shell.notify("Select the node to show first."),
+        },
+        LookCommand::Follow => {
+            settings.follows = !settings.follows;
+            let sentence = match settings.follows {
+                true => "The model shows the node that is clicked.",
+                false => "The model always shows the outputs.",
+            };
+            shell.notify(sentence);
         }
-    }
-
-    fn viewport_command(&mut self, command: ViewportCommand, ui: &Ui) {
-        let Some(rect) = self.shell.dock.rects.get(&Panel::Viewport).copied() else {
-            return;
-        };
-        let pointer = ui.input(|input| input.pointer.hover_pos());
-        let seen = self.looks.on_model(&self.documents.document, &self.shell.settings);
-        self.views
-            .model
-            .command(command, &self.evaluation, &seen, rect, pointer);
-    }
-
-    /// Shows only the model and the exposed parameters of the whole graph, or all panels again.
-    pub(crate) fn toggle_use_view(&mut self) {
-        if self.shell.dock.toggle_use_view() {
-            navigation::leave_to(&mut self.documents.document, 0);
-            self.looks.followed = None;
-            self.shell.keyboard.active = Panel::Viewport;
-        }
-    }
-
-    /// Adds a node of a favorite where the pointer is.
-    fn add_favorite(&mut self, favorite: Favorite, ui: &Ui) {
-        let key = self.shell.settings.favorites.get(favorite.index());
-        let mut candidates = self.documents.candidates().iter();
-        let found = key.and_then(|key| candidates.find(|known| known.is_favorite(key)));
-        let Some(new) = found.map(|found| found.new.clone()) else {
-            let number = favorite.index() + 1;
-            return self.shell.notify(format!(
-                "Favorite {number} is empty; click a star in the library to fill it."
-            ));
-        };
-        let place = self.views.canvas.camera.place_for_new(ui);
-        self.add_uncovering(new, place, ui);
+        LookCommand::Pin => match document.selected_one() {
+            None if looks.pinned_3d.is_none() => shell.notify("Select the node to pin to the 3D view first."),
+            id => looks.toggle_pin_3d(document, id),
+        },
+        LookCommand::Compare => looks.is_compared = !looks.is_compared,
     }
 }

@@ -107,7 +107,7 @@ fn a_changed_graph_gives_new_pictures_and_another_model_does_not_show_the_old_on
     window.until("a newer one", |editor| color(editor).is_some_and(|color| color != gray));
     let sphere = window.path("sphere.glb");
     std::fs::write(&sphere, include_bytes!("../../../../../assets/meshes/sphere.glb")).expect("a model");
-    window.harness.state_mut().take_model(&sphere);
+    window.harness.state_mut().models().take(&sphere);
     window.harness.step();
     assert_eq!(color(window.editor()), None);
     window.until("one of the sphere", |editor| color(editor).is_some());
@@ -161,7 +161,7 @@ fn an_effect_of_the_library_is_tried_on_the_open_model_while_the_window_is_idle(
     let begun = window.editor().choice_previews.begun();
     let column = window.path("column.glb");
     std::fs::write(&column, include_bytes!("../../../../../assets/meshes/column.glb")).expect("a model");
-    window.harness.state_mut().take_model(&column);
+    window.harness.state_mut().models().take(&column);
     window.until_model();
     assert_eq!(window.editor().choice_previews.begun(), begun);
 }
@@ -190,7 +190,7 @@ fn pictures_of_nodes_and_variants_have_the_shade_of_the_view() {
         let mut window = Window::with_cache(has_shade, COLORS);
         let bench = window.path("bench.glb");
         std::fs::write(&bench, column).expect("a model");
-        window.harness.state_mut().take_model(&bench);
+        window.harness.state_mut().models().take(&bench);
         window.until("the shade", |editor| {
             let model = editor.evaluation.model.received.as_ref();
             let is_bench =

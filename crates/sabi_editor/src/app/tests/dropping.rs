@@ -89,7 +89,7 @@ impl Window {
 
     /// Shows the two squares, and waits until they are drawn.
     fn show_squares(&mut self, squares: &Path) {
-        self.harness.state_mut().take_model(squares);
+        self.harness.state_mut().models().take(squares);
         self.until("the squares", |editor| {
             let picture = editor
                 .evaluation
@@ -146,7 +146,7 @@ fn a_layer_dropped_on_a_model_beside_the_main_one_is_added_to_its_material() {
     let mut window = Window::of(TWO_OUTPUTS);
     window.until_model();
     let squares = write_two_squares(window.folder.path());
-    window.harness.state_mut().show_beside(&squares);
+    window.harness.state_mut().models().show_beside(&squares);
     window.until("the squares", |editor| {
         let beside = editor.row.beside().first();
         let picture = beside.and_then(|model| model.results.picture(&sabi_engine::live::ViewSubject::Outputs));
@@ -234,13 +234,13 @@ fn requesting_a_model_that_is_being_read_does_not_restart_the_reading() {
     let squares = write_two_squares(window.folder.path());
     window.until_model();
     let editor = window.harness.state_mut();
-    editor.take_model(&squares);
+    editor.models().take(&squares);
     let begun = editor.evaluation.model.file_since();
-    editor.take_model(&squares);
+    editor.models().take(&squares);
     assert_eq!(editor.evaluation.model.file_since(), begun);
     window.until("the squares", |editor| !editor.evaluation.model.is_replacing());
     let editor = window.harness.state_mut();
-    editor.take_model(&squares);
+    editor.models().take(&squares);
     assert_ne!(
         editor.evaluation.model.file_since(),
         begun,

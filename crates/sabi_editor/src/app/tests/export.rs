@@ -9,6 +9,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::Window;
 use super::hands::id;
+use crate::action::FileAction;
 use sabi_editing::{exposed_knobs, exposed_values, nodes, variants};
 use sabi_graph::Value;
 
@@ -246,7 +247,7 @@ fn a_save_does_not_replace_exported_textures_by_those_of_another_model() {
     window.harness.state_mut().exports.place.again = true;
     let other = window.path("other.glb");
     fs::copy(window.editor().evaluation.model.file(), &other).expect("a model");
-    window.harness.state_mut().take_model(&other);
+    window.harness.state_mut().models().take(&other);
     window.settle();
     window.keys(Modifiers::COMMAND, Key::S);
     assert!(window.editor().exports.running.is_none());
@@ -304,7 +305,8 @@ fn the_graph_is_packed_with_its_model_once_it_is_saved() {
     window.settle();
     let archive = window.path("worn.zip");
     let pack = |window: &mut Window| {
-        window.harness.state_mut().pack_into(archive.clone());
+        let pack = FileAction::Pack(archive.clone());
+        window.harness.state_mut().perform_on_file(pack);
         window.settle();
     };
     pack(&mut window);

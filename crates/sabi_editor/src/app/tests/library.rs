@@ -7,6 +7,7 @@ use sabi_graph::NodeId;
 
 use super::{Editor, Window};
 use crate::action::LibraryKind;
+use crate::app::library_files::save_to_library;
 use crate::dock::Panel;
 
 const GROUPED: &str = r#"{
@@ -160,7 +161,13 @@ fn a_graph_without_a_file_has_no_library_beside_it() {
     window.click("Save group");
     window.click("To the project library");
     assert!(!window.path("library").exists(), "the entry cannot be chosen");
-    window.harness.state_mut().save_to_library(LibraryKind::Project);
+    let Editor {
+        documents,
+        evaluation,
+        shell,
+        ..
+    } = window.harness.state_mut();
+    save_to_library(documents, evaluation, shell, LibraryKind::Project);
     window.settle();
     let said = "Save the graph first, so that there is a folder beside it.";
     assert!(window.harness.query_by_label(said).is_some());

@@ -10,7 +10,9 @@ use sabi_engine::Session;
 
 use super::safety::CLOUDS;
 use super::{Editor, Window};
-use crate::action::LibraryKind;
+use crate::action::{ExportAction, LibraryKind};
+use crate::app::library_files::save_to_library;
+use crate::command::WindowCommand;
 use crate::dock::Panel;
 
 #[test]
@@ -111,7 +113,13 @@ fn a_group_in_the_library_is_not_replaced_by_another_of_the_same_name() {
         .select([super::hands::id("clouds")]);
     window.keys(Modifiers::COMMAND, Key::G);
     let keep = |window: &mut Window| {
-        window.harness.state_mut().save_to_library(LibraryKind::User);
+        let Editor {
+            documents,
+            evaluation,
+            shell,
+            ..
+        } = window.harness.state_mut();
+        save_to_library(documents, evaluation, shell, LibraryKind::User);
         window.settle();
         fs::read_dir(window.path("library")).expect("a library").count()
     };
@@ -138,7 +146,7 @@ fn the_window_stays_open_until_textures_are_written() {
     let editor = window.harness.state_mut();
     editor.shell.settings.export.size = 512;
     editor.exports.place.folder = "maps".to_owned();
-    editor.export(false);
+    editor.perform_export(ExportAction::Start { force: false });
     assert!(!window.asks_to_close());
     assert!(window.says("An export is running"));
     window.press("Keep the window open");
@@ -159,7 +167,7 @@ fn exporting_at_every_save() -> Window {
     editor.shell.settings.export.size = 512;
     editor.exports.place.folder = "maps".to_owned();
     editor.exports.place.again = true;
-    editor.export(false);
+    editor.perform_export(ExportAction::Start { force: false });
     window
 }
 
@@ -167,7 +175,7 @@ fn exporting_at_every_save() -> Window {
 fn a_save_during_an_export_exports_once_more() {
     let mut window = exporting_at_every_save();
     let editor = window.harness.state_mut();
-    editor.save();
+    editor.saving().save();
     assert!(!window.editor().exports.queued.is_empty());
     window.until("both", |editor| {
         editor.exports.running.is_none() && editor.exports.queued.is_empty()
@@ -327,7 +335,7 @@ fn keys_of_the_window_work_while_text_is_typed_but_letters_run_no_commands() {
 #[test]
 fn showing_a_panel_that_the_use_view_lacks_ends_that_view() {
     let mut window = Window::opened(CLOUDS);
-    window.harness.state_mut().toggle_use_view();
+    window.harness.state_mut().window_command(WindowCommand::UseView);
     window.settle();
     window.harness.state_mut().shell.dock.bring_up(Panel::Export);
     assert!(window.editor().is_use_view());
@@ -381,7 +389,7 @@ fn textures_of_a_saved_graph_are_written_although_another_one_is_opened_meanwhil
     let editor = window.harness.state_mut();
     // The second export has other file names, which shows that it ran.
     editor.shell.settings.export.names = "saved_{channel}".to_owned();
-    editor.save();
+    editor.saving().save();
     let other = window.path("deeper").join("other.sabi");
     fs::create_dir_all(window.path("deeper")).expect("a folder");
     fs::write(&other, super::graph_text("")).expect("a graph");

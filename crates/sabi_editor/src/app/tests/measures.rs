@@ -42,7 +42,7 @@ fn the_chosen_parts_of_the_graphs_model_are_kept_in_the_graph() {
         Session::open(&folder.join("rock.sabi"), folders.recovery.as_deref()).unwrap()
     });
     let rock = window.document().session.file().unwrap().with_extension("obj");
-    window.harness.state_mut().take_model(&rock);
+    window.harness.state_mut().models().take(&rock);
     let shows = |window: &mut Window, expected: &[&str]| {
         window.until("the parts", |editor| {
             let (_, is_loaded) = editor.evaluation.model.loaded();

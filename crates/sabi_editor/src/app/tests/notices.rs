@@ -11,6 +11,7 @@ use sabi_engine::Session;
 
 use super::safety::CLOUDS;
 use super::{Window, beside, graph_text};
+use crate::action::ExportAction;
 use crate::dock::Panel;
 use crate::files::examples;
 use crate::notices::Work;
@@ -33,7 +34,7 @@ impl Window {
     fn shows(&mut self, name: &str, text: &str) {
         let file = self.path(name);
         fs::write(&file, text).expect("a model");
-        self.harness.state_mut().take_chosen_model(&file);
+        self.harness.state_mut().models().take_chosen(&file);
         self.until("the model", |editor| editor.evaluation.model.loaded().1);
     }
 }
@@ -51,7 +52,7 @@ fn a_failed_save_is_reported_until_the_user_closes_it_or_a_save_succeeds() {
         let mut permissions = fs::metadata(&file).expect("a file").permissions();
         permissions.set_readonly(true);
         fs::set_permissions(&file, permissions.clone()).expect("a file of one's own");
-        window.harness.state_mut().save();
+        window.harness.state_mut().saving().save();
         // Longer than a notice is shown.
         window
             .harness
@@ -67,7 +68,7 @@ fn a_failed_save_is_reported_until_the_user_closes_it_or_a_save_succeeds() {
             #[expect(clippy::permissions_set_readonly_false, reason = "the file is the test's own")]
             permissions.set_readonly(false);
             fs::set_permissions(&file, permissions).expect("a file of one's own");
-            window.harness.state_mut().save();
+            window.harness.state_mut().saving().save();
             window.settle();
         }
         assert!(!window.has_failure("write-protected"));
@@ -99,7 +100,7 @@ fn a_failed_export_is_reported_whichever_panel_is_in_front() {
     let editor = window.harness.state_mut();
     editor.shell.settings.export.size = 64;
     editor.exports.place.folder = "maps".to_owned();
-    editor.export(false);
+    editor.perform_export(ExportAction::Start { force: false });
     window.until("the end", |editor| editor.exports.running.is_none());
     let folder = window.path("maps");
     assert!(
@@ -150,7 +151,7 @@ fn the_bench_and_the_crate_give_no_warnings_at_the_usual_size() {
     let is_meant = |file: &std::path::PathBuf| file.ends_with("bench.glb") || file.ends_with("crate.glb");
     for file in examples::models(&folder).filter(is_meant) {
         examples::write_model(&folder, &file).expect("a model");
-        window.harness.state_mut().take_chosen_model(&file);
+        window.harness.state_mut().models().take_chosen(&file);
         window.until("the model at its full size", |editor| {
             let model = &editor.evaluation.model;
             model.loaded().1 && model.received.as_ref().is_some_and(|model| model.size == USUAL)
@@ -323,7 +324,7 @@ fn reading_a_model_can_be_canceled_and_the_previous_one_stays() {
     let before = window.editor().evaluation.model.file().to_owned();
     let grid = window.path("grid.obj");
     write_grid(&grid, 400);
-    window.harness.state_mut().take_chosen_model(&grid);
+    window.harness.state_mut().models().take_chosen(&grid);
     window.settle();
     assert!(window.editor().evaluation.model.is_replacing());
     window.until("the cover", |editor| {

@@ -94,7 +94,7 @@ fn a_file_of_another_window_can_be_saved_once_that_window_is_closed() {
     drop(first);
     window.mute();
     let text = window.text();
-    window.harness.state_mut().save();
+    window.harness.state_mut().saving().save();
     window.settle();
     assert!(!window.says("This graph is open already"));
     assert!(
@@ -108,7 +108,7 @@ fn a_graph_that_was_never_saved_comes_back_on_its_model() {
     let mut window = Window::with(|folders| Session::new(folders.recovery.as_deref()));
     let model = window.path("hero.glb");
     fs::copy(window.editor().evaluation.model.file(), &model).expect("a model");
-    window.harness.state_mut().take_chosen_model(&model);
+    window.harness.state_mut().models().take_chosen(&model);
     window.settle();
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;
     window.add([0.2, 0.2], "cells");

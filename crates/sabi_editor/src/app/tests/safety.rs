@@ -290,7 +290,7 @@ fn a_saved_graph_opens_again_on_the_model_that_it_was_worked_on() {
         Some("examples/cube.glb"),
         "it comes with the program"
     );
-    window.harness.state_mut().take_model(&model);
+    window.harness.state_mut().models().take(&model);
     window.settle();
     window.keys(Modifiers::COMMAND, Key::S);
     assert_eq!(named(&window).as_deref(), Some("hero.glb"));
@@ -301,7 +301,7 @@ fn a_graph_on_a_built_in_model_names_it_without_a_path_and_opens_on_it_anywhere(
     let mut window = Window::opened(CLOUDS);
     let examples = window.editor().documents.folders.examples.clone().expect("a folder");
     let own = crate::files::examples::first_model(&examples).expect("a model");
-    window.harness.state_mut().take_model(&own);
+    window.harness.state_mut().models().take(&own);
     window.until("the model", |editor| {
         editor.evaluation.model.file().ends_with("bench.glb")
     });
@@ -343,7 +343,7 @@ fn a_save_keeps_the_redo_steps() {
     let model = window.path("other.obj");
     fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a model");
     window.mute();
-    window.harness.state_mut().take_model(&model);
+    window.harness.state_mut().models().take(&model);
     window.undo(1);
     window.keys(Modifiers::COMMAND, Key::S);
     assert!(window.text().contains("other.obj"), "the graph opens on it again");

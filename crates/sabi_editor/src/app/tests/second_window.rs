@@ -107,7 +107,7 @@ fn a_save_checks_the_file_and_can_keep_the_version_of_another_program_beside_it(
     let theirs = super::graph_text("");
     fs::write(window.path("graph.sabi"), &theirs).expect("written");
     // Saves before the next frame, which would notice the change.
-    window.harness.state_mut().save();
+    window.harness.state_mut().saving().save();
     window.settle();
     assert!(window.says("Another program has written this file"));
     assert!(window.says("can be kept beside it, or is replaced and stays as graph.sabi.bak"));

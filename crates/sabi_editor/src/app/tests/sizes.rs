@@ -113,7 +113,7 @@ fn bars_have_room_for_everything_on_usual_screens() {
 fn the_bar_of_the_texture_has_room_for_the_sets_of_a_model_with_several_materials() {
     let mut window = Window::opened(r#""m": { "kind": "source/material", "label": "Large soft clouds of moss" }"#);
     let squares = write_two_squares(window.folder.path());
-    window.harness.state_mut().take_model(&squares);
+    window.harness.state_mut().models().take(&squares);
     window.until("the squares", |editor| {
         let model = editor.evaluation.model.received.as_ref();
         model.is_some_and(|model| model.sets.len() == 2)

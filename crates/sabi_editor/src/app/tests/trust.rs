@@ -68,7 +68,7 @@ fn a_model_that_was_chosen_is_shown_again_and_one_that_was_not_is_asked_about() 
     window.settle();
     assert!(window.says(OUTSIDE), "the graph names it");
     assert!(!window.editor().evaluation.model.file().ends_with("hero.glb"));
-    window.harness.state_mut().take_chosen_model(&hero);
+    window.harness.state_mut().models().take_chosen(&hero);
     window.until("the model", |editor| {
         editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.glb")
     });
@@ -146,7 +146,7 @@ fn a_file_chosen_before_the_first_save_is_remembered_wherever_the_program_starte
     // A file below the working directory, which is the folder of a graph without a file. It is no model, so that it is
     // refused.
     let chosen = canonical_if_present(&Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml"));
-    window.harness.state_mut().take_chosen_model(&chosen);
+    window.harness.state_mut().models().take_chosen(&chosen);
     assert_eq!(window.editor().shell.settings.trusted, [chosen]);
 }
 
@@ -159,11 +159,11 @@ fn a_saved_graph_opens_a_model_of_several_files_that_the_command_line_named() {
     let editor = window.harness.state_mut();
     // Starts with the trust that a model on the command line gets; it is not stored.
     editor.documents.trust(&sabi_files::TrustedPaths::of_file(&hero));
-    editor.take_model(&hero);
+    editor.models().take(&hero);
     window.until("the model", |editor| {
         editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.gltf")
     });
-    window.harness.state_mut().save_to(&file);
+    window.harness.state_mut().saving().save_to(&file);
     window.settle();
     window.harness.state_mut().save_settings();
     let folder = window.folder;

@@ -9,7 +9,7 @@ use super::commands::window_with;
 use super::hands::id;
 use sabi_editing::clipboard;
 
-use crate::command::{Command, InputPreset, Scope, ViewportCommand};
+use crate::command::{Command, InputPreset, Scope, ViewportCommand, WindowCommand};
 use crate::dock::{Panel, Workspace};
 
 impl Window {
@@ -216,7 +216,7 @@ fn a_menu_on_the_canvas_brings_the_canvas_up_and_holds_no_keys_once_it_is_hidden
     let mut window = window_with(InputPreset::Default);
     window.prepare(&["mix"], Scope::Canvas);
     for entry in ["Add a node", "Rename"] {
-        window.harness.state_mut().toggle_use_view();
+        window.harness.state_mut().window_command(WindowCommand::UseView);
         window.settle();
         assert!(window.editor().is_use_view());
         window.press_entry("Edit", entry);

@@ -299,7 +299,7 @@ fn a_save_of_the_window_is_not_reported_as_a_change_by_another_program() {
         "projection",
         Some(sabi_graph::Value::Text("triplanar".to_owned())),
     );
-    editor.save();
+    editor.saving().save();
     // Another change is reported again.
     watched.write("gray.bmp", picture(255));
     watched.until_value(1.0);

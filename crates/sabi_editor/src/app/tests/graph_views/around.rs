@@ -60,7 +60,7 @@ fn a_model_that_cannot_be_shown_is_reported_and_the_previous_one_stays() {
     let broken = window.path("broken.glb");
     std::fs::write(&broken, b"no model").expect("a file");
     for file in [window.path("missing.glb"), broken] {
-        window.harness.state_mut().take_model(&file);
+        window.harness.state_mut().models().take(&file);
         window.until("the cube", |editor| {
             editor.evaluation.model.file() == cube && editor.evaluation.model.loaded().1
         });
@@ -240,7 +240,7 @@ fn results_of_the_previous_model_are_covered_until_those_of_the_next_arrive() {
     assert!(!window.editor().evaluation.is_inspected_outdated());
     let sphere = window.path("sphere.glb");
     std::fs::write(&sphere, include_bytes!("../../../../../../assets/meshes/sphere.glb")).expect("a model");
-    window.harness.state_mut().take_model(&sphere);
+    window.harness.state_mut().models().take(&sphere);
     assert!(window.editor().evaluation.is_inspected_outdated(), "at once");
     window.until("values of the sphere", |editor| {
         !editor.evaluation.is_inspected_outdated()
@@ -250,7 +250,8 @@ fn results_of_the_previous_model_are_covered_until_those_of_the_next_arrive() {
     window
         .harness
         .state_mut()
-        .take_model(std::path::Path::new("missing.glb"));
+        .models()
+        .take(std::path::Path::new("missing.glb"));
     assert!(window.editor().evaluation.is_inspected_outdated());
     window.until("the sphere", |editor| !editor.evaluation.is_inspected_outdated());
     window.settle();

@@ -125,7 +125,7 @@ fn the_color_is_taken_from_the_texture_set_that_is_clicked() {
         Session::open(&file, None).unwrap_or_else(|error| panic!("{error}"))
     });
     let model = window.path("squares.obj");
-    window.harness.state_mut().take_model(&model);
+    window.harness.state_mut().models().take(&model);
     window.until_model();
     window.point(window.at_model([0.5, 0.9]));
     window.key(Key::Num1);

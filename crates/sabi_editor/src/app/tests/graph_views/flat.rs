@@ -106,7 +106,7 @@ fn each_texture_set_of_the_model_is_seen_with_its_own_edges() {
     let mut window = painted();
     let file = window.path("two.obj");
     std::fs::write(&file, TWO_SETS).expect("a model");
-    window.harness.state_mut().take_model(&file);
+    window.harness.state_mut().models().take(&file);
     window.press("UV");
     for (name, from, to) in [("wood", 0.1, 0.5), ("steel", 0.2, 0.9)] {
         if name == "steel" {

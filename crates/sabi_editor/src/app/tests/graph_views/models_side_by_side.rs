@@ -118,7 +118,7 @@ fn a_model_that_cannot_be_read_says_why_in_its_place() {
     window.until_model();
     let broken = window.path("broken.glb");
     std::fs::write(&broken, b"no model").expect("a file");
-    window.harness.state_mut().show_beside(&broken);
+    window.harness.state_mut().models().show_beside(&broken);
     window.until("its fault", |editor| editor.row.beside()[0].model.failure.is_some());
     let failure = window.editor().row.beside()[0]
         .model
@@ -135,12 +135,12 @@ fn a_model_is_shown_only_once_and_the_number_of_models_is_limited() {
     let mut window = Window::opened(PAINTED);
     window.until_model();
     let cube = window.main_model().to_owned();
-    window.harness.state_mut().show_beside(&cube);
+    window.harness.state_mut().models().show_beside(&cube);
     window.settle();
     assert!(window.beside().is_empty() && window.says("is shown already."));
     for number in 0..=MOST_BESIDE {
         let missing = window.path(&format!("missing {number}.glb"));
-        window.harness.state_mut().show_beside(&missing);
+        window.harness.state_mut().models().show_beside(&missing);
     }
     window.settle();
     assert_eq!(window.beside().len(), MOST_BESIDE);

@@ -2,18 +2,35 @@
 
 use std::path::{Path, PathBuf};
 
+use sabi_editing::command::{Outcome, VariantCommand, perform};
 use sabi_engine::session::is_open_in_a_window;
 use sabi_engine::{EngineError, Remedy};
 
-use super::super::Editor;
-use crate::exports::ExportSource;
-use crate::files::ReplaceReason;
+use super::documents::Documents;
+use super::model_pictures::ModelPictures;
+use super::shell::Shell;
+use super::trust;
+use crate::evaluation::Evaluation;
+use crate::exports::{ExportSource, Exports};
+use crate::files::{Questions, ReplaceReason};
 use crate::notices::Work;
 use crate::paths::canonical_if_present;
+use crate::shown_results::ShownResults;
+use crate::views::Views;
 
-impl Editor {
+/// Saving of the open graph: the graph names the shown model, its picture is stored, and its textures are exported again.
+pub(crate) struct Saving<'a> {
+    pub(super) documents: &'a mut Documents,
+    pub(super) evaluation: &'a Evaluation,
+    pub(super) looks: &'a ShownResults,
+    pub(super) shell: &'a mut Shell,
+    pub(super) views: &'a mut Views,
+    pub(super) exports: &'a mut Exports,
+}
+
+impl Saving<'_> {
     /// Saves to the graph's file, or asks for one.
-    pub(in crate::app) fn save(&mut self) {
+    pub(super) fn save(&mut self) {
         let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
             return self.views.questions.ask_to_save(&self.documents.document);
         };
@@ -49,7 +66,7 @@ impl Editor {
     }
 
     /// Copies the version that another program has written, then saves to the graph's file.
-    pub(in crate::app) fn save_beside_theirs(&mut self) {
+    pub(super) fn save_beside_theirs(&mut self) {
         let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
             return;
         };
@@ -67,28 +84,13 @@ impl Editor {
     }
 
     fn prepare_to_save(&mut self) {
-        self.documents.name_model(&self.evaluation);
+        self.documents.name_model(self.evaluation);
         let backups = self.shell.settings.backups;
         self.documents.document.session.graph_file.set_backups(backups);
     }
 
-    /// Marks the graph's file as open in this window. If another window has it open, saving to it is refused until the
-    /// user allows it.
-    pub(in crate::app) fn claim_file(&mut self) {
-        // A window without a recovery folder is only drawn for a picture, and claims no file.
-        let is_worked_in = self.documents.recovery_folder().is_some();
-        let session = &mut self.documents.document.session;
-        if !is_worked_in || session.graph_file.claim() {
-            return;
-        }
-        session.graph_file.set_read_only(true);
-        if let Some(file) = session.file().map(Path::to_owned) {
-            self.views.questions.ask_about_open_file(file);
-        }
-    }
-
     /// Saves to a file, and replaces an existing one.
-    pub(in crate::app) fn save_to(&mut self, path: &Path) {
+    pub(super) fn save_to(&mut self, path: &Path) {
         self.prepare_to_save();
         let before = self
             .documents
@@ -98,7 +100,7 @@ impl Editor {
             .map_or_else(PathBuf::new, Path::to_owned);
         let folder = self.documents.document.session.graph().folder().to_owned();
         let saved = self.documents.document.save_as(path);
-        let documents = &mut self.documents;
+        let documents = &mut *self.documents;
         if documents.document.session.graph().folder() != folder {
             documents
                 .kinds_reading
@@ -123,13 +125,13 @@ impl Editor {
         // A save deletes the copies of the graph, but node files may still need theirs.
         self.documents.autosave.invalidate();
         self.shell.settings.remember(file);
-        self.remember_named();
+        trust::remember_named(self.documents, &mut self.shell.settings, self.evaluation);
         self.shell.notify(format!("Saved to {}", file.display()));
-        self.store_picture_of_graph(file);
+        self.pictures().store_of_graph(file);
         self.exports.place = std::mem::take(&mut self.exports.place).beside(file);
         let source = ExportSource {
             document: &self.documents.document,
-            evaluation: &self.evaluation,
+            evaluation: self.evaluation,
             choices: &self.shell.settings.export,
         };
         let exported = self.exports.after_save(&self.shell.context, source);
@@ -137,7 +139,7 @@ impl Editor {
     }
 
     /// Saves to another file, and asks first if that would replace a file or if the folder is missing.
-    pub(in crate::app) fn save_as(&mut self, file: PathBuf) {
+    pub(super) fn save_as(&mut self, file: PathBuf) {
         let session = &self.documents.document.session;
         let own = session.file().map(canonical_if_present);
         let is_own = own == Some(canonical_if_present(&file));
@@ -157,5 +159,38 @@ impl Editor {
         } else {
             self.save_to(&file);
         }
+    }
+
+    /// Saves the present values as a variant, with the model as it looks now.
+    pub(super) fn save_variant(&mut self, name: String) {
+        let command = VariantCommand::Save(name.clone());
+        if perform(&mut self.documents.document, command.into()) == Outcome::Done {
+            self.pictures().store_of_variant(name.trim());
+        }
+    }
+
+    fn pictures(&mut self) -> ModelPictures<'_> {
+        ModelPictures {
+            documents: self.documents,
+            evaluation: self.evaluation,
+            looks: self.looks,
+            shell: self.shell,
+            model: &self.views.model,
+        }
+    }
+}
+
+/// Marks the graph's file as open in this window. If another window has it open, saving to it is refused until the
+/// user allows it.
+pub(super) fn claim_file(documents: &mut Documents, questions: &mut Questions) {
+    // A window without a recovery folder is only drawn for a picture, and claims no file.
+    let is_worked_in = documents.recovery_folder().is_some();
+    let session = &mut documents.document.session;
+    if !is_worked_in || session.graph_file.claim() {
+        return;
+    }
+    session.graph_file.set_read_only(true);
+    if let Some(file) = session.file().map(Path::to_owned) {
+        questions.ask_about_open_file(file);
     }
 }

@@ -8,31 +8,33 @@ use sabi_editing::command::PaintCommand;
 use sabi_editing::painting::{strokes_of, strokes_on};
 use sabi_paint::{Step, Stroke, StrokeGroup, strokes_as_text, strokes_from_text};
 
-use crate::app::Editor;
+use super::Painting;
 
-impl Editor {
+impl Painting<'_> {
     /// Puts strokes on the clipboard as text; their pictures are kept with the brushes, so that other graphs find them.
     pub(super) fn copy_strokes(&mut self, strokes: &[Arc<Stroke>], ui: &Ui) {
-        let store = self.strokes();
+        let store = self.edits.documents.strokes();
         for picture in strokes.iter().flat_map(|stroke| stroke.pictures()) {
-            let kept = self.documents.brushes.keep_picture(picture, &store);
-            self.shell.report(kept);
+            let kept = self.edits.documents.brushes.keep_picture(picture, &store);
+            self.edits.shell.report(kept);
         }
         ui.ctx().copy_text(strokes_as_text(strokes));
     }
 
     /// Adds the strokes of a text on top of those of the selected paint node, and marks them.
     pub(super) fn paste_strokes(&mut self, text: &str, ui: &Ui) {
-        let document = &self.documents.document;
+        let document = &self.edits.documents.document;
         let selected = document.selected_one().cloned();
         let target = selected.and_then(|node| Some((strokes_of(document, &node)?, node)));
         let Some((before, node)) = target else {
-            self.shell
+            self.edits
+                .shell
                 .notify("Select the Paint node that the strokes are for, then paste them.");
             return;
         };
         let Some(model) = self.evaluation.model.received.as_ref() else {
-            self.shell
+            self.edits
+                .shell
                 .notify("Open the model that the strokes are for, then paste them.");
             return;
         };
@@ -40,18 +42,18 @@ impl Editor {
         let strokes = match strokes_from_text(text) {
             Ok(strokes) => strokes,
             Err(error) => {
-                self.shell.notify(error.to_string());
+                self.edits.shell.notify(error.to_string());
                 return;
             }
         };
-        let store = self.strokes();
+        let store = self.edits.documents.strokes();
         for picture in strokes.iter().flat_map(|stroke| stroke.pictures()) {
             if store.picture(picture).is_none() {
-                let found = self.documents.brushes.find_picture(picture, &store);
-                self.shell.report(found);
+                let found = self.edits.documents.brushes.find_picture(picture, &store);
+                self.edits.shell.report(found);
             }
         }
-        let known = strokes_on(&self.documents.document, &node, &model).unwrap_or_default(); // Nothing is painted yet.
+        let known = strokes_on(&self.edits.documents.document, &node, &model).unwrap_or_default(); // Nothing is painted yet.
         let count = strokes.len();
         let steps = additions(strokes, known.free_group_number());
         let command = PaintCommand::Steps {
@@ -61,11 +63,11 @@ impl Editor {
             title: "Paste strokes".to_owned(),
             steps,
         };
-        self.edit(command, ui);
+        self.edits.edit(command, ui);
         self.keep_strokes();
-        let list = strokes_on(&self.documents.document, &node, &model).unwrap_or_default(); // Nothing is painted yet.
+        let list = strokes_on(&self.edits.documents.document, &node, &model).unwrap_or_default(); // Nothing is painted yet.
         let pasted = list.strokes.iter().rev().take(count).map(|stroke| stroke.id);
-        self.looks.marked_strokes = pasted.collect::<BTreeSet<_>>();
+        self.edits.looks.marked_strokes = pasted.collect::<BTreeSet<_>>();
     }
 }
 
