@@ -1,4 +1,7 @@
 //! Widgets of parameters, one for each role. They show values and return changes as events.
+//!
+//! A view turns a [`KnobEvent`] into an `Action::Knob` or `Action::TurnExposed`, and `app/perform.rs` turns that into an edit of
+//! `sabi_editing`. Values are checked there, not here.
 
 mod bar;
 mod boxes;
