@@ -1,5 +1,5 @@
-//! Pictures of choices on the open model, made while the evaluator is idle: of variants, of updates of groups, and of effects of the
-//! library.
+//! Pictures of choices on the open model, made while the evaluator is idle: of variants, of updates of groups, and of
+//! effects of the library.
 
 mod preview_graph;
 
@@ -52,7 +52,7 @@ pub(crate) enum PreviewChoice {
 /// State of everything that a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct PreviewVersion {
-    /// First revision of the model's file and how it is read.
+    /// Revision of the model since which its file and the way of reading it are the same.
     model: u64,
     /// The graph, or the digest of the group's file.
     content: String,

@@ -137,7 +137,7 @@ impl ShownResults {
         self.outputs.retain(|node, _| node_paths::exists(document, node));
     }
 
-    /// Shows the result of one node wherever that of another one was shown, whose full id is `before`.
+    /// Replaces the node with the full id `before` by another one in all shown results.
     pub(crate) fn replace(&mut self, before: &str, by: &NodeRef) {
         for result in self.results() {
             if result.as_ref().is_some_and(|result| result.node == before) {

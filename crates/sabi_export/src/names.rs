@@ -59,8 +59,8 @@ fn is_device(stem: &str) -> bool {
     matches!(first.as_str(), "CON" | "PRN" | "AUX" | "NUL") || numbered("COM") || numbered("LPT")
 }
 
-/// A file name stem for each sheet of the model: that of each material, or one like that of a single unnamed material where all share
-/// one sheet.
+/// File name stem of each sheet of the model: one for each material, or a single one, like that of an unnamed material,
+/// if all materials share a sheet.
 pub fn sheet_names(model: &Model) -> Vec<String> {
     if !model.mesh.is_one_sheet {
         return set_names(model);

@@ -39,7 +39,7 @@ pub struct OpenGraph {
     pub pictures: SessionPictures,
     /// Strokes of its paint nodes, as far as they have been read or painted.
     pub strokes: Strokes,
-    /// Paths outside of its folder from which it may open the files that it names.
+    /// Paths outside of the graph's folder from which the graph may open files.
     pub trusted: TrustedPaths,
 }
 
