@@ -179,7 +179,7 @@ fn own_brushes() -> serde_json::Result<Vec<KeptBrush>> {
     kept.collect()
 }
 
-/// The brush of a file, whose picture is handed to the strokes of a document.
+/// Opens the brush of a file, and adds its picture to the strokes of a document.
 ///
 /// # Errors
 /// A sentence about a file that is no brush.

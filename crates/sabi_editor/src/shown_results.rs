@@ -95,7 +95,8 @@ impl ShownResults {
         self.pinned_2d.as_ref().or(self.shown.as_ref())
     }
 
-    /// Result of a node at the output that was chosen last; until then at the material of a group, or at the first output.
+    /// Result of a node: at the output that was chosen last, otherwise at the material output of a group, otherwise at
+    /// the first output.
     pub(crate) fn chosen(&self, document: &OpenDocument, id: &NodeId) -> NodeRef {
         let output = self.outputs.get(&node_paths::full_id(document, id)).cloned();
         result_of(document, id, output.or_else(|| material_of_group(document, id)))

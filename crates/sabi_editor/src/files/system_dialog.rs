@@ -150,8 +150,8 @@ pub(crate) enum DialogAnswer {
 }
 
 impl DialogAnswer {
-    /// Answer of a dialog that gave this path after some time. A dialog that was opened has taken the focus from the
-    /// window, since it cannot be closed without it.
+    /// Answer of a dialog, from the path that it gave, its duration, and whether the window has lost the focus. A
+    /// dialog that was opened takes the focus, since it cannot be closed without it.
     fn after(path: Option<PathBuf>, lasted: Duration, has_lost_focus: bool) -> DialogAnswer {
         match path {
             Some(path) => DialogAnswer::Chosen(path),

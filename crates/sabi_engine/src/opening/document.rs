@@ -155,7 +155,7 @@ impl OpenGraph {
         PathBase::of_file(&self.path)
     }
 
-    /// Makes these pictures be read again on their next use, for changes that do not change the length or the time of the file.
+    /// Reads these pictures again on their next use: a file may have changed without a change of its length or time.
     pub fn look_again(&self, pictures: &BTreeSet<PathBuf>) {
         self.pictures.look_again(pictures);
     }

@@ -22,8 +22,8 @@ struct ExpandedSize {
     length: u64,
 }
 
-/// All declarations with one name. Declarations inside of functions count as one with others of the same name: which one a
-/// word refers to does not matter for a limit.
+/// All declarations with one name. A declaration inside of a function counts together with all others of its name: for
+/// a limit, it does not matter to which of them a word refers.
 #[derive(Debug)]
 struct DeclarationNode {
     /// The first of these declarations.

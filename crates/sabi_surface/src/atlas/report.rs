@@ -58,7 +58,8 @@ impl ReportInputs<'_> {
         report
     }
 
-    /// Counts the unit squares in use: one for each sheet, or for each of its tiles where these have maps of their own.
+    /// Counts the unit squares in use: one for each sheet, or one for each tile of a sheet whose tiles have maps of
+    /// their own.
     fn squares(&self) -> usize {
         let square = |chart: &Chart| match self.udims.contains(&chart.sheet) {
             true if chart.texels == 0 => None,
