@@ -73,7 +73,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Command to run; the editor without one.
+    /// Command to run, and the options for all commands. Without a command, the editor opens.
     pub(crate) fn into_command(self) -> (CliCommand, Global) {
         // Without a command, the editor opens.
         (self.command.unwrap_or(CliCommand::Edit(self.edit)), self.global)

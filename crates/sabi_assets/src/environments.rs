@@ -1,7 +1,7 @@
 //! The project's own environments: what stands around a model to light it, written as Radiance HDR.
 //!
 //! Latitude by longitude: the top row looks to +Y, the middle to +Z, a quarter of the way from the left to +X. Models face
-//! +Z and are looked at from there, so what is at +Z is in front of them, behind the one who looks.
+//! +Z and are seen from there: what is at +Z is in front of them and behind the camera.
 
 mod clouds;
 mod interior;

@@ -132,7 +132,7 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
 }
 
 /// Returns the first group that these nodes use and that contains the shown group, with the name of the shown group. Of
-/// imported groups, only those that existed in this document before can contain it.
+/// imported groups, only groups that this document already had can contain the shown group.
 fn first_containing_shown(
     document: &OpenDocument,
     nodes: &BTreeMap<NodeId, Node>,

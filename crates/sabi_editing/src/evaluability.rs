@@ -5,10 +5,9 @@
 
 use std::sync::Arc;
 
-use sabi_graph::{Document, Edit, GROUP_KIND, Node, Overrides, Preview, SlotRef, Value, flatten, takes_values};
-
-/// Reads a group file by its name; none if it cannot be read.
-type ReadShared<'a> = &'a mut dyn FnMut(&str) -> Option<Arc<Document>>;
+use sabi_graph::{
+    Document, Edit, GROUP_KIND, Node, Overrides, Preview, ReadShared, SlotRef, Value, flatten, takes_values,
+};
 
 /// Returns the reason why the graph could not be evaluated after these edits. Returns `None` if it still could, or if it
 /// cannot be evaluated now either. `read` reads group files by name.

@@ -132,7 +132,8 @@ impl BrushTool {
         self.resized_at
     }
 
-    /// Place of the brush on the screen while a stroke is drawn: behind the pointer where it is pulled.
+    /// Place of the brush on the screen while a stroke is drawn. The pointer pulls the brush by a string, so it may be
+    /// behind the pointer.
     pub(crate) fn pulled(&self) -> Option<Pos2> {
         match &self.held {
             Some(BrushDrag::Stroke(stroke)) => Some(stroke.brush_place()),
@@ -265,8 +266,8 @@ impl BrushTool {
         }
     }
 
-    /// Changes the size by horizontal and the hardness by vertical drags with Ctrl and the second button. Returns
-    /// whether there is such a drag.
+    /// Handles drags with Ctrl and the second button: horizontal ones change the size of the brush, vertical ones its
+    /// hardness. Returns whether there is such a drag.
     fn resize(&mut self, ui: &Ui, response: &Response, brush: &BrushChoices, actions: &mut Vec<Action>) -> bool {
         let is_held = response.dragged_by(PointerButton::Secondary) && ui.input(|input| input.modifiers.command);
         let goes_on = self.resized_at.is_some() && ui.input(|input| input.pointer.secondary_down());

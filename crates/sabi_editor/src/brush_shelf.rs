@@ -1,7 +1,7 @@
 //! Brushes that the artist keeps: one file each in the folder of the settings, and the pictures of brushes.
 //!
-//! A file of a brush has the line `sabi brush 1`, the brush as JSON on one line, and behind the line `picture ENDING` the bytes of
-//! its picture, if it has one; so that a single file can be given to somebody else.
+//! A file of a brush has the line `sabi brush 1` and the brush as JSON on one line. If the brush has a picture, the
+//! line `picture ENDING` and the bytes of the picture follow, so that a single file can be given to somebody else.
 
 use std::path::{Path, PathBuf};
 
@@ -179,7 +179,7 @@ fn own_brushes() -> serde_json::Result<Vec<KeptBrush>> {
     kept.collect()
 }
 
-/// The brush of a file, whose picture is handed to the strokes of a document.
+/// Opens the brush of a file, and adds its picture to the strokes of a document.
 ///
 /// # Errors
 /// A sentence about a file that is no brush.

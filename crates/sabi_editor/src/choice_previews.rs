@@ -1,4 +1,5 @@
-//! Trials: pictures of choices on the open model, made while nothing else is to do: variants, updates of groups, and effects of the evaluated.
+//! Pictures of choices on the open model, made while the evaluator is idle: of variants, of updates of groups, and of
+//! effects of the library.
 
 mod preview_graph;
 
@@ -32,7 +33,7 @@ const PAUSE: Duration = Duration::from_millis(1500);
 /// Most pictures that are kept.
 const MOST_PICTURES: usize = 256;
 
-/// Choice of which a picture that made.
+/// Choice that a picture is made of.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum PreviewChoice {
     /// A variant of the shown graph, or of an instance in it; without a name its own values.
@@ -51,7 +52,7 @@ pub(crate) enum PreviewChoice {
 /// State of everything that a picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct PreviewVersion {
-    /// First revision of the model's file and how it is read.
+    /// Revision of the model since which its file and the way of reading it are the same.
     model: u64,
     /// The graph, or the digest of the group's file.
     content: String,

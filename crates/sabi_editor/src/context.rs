@@ -130,7 +130,7 @@ impl ViewContext<'_> {
         self.evaluation.problem_count() + self.document.node_kinds().kinds.faults.len() + named_model
     }
 
-    /// Returns whether another model stands in for the one that the graph names, which could not be read.
+    /// Returns whether another model is shown because the model that the graph names could not be read.
     pub(crate) fn is_named_model_refused(&self) -> bool {
         let refused = self.evaluation.model.refused().map(canonical_if_present);
         let named = model_of(&self.document.session, self.examples).and_then(Result::ok);

@@ -289,7 +289,7 @@ impl FlatView {
         }
     }
 
-    /// Makes a picture on a thread of its own where another one is needed, with the last one shown meanwhile.
+    /// Starts to make a picture on a thread of its own if a new one is needed; until it is done, the last one is shown.
     fn refresh(&mut self, ui: &Ui, values: &Arc<InspectedResult>) {
         let Some(plane) = values.planes.get(self.plane) else {
             self.shown = None;

@@ -1,4 +1,7 @@
 //! Widgets of parameters, one for each role. They show values and return changes as events.
+//!
+//! A view turns a [`KnobEvent`] into an `Action::Knob` or `Action::TurnExposed`, and `app/perform.rs` turns that into
+//! an edit of `sabi_editing`. Values are checked there, not here.
 
 mod bar;
 mod boxes;
@@ -84,7 +87,7 @@ impl KnobRow<'_> {
         !self.differs && *self.current() == Value::Bool(true)
     }
 
-    /// Returns whether the value differs from the default. A new node has a random seed, which nobody has changed.
+    /// Returns whether the value differs from the default. The random seed of a new node does not count as changed.
     fn is_changed(&self) -> bool {
         self.differs || self.knob.ty.role != Role::Seed && *self.current() != self.knob.ty.default
     }

@@ -20,7 +20,7 @@ use egui::{Color32, Context, Id, LayerId, Order, Pos2, RawInput};
 use pointer::PenPointer;
 use tablet::Tablet;
 
-/// Sentence for systems whose tablets cannot be asked.
+/// Sentence for systems on which tablets cannot be read directly.
 const UNSUPPORTED: &str = "This system gives pens as a mouse or as fingers, with pressure where it knows that, and without tilt. \
                            Wayland and Windows give all of it.";
 /// Time between two checks for a pen while none is near: shorter than a hand needs to lower a pen onto a tablet, and

@@ -73,7 +73,7 @@ impl SavedPictures {
         found.as_ref().map(|(texture, _)| texture.id())
     }
 
-    /// Stores the pictures of one file for another one too, since the graph was saved there.
+    /// Stores the pictures of one file for another file as well, to which the graph was saved.
     ///
     /// # Errors
     /// A sentence, where one cannot be written to the cache.

@@ -96,7 +96,8 @@ impl ShownResults {
         self.pinned_2d.as_ref().or(self.shown.as_ref())
     }
 
-    /// Result of a node at the output that was chosen last; until then at the material of a group, or at the first output.
+    /// Result of a node: at the output that was chosen last, otherwise at the material output of a group, otherwise at
+    /// the first output.
     pub(crate) fn chosen(&self, document: &OpenDocument, id: &NodeId) -> NodeRef {
         let output = self.outputs.get(&node_paths::full_id(document, id)).cloned();
         result_of(document, id, output.or_else(|| material_of_group(document, id)))
@@ -138,7 +139,7 @@ impl ShownResults {
         self.outputs.retain(|node, _| node_paths::exists(document, node));
     }
 
-    /// Shows the result of one node wherever that of another one was shown, whose full id is `before`.
+    /// Replaces the node with the full id `before` by another one in all shown results.
     pub(crate) fn replace(&mut self, before: &str, by: &NodeRef) {
         for result in self.results() {
             if result.as_ref().is_some_and(|result| result.node == before) {

@@ -39,7 +39,8 @@ impl TypeAhead {
                 opens_text_field(key, modifiers)
             }
         };
-        // egui takes the focus away on Escape when the key comes from the system, and not when it was held back.
+        // A quirk of egui: it takes the focus away on an Escape in the raw input at the start of a frame, and so does
+        // not see an Escape that was held back here.
         let escape = |event: &Event| is_press(event, |key, modifiers| key == Key::Escape && modifiers.is_none());
         if is_typing && !is_waiting && self.held.iter().any(escape) {
             context.memory_mut(|memory| {

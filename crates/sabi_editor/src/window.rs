@@ -143,8 +143,9 @@ fn run(request: &EditRequest, initial: InitialState, handover: &Handover) -> Res
     })
 }
 
-/// Calls `at_hang` if a window is still open some time after its device was lost. wgpu 29 frees the resources of a lost
-/// device under locks that an upload takes in the opposite order, so that two threads may wait for each other forever.
+/// Calls `at_hang` if a window is still open some time after its device was lost. The reason is a fault of wgpu 29,
+/// which frees the resources of a lost device under locks that an upload takes in the opposite order: two threads may
+/// wait for each other forever.
 fn watch_loss(gpu: &Gpu, window: Weak<()>, patience: Duration, at_hang: fn()) {
     gpu.when_lost(move || {
         std::thread::spawn(move || {

@@ -210,7 +210,7 @@ pub(crate) fn unless_left<T: Send + 'static>(
     }
 }
 
-/// Runs work that looks by [`sabi_cancel`] on this thread, while another thread looks whether it is canceled.
+/// Runs work on this thread that can be canceled by [`sabi_cancel`], while another thread asks whether it is canceled.
 ///
 /// # Errors
 /// The work was canceled.

@@ -322,8 +322,8 @@ impl Session {
         self.write(&path, true)
     }
 
-    /// Saves to its own file, after what another program has written there was copied beside it. Returns the path of the copy;
-    /// none where the file is gone or is this session's own.
+    /// Saves to the session's file. If another program has changed the file, its content is first copied to a file
+    /// beside it. Returns the path of the copy; `None` if the file is gone or holds what this session wrote.
     ///
     /// # Errors
     /// The file cannot be read, or the disk refuses; it is unchanged then.
@@ -427,11 +427,11 @@ impl Session {
         Ok(kept)
     }
 
-    /// Does what [`Session::keep`] does on a thread of its own, so that a window does not wait for the disk. To be called every
-    /// few seconds, and until all is done.
+    /// As [`Session::keep`], on a thread of its own, so that a window does not wait for the disk. To be called every
+    /// few seconds, and at the end until it is done.
     ///
     /// # Errors
-    /// The disk refused, now or for the copy before; an earlier recovery file is as it was.
+    /// This copy or the one before could not be written; an earlier recovery file is unchanged.
     pub fn keep_meanwhile(&mut self, drafts: &[NodeDraft]) -> Result<Keeping, EngineError> {
         let Some(graph) = self.work_to_keep(drafts) else {
             return Ok(Keeping::Done);
@@ -465,7 +465,8 @@ impl Session {
         self.file().or(recovery).map(Path::to_owned)
     }
 
-    /// Takes the strokes beside another graph file, of which nodes were copied, and stores those that this graph names now.
+    /// Reads the strokes beside another graph file from which nodes were copied, and stores the strokes that this graph
+    /// names now.
     ///
     /// # Errors
     /// A sentence about why they are in memory alone.

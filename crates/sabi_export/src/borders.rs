@@ -206,7 +206,8 @@ impl BorderPages<'_> {
         })
     }
 
-    /// Returns whether a ghost is beyond a border of the surface. Such a ghost continues its own chart and shows no neighbor.
+    /// Returns whether a ghost lies beyond an open edge of the surface, so that it continues its own chart and shows no
+    /// neighbor.
     fn shows_own_border(&self, ghost: &Ghost) -> bool {
         let near = [0, 1].map(|axis| (ghost.target_texel[axis] - ghost.texel[axis] as f32 - 0.5).abs());
         self.atlas.triangle_chart.get(ghost.target_triangle as usize) == Some(&ghost.chart)

@@ -59,8 +59,8 @@ fn is_device(stem: &str) -> bool {
     matches!(first.as_str(), "CON" | "PRN" | "AUX" | "NUL") || numbered("COM") || numbered("LPT")
 }
 
-/// A file name stem for each sheet of the model: that of each material, or one like that of a single unnamed material where all share
-/// one sheet.
+/// File name stem of each sheet of the model: one for each material, or a single one, like that of an unnamed material,
+/// if all materials share a sheet.
 pub fn sheet_names(model: &Model) -> Vec<String> {
     if !model.mesh.is_one_sheet {
         return set_names(model);
@@ -72,8 +72,8 @@ pub fn sheet_names(model: &Model) -> Vec<String> {
     })
 }
 
-/// A file name stem for each material of the model, all different even where upper and lower case count as the same. A
-/// lone unnamed material takes the model file's; among several, its number follows.
+/// File name stem of each material of the model. All of them differ, even on systems that ignore upper and lower case.
+/// A single unnamed material has the name of the model file; an unnamed one among several has that name and its number.
 pub fn set_names(model: &Model) -> Vec<String> {
     let model_stem = match file_stem(&model.stem) {
         stem if stem.is_empty() => "model".to_owned(),

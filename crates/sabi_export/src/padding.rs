@@ -26,7 +26,7 @@ pub struct PaddingMap {
     is_covered: Vec<u64>,
     /// Source of each pixel that is not covered, or [`NONE`].
     of_others: Vec<u32>,
-    /// Number of pixels before each part that are not covered.
+    /// Number of uncovered pixels before each part.
     parts: Vec<usize>,
 }
 

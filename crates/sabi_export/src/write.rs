@@ -65,8 +65,8 @@ pub struct WrittenChannel {
 pub struct CommittedBake {
     /// All files now in place.
     pub files: Vec<PathBuf>,
-    /// Files in the folder that an earlier bake of these sets may have left and that this one has no map for: the channel
-    /// is constant now. They are not touched.
+    /// Files in the folder that an earlier bake of these sets may have written and this one has not, because their
+    /// channels are constant now. They are not touched.
     pub left_over: Vec<PathBuf>,
 }
 

@@ -113,7 +113,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |found: fs::Metadata| (found.dev(), found.ino());
     let here = file.metadata().map(identity);
-    // If the file cannot be examined, it is treated as the same one, so that nobody waits forever.
+    // If the file cannot be examined, it is treated as the same one, since the caller would otherwise try forever.
     fs::metadata(path).map(identity).map_or_else(
         |error| error.kind() != std::io::ErrorKind::NotFound,
         |there| here.map_or(true, |here| here == there),

@@ -112,8 +112,8 @@ impl TrustedPaths {
         Err(refused)
     }
 
-    /// Finds a file that is in none of the places where a model of this base names it, in the first of these where there is one whose
-    /// name has another case of letters. Folders are listed for that.
+    /// Finds a file whose name a model of this base writes with upper and lower case letters that differ from those on
+    /// disk. The places in which it may be are searched in order, by listing their folders.
     ///
     /// # Errors
     /// As those of [`TrustedPaths::find_of_model`].

@@ -174,8 +174,8 @@ impl Gpu {
 
     fn poll(&self, submission: Option<wgpu::SubmissionIndex>, patience: Patience<'_>) -> Result<(), GpuError> {
         let polled = patience.wait(|step| {
-            // Polling a lost device makes wgpu 29 free all its resources, under locks that an uploading thread takes in the
-            // opposite order: a deadlock.
+            // A fault of wgpu 29: when a lost device is polled, all its resources are freed under locks that an
+            // uploading thread takes in the opposite order, which is a deadlock. So a lost device is not polled.
             if let Some(loss) = self.driver_errors.loss() {
                 return Some(Err(loss));
             }

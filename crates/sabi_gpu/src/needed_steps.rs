@@ -167,8 +167,8 @@ fn spared(
     }
 }
 
-/// Returns the largest number of bytes of the slots that hold a needed value at the same time in a run of these steps,
-/// given the bytes of each slot. From a limit on, kernels write over the textures that they are the last to read.
+/// Returns the maximum number of bytes of slots that hold needed values at the same time in a run of these steps, given
+/// the bytes of each slot. Above a limit, kernels write their results over textures that no later step reads.
 pub(crate) fn most_alive(
     plan: &Plan,
     steps: &[usize],

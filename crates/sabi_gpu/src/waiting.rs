@@ -17,7 +17,7 @@ const OF_COMPILING: u32 = 1800;
 pub(crate) struct Patience<'a> {
     is_canceled: &'a dyn Fn() -> bool,
     steps: u32,
-    /// True for a wait for a slice. The number of steps for these can be reduced for a device.
+    /// True for a wait for a slice. A device can have a smaller number of steps for these waits.
     is_for_slice: bool,
 }
 

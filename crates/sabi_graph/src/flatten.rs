@@ -10,7 +10,7 @@ mod trace;
 use std::collections::BTreeMap;
 
 pub use error::FlattenError;
-pub use instance_values::takes_values;
+pub use instance_values::{ReadShared, takes_values};
 pub use knobs::INSTANCE_KNOBS;
 use petgraph::stable_graph::NodeIndex;
 

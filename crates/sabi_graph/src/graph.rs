@@ -114,8 +114,9 @@ pub(crate) struct Link {
 pub struct Graph {
     /// Nodes and links.
     ///
-    /// Not wrapped in `petgraph::acyclic::Acyclic`: that is not `Sync`, while documents are shared between threads, its error
-    /// names one node instead of the cycle, and a new edge may take it a time in proportion to the size of the graph.
+    /// Not wrapped in `petgraph::acyclic::Acyclic` (petgraph 0.8), for three reasons: it is not `Sync`, while documents
+    /// are shared between threads; its error names one node and not the whole cycle; and adding an edge may take time
+    /// proportional to the size of the graph.
     pub(crate) net: StableDiGraph<(NodeId, Node), Link>,
     index: BTreeMap<NodeId, NodeIndex>,
     pub(crate) frames: BTreeMap<String, Frame>,

@@ -56,7 +56,7 @@ pub use document::{Description, Document, Fit, GroupDef, GroupInput, LibrarySour
 pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
 pub use flatten::{
-    FlatGraph, FlatNode, FlatRef, FlattenError, INSTANCE_KNOBS, NodeRef, Overrides, ResultOrigin, flatten,
+    FlatGraph, FlatNode, FlatRef, FlattenError, INSTANCE_KNOBS, NodeRef, Overrides, ReadShared, ResultOrigin, flatten,
     flatten_and_find, takes_values,
 };
 pub use format::{FormatKey, FormatObject, UnknownKey, UnknownKeys, format_objects, format_schema, unknown_keys};

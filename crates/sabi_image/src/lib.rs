@@ -7,7 +7,7 @@
 //! * Nothing here opens files or knows the purpose of an image.
 //! * The same numbers give the same bytes, on every machine and any number of threads.
 //! * The size of an image is checked before memory is allocated for it.
-//! * On the CPU, sRGB is decoded and encoded only here.
+//! * sRGB is decoded and encoded by `sabi_color`; no formula of it is repeated here.
 //!
 //! ```
 //! use sabi_color::srgb8_from_linear;

@@ -1,9 +1,10 @@
 //! Strokes of a brush on a surface: the data that a `source/paint` node holds.
 //!
 //! A [`Stroke`] is a brush, an action and points on the surface; pixels are computed from it, at any size. A [`StrokeList`] holds the
-//! strokes of one node on one model. Every list that ever existed has a [`Version`], a hash of all its strokes. A graph names the version,
-//! so that undo, copies of nodes and cache keys need nothing else. Versions are kept as steps from an earlier version to a later one
-//! ([`Step`]) in a [`StrokeBook`], and on disk in a [`mod@file`] to which steps are appended.
+//! strokes of one node on one model. Every list that ever existed has a [`Version`], a hash of the step that led to it
+//! and of the version before. A graph names the version, so that undo, copies of nodes and cache keys need nothing
+//! else. Versions are kept as steps from an earlier version to a later one ([`Step`]) in a [`StrokeBook`], and on disk
+//! in a [`mod@file`] to which steps are appended.
 //!
 //! Invariants:
 //! * The same strokes on the same atlas give the same texels on every machine and any number of threads.

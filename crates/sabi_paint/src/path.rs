@@ -197,7 +197,8 @@ impl Path {
         way
     }
 
-    /// Returns the positions of the handles before and after a knot in space: those that are given, or those that make its bend.
+    /// Returns the positions in space of the handles before and after a knot: the given ones, or else the ones that
+    /// follow from its bend.
     pub fn handles(&self, index: usize) -> [DVec3; 2] {
         let at = |index: usize| self.knots[index].place.site.position;
         let (own, count) = (at(index), self.knots.len());

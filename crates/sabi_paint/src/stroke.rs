@@ -71,7 +71,7 @@ impl Stroke {
         self.is_hidden || self.group.as_ref().is_some_and(|group| group.is_hidden)
     }
 
-    /// Returns the pictures that it needs: that of its brush, and that of its stencil.
+    /// Returns the pictures that it needs: those of its brush and of its stencil.
     pub fn pictures(&self) -> impl Iterator<Item = &PictureName> {
         let of_stencil = self.stencil.as_ref().map(|stencil| &stencil.picture);
         let tips = self.brush.picture.iter().chain(of_stencil);

@@ -165,9 +165,10 @@ fn regions(resolved: &ResolvedGraph<'_>, points: Vec<(usize, Vec<usize>)>) -> Ve
         .collect()
 }
 
-/// The resolved nodes, inputs before readers and depth first, those first that make the largest values: a region that has to be cut
-/// follows a material through its layers, and the masks of a layer are not stored while the layers below it are made. Of values of
-/// one size, that one is first which needs most values at once (Sethi and Ullman 1970).
+/// Returns the resolved nodes depth first, inputs before readers, and the input with the largest value first. So a
+/// region that has to be cut follows a material through its layers, and the masks of a layer are not stored while the
+/// layers below it are computed. Among inputs of equal size, the one whose computation needs the most values at once is
+/// first (Sethi and Ullman 1970).
 fn large_first(resolved: &ResolvedGraph<'_>) -> Vec<usize> {
     let needs = needed_values(resolved);
     let fresh_inputs = |node: usize, seen: &BTreeSet<usize>| -> Vec<usize> {

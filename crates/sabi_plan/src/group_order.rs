@@ -172,15 +172,16 @@ fn with_producers(group: usize, inputs: &[Vec<usize>]) -> BTreeSet<usize> {
     needed
 }
 
-/// An order with some groups, and all that they need, moved to a place as far as they are behind it.
+/// Returns the order with those of `groups` that come after `place` moved forward to it. `groups` includes everything
+/// that they need.
 fn moved_to(place: usize, groups: &BTreeSet<usize>, order: &[usize]) -> Vec<usize> {
     let (before, behind) = order.split_at(place);
     let (first, rest): (Vec<usize>, Vec<usize>) = behind.iter().partition(|group| groups.contains(*group));
     before.iter().copied().chain(first).chain(rest).collect()
 }
 
-/// For each group those whose results it reads, the one first that needs most memory besides what it leaves behind. `order` has
-/// every group behind those that it reads.
+/// Returns for each group the groups whose results it reads, sorted by the memory that they need in addition to their
+/// results, the largest first. In `order`, every group comes after the groups that it reads.
 fn largest_first(built: &[Vec<UnassignedStep>], inputs: &[Vec<usize>], order: &[usize]) -> Vec<Vec<usize>> {
     let mut sorted: Vec<Vec<usize>> = inputs.to_vec();
     // Peak of memory while a group and everything that it needs run.

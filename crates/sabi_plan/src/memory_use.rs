@@ -44,8 +44,8 @@ pub(crate) struct MemoryUse {
 }
 
 impl MemoryUse {
-    /// Memory in use while steps run. Planes that are read and that none of them writes are stored all the time, and those that
-    /// `stays` selects from when they are written.
+    /// Memory in use while steps run. Planes that none of the steps writes are stored from the start to the end, and
+    /// planes that `stays` selects are stored from the step that writes them to the end.
     pub(crate) fn of(steps: &[&UnassignedStep], stays: impl Fn(&StoredPlane) -> bool) -> MemoryUse {
         let mut last_use: BTreeMap<StoredPlane, usize> = BTreeMap::new();
         let mut stored: BTreeSet<StoredPlane> = BTreeSet::new();
@@ -104,7 +104,8 @@ impl MemoryUse {
     }
 }
 
-/// Memory of the planes that a kernel of points writes over those that it reads for the last time, which `is_last` tells.
+/// Memory of the planes that a kernel of points writes over planes that it reads for the last time; `is_last` tells
+/// whether a read is the last one.
 fn written_over(step: &UnassignedStep, is_last: impl Fn(&StoredPlane) -> bool) -> u64 {
     let Step::Kernel(kernel) = &step.step else { return 0 };
     if !kernel.is_of_points() {

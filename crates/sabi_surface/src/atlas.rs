@@ -3,9 +3,11 @@
 //! Texel coordinates: the center of texel `(x, y)` lies at `(x + 0.5, y + 0.5)`; `y` grows downward like `v`.
 //!
 //! The steps from a mesh to an atlas, one file each: `topology` (half-edges and their twins), `charts` (connected in UV),
-//! `raster` and `mask` (texel centers that a chart covers), `split` (charts that overlap themselves), `place` and `pack`
-//! (positions of charts), `fill` (owners), `ring` (ghosts), `walk` and `links` (surface points of ghosts), `leap`, `overlap`
-//! and `report`. `repeats` finds UVs that cost more than they show. `level` builds coarser levels, and `width` limits their number.
+//! `raster` and `mask` (texel centers that a chart covers), `chart_split`, `gaps` and `division` (charts that overlap
+//! themselves or have narrow gaps), `chart_placement` and `pack` (positions of charts), `owners`, `ring` (ghosts),
+//! `walk` and `links` (surface points of ghosts), `leap`, `overlap` and `report`. `build` runs them in order. `repeats`
+//! finds repeating UVs that take more texels than they show, `udim` finds tiles with maps of their own, `level` builds
+//! coarser levels, and `width` limits their number.
 
 mod build;
 mod build_inputs;

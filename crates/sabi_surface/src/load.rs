@@ -84,7 +84,8 @@ pub struct LoadOptions {
     pub parts: PartChoice,
     /// True to turn faces that are inside out; see [`crate::orientation`].
     pub turns_faces: bool,
-    /// Folder in which, and below which, files are looked for by their names that the model names and that are not there.
+    /// Folder in which files that the model names and that are missing are searched by their names, including the
+    /// folders in it.
     pub textures: Option<PathBuf>,
     /// Most bytes of memory for the files of a model together, for what they unpack to, and for its mesh, each. What would take
     /// more is refused before.

@@ -154,7 +154,7 @@ impl Camera {
         self.zoom_toward(camera.target + camera.right() * at.x + camera.up() * at.y, factor);
     }
 
-    /// Moves toward a point, such as one picked under the pointer, which keeps its position in the picture.
+    /// Moves toward a point, for example the one under the pointer. The point keeps its position in the picture.
     pub fn zoom_toward(&mut self, point: Vec3, factor: f32) {
         *self = self.clamped();
         if !(factor.is_finite() && factor > 0.0 && point.is_finite()) {

@@ -69,7 +69,7 @@ fn table(report: &MeshReport) -> Result<Page, Failure> {
         .collect())
 }
 
-/// The texture sets, each with what covers it, and what of that lies on each other.
+/// Texture sets, each with the number of its charts, their coverage, and the number of overlapping pairs.
 fn sets(report: &MeshReport) -> String {
     let set = |set: &SetReport| {
         let tile = set.udim.map_or_else(String::new, |number| format!(".{number}"));

@@ -126,8 +126,9 @@ impl Skin {
     }
 }
 
-/// Lays a grid of points flat with little stretch: from an even grid of the right size, each point in turn moves to
-/// where its neighbors want it, each at its true distance, but never so far that a triangle beside it would flip.
+/// Flattens a grid of points with little stretch. It starts from an even grid of the right size; then each point in
+/// turn is moved to the place that fits its true distances from its neighbors best, but never so far that a triangle
+/// beside it would flip.
 fn unroll(points: &[DVec3], rows: &[Vec<usize>], rounds: usize) -> Vec<Vec<DVec2>> {
     let steps = rows.len() - 1;
     let length = |a: (usize, usize), b: (usize, usize)| points[rows[a.1][a.0]].distance(points[rows[b.1][b.0]]);

@@ -28,7 +28,7 @@ pub enum ExposedCommand {
     Rename {
         /// Present name.
         name: String,
-        /// Current name.
+        /// New name.
         to: String,
     },
     /// Set the section that contains a knob. An empty title removes the knob from its section.

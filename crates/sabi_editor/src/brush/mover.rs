@@ -16,8 +16,8 @@ use crate::action::{Action, PaintAction};
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 10.0;
-/// Vectors from the place by which the strokes are held to the handle that moves them and to the one that turns them,
-/// in points.
+/// Vectors from the place at which the strokes are held to their two handles, in points: the first handle moves the
+/// strokes, the second one turns them.
 const MOVE: Vec2 = vec2(0.0, -34.0);
 const TURN: Vec2 = vec2(40.0, -34.0);
 /// Distance between that place and the visible surface there from which on the place is hidden, as a share of the

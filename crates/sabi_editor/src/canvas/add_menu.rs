@@ -276,8 +276,8 @@ impl AddMenu {
     fn action(&self, document: &OpenDocument, chosen: &Candidate) -> Action {
         let purpose = self.purpose.clone();
         let new = chosen.new.clone();
-        // A node at the end of a wire stays where the wire was dropped, and one that is inserted into a wire is given
-        // room there.
+        // A node at the end of a dropped wire stays where the wire was dropped. For a node that is inserted into a
+        // wire, other nodes make room.
         let is_dropped = purpose.into.is_some() || purpose.pending.is_some() && purpose.selected.is_none();
         match purpose.instead {
             Some(node) => Action::Replace { node, by: new },

@@ -80,8 +80,8 @@ impl RequestedModel {
         &self.options.path
     }
 
-    /// Warnings about the requested model at its full size. There are none about a coarse one, whose size nobody asked
-    /// for, and none while another model is being read.
+    /// Warnings about the requested model at its full size. There are none about the coarse model, since its size was
+    /// not requested, and none while another model is being read.
     pub(crate) fn warnings(&self) -> &[Warning] {
         let is_requested = |model: &&Arc<LiveModel>| model.model_revision >= self.file_since;
         let full = self.received.as_ref().filter(|model| model.size == self.size());
@@ -112,7 +112,7 @@ impl RequestedModel {
             .options(self.file(), &self.trusted, size, self.cache_dir.as_deref())
     }
 
-    /// First revision of the requested file and how it is read, whatever its size.
+    /// Revision of the model since which the requested file and the way of reading it are the same, at any size.
     pub(crate) fn file_since(&self) -> u64 {
         self.file_since
     }

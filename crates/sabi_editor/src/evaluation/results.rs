@@ -27,15 +27,16 @@ pub(crate) struct ResultPicture {
     pub(crate) outputs: Arc<BTreeMap<u32, String>>,
     /// Rises with every picture.
     pub(crate) number: u64,
-    /// Earlier pictures of the same model by their numbers, each with the boxes in view space outside of which this one looks the same.
+    /// Earlier pictures of the same model by their numbers. Outside of the boxes of each, which are in view space, this
+    /// picture looks the same as that one.
     pub(crate) changed: Vec<(u64, Vec<[Vec3; 2]>)>,
 }
 
 /// Earlier pictures that a picture remembers: as many as may come between two frames.
 const EARLIER: usize = 8;
 
-/// The previous picture and those that it remembers, by their numbers, each with the boxes in view space outside of
-/// which the newer one looks the same.
+/// Lists the previous picture and the earlier pictures listed with it, by their numbers. The boxes of each, in view
+/// space, contain everything that looks different in the newer picture.
 fn changed_since(before: &ResultPicture, picture: &ResultPicture) -> Vec<(u64, Vec<[Vec3; 2]>)> {
     let identities = before.looks.identity.as_ref().zip(picture.looks.identity.as_ref());
     let since = identities.and_then(|(old, new)| new.since.as_ref().filter(|(key, _)| *key == old.key));
@@ -64,7 +65,7 @@ pub(crate) struct EvaluationResults {
     thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
     /// Result that the 2D view shows, with its values.
     pub(crate) inspected: Option<(NodeRef, Arc<InspectedResult>)>,
-    /// First revision of the model's file that these values are of.
+    /// Revision of the model since which the file of these values is the same.
     pub(super) inspected_since: u64,
     /// Result whose histogram is shown among parameters, with its values.
     pub(crate) measured: Option<(NodeRef, Arc<InspectedResult>)>,

@@ -34,7 +34,7 @@ pub(crate) struct PathQuestion {
     /// Folder that a typed name is in, unless a whole path is typed.
     folder: PathBuf,
     text: String,
-    /// Part of a name that was typed, which narrows the list. A name that is chosen in the list does not.
+    /// Typed part of a name, which narrows the list. A name that was chosen in the list does not narrow it.
     typed: String,
     /// Entry that was clicked last.
     clicked: Option<PathBuf>,

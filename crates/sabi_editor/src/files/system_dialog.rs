@@ -126,8 +126,9 @@ impl PathFor {
 /// Sentence about a system without dialogs.
 pub(crate) const NO_DIALOG: &str = "The system's dialog could not be opened: on Linux it needs a desktop portal \
                                     (xdg-desktop-portal), or zenity.";
-/// Time in which nobody can close a dialog: one that ends sooner was not opened. The library of the dialogs does not
-/// tell the two apart, and may take longer than this to find neither a portal nor zenity.
+/// Time in which a user cannot have closed a dialog: one that ends sooner was never opened. A quirk of `rfd`: it gives
+/// the same answer for a canceled dialog and for one that could not be opened, and it may need longer than this to find
+/// neither a portal nor zenity.
 const AT_ONCE: Duration = Duration::from_millis(300);
 
 /// System dialog that is open.
@@ -149,8 +150,8 @@ pub(crate) enum DialogAnswer {
 }
 
 impl DialogAnswer {
-    /// Answer of a dialog that gave this path after some time. One that was opened has taken the focus from the window,
-    /// since nobody can close it otherwise.
+    /// Answer of a dialog, from the path that it gave, its duration, and whether the window has lost the focus. A
+    /// dialog that was opened takes the focus, since it cannot be closed without it.
     fn after(path: Option<PathBuf>, lasted: Duration, has_lost_focus: bool) -> DialogAnswer {
         match path {
             Some(path) => DialogAnswer::Chosen(path),

@@ -254,7 +254,8 @@ impl NumberBar<'_> {
             }
         };
         if is_entered || is_left {
-            // State of a closed text field would make egui treat the bar as one.
+            // A quirk of egui: while it has the state of a text field under this id, it treats the widget as a text
+            // field.
             ui.data_mut(|data| data.remove::<TextEditState>(self.id));
             ui.memory_mut(|memory| memory.request_focus(self.id));
         }

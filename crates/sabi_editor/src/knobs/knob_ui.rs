@@ -277,7 +277,7 @@ fn place_of(response: &Response) -> Option<Pos2> {
     })
 }
 
-/// A label without the words of its section at its beginning, unless it is no more than those.
+/// Returns a label without the words of its section at its start, unless nothing else would remain.
 fn without_section(label: &str, section: &str) -> String {
     let rest = match (label.get(..section.len()), label.get(section.len()..)) {
         (Some(start), Some(rest)) if start.eq_ignore_ascii_case(section) => {

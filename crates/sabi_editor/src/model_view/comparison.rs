@@ -20,8 +20,8 @@ impl Comparison {
         self.share = is_compared.then(|| self.share.unwrap_or(0.5));
     }
 
-    /// Moves the line by a drag that began on it; the cursor shows that a drag would. Returns whether the current drag
-    /// moves the line.
+    /// Moves the line by a drag that began on it. Over the line, the cursor shows that it can be dragged. Returns
+    /// whether the current drag moves the line.
     pub(super) fn drag(&mut self, ui: &Ui, response: &Response, rect: Rect) -> bool {
         let Some(line) = self.share.map(|share| rect.left() + share * rect.width()) else {
             self.is_dragged = false;

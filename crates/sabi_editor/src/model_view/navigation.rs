@@ -37,7 +37,8 @@ impl Navigation {
         }
     }
 
-    /// Sets up the camera for a new model, and again for a view of another shape as long as nobody has moved it.
+    /// Sets up the camera for a new model, and again when the shape of the view changes, until the user moves the
+    /// camera.
     pub(super) fn frame_new(&mut self, model: &LiveModel, rect: Rect) {
         let file = model.linked.model.files.first();
         let is_new = file.is_none() || self.framed.as_ref() != file;

@@ -11,7 +11,7 @@ use super::UNSUPPORTED;
 /// Name of the tablet protocol, and its newest version that `octotablet` knows.
 const TABLETS: (&str, u32) = ("zwp_tablet_manager_v2", 1);
 
-/// Checks that the compositor has the tablet protocol in a known version. The error is the reason that it has not.
+/// Checks that the compositor has a known version of the tablet protocol. The error says why there is none.
 pub(super) fn check() -> Result<(), String> {
     // A connection of its own; outside of Wayland there is none.
     let Ok(connection) = Connection::connect_to_env() else {

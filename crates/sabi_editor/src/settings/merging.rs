@@ -27,7 +27,8 @@ pub(super) fn merged(before: &Json, ours: Json, theirs: serde_json::Map<String, 
     Json::Object(all)
 }
 
-/// Own list, with the items that another window has added, and without those that it has removed.
+/// Returns this window's list with the items that another window has added, and without the items that the other window
+/// has removed.
 fn merged_list(before: Option<&Json>, own: Json, theirs: &[Json]) -> Json {
     let Json::Array(mut own) = own else { return own };
     let before = before.and_then(Json::as_array).map_or(&[][..], Vec::as_slice);

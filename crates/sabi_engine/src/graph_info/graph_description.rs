@@ -194,7 +194,8 @@ fn knobs(open: &OpenGraph, kinds: &Kinds) -> Vec<KnobDescription> {
 
 impl KnobDescription {
     fn of(name: &str, exposed: &ExposedParameter, document: &Document, interfaces: &Interfaces) -> KnobDescription {
-        // The knob is that of a node which is this graph, so its default is the value that the graph sets.
+        // The knob is taken from the interface that this graph has as a node, where the default is the value that the
+        // graph sets.
         let knob = interfaces.of_whole().and_then(|whole| whole.knob(name));
         let ty = knob.map(|knob| &knob.ty);
         let first = exposed.to.first();

@@ -37,7 +37,7 @@ impl GraphUpdate {
         self.edits.len()
     }
 
-    /// Returns the update that has the effect of this one and then of another.
+    /// Returns one update with the effect of this update followed by another one.
     #[must_use]
     pub fn followed_by(mut self, next: GraphUpdate) -> GraphUpdate {
         if next.whole.is_some() {
@@ -50,7 +50,7 @@ impl GraphUpdate {
     /// Updates a graph.
     ///
     /// # Errors
-    /// An edit does not apply, which is a defect of whoever sent it.
+    /// An edit does not apply, which is a defect of its sender.
     pub(super) fn apply(self, graph: &mut Arc<OpenGraph>) -> Result<(), EngineError> {
         if let Some(whole) = self.whole {
             *graph = whole;

@@ -8,7 +8,8 @@ use crate::error::{EngineError, ErrorKind};
 const DEFAULT_BUDGET_MIB: u64 = 4096;
 const BUDGET_VARIABLE: &str = "SABI_CACHE_MIB";
 
-/// Most bytes of results of nodes, and as many of encoded maps, that are kept in a cache folder: `SABI_CACHE_MIB`, else 4 GiB.
+/// Maximum number of bytes of results of nodes in a cache folder, which is also the maximum for encoded maps:
+/// `SABI_CACHE_MIB`, otherwise 4 GiB.
 ///
 /// # Errors
 /// The variable is no number.

@@ -34,8 +34,8 @@ impl SheetCoverage {
     }
 }
 
-/// Warns about each sheet that covers little of its maps, unless it is about as dense as those that cover much: it belongs to a small
-/// part of the model then. The bake reports those that cover nothing.
+/// Warns about each sheet that covers little of its maps, unless its texel density is about that of the sheets that
+/// cover much: then it belongs to a small part of the model. Sheets that cover nothing are reported by the bake.
 pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
     let atlas = &linked.atlas;
     let mut sheets: BTreeMap<u32, SheetCoverage> = BTreeMap::new();

@@ -39,7 +39,7 @@ pub struct OpenGraph {
     pub pictures: SessionPictures,
     /// Strokes of its paint nodes, as far as they have been read or painted.
     pub strokes: Strokes,
-    /// Paths outside of its folder from which it may open the files that it names.
+    /// Paths outside of the graph's folder from which the graph may open files.
     pub trusted: TrustedPaths,
 }
 
@@ -155,7 +155,7 @@ impl OpenGraph {
         PathBase::of_file(&self.path)
     }
 
-    /// Makes these pictures be read again on their next use, for changes that do not change the length or the time of the file.
+    /// Reads these pictures again on their next use: a file may have changed without a change of its length or time.
     pub fn look_again(&self, pictures: &BTreeSet<PathBuf>) {
         self.pictures.look_again(pictures);
     }

@@ -43,7 +43,8 @@ pub struct ModelOptions {
     pub scene: Option<u32>,
     /// Angle between faces up to which their shading is smooth, in degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
-    /// Parts that are used, and faces that are turned. Where this has no value, that of a graph which names the model is used.
+    /// Parts that are used, and faces that are turned. Values that are missing here are taken from the graph, if it
+    /// names the model.
     pub reading: SavedReading,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
@@ -53,7 +54,7 @@ pub struct ModelOptions {
     pub size: u32,
     /// Folder of the disk cache; `None` to build the atlas every time.
     pub cache_dir: Option<PathBuf>,
-    /// Paths outside of its folder from which it may open the files that it names.
+    /// Paths outside of the model's folder from which the model may open files.
     pub trusted: TrustedPaths,
     /// Maximum memory for its files and pictures, in bytes.
     pub memory_bytes: u64,

@@ -1,4 +1,5 @@
-//! Check of the values that a request sets. Faults that the graph has only with them are faults of the request.
+//! Check of the values that a request sets. A fault that the graph has only with these values is a fault of the
+//! request.
 
 use sabi_graph::{FlatGraph, Overrides};
 use sabi_plan::{FileContents, PlanError, Problem};

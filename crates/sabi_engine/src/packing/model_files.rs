@@ -22,11 +22,11 @@ pub(super) struct ModelFiles {
 }
 
 impl ModelFiles {
-    /// Reads the parts of a model that count for the files that they name, as far as it may open them.
+    /// Reads the file of a model and finds the files that it refers to, as far as it may open them.
     ///
     /// # Errors
-    /// It cannot be loaded, names two files that would have one place, or names a file that is none of a model: one from elsewhere must not
-    /// make anyone send other files of their computer.
+    /// The model cannot be loaded, names two files that would have the same place, or names a file of a type that
+    /// models do not use: a model from an unknown source must not make its user send other files along.
     pub(super) fn read(path: &Path, trusted: &TrustedPaths, reading: &SavedReading) -> Result<ModelFiles, EngineError> {
         let search = ModelFileSearch::of_model(path, trusted, reading)?;
         if let Some(refusal) = search.refused.first() {

@@ -208,8 +208,8 @@ impl WantedFile<'_> {
         }
     }
 
-    /// A component of one value everywhere as files have it. A height is the whole range of its file; whole numbers, and
-    /// normalized ones, count from its lowest.
+    /// Returns the number that a file has for a component with the same value everywhere. A height is itself in a file
+    /// of floats, and 0, the lowest of its range, in whole numbers and normalized files.
     fn code_of_value(&self, component: &Component, value: ConstantValue) -> f32 {
         let (channel, index) = match &component.source {
             ComponentSource::Constant(value) => return *value,

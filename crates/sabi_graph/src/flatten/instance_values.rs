@@ -12,7 +12,7 @@ use crate::{Document, GROUP_KIND, Graph, NodeId, Value};
 const MOST_INSTANCES: usize = 64;
 
 /// Reads a group file by its path relative to the document; none if it cannot be read.
-type ReadShared<'a> = &'a mut dyn FnMut(&str) -> Option<Arc<Document>>;
+pub type ReadShared<'a> = &'a mut dyn FnMut(&str) -> Option<Arc<Document>>;
 
 /// File that an instance is in.
 #[derive(Clone)]

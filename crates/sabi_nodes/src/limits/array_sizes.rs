@@ -1,5 +1,5 @@
-//! The number of elements of each array in a text, read from the text alone. It is limited because naga writes an array out
-//! when it computes with it.
+//! The number of elements of each array in a text, read from the text alone. It is limited because naga expands an
+//! array to all its elements when it evaluates a constant expression with it, and has no limit of its own.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -22,8 +22,8 @@ struct ExpandedSize {
     length: u64,
 }
 
-/// All declarations with one name. Declarations inside of functions count as one with others of the same name: which one a
-/// word refers to does not matter for a limit.
+/// All declarations with one name. A declaration inside of a function counts together with all others of its name: for
+/// a limit, it does not matter to which of them a word refers.
 #[derive(Debug)]
 struct DeclarationNode {
     /// The first of these declarations.
@@ -49,7 +49,8 @@ impl ExpandedDeclarations {
         }
     }
 
-    /// Returns a declaration that is deeper than a limit although nothing that it refers to is, with its depth.
+    /// Returns a declaration whose depth exceeds a limit, with its depth. If possible, it is one that refers to no
+    /// other such declaration.
     pub(super) fn first_deeper_than(&self, limit: usize) -> Option<(usize, usize)> {
         let is_deep = |node: usize| self.expanded[node].depth > limit;
         let deep = || (0..self.nodes.len()).filter(|node| is_deep(*node));

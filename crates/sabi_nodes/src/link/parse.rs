@@ -20,7 +20,7 @@ impl LinkedModule {
 /// Parses and validates, and also returns the types of all expressions. The fault has naga's message, which `explain.rs`
 /// replaces if it has a clearer one.
 pub(crate) fn compile(linked: &LinkedModule, capabilities: Capabilities) -> Result<(Module, ModuleInfo), Fault> {
-    // naga may panic on malformed text. That must not end the program.
+    // naga may panic on malformed text, which is a fault of naga. It must not end the program.
     let compiled = catch_unwind(AssertUnwindSafe(|| parse_and_validate(linked, capabilities)));
     compiled.unwrap_or_else(|_| {
         Err(Fault::of_file(

@@ -7,9 +7,10 @@ use super::spot::{Spot, shown};
 
 /// Width of the grains of chalk.
 const GRAIN: f64 = 0.16;
-/// Pores of a sponge along a radius, and how large they are, as shares of the distance between them.
+/// Sizes of pores of a sponge: number of cells along a radius, and the largest radius of a pore, in cells.
 const PORES: [(f64, f64); 3] = [(3.4, 0.42), (6.7, 0.46), (14.0, 0.4)];
-/// Dots of spray along a radius, fine ones last, and how many of them there are in the middle.
+/// Sizes of dots of spray, the finest last: number of cells for dots along a radius, and the share of cells with a dot
+/// in the middle.
 const DOTS: [(f64, f64); 3] = [(9.0, 0.35), (17.0, 0.8), (27.0, 0.9)];
 
 /// Chalk, whose strength depends on the grain of the surface.

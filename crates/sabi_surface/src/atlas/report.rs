@@ -12,7 +12,7 @@ use crate::model::Mesh;
 
 /// Ratio of the densest to the sparsest chart above which texels differ visibly in size.
 const DENSITY_RATIO: f64 = 4.0;
-/// Share of the surface on thin charts up to which nothing is warned about: nobody sees the texels of a few rivets.
+/// Share of the surface on thin charts up to which there is no warning: the texels of a few rivets are not noticed.
 const THIN_LEAST_SHARE: f64 = 5e-3;
 /// Charts below this share of the surface are ignored when densities are compared.
 const DENSITY_LEAST_SHARE: f64 = 1e-3;
@@ -58,7 +58,8 @@ impl ReportInputs<'_> {
         report
     }
 
-    /// Counts the unit squares in use: one for each sheet, or for each of its tiles where these have maps of their own.
+    /// Counts the unit squares in use: one for each sheet, or one for each tile of a sheet whose tiles have maps of
+    /// their own.
     fn squares(&self) -> usize {
         let square = |chart: &Chart| match self.udims.contains(&chart.sheet) {
             true if chart.texels == 0 => None,

@@ -4,7 +4,7 @@ use super::warnings::Warnings;
 use crate::model::ModelMaterial;
 
 /// Sets the opacity of a material to the file's value, 0 to 1. A value of 0 is replaced by 1, with a warning: programs
-/// disagree about the meaning of transparency, and nobody bakes an invisible model.
+/// disagree about the meaning of transparency, and there is no reason to bake an invisible model.
 pub(super) fn set_opacity(material: &mut ModelMaterial, opacity: f32, warnings: &mut Warnings) {
     let opacity = opacity.clamp(0.0, 1.0);
     material.ignores_alpha = opacity == 0.0 || opacity >= 1.0;

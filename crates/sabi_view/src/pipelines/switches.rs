@@ -20,7 +20,7 @@ const COLORS: u32 = MAP_BITS[0].1;
 pub(crate) const SHOWN_COLOR: u32 = 1;
 pub(crate) const SHOWN_VECTOR: u32 = 2;
 
-/// Properties of a surface on which it depends which of its points a pixel shows.
+/// Properties of a surface that decide which of its points a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum RasterVariant {
     /// Opaque triangles.

@@ -128,9 +128,9 @@ fn choices(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2)
     port_question::choices(canvas, document, panel, from, pointer)
 }
 
-/// Drops the dragged wire. At a port, connects it or says why the port refuses it; on a node's body, asks which
-/// parameter it multiplies; in a free place, opens the menu of nodes that fit it. A wire that was taken off an input is
-/// disconnected in a free place.
+/// Drops the dragged wire. On a port, connects it, or shows why the port refuses it; on the body of a node, asks which
+/// parameter it multiplies; on free space, opens the menu of nodes that fit it. A wire that was taken from an input is
+/// disconnected if it is dropped on free space.
 pub(super) fn drop_wire(
     canvas: &mut Canvas,
     context: &CanvasContext<'_>,
@@ -174,8 +174,8 @@ fn refusal(document: &OpenDocument, pending: &PendingWire, port: &PortRef) -> Op
     wires::check(document, from, to).err()
 }
 
-/// Connects a wire, taken off the input `off`, to a port. Where a mask is connected to an input that has one, asks at a
-/// place of the screen how to merge them.
+/// Connects a wire to a port. `off` is the input from which the wire was taken. If a mask is connected to an input that
+/// already has one, a question at a place of the screen asks how to merge them.
 pub(in crate::canvas) fn connect(
     popups: &mut Popups,
     document: &OpenDocument,

@@ -5,8 +5,8 @@ use sabi_color::linear_from_srgb;
 
 use crate::load::warnings::Warnings;
 
-/// Value from which colors are interpreted as codes from 0 to 255: rounding and bright light do not make values that large
-/// from shares of 1.
+/// Value from which colors are interpreted as codes from 0 to 255. Colors between 0 and 1 do not reach it by rounding
+/// errors or by somewhat overbright values.
 const CODES_FROM: f32 = 2.0;
 const LARGEST_CODE: f32 = 255.0;
 /// Stands for the color of a position without one.

@@ -13,7 +13,8 @@ pub(super) struct NameMeaning {
     pub(super) of_group: Option<String>,
 }
 
-/// Returns what leaves each part out by its name or by that of a node above it. Where that would be all, none is.
+/// Returns for each part the reason why its name, or the name of a node above it, leaves it out. If that would leave
+/// out all parts, none is left out.
 pub(super) fn by_names(parts: &[NamedPart], groups: &NodeGroups) -> Vec<Option<NameMeaning>> {
     let names: Vec<Name> = parts.iter().map(|part| Name::new(part.name, part.group)).collect();
     let group_names: Vec<Name> = groups

@@ -38,7 +38,7 @@ impl NodeGroups {
         &self.0
     }
 
-    /// Returns for each node what `of` says of it, or else what holds for the one above it.
+    /// Returns for each node the value that `of` gives, or else the value of the node above it.
     pub(super) fn inherited<T: Clone>(&self, of: impl Fn(usize, &NodeGroup) -> Option<T>) -> Vec<Option<T>> {
         let mut found: Vec<Option<T>> = Vec::with_capacity(self.0.len());
         for (number, group) in self.0.iter().enumerate() {
