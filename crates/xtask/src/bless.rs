@@ -1,5 +1,6 @@
-//! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window, and
-//! `cargo xtask bless library` the graphs of the effect library, and `cargo xtask bless schema` the JSON schema of graph files.
+//! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window,
+//! `cargo xtask bless manual` those of the first graph in the manual, `cargo xtask bless library` the graphs of the effect
+//! library, and `cargo xtask bless schema` the JSON schema of graph files.
 
 use xtask::project::{Project, TaskError, finish};
 use xtask::vulkan::{self, Driver};
@@ -8,7 +9,7 @@ use xtask::vulkan::{self, Driver};
 pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError> {
     let Some(kind) = kind else {
         let advice = "Which node? Say `cargo xtask bless noise/simplex`, `cargo xtask bless all`, `cargo xtask bless window`, \
-                      `cargo xtask bless library`, or `cargo xtask bless schema`.";
+                      `cargo xtask bless manual`, `cargo xtask bless library`, or `cargo xtask bless schema`.";
         return Err(TaskError::new(2, advice.to_owned()));
     };
     if kind == "schema" {
@@ -26,6 +27,12 @@ pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError
         command.env("UPDATE_SNAPSHOTS", "true");
         finish(command, "The pictures of the window")?;
         tell("crates/sabi_editor/tests/snapshots");
+        return Ok(());
+    }
+    if kind == "manual" {
+        let tests = ["test", "--workspace", "--lib", "app::tests::manual", "--", "--ignored"];
+        finish(project.cargo(&tests)?, "The pictures of the manual")?;
+        tell("docs/editor");
         return Ok(());
     }
     if kind == "library" {

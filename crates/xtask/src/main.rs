@@ -21,7 +21,7 @@ cargo xtask nightly   the build without the editor, the documentation, every fuz
                       number, the soak takes so many minutes
 cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
                       write only the figure in a million triangles, into target/meshes or FILE
-cargo xtask bless K   write the goldens of node kind K again, of all, pictures of the window,
+cargo xtask bless K   write the goldens of node kind K again, of all, pictures of the window or the manual,
                       the graphs of the library as the editor saves them, or the schema of graph files
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
 cargo xtask pictures  draw the example graphs on their models into docs/pictures; with names only theirs

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_engine::EngineError;
+use sabi_engine::{EngineError, ErrorKind};
 
 use super::{RunFlags, names};
 use crate::plan_file::BakePlan;
@@ -10,6 +10,9 @@ use crate::shell_word::shell_word;
 
 /// Greatest number of jobs in an array: by default, Slurm accepts indices below 1001.
 const MOST_JOBS: usize = 1000;
+/// Script, with words in capitals in the places that differ between plans. With `exec`, a signal of Slurm reaches the
+/// program, which then cleans up.
+const TEMPLATE: &str = include_str!("slurm.sh");
 
 /// Returns a script for the plan in this file, to be submitted from its folder.
 ///
@@ -30,19 +33,18 @@ pub fn slurm_script(file: &Path, plan: &BakePlan, flags: RunFlags) -> Result<Str
     let count = plan.items.len();
     let chunk = count.div_ceil(MOST_JOBS).max(1);
     let last_job = count.div_ceil(chunk).saturating_sub(1);
-    let (name, items) = (shell_word(name), items_of_job(count, chunk));
-    // With `exec`, a signal of Slurm reaches the program, which then cleans up.
+    // The name of the file is inserted last, since it and the name of the job may contain the words in capitals.
+    let text = TEMPLATE
+        .replace("LAST_JOB", &last_job.to_string())
+        .replace("ITEMS_FLAG", flags.items)
+        .replace("ITEMS_OF_JOB\n", &items_of_job(count, chunk));
+    let (before, after) = text
+        .split_once("PLAN_FILE")
+        .ok_or_else(|| EngineError::new(ErrorKind::Defect, "the template names no plan"))?;
     Ok(format!(
-        "#!/bin/bash\n\
-         #SBATCH --job-name={job}\n\
-         #SBATCH --array=0-{last_job}\n\
-         #SBATCH --ntasks=1\n\
-         #SBATCH --requeue\n\
-         #SBATCH --output={job}-%A_%a.log\n\
-         set -euo pipefail\n\
-         {items}\
-         exec \"${{SABI:-sabi}}\" run {name} {} \"$items\"\n",
-        flags.items
+        "{}{}{after}",
+        before.replace("JOB_NAME", &job),
+        shell_word(name)
     ))
 }
 

@@ -19,6 +19,7 @@ mod library;
 mod linked_groups;
 mod loss_protection;
 mod lost_device;
+mod manual;
 mod many;
 mod measures;
 mod menu;
