@@ -1,31 +1,43 @@
 //! Progress as lines of JSON; docs/report.md lists the keys.
 
 use sabi_engine::phases::Phase;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::exit::Exit;
 
 /// A line of `--progress json`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(tag = "event", rename_all = "snake_case")]
 pub(crate) enum Event {
     /// Steps of a phase are done.
     Phase {
+        /// Item of a plan, from 0 on.
         #[serde(skip_serializing_if = "Option::is_none")]
         item: Option<usize>,
+        /// Name of the phase.
         phase: &'static str,
+        /// Steps that are done.
         done: usize,
+        /// Steps of the phase.
         of: usize,
     },
-    /// An item of a plan has ended. Also gives how many of the requested items have ended.
+    /// An item of a plan has ended.
     Item {
+        /// Number in the plan, from 0 on.
         item: usize,
+        /// Status after the run.
         status: &'static str,
+        /// Requested items that have ended.
         done: usize,
+        /// Requested items.
         of: usize,
     },
     /// The command has ended.
-    Done { exit: u8 },
+    Done {
+        /// Exit code of the process.
+        exit: u8,
+    },
 }
 
 impl Event {

@@ -2,18 +2,24 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Bake that failed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub(crate) struct FailedBake {
+    /// Version of Sabi.
     sabi: &'static str,
+    /// Path of the graph as it was given.
     graph: String,
+    /// The model.
     mesh: FailedMesh,
 }
 
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+/// Model of a bake that failed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 struct FailedMesh {
+    /// Path of the model as it was given.
     file: String,
 }
 

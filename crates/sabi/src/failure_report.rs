@@ -1,5 +1,6 @@
 //! Failures in JSON for scripts; docs/report.md lists the keys.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::advice::remedies_with_flags;
@@ -8,20 +9,42 @@ use crate::failed_bake::FailedBake;
 
 /// Failure of a command: what `--json` prints, and the report of a bake that failed.
 #[derive(Debug, Serialize)]
-pub(crate) struct FailureReport {
+#[serde(untagged)]
+pub(crate) enum FailureReport {
+    /// Failure of a bake.
+    OfBake(Box<FailedBakeReport>),
+    /// Failure of another command, or of a bake whose arguments cannot be understood.
+    OfCommand(FailedCommandReport),
+}
+
+/// Report of a bake that failed.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct FailedBakeReport {
     #[serde(flatten)]
-    bake: Option<Box<FailedBake>>,
+    bake: FailedBake,
+    /// The failure.
+    error: ErrorReport,
+}
+
+/// Report of a command that failed.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct FailedCommandReport {
+    /// The failure.
     error: ErrorReport,
 }
 
 /// The error of a failure.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct ErrorReport {
+    /// Kind of failure.
     kind: &'static str,
+    /// Exit code of the process.
     exit: u8,
+    /// The first sentence.
     message: String,
     /// Remedies, as phrases.
     pub(crate) remedies: Vec<String>,
+    /// All sentences, if there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     messages: Option<Vec<String>>,
 }
@@ -29,9 +52,13 @@ pub(crate) struct ErrorReport {
 impl FailureReport {
     /// Describes a failure of the command with this name. The remedies name the flags of this command.
     pub(crate) fn new(failure: &Failure, command: &str) -> FailureReport {
-        FailureReport {
-            bake: failure.bake.clone(),
-            error: ErrorReport::new(failure, command),
+        let error = ErrorReport::new(failure, command);
+        match failure.bake.as_deref() {
+            Some(bake) => FailureReport::OfBake(Box::new(FailedBakeReport {
+                bake: bake.clone(),
+                error,
+            })),
+            None => FailureReport::OfCommand(FailedCommandReport { error }),
         }
     }
 }
@@ -48,5 +75,26 @@ impl ErrorReport {
             remedies,
             messages: (failure.messages.len() > 1).then(|| failure.messages.clone()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_engine::Remedy;
+
+    use super::*;
+    use crate::exit::Exit;
+
+    #[test]
+    fn a_remedy_has_the_flag_of_its_command_and_a_single_sentence_is_no_list() {
+        let failure = Failure {
+            remedies: vec![Remedy::SmallerSize],
+            ..Failure::new(Exit::BadInput, "one".to_owned())
+        };
+        let report = serde_json::to_value(FailureReport::new(&failure, "bake")).unwrap();
+        let expected = serde_json::json!({ "error": {
+            "kind": "bad_input", "exit": 65, "message": "one", "remedies": ["choose a smaller size with --size"],
+        } });
+        assert_eq!(report, expected);
     }
 }

@@ -4,8 +4,6 @@ mod advice;
 mod arguments;
 mod commands;
 mod defect;
-#[cfg(test)]
-mod documented;
 mod driver_environment;
 mod event;
 mod exit;
@@ -16,6 +14,8 @@ mod openjd;
 mod printable;
 mod progress;
 mod report_file;
+#[cfg(test)]
+mod report_keys;
 mod requested_bake;
 mod stopping;
 mod terminal;

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use sabi_engine::program::digest;
 use sabi_engine::{EngineError, ErrorKind};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// File that a bake reads.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 pub struct ItemInput {
     /// Name that does not depend on the location of the project: the path from the folder of the graph, or below `mesh/`
     /// from the folder of the model.

@@ -11,6 +11,7 @@ use sabi_engine::program::Build;
 use sabi_engine::{EngineError, ErrorKind};
 use sabi_files::{PathBase, TrustedPaths, path_from_stored, without_detours};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
@@ -18,7 +19,7 @@ use crate::inputs::{InputHashes, ItemInput};
 
 /// A bake of a plan. Paths start from the folder of the plan's file, with `/` between folders; docs/report.md lists the keys of its
 /// line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BakeItem {
     /// Number in the plan, from 0 on.

@@ -28,6 +28,3 @@ pub use inputs::{InputHashes, ItemInput};
 pub use item::{BakeItem, ItemMachine};
 pub use plan_file::BakePlan;
 pub use planning::{PlannedBakes, plan_bakes};
-
-#[cfg(test)]
-mod report_keys;

@@ -45,8 +45,6 @@ pub mod program;
 mod program_cache;
 pub mod remedy;
 pub mod rendering;
-#[cfg(test)]
-mod report_keys;
 pub mod session;
 pub mod source;
 pub mod stroke_maintenance;

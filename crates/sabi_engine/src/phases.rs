@@ -7,6 +7,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use sabi_cancel::{Cancel, CanceledWork, cancelable};
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use strum::VariantArray;
 
@@ -292,17 +293,22 @@ impl PhaseClock {
 }
 
 /// Time spent in each phase of a bake: `stages_ms` of the report. Their sum is the time that the bake took.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct PhaseTimes {
     /// Reading the graph, the model and its images, uploading the surface, and hashing and checking all inputs.
+    #[schemars(with = "f64")]
     pub load: PhaseTime,
     /// Building the atlas, or reading it from the cache.
+    #[schemars(with = "f64")]
     pub atlas: PhaseTime,
     /// Opening the device, planning, and compiling kernels.
+    #[schemars(with = "f64")]
     pub compile: PhaseTime,
     /// Running the plan.
+    #[schemars(with = "f64")]
     pub run: PhaseTime,
     /// Normals, readback, padding, encoding and writing.
+    #[schemars(with = "f64")]
     pub encode: PhaseTime,
 }
 

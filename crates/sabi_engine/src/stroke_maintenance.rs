@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use sabi_graph::{Body, Edit, NodeId, Value};
 use sabi_paint::{PaintSurface, Step, Stroke, StrokeList, SurfaceIndex, relocate};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::{EngineError, ErrorKind};
@@ -17,14 +18,14 @@ use crate::source::paint::NAME;
 use crate::source::strokes::{FlattenedFile, FlattenedStrokes, title};
 
 /// Strokes of a graph before and after they were flattened.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FlattenReport {
     /// Files of strokes.
     pub files: Vec<FlattenedFile>,
 }
 
 /// Strokes that were moved to another model.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ReprojectReport {
     /// Model on which they were painted.
     pub from: String,
@@ -40,7 +41,7 @@ pub struct ReprojectReport {
 }
 
 /// A stroke that lost places.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LostStroke {
     /// Paint node.
     pub node: String,

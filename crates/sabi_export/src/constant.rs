@@ -4,13 +4,14 @@ use std::fmt;
 
 use rayon::prelude::*;
 use sabi_color::srgb_from_linear;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::layout::{Cover, SetLayout};
 use crate::{Channel, ChannelPixels};
 
 /// The value of a constant channel, linear.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ConstantValue {
     /// Value of a channel with one component.

@@ -1,22 +1,24 @@
 //! Memory that a texture set takes in an engine, in the formats that its use suggests.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{EngineFormat, OutputRecord};
 
 /// Memory of textures in an engine; docs/report.md lists the keys.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct EngineMemory {
     /// Bytes of all textures with their mip levels.
     pub bytes: u64,
     /// Formats in use, each once.
+    #[schemars(with = "Vec<String>")]
     pub formats: Vec<EngineFormat>,
     /// Bytes by texture set.
     pub sets: Vec<SetMemory>,
 }
 
 /// Memory of a texture set of one preset.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SetMemory {
     /// Preset that the files are of.
     pub preset: String,

@@ -1,13 +1,14 @@
 //! Files and constant channels of a texture set, as the report of a bake lists them; docs/report.md lists the keys.
 
 use sabi_color::srgb8_from_linear;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::preset::DocumentFormat;
 use crate::{Channel, ConstantValue, EngineFormat};
 
 /// A file of a texture set.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct OutputRecord {
     /// The file, relative to the output folder.
     pub path: String,
@@ -37,6 +38,7 @@ pub struct OutputRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f32>,
     /// Format that an engine has it in.
+    #[schemars(with = "String")]
     pub engine_format: EngineFormat,
     /// Bytes of it there, with all mip levels.
     pub engine_bytes: u64,
@@ -45,9 +47,10 @@ pub struct OutputRecord {
 }
 
 /// A channel that has no file because it is the same everywhere.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ConstantRecord {
     /// The channel.
+    #[schemars(with = "String")]
     pub channel: Channel,
     /// Stem of the set's files: the material.
     pub material: String,
@@ -83,13 +86,14 @@ impl ConstantRecord {
 }
 
 /// Channels of a material that a preset has no map for.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct UnmappedChannels {
     /// The preset.
     pub preset: String,
     /// Stem of the set's files: the material.
     pub material: String,
     /// Channels that the material has.
+    #[schemars(with = "Vec<String>")]
     pub channels: Vec<Channel>,
 }
 
@@ -109,7 +113,7 @@ pub struct CutMap {
 }
 
 /// A document of materials beside the maps.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DocumentRecord {
     /// The file, relative to the output folder.
     pub path: String,
@@ -124,13 +128,14 @@ pub struct DocumentRecord {
 }
 
 /// A material of a document.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DocumentedMaterial {
     /// Stem of the set's files: the material.
     pub material: String,
     /// Its names in the document.
     pub names: Vec<String>,
     /// Channels of the material that are not in the document.
+    #[schemars(with = "Vec<String>")]
     pub left_out: Vec<Channel>,
 }
 

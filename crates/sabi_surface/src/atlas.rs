@@ -40,6 +40,7 @@ mod width;
 
 use std::collections::BTreeSet;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use cache::{atlas_key, cached};
@@ -62,7 +63,7 @@ pub const RINGS: u32 = 2;
 pub const PAIRS_LIMIT: usize = 10_000;
 
 /// Treatment of UVs in several tiles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Udim {
     /// UDIM, unless something indicates a repeating texture.

@@ -41,6 +41,7 @@ use std::sync::Arc;
 use glam::{DMat3, DMat4, DVec3};
 use sabi_cancel::look;
 use sabi_files::{PathBase, TrustedPaths, Unread, Uri, find_beside};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::error::{LoadError, ModelFault};
@@ -115,7 +116,7 @@ impl LoadOptions {
 }
 
 /// The axis of a file that points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Up {
     /// +Y, as in glTF.

@@ -1,6 +1,6 @@
 //! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window,
 //! `cargo xtask bless manual` those of the first graph in the manual, `cargo xtask bless library` the graphs of the effect
-//! library, and `cargo xtask bless schema` the JSON schema of graph files.
+//! library, and `cargo xtask bless schema` the JSON schemas of graph files and reports.
 
 use xtask::project::{Project, TaskError, finish};
 use xtask::vulkan::{self, Driver};
@@ -13,10 +13,10 @@ pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError
         return Err(TaskError::new(2, advice.to_owned()));
     };
     if kind == "schema" {
-        let tests = ["test", "--workspace", "--lib", "format::tests::the_schema"];
+        let tests = ["test", "--workspace", "--lib", "--bin", "sabi", "the_schema_"];
         let mut command = project.cargo(&tests)?;
         command.env("SABI_BLESS", kind);
-        finish(command, "The schema of graph files")?;
+        finish(command, "The schemas of graph files and reports")?;
         tell("docs");
         return Ok(());
     }

@@ -22,7 +22,7 @@ cargo xtask nightly   the build without the editor, the documentation, every fuz
 cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
                       write only the figure in a million triangles, into target/meshes or FILE
 cargo xtask bless K   write the goldens of node kind K again, of all, pictures of the window or the manual,
-                      the graphs of the library as the editor saves them, or the schema of graph files
+                      the graphs of the library as the editor saves them, or the schemas of graph files and reports
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
 cargo xtask pictures  draw the example graphs on their models into docs/pictures; with names only theirs
 cargo xtask library   draw the groups of the effect library into docs/library and write its page; with names only theirs;

@@ -6,6 +6,7 @@ use sabi_engine::baking::preset_description::{
     PresetDescription, PresetDocument, PresetFileDescription, describe_preset,
 };
 use sabi_engine::baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::arguments::{PresetsArguments, PresetsCommand};
@@ -22,8 +23,9 @@ pub(crate) fn run(arguments: &PresetsArguments, terminal: &Terminal) -> Result<E
 }
 
 /// A preset in the JSON of the list.
-#[derive(Serialize)]
-struct PresetListing {
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct PresetListing {
+    /// Name of the preset.
     name: String,
     /// File of a preset that the user wrote.
     file: Option<PathBuf>,

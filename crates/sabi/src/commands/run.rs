@@ -3,7 +3,7 @@
 mod alone;
 mod item_process;
 mod item_progress;
-mod summary;
+pub(crate) mod summary;
 
 use std::collections::BTreeSet;
 use std::io::{self, Write as _};

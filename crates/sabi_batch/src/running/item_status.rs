@@ -1,9 +1,10 @@
 //! Status of the items of a run.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Status of an item.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ItemStatus {
     /// The item was finished by an earlier run.

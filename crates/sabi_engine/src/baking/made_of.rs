@@ -2,7 +2,7 @@
 
 pub(crate) mod inputs;
 pub(crate) mod recipe;
-mod recorded_fit;
+pub(crate) mod recorded_fit;
 
 pub use inputs::InputRecord;
 pub use recipe::{ModelRecipe, Recipe, SetRecipe, is_preset_file, moved};

@@ -2,10 +2,11 @@
 
 use sabi_export::preset::{DocumentFormat, Map, MapContent, MapFormat, MapSize, NormalY, Preset, When};
 use sabi_export::{Channel, EngineFormat};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Description of a preset; docs/report.md lists the keys.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PresetDescription {
     /// Name in the file.
     pub name: String,
@@ -24,7 +25,7 @@ pub struct PresetDescription {
 }
 
 /// Description of a document of a preset. Its name is that of the model.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PresetDocument {
     /// Format, as preset files name it.
     pub format: &'static str,
@@ -35,7 +36,7 @@ pub struct PresetDocument {
 }
 
 /// A file of a preset in words.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PresetFileDescription {
     /// Word in the name of the file; `None` for the files of outputs, which have the names of the outputs.
     pub map: Option<String>,

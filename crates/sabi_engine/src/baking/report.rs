@@ -7,6 +7,7 @@ use sabi_export::{
     ConstantRecord, DocumentRecord, EngineMemory, LookChange, NamedPreset, OutputRecord, UnmappedChannels,
 };
 use sabi_files::{PathBase, absolute};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::baking::made_of::inputs::InputRecord;
@@ -21,7 +22,7 @@ use crate::warning::Warning;
 pub const REPORT_VERSION: u32 = 2;
 
 /// Report of a bake; docs/report.md lists the keys of its file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BakeReport {
     /// Version of the report.
     pub version: u32,
@@ -83,6 +84,7 @@ pub struct BakeReport {
     /// Channels of materials for which presets have no map.
     pub left_out: Vec<UnmappedChannels>,
     /// Warnings for the artist, as sentences with their remedies.
+    #[schemars(with = "Vec<String>")]
     pub warnings: Vec<Warning>,
     /// Copy of the model that uses the maps.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -119,7 +121,7 @@ impl BakeReport {
 }
 
 /// Meaning of the values of maps.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Conventions {
     /// Tangents of normal maps.
     pub tangents: &'static str,
@@ -151,7 +153,7 @@ impl Conventions {
 }
 
 /// The model of a bake.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BakedMesh {
     /// Path of the model as it was given.
     pub file: String,
@@ -178,7 +180,7 @@ pub struct BakedMesh {
 }
 
 /// The adapter of a bake.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct BakeAdapter {
     /// Name as the driver gives it.
     pub name: String,
@@ -187,7 +189,7 @@ pub struct BakeAdapter {
 }
 
 /// The copy of the model that uses the maps, with the files it needs.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ModelCopyReport {
     /// The model's file.
     #[serde(flatten)]
@@ -199,7 +201,7 @@ pub struct ModelCopyReport {
 }
 
 /// A file of a model's copy.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CopiedFileReport {
     /// The file, relative to the output folder.
     pub path: String,

@@ -4,12 +4,13 @@ use std::sync::OnceLock;
 
 use sabi_export::{Channel, ChannelPixels, ChartBorders, PaddingMap, SeamSamples, SetLayout};
 use sabi_surface::seams::{Seam, seams};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::opening::linked_model::LinkedModel;
 
 /// Treatment of the small differences of heights and normals between both sides of a seam, where two grids of texels meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Seams {
     /// Adjusts the texels next to seams until both sides agree.

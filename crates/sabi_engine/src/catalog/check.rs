@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use sabi_graph::{FlatGraph, Overrides};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::EngineError;
@@ -24,14 +25,20 @@ pub struct CheckReport {
     pub warnings: Vec<String>,
 }
 
-/// Interface of a graph in `sabi check --json`; docs/report.md lists the keys.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+/// Result of a check in `sabi check --json`; docs/report.md lists the keys.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CheckedGraph {
+    /// Path of the graph as it was given.
     graph: String,
+    /// True if there are no errors.
     good: bool,
+    /// Number of nodes after groups are inlined.
     nodes: usize,
+    /// Kernel passes of a bake.
     passes: usize,
+    /// Faults, as sentences.
     errors: Vec<String>,
+    /// Values without effect, and probable mistakes, as sentences.
     warnings: Vec<String>,
 }
 

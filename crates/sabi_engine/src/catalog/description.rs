@@ -1,13 +1,14 @@
 //! Descriptions of node kinds for `sabi nodes --json` and the reference; docs/report.md lists the keys.
 
 use sabi_graph::{PortType, Value};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Catalog, Interface, Knob, Port};
 use crate::opening::kinds::Kinds;
 
 /// A kind of node.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NodeDescription {
     /// Identifier as in graph files, `category/name`.
     pub id: String,
@@ -33,7 +34,7 @@ pub struct NodeDescription {
 }
 
 /// An input of a kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct InputDescription {
     /// Name in graph files.
     pub name: String,
@@ -47,11 +48,12 @@ pub struct InputDescription {
     /// True if the node has no result unless this is connected.
     pub required: bool,
     /// Value of the knob, or a description of the default, while nothing is connected.
+    #[schemars(with = "Option<serde_json::Value>")]
     pub default: Option<Value>,
 }
 
 /// An output of a kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct OutputDescription {
     /// Name in graph files.
     pub name: String,
@@ -65,7 +67,7 @@ pub struct OutputDescription {
 }
 
 /// A parameter of a kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ParamDescription {
     /// Name in graph files.
     pub name: String,
@@ -76,15 +78,18 @@ pub struct ParamDescription {
     /// Sort of values: `number`, `toggle`, `choice`, `color`, `length`, `angle`, `seed`, `stops`, `curve`, `text` or `file`.
     pub takes: &'static str,
     /// Default value in the form of a graph file.
+    #[schemars(with = "serde_json::Value")]
     pub default: Value,
     /// Words of a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choices: Option<Vec<String>>,
     /// Lowest and highest number taken.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<[f64; 2]>")]
     pub range: Option<[Value; 2]>,
     /// Ends of the slider.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<[f64; 2]>")]
     pub soft: Option<[Value; 2]>,
     /// True if a mask can be linked to it like to an input. The mask multiplies it at each place.
     pub takes_mask: bool,

@@ -1,12 +1,13 @@
 //! Report of Sabi's state on this machine, for `sabi doctor`; docs/report.md lists the keys.
 
 use sabi_files::TrustedPaths;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::opening::kinds::Kinds;
 
 /// Adapters, the cache, and node files with faults.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Diagnosis {
     /// Version of Sabi.
     pub sabi: &'static str,
@@ -25,7 +26,7 @@ pub struct Diagnosis {
 }
 
 /// An adapter and its driver.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct AdapterDescription {
     /// Name as the driver gives it.
     pub name: String,

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 
 use sabi_graph::{Body, Document, ExposedParameter, Fit, FlatGraph, Overrides, SlotRef, Value, format_version};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::graph_files::{FileDescription, GraphFiles};
+use crate::baking::made_of::recorded_fit::FitText;
 use crate::catalog::{Catalog, Interfaces};
 use crate::evaluating::outputs::{missing_output, outputs};
 use crate::opening::document::OpenGraph;
@@ -15,7 +17,7 @@ use sabi_nodes::kind::Role;
 use sabi_nodes::label_of;
 
 /// A graph.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct GraphDescription {
     /// Path of the graph as it was given.
     pub graph: String,
@@ -28,6 +30,7 @@ pub struct GraphDescription {
     /// Version of the file format that the file is written in.
     pub version: u32,
     /// Length on the model that counts as 1: `unit`, `metres`, `piece`, or a number of meters.
+    #[schemars(with = "FitText")]
     pub fit: Value,
     /// Seed of the document.
     pub seed: u32,
@@ -48,7 +51,7 @@ pub struct GraphDescription {
 }
 
 /// An exposed knob of a graph.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct KnobDescription {
     /// Name in graph files and on the command line.
     pub name: String,
@@ -67,31 +70,36 @@ pub struct KnobDescription {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
     /// Default value of the first parameter.
+    #[schemars(with = "Option<serde_json::Value>")]
     pub default: Option<Value>,
     /// Value in this graph, without a variant.
+    #[schemars(with = "Option<serde_json::Value>")]
     pub value: Option<Value>,
     /// Words of a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choices: Option<Vec<String>>,
     /// Lowest and highest number taken.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<[f64; 2]>")]
     pub range: Option<[Value; 2]>,
     /// Ends of the slider.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<[f64; 2]>")]
     pub soft: Option<[Value; 2]>,
 }
 
 /// A variant of a graph.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct VariantDescription {
     /// Its name.
     pub name: String,
     /// Values that it sets, by knob.
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub values: BTreeMap<String, Value>,
 }
 
 /// An output of a graph.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct GraphOutput {
     /// Id of the node.
     pub node: String,
@@ -106,7 +114,7 @@ pub struct GraphOutput {
 }
 
 /// A group that a graph file defines.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct GroupDescription {
     /// Name in the file.
     pub name: String,

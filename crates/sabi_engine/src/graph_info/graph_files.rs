@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sabi_files::{absolute, is_local, whole_path};
 use sabi_graph::Node;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::opening::document::OpenGraph;
@@ -14,7 +15,7 @@ use crate::source::paint::NAME as PAINT;
 use crate::source::strokes::{files_beside, paint_folder};
 
 /// A file that a graph takes.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 pub struct FileDescription {
     /// `group`, `model` (which it is shown on), `node`, `picture` or `strokes`.
     pub role: &'static str,

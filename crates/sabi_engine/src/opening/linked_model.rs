@@ -18,6 +18,7 @@ use sabi_surface::model::Model;
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
 use sabi_surface::unwrap::UnwrapReport;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{EngineError, ErrorKind};
@@ -61,7 +62,7 @@ pub struct ModelOptions {
 }
 
 /// Treatment of charts that overlap on the maps: stacked and mirrored ones, or those of a repeating texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Overlap {
     /// Uses the result of the first chart. Surfaces whose UVs repeat so often that their maps would show little of them are

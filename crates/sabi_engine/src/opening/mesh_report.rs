@@ -3,6 +3,7 @@
 use sabi_export::set_names;
 use sabi_surface::model::{Model, UvDecoding};
 use sabi_surface::orientation::turned_faces;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, UnwrapResult};
@@ -10,7 +11,7 @@ use crate::opening::overlap::{OverlapReport, OverlapTotals, SetReport};
 use crate::warning::Warning;
 
 /// A model and its atlas.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MeshReport {
     /// Triangles of all parts.
     pub triangles: usize,
@@ -75,11 +76,12 @@ pub struct MeshReport {
     /// Ghosts without a link across a seam.
     pub unlinked_ghosts: u32,
     /// Warnings for the artist, as sentences with their remedies.
+    #[schemars(with = "Vec<String>")]
     pub warnings: Vec<Warning>,
 }
 
 /// UVs of a material that the file stores under a transform: `uv = stored × scale + offset`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DecodedUvs {
     /// Name of the material, as used in file names.
     pub material: String,
@@ -109,7 +111,7 @@ impl DecodedUvs {
 }
 
 /// Results of unwrapping a model.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct UnwrappingReport {
     /// `TEXCOORD` of the new UVs in a copy of the model.
     pub uv_set: u32,

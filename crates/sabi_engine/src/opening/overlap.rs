@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use sabi_export::{SetKey, set_keys, set_names, sheet_names};
 use sabi_surface::atlas::{Chart, PAIRS_LIMIT, UvChart};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Overlap};
@@ -14,7 +15,7 @@ use crate::warning::Warning;
 const MATERIALS: usize = 10;
 
 /// Charts that share places on the maps, in a report.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct OverlapReport {
     /// Pairs of charts that share places.
     #[serde(flatten)]
@@ -30,7 +31,7 @@ pub struct OverlapReport {
 }
 
 /// Charts that share places in one material, in a report.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct MaterialOverlap {
     /// Pairs of charts that share places.
     #[serde(flatten)]
@@ -42,7 +43,7 @@ pub struct MaterialOverlap {
 }
 
 /// Texture set of a model in a report: the maps of a material, or of one of its UDIM tiles.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SetReport {
     /// Name of the material as used in file names, or of the model if all materials share one sheet.
     pub material: String,
@@ -58,7 +59,7 @@ pub struct SetReport {
 }
 
 /// Charts of a texture set that share places, in a report.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SetOverlap {
     /// Pairs of charts that share places.
     #[serde(flatten)]
@@ -68,7 +69,7 @@ pub struct SetOverlap {
 }
 
 /// Pairs of charts that share places on the maps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct SharedPairs {
     /// Pairs of charts in exactly the same place with the same orientation.
     pub stacked: u32,

@@ -5,13 +5,14 @@ use std::path::Path;
 use sabi_files::read_plain;
 use sabi_paint::StrokeBook;
 use sabi_paint::file::{FILE_LIMIT_BYTES, read};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::unread::why_unread;
 use crate::error::{EngineError, ErrorKind};
 
 /// A stroke file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct StrokeReport {
     /// Name of the model that was painted on.
     pub model: String,
@@ -26,7 +27,7 @@ pub struct StrokeReport {
 }
 
 /// The strokes of a version.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct VersionReport {
     /// Its name in graphs.
     pub version: String,

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use sabi_files::archive::{EntryContent, write_archive};
 use sabi_files::{TrustedPaths, Unread, canonical, named_path, whole_path};
 use sabi_graph::Value;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::archive_check::check;
@@ -60,7 +61,7 @@ pub enum PackedModel {
 }
 
 /// An archive that was written.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PackReport {
     /// Path of the archive as it was given.
     pub archive: String,
@@ -77,7 +78,7 @@ pub struct PackReport {
 }
 
 /// A file of an archive.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct PackedFile {
     /// Name in the archive.
     pub name: String,

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sabi_files::archive::{ArchiveError, UnpackedArchive};
 use sabi_files::{Unread, read_plain};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::entries::{check_file, check_name};
@@ -12,7 +13,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Progress, stop_if_canceled};
 
 /// A graph that was unpacked.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct UnpackReport {
     /// Path of the folder as it was given.
     pub folder: String,

@@ -7,6 +7,7 @@ mod vertex_colors;
 
 use std::collections::BTreeSet;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value as Json, json};
 
@@ -17,7 +18,7 @@ use super::maps::MaterialMaps;
 pub use self::rules::Treatment;
 
 /// Change of a property of a material that got maps.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 pub struct LookChange {
     /// Name of the material, as files are named after it.
     pub material: String,

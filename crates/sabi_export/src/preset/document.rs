@@ -1,11 +1,12 @@
 //! Documents beside the maps of a preset.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::MapFormat;
 
 /// Document with a material for each material of the model, which names the maps of a preset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DocumentFormat {
     /// MaterialX with `gltf_pbr` and `open_pbr_surface`.

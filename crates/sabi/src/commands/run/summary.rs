@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sabi_batch::BakePlan;
 use sabi_batch::running::ItemStatus;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::item_process::BakedItem;
@@ -11,29 +12,43 @@ use crate::failure_report::ErrorReport;
 use crate::printable::Page;
 
 /// Summary of a run.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct Summary {
+    /// Path of the plan as it was given.
     plan: String,
+    /// Items that were finished before.
     finished: usize,
+    /// Items that were baked.
     baked: usize,
+    /// Items that failed.
     failed: usize,
+    /// Items that were not baked.
     waiting: usize,
+    /// The requested items, in order.
     items: Vec<ItemSummary>,
 }
 
 /// Outcome of an item.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct ItemSummary {
+    /// Number in the plan, from 0 on.
     item: usize,
+    /// Key of the item.
     key: String,
+    /// Folder of the maps, as in the plan.
     out: String,
+    /// Status after the run.
     status: ItemStatus,
+    /// Maps that were written.
     #[serde(skip_serializing_if = "Option::is_none")]
     maps: Option<usize>,
+    /// Time that the bake took.
     #[serde(skip_serializing_if = "Option::is_none")]
     seconds: Option<f64>,
+    /// Warnings for the artist, as sentences.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
+    /// Error, if the item failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<ErrorReport>,
 }
@@ -135,8 +150,6 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::documented::keys::{documented, written};
-    use crate::exit::{Exit, Failure};
 
     fn item(item: usize) -> ItemSummary {
         ItemSummary {
@@ -160,22 +173,6 @@ mod tests {
             waiting: 3,
             items: [2, 5, 7].map(item).into(),
         }
-    }
-
-    #[test]
-    fn a_summary_has_the_documented_keys() {
-        let mut summary = summary();
-        let warnings = vec!["a warning".to_owned()];
-        let baked = BakedItem {
-            maps: 3,
-            seconds: 0.5,
-            warnings,
-        };
-        summary.baked(2, baked);
-        let mut failure = Failure::new(Exit::BadInput, "one".to_owned());
-        failure.messages.push("two".to_owned());
-        summary.failed(5, ErrorReport::new(&failure, "run"));
-        assert_eq!(written(&summary), documented("Summary of a run"));
     }
 
     #[test]

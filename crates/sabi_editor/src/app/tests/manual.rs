@@ -56,7 +56,8 @@ fn the_first_graph_of_the_manual_is_made_as_the_manual_says() {
     window.write_picture("start.png");
     window.press("Empty graph");
 
-    // 2. Add nodes.
+    // 2. Add nodes. All of them fit into a view from farther away.
+    window.wheel(window.on_canvas([0.5, 0.5]), -320.0);
     let node_of = |window: &Window, kind: &str| {
         let graph = window.document().graph();
         let found = graph.nodes().find(|(_, node)| node.kind == kind);
@@ -66,10 +67,10 @@ fn the_first_graph_of_the_manual_is_made_as_the_manual_says() {
     window.click_at(window.title(&model));
     window.key(Key::Delete);
     let paint = window.add([0.3, 0.12], "plain material");
-    let edges = window.add([0.05, 0.12], "edges");
-    let clouds = window.add([0.05, 0.55], "clouds");
-    let both = window.add([0.3, 0.55], "blend mask");
-    let layer = window.add([0.55, 0.3], "effect layer");
+    let edges = window.add([0.03, 0.1], "edges");
+    let clouds = window.add([0.03, 0.5], "clouds");
+    let both = window.add([0.3, 0.5], "blend mask");
+    let layer = window.add([0.55, 0.45], "effect layer");
     window.write_picture("nodes.png");
 
     // 3. Wire them.
@@ -79,6 +80,7 @@ fn the_first_graph_of_the_manual_is_made_as_the_manual_says() {
     window.wire(&clouds, "mask", &both, "above");
     window.wire(&both, "mask", &layer, "mask");
     window.wire(&layer, "material", &output, "material");
+    window.point(window.on_canvas([0.9, 0.95]));
     window.keys(Modifiers::COMMAND, Key::A);
     window.key(Key::L);
     window.key(Key::A);

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use sabi_files::{TrustedPaths, absolute, stored_path, without_detours};
 use sabi_nodes::files_of_folder;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::opening::kinds::Kinds;
 use crate::program::digest;
 
 /// Content of a file that a bake read.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 pub struct InputRecord {
     /// Path of the file.
     pub path: String,

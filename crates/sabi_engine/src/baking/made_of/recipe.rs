@@ -12,6 +12,7 @@ use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::{Fit, Overrides, Value};
 use sabi_surface::atlas::Udim;
 use sabi_surface::load::{PartChoice, Up};
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::recorded_fit;
@@ -25,7 +26,7 @@ use crate::opening::memory::default_memory_bytes;
 use crate::source::paint::without_paint;
 
 /// Recipe of a bake. Paths are absolute, or relative to the folder of the file that contains the recipe.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Recipe {
     /// Graph file.
@@ -43,6 +44,7 @@ pub struct Recipe {
     pub set: Vec<SetRecipe>,
     /// Fit in place of the graph's.
     #[serde(with = "recorded_fit")]
+    #[schemars(with = "Option<recorded_fit::FitText>")]
     pub fit: Option<Fit>,
     /// True to use strokes painted by hand.
     pub paint: bool,
@@ -69,16 +71,18 @@ pub struct Recipe {
     pub copy: Option<CopyOptions>,
     /// Adapter that was asked for.
     #[serde(serialize_with = "as_text", deserialize_with = "from_text")]
+    #[schemars(with = "String")]
     pub adapter: AdapterChoice,
     /// Ray caster that was asked for.
     #[serde(serialize_with = "as_text", deserialize_with = "from_text")]
+    #[schemars(with = "String")]
     pub caster: CasterChoice,
     /// True if point nodes share kernels.
     pub fuse: bool,
 }
 
 /// Model of a recipe, and the options for reading it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModelRecipe {
     /// Model file.
@@ -112,13 +116,14 @@ pub struct ModelRecipe {
 }
 
 /// A value that overrides the graph's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetRecipe {
     /// Exposed knob or `node.param`.
     pub name: String,
     /// The value in the form of graph files.
     #[serde(deserialize_with = "value")]
+    #[schemars(with = "serde_json::Value")]
     pub value: Value,
 }
 

@@ -1,14 +1,17 @@
 //! Fit in the form of a recipe: a word, or a length in meters.
 
 use sabi_graph::Fit;
+use schemars::JsonSchema;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde::{Serialize, Serializer};
 
-/// Either form.
-#[derive(serde::Serialize, serde::Deserialize)]
+/// Length on the model that counts as 1.
+#[derive(serde::Serialize, serde::Deserialize, JsonSchema)]
 #[serde(untagged)]
-enum FitText {
+pub(crate) enum FitText {
+    /// `unit` (the largest side), `metres` or `piece`.
     Word(String),
+    /// Meters.
     Length(f64),
 }
 

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use sabi_files::is_temporary_name;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::manifest::{self, Manifest};
@@ -12,7 +13,7 @@ use super::recorded_bake::RecordedBake;
 use crate::error::{EngineError, ErrorKind};
 
 /// Result of checking an output folder; docs/report.md lists the keys of its file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Verification {
     /// The folder as it was given.
     pub folder: String,
@@ -41,7 +42,7 @@ impl Verification {
 }
 
 /// A difference between an output folder and its recorded bakes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Finding {
     /// Kind of finding.
     pub kind: FindingKind,
@@ -52,7 +53,7 @@ pub struct Finding {
 }
 
 /// Kind of finding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingKind {
     /// A file is missing or has other bytes.

@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use sabi_files::read_plain;
 use sabi_paint::file::{FILE_LIMIT_BYTES, whole};
 use sabi_paint::{Step, StrokeBook, Version};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Strokes, StrokesState, paint_folder, versions_of};
 
 /// A file of strokes before and after it was flattened.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FlattenedFile {
     /// Model that was painted on.
     pub model: String,

@@ -1,9 +1,10 @@
 //! Treatment of each property of a glTF material that gets maps: the table of docs/model-copy.md, which contains the reasons, as data.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Treatment of a property.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Treatment {
     /// The copy does not have it.
