@@ -40,7 +40,12 @@ impl Window {
 #[test]
 #[ignore = "writes the pictures of the manual: cargo xtask bless manual"]
 fn the_first_graph_of_the_manual_is_made_as_the_manual_says() {
-    let folder = tempfile::tempdir().expect("a folder");
+    // Its name is read in the picture of the export.
+    let folder = tempfile::Builder::new()
+        .prefix("materials")
+        .rand_bytes(0)
+        .tempdir()
+        .expect("a folder");
     let folders = folders_in(folder.path());
     let places = folders.examples.clone().expect("a folder for examples");
     let bench = builtin_file(&places, "bench").expect("a model");
@@ -57,7 +62,7 @@ fn the_first_graph_of_the_manual_is_made_as_the_manual_says() {
     window.press("Empty graph");
 
     // 2. Add nodes. All of them fit into a view from farther away.
-    window.wheel(window.on_canvas([0.5, 0.5]), -320.0);
+    window.wheel(window.on_canvas([0.5, 0.5]), -190.0);
     let node_of = |window: &Window, kind: &str| {
         let graph = window.document().graph();
         let found = graph.nodes().find(|(_, node)| node.kind == kind);
@@ -67,10 +72,10 @@ fn the_first_graph_of_the_manual_is_made_as_the_manual_says() {
     window.click_at(window.title(&model));
     window.key(Key::Delete);
     let paint = window.add([0.3, 0.12], "plain material");
-    let edges = window.add([0.03, 0.1], "edges");
+    let edges = window.add([0.03, 0.05], "edges");
     let clouds = window.add([0.03, 0.5], "clouds");
-    let both = window.add([0.3, 0.5], "blend mask");
-    let layer = window.add([0.55, 0.45], "effect layer");
+    let both = window.add([0.33, 0.55], "blend mask");
+    let layer = window.add([0.66, 0.4], "effect layer");
     window.write_picture("nodes.png");
 
     // 3. Wire them.
