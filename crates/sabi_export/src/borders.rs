@@ -77,7 +77,7 @@ impl ChartBorders {
         let pixels = layout.cover.par_iter().enumerate();
         let ghosts = pixels
             .filter(|(_, cover)| **cover == Cover::Ghost)
-            .filter_map(|(pixel, _)| pages.ghost((*layout.source.get(pixel)? as usize, pixel)))
+            .filter_map(|(pixel, _)| pages.ghost(*layout.source.get(pixel)? as usize, pixel))
             .collect();
         ChartBorders {
             size: [layout.size as usize; 2],
@@ -93,7 +93,7 @@ impl ChartBorders {
             let [x, y, page] = ghost.texel.map(|at| at as usize);
             (page * height + y) * width + x
         });
-        let ghosts = texels.filter_map(|texel| pages.ghost((texel, texel))).collect();
+        let ghosts = texels.filter_map(|texel| pages.ghost(texel, texel)).collect();
         ChartBorders {
             size: [width, height * atlas.pages as usize],
             ghosts,
@@ -182,8 +182,7 @@ struct BorderPages<'a> {
 
 impl BorderPages<'_> {
     /// Returns the ghost that provides the value of a pixel; `None` if no texel of its chart is shown near it.
-    fn ghost(&self, at: (usize, usize)) -> Option<BorderGhost> {
-        let (texel, pixel) = at;
+    fn ghost(&self, texel: usize, pixel: usize) -> Option<BorderGhost> {
         let owner = *self.atlas.owners.get(texel)?;
         let index = owner & !GHOST_BIT;
         let ghost = self.atlas.ghosts.get(index as usize)?;
