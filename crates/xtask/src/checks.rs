@@ -1,6 +1,7 @@
 //! `cargo xtask test`: everything that must hold before a change is shared, cheapest first. `cargo xtask nightly`:
 //! checks that changes seldom break, or that take too long to wait for.
 
+use std::env;
 use std::process::Stdio;
 
 use crate::{fuzz, soak};
@@ -75,6 +76,10 @@ const FILES_FROM_ELSEWHERE: Check = (
 /// Environment variable with the folder of these files.
 const FILES_VARIABLE: &str = "SABI_TEST_DATA";
 
+/// Environment variable of Mesa's software driver with options of its compiler. Tests run most kernels once and on few
+/// texels, so that compiling takes longer than running: `nopt` leaves out the passes that only make code faster.
+const DRIVER_OPTIONS: &str = "GALLIVM_PERF";
+
 /// Checks that a change has to pass.
 const CHECKS: [Check; 4] = [FORMAT, CLIPPY, TESTS, DOC_TESTS];
 /// Checks that run once a night.
@@ -99,7 +104,7 @@ pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
 /// Runs the nightly checks, tests with files from elsewhere where a variable names their folder, every fuzz target for a minute, and the soak for as many minutes as the arguments say.
 pub(crate) fn run_nightly(project: &Project, arguments: &[String]) -> Result<(), TaskError> {
     run_all(project, &NIGHTLY_CHECKS)?;
-    match std::env::var_os(FILES_VARIABLE) {
+    match env::var_os(FILES_VARIABLE) {
         Some(_) => run_all(project, &[FILES_FROM_ELSEWHERE])?,
         None => eprintln!("\nThe tests with files from elsewhere are left out: {FILES_VARIABLE} names no folder."),
     }
@@ -113,8 +118,10 @@ fn run_all(project: &Project, checks: &[Check]) -> Result<(), TaskError> {
         let count = checks.len();
         eprintln!("\n[{}/{count}] {name}: cargo {}", number + 1, arguments.join(" "));
         let mut command = project.cargo(arguments)?;
-        if arguments[0] == "doc" {
-            command.env("RUSTDOCFLAGS", "-D warnings");
+        match arguments[0] {
+            "doc" => _ = command.env("RUSTDOCFLAGS", "-D warnings"),
+            "test" if env::var_os(DRIVER_OPTIONS).is_none() => _ = command.env(DRIVER_OPTIONS, "nopt"),
+            _ => {}
         }
         finish(command, name)?;
     }
