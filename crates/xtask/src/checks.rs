@@ -71,6 +71,9 @@ const FILES_FROM_ELSEWHERE: Check = (
         "--tests",
         "--",
         "--ignored",
+        // Writes pictures of the manual.
+        "--skip",
+        "app::tests::manual",
     ],
 );
 /// Environment variable with the folder of these files.
