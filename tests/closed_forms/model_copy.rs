@@ -7,13 +7,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::baking::{BakeRequest, Seams, bake};
-use sabi_engine::evaluating::EvaluatorOptions;
 use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions, Overlap};
 use sabi_engine::phases::NoProgress;
 use sabi_export::{CopyOptions, Cover, layouts, set_names};
-use sabi_files::Disk;
-use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
-use sabi_graph::Overrides;
 use sabi_image::{Pixels, decode};
 use sabi_surface::model::Model;
 use sabi_tests::{MeshFile, Quad, adapter, device, project, report_file};
@@ -52,33 +48,16 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
     fs::create_dir_all(folder).expect("a folder");
     let path = folder.join("graph.sabi");
     fs::write(&path, graph).expect("a graph");
-    let request = BakeRequest {
-        graph: path,
-        evaluator: EvaluatorOptions {
-            model,
-            overrides: Overrides::default(),
-            fit: None,
-            adapter: adapter(),
-            caster: CasterChoice::Auto,
-            budget_bytes: DEFAULT_BUDGET_BYTES,
-        },
+    let mut request = BakeRequest {
         output: folder.join("out"),
-        report: None,
-        disk: Disk::default(),
-        presets: Vec::new(),
-        preset_folder: None,
-        names: None,
-        channels: Vec::new(),
-        mesh_maps: Vec::new(),
-        material: None,
-        all_maps: false,
         padding: None,
         // Written values are compared with values that are read back, texel by texel.
         seams: if copies_model { Seams::Erase } else { Seams::Keep },
-        fuse: true,
-        force: false,
         model: copies_model.then(CopyOptions::default),
+        ..BakeRequest::plain(&path, &model.path, model.size)
     };
+    request.evaluator.model = model;
+    request.evaluator.adapter = adapter();
     report_file(&bake(&request, &NoProgress).unwrap_or_else(|error| panic!("{error}")))
 }
 

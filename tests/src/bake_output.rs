@@ -4,12 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::baking::{BakeReport, BakeRequest, Seams, bake};
-use sabi_engine::evaluating::EvaluatorOptions;
 use sabi_engine::opening::linked_model::ModelOptions;
 use sabi_engine::phases::NoProgress;
-use sabi_files::Disk;
-use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
-use sabi_graph::Overrides;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
@@ -49,32 +45,14 @@ impl BakeOutput {
         let folder = tempfile::tempdir().expect("a folder for maps");
         let (path, output) = (folder.path().join("test.sabi"), folder.path().join("out"));
         fs::write(&path, graph).expect("the graph's file");
-        let request = BakeRequest {
-            graph: path,
-            evaluator: EvaluatorOptions {
-                model,
-                overrides: Overrides::default(),
-                fit: None,
-                adapter: adapter(),
-                caster: CasterChoice::Auto,
-                budget_bytes: DEFAULT_BUDGET_BYTES,
-            },
+        let mut request = BakeRequest {
             output: output.clone(),
-            presets: Vec::new(),
-            preset_folder: None,
-            names: None,
-            channels: Vec::new(),
-            mesh_maps: Vec::new(),
-            material: None,
-            all_maps: false,
             padding: None,
             seams,
-            fuse: true,
-            force: false,
-            model: None,
-            report: None,
-            disk: Disk::default(),
+            ..BakeRequest::plain(&path, &model.path, model.size)
         };
+        request.evaluator.model = model;
+        request.evaluator.adapter = adapter();
         let baked = bake(&request, &NoProgress).unwrap_or_else(|error| panic!("{error}\n{graph}"));
         BakeOutput {
             _folder: folder,

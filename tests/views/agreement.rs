@@ -89,7 +89,7 @@ fn normals_are_those_of_the_exported_map_decoded_in_its_frame() {
             others += i32::from(apart.max(apart_bent) >= 4e-3);
             compared += 1;
         }
-        // Where triangles lie on each other, a picture may show the other one.
+        // Of triangles that lie on each other, a picture may show the other one.
         assert!(
             1000 * others <= compared,
             "{}: {others} normals of {compared}",

@@ -40,7 +40,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
     model.cache_dir = cache;
     let request = BakeRequest {
         fuse,
-        ..request(folder, graph.to_owned(), model, adapter())
+        ..request(folder, graph, model, adapter())
     };
     let started = Instant::now();
     let mut json = serde_json::to_value(bake(&request, &NoProgress).unwrap()).unwrap();

@@ -63,7 +63,7 @@ fn rays(count: usize) -> String {
 /// Returns the seconds of a bake, and its peak memory in MiB; `None` for the memory if the system has no file that reports it.
 fn measured(folder: &Path, model: &Path, size: u32, nodes: &str) -> [f64; 2] {
     let graph = graph(folder, "scale.sabi", nodes);
-    let request = request(folder, graph, ModelOptions::new(model, size), adapter());
+    let request = request(folder, &graph, ModelOptions::new(model, size), adapter());
     // Writing 5 resets the peak to the memory in use now.
     let is_reset = fs::write("/proc/self/clear_refs", "5").is_ok();
     let started = Instant::now();

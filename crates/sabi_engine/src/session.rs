@@ -40,7 +40,7 @@ pub const BACKUPS: usize = 3;
 
 /// An open graph that is edited.
 ///
-/// What one part alone can do is a method of that part. The session has what concerns several: an edit changes the document, its
+/// Work that needs one part alone is a method of that part. The session does what concerns several: an edit changes the document, its
 /// history and what is unsaved; a save writes the document and its strokes, and then the recovery file is no longer needed.
 #[derive(Debug)]
 pub struct Session {

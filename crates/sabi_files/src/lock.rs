@@ -10,7 +10,7 @@ use crate::disk::Disk;
 use crate::error::{FileError, Operation};
 use crate::whole::{Durability, create_folder, folder_of};
 
-/// Number of times that a lock in use is tried again.
+/// Number of times that a lock in use, or a folder that is gone, is tried again.
 const TRIES: usize = 2;
 /// Pause before a lock in use is tried again.
 const BETWEEN_TRIES: Duration = Duration::from_millis(5);
@@ -74,16 +74,8 @@ impl FileLock {
     /// # Errors
     /// The file system does not offer locks, or the path is not an ordinary file.
     pub fn wait(path: &Path, goes_on: &mut dyn FnMut() -> bool) -> Result<Option<FileLock>, FileError> {
-        let mut tries = 0;
         loop {
-            let file = match open(path) {
-                // A holder may have removed the folder after it was created here and before the file was.
-                Err(error) if error.source.kind() == std::io::ErrorKind::NotFound && tries < TRIES => {
-                    tries += 1;
-                    continue;
-                }
-                opened => opened?,
-            };
+            let file = open(path)?;
             loop {
                 match file.try_lock() {
                     // Its holder removed the file that was opened here, and the next holder locks another one.
@@ -128,11 +120,17 @@ fn is_at(_: &File, _: &Path) -> bool {
 
 /// Opens the file of a lock. The file and its folder are created if they are missing.
 fn open(path: &Path) -> Result<File, FileError> {
-    // A lock does not outlive the process, so its folder need not be durable.
-    create_folder(&Disk::default(), folder_of(path), Durability::Unsynced)?;
-    refuse_special(path)?;
-    let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
-    file.map_err(|error| FileError::new(Operation::Lock, path, error))
+    let mut tries = 0;
+    loop {
+        // A lock does not outlive the process, so its folder need not be durable.
+        create_folder(&Disk::default(), folder_of(path), Durability::Unsynced)?;
+        refuse_special(path)?;
+        match OpenOptions::new().write(true).create(true).truncate(false).open(path) {
+            // A holder may have removed the folder after it was created here and before the file was.
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound && tries < TRIES => tries += 1,
+            opened => return opened.map_err(|error| FileError::new(Operation::Lock, path, error)),
+        }
+    }
 }
 
 /// Refuses a path that is not an ordinary file: opening a pipe would wait, and a link would lead elsewhere.

@@ -15,7 +15,7 @@ use crate::waiting::{OF_A_SLICE, Patience, STEP};
 
 /// A device with its queue, the pipelines compiled on it, and the work that is waited for.
 ///
-/// What is computed on it, and what is read back, are functions of other modules that borrow it.
+/// Computations on it, and reading back, are functions of other modules that borrow it.
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,

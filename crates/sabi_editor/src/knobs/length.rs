@@ -59,7 +59,7 @@ impl LengthUnits {
 
     /// Units that can follow a typed number, with their length in working units.
     pub(super) fn units(&self) -> [(&'static str, f64); 4] {
-        // Where the size of the model is unknown, a meter is a unit of its file.
+        // A meter is a unit of the file if the size of the model is unknown.
         let metres = self.metres().unwrap_or(1.0);
         UNITS.map(|(name, unit, _)| (name, unit / metres))
     }

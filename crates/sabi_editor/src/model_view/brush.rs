@@ -240,7 +240,7 @@ impl ModelView {
         let color = if erases { subject.theme.warning } else { Color32::WHITE };
         let hard = f64::from(painted.brush.hardness);
         let own = [(None, 1.0, 1.0), (None, hard, 0.45)];
-        // Where the copies of the stroke will be.
+        // Outlines at the places of the copies of the stroke.
         let copies = painted.brush.symmetry.copies();
         let copies = copies.iter().map(|copy| (Some(copy), 1.0, COPY_STRENGTH));
         for (copy, share, strength) in own.into_iter().chain(copies) {

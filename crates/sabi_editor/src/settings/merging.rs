@@ -19,7 +19,7 @@ pub(super) fn merged(before: &Json, ours: Json, theirs: serde_json::Map<String, 
             Some(_) if known == Some(&own) => continue,
             Some(Json::Array(theirs)) if LISTS.contains(&name.as_str()) => merged_list(known, own, theirs),
             Some(Json::Object(theirs)) if MAPS.contains(&name.as_str()) => merged_map(known, own, theirs),
-            // Where both windows have changed a choice, the later save counts.
+            // Of two windows that have changed a choice, the later save counts.
             _ => own,
         };
         all.insert(name, value);

@@ -71,7 +71,7 @@ pub fn bake_graph(
 pub fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
     // An unknown preset is reported before the graph's faults.
     let options = set_options(request)?;
-    let checked = CheckedGraph::of(open, kinds, options, request)?;
+    let checked = CheckedBake::of(open, kinds, options, request)?;
     // Names that are the same for one material are the same for every model, so one material is enough.
     let (options, channels) = (&checked.options, &checked.map_channels);
     Ok(options.refuse_same_names(&[("material", None)], channels, request.evaluator.model.size)?)
@@ -88,7 +88,7 @@ fn bake_open(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    let checked = CheckedGraph::of(open, &kinds, options, request)?;
+    let checked = CheckedBake::of(open, &kinds, options, request)?;
     // A folder that cannot be written to is reported before the work.
     let mut writer = open_writer(request, &checked.graph, &checked.options)?;
     let loaded = LoadedBake::open(open, kinds, checked, request, progress)?;
@@ -159,7 +159,7 @@ fn bake_open(
 }
 
 /// A graph without faults, and the maps that it gives, before its model is read.
-struct CheckedGraph {
+struct CheckedBake {
     graph: FlatGraph,
     /// Its outputs, ordered by id.
     outputs: Vec<usize>,
@@ -168,19 +168,19 @@ struct CheckedGraph {
     options: SetOptions,
 }
 
-impl CheckedGraph {
+impl CheckedBake {
     /// Checks a graph for a bake with the options of its presets.
     fn of(
         open: &OpenGraph,
         kinds: &Kinds,
         options: SetOptions,
         request: &BakeRequest,
-    ) -> Result<CheckedGraph, EngineError> {
+    ) -> Result<CheckedBake, EngineError> {
         let graph = request.evaluator.flat_graph(open, kinds)?;
         let outputs = checked_outputs(open, &graph, kinds)?;
         let map_channels = map_channels(&graph, &outputs);
         let options = with_outputs(options, request, open, &map_channels)?;
-        Ok(CheckedGraph {
+        Ok(CheckedBake {
             graph,
             outputs,
             map_channels,
@@ -203,7 +203,7 @@ impl LoadedBake {
     fn open(
         open: &OpenGraph,
         kinds: Kinds,
-        checked: CheckedGraph,
+        checked: CheckedBake,
         request: &BakeRequest,
         progress: &dyn Progress,
     ) -> Result<LoadedBake, EngineError> {
@@ -223,7 +223,7 @@ impl LoadedBake {
     }
 }
 
-/// What a bake evaluates.
+/// Results that a bake evaluates.
 struct PlannedBake {
     plan: Plan,
     /// Results of the mesh maps.

@@ -212,7 +212,7 @@ impl UnfoldedTriangle {
 
     /// Returns the crossing of a walk that entered at `x` on the edge from a to b.
     ///
-    /// Which edge is crossed follows from the side of the walk on which c lies. That needs no division and is defined for
+    /// The crossed edge follows from the side of the walk on which c lies. That needs no division and is defined for
     /// triangles without area, too.
     fn next_crossing(&self, d: DVec2, x: f64) -> EdgeCrossing {
         let at = DVec2::new(x, 0.0);

@@ -130,7 +130,7 @@ fn warnings_about_a_model_have_badges_at_the_model_and_in_the_status_bar() {
     assert!(window.says(&sentence), "{:?}", window.labels());
     window.open(Panel::History);
     assert!(!window.says(&sentence));
-    // What stands before the number in the status bar, such as the time of the evaluation, changes while it runs.
+    // The texts left of the number in the status bar, such as the time of the evaluation, change while it runs.
     window.until("rest", |editor| !editor.evaluation.is_busy());
     let all = crate::model_warnings::counted(window.editor().evaluation.faults.all.warnings.len());
     let told = window.harness.query_all_by_label_contains(&all);

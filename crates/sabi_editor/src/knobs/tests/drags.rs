@@ -1,6 +1,6 @@
 use super::*;
 
-/// How often drags began, values were set, and drags ended in a log.
+/// Numbers of drags that began, values that were set, and drags that ended in a log.
 fn borders(log: &[KnobEvent]) -> (usize, usize, usize) {
     let count = |what: fn(&KnobEvent) -> bool| log.iter().filter(|event| what(event)).count();
     (

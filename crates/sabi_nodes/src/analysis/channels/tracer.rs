@@ -130,19 +130,20 @@ impl<'m> Tracer<'m> {
         }
     }
 
+    /// Returns the assignments to a variable.
+    fn stores_of(&mut self, frame: &WriteFrame<'m>, local: Handle<LocalVariable>) -> Vec<Store> {
+        self.fuel.scan(frame.stores.len());
+        let own = frame.stores.iter().filter(|store| store.local == local);
+        own.cloned().collect()
+    }
+
     fn material_local(&mut self, frame: &mut WriteFrame<'m>, local: Handle<LocalVariable>, depth: u32) -> Writes {
         let mut writes = self.members.none_set();
         if frame.open.contains(&local) {
             return writes;
         }
         frame.open.push(local);
-        self.fuel.scan(frame.stores.len());
-        let own: Vec<Store> = frame
-            .stores
-            .iter()
-            .filter(|store| store.local == local)
-            .cloned()
-            .collect();
+        let own = self.stores_of(frame, local);
         match frame.function.local_variables[local].init {
             Some(init) => join(&mut writes, self.material(frame, init, depth), &BTreeSet::new()),
             None if own.iter().any(|store| store.path.is_empty() && store.value.is_some()) => {}
@@ -259,13 +260,7 @@ impl<'m> Tracer<'m> {
             return None;
         }
         frame.open.push(local);
-        self.fuel.scan(frame.stores.len());
-        let own: Vec<Store> = frame
-            .stores
-            .iter()
-            .filter(|store| store.local == local)
-            .cloned()
-            .collect();
+        let own = self.stores_of(frame, local);
         let mut write = match frame.function.local_variables[local].init {
             Some(init) => self.value(frame, init, member, depth),
             None if self.members.is_zero_when_plain(member) || !own.is_empty() => None,
