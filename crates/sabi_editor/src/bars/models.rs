@@ -23,7 +23,7 @@ use crate::model_warnings;
 use crate::paths::file_stem;
 use crate::theme::space;
 
-/// Width of the badge and the buttons after the models, and of the one for those that do not fit, points.
+/// Width of the buttons and the badge after the models, and of the one for those that do not fit, points.
 const OTHER_BUTTONS: f32 = 8.0 * space::ROW;
 const MORE: f32 = 2.0 * space::ROW;
 /// Height of the list of models that can be shown beside the main one, points.
@@ -38,10 +38,6 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         .show(ui, |ui| {
             ui.horizontal(|ui| {
                 strip(ui, context, &mut actions);
-                let model = &context.evaluation.model;
-                if model_warnings::badge(ui, context.theme, &file_stem(model.file()), model.warnings()) {
-                    actions.push(Action::ShowPanel(Panel::Problems));
-                }
                 let add = ui.button(icon::PLUS).on_hover_text("Add a model");
                 add.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Add a model"));
                 if add.clicked() {
@@ -49,6 +45,11 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
                 }
                 beside(ui, context, &mut actions);
                 options(ui, context, &mut actions);
+                // The last of the row, so that no button or open menu moves away from the pointer when it appears.
+                let model = &context.evaluation.model;
+                if model_warnings::badge(ui, context.theme, &file_stem(model.file()), model.warnings()) {
+                    actions.push(Action::ShowPanel(Panel::Problems));
+                }
             });
         });
     actions
