@@ -16,7 +16,7 @@ use crate::made_map::MadeMap;
 use crate::pipelines::fixed_kernel;
 use crate::pool::{array_view, texture};
 use crate::readback::bands::{BandData, read_rows};
-use crate::readback::{BAND_BYTES, PlaneData, StagingBuffer, read_texture};
+use crate::readback::{BAND_BYTES, PlaneData, RowBytes, StagingBuffer, read_texture};
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
@@ -80,9 +80,9 @@ impl Normals<'_> {
         } = *self;
         let format = Format::Rgba32Float;
         let width = surface.extent[0];
-        let row_bytes = u64::from(width) * format.texel_bytes();
-        let tile_rows = (BAND_BYTES / (row_bytes * u64::from(TILE))).max(1) as u32;
-        let staging = StagingBuffer::new(gpu, row_bytes * u64::from(tile_rows * TILE))?;
+        let row = RowBytes::of_texels(width, format.texel_bytes());
+        let tile_rows = (BAND_BYTES / (row.padded * u64::from(TILE))).max(1) as u32;
+        let staging = StagingBuffer::new(gpu, row.padded * u64::from(tile_rows * TILE))?;
         for band in surface.bands(tile_rows * TILE) {
             let band_texels = surface.texels_of_rows(&band);
             if band_texels.start >= texels.end || band_texels.end <= texels.start {

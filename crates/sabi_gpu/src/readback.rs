@@ -255,21 +255,26 @@ fn append_rows(gpu: &Gpu, texture: &wgpu::Texture, rows: LayerRows, bytes: &mut 
 
 /// Sizes of a row of texels in bytes.
 #[derive(Clone, Copy, Debug)]
-struct RowBytes {
+pub(crate) struct RowBytes {
     used: u64,
     /// Size with the padding that a copy to a buffer adds.
-    padded: u64,
+    pub(crate) padded: u64,
 }
 
 impl RowBytes {
     /// Returns the sizes for a level of a texture of uncompressed pixels.
     fn of(texture: &wgpu::Texture, level: u32) -> Result<RowBytes, GpuError> {
         let width = (texture.width() >> level).max(1);
-        let used = u64::from(width * texel_bytes_of(texture)?);
-        Ok(RowBytes {
+        Ok(RowBytes::of_texels(width, u64::from(texel_bytes_of(texture)?)))
+    }
+
+    /// Returns the sizes for a number of texels.
+    pub(crate) fn of_texels(width: u32, texel_bytes: u64) -> RowBytes {
+        let used = u64::from(width) * texel_bytes;
+        RowBytes {
             used,
             padded: used.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)),
-        })
+        }
     }
 }
 

@@ -6,8 +6,8 @@ use sabi_gpu::{BandData, Normals, read_slot, read_slot_in_bands};
 
 use super::*;
 
-/// Side of a plane of numbers that takes two bands; a band has 16 MiB.
-const TEXELS: u32 = 2300;
+/// Side of a plane of numbers that takes two bands; a band has 16 MiB. Its rows of normals are padded by 128 bytes.
+const TEXELS: u32 = 2312;
 
 /// All texels of a band.
 fn texels_of(band: &Range<usize>, data: &BandData<'_>) -> Vec<[f32; 4]> {
@@ -33,6 +33,7 @@ fn bands_have_all_texels_and_none_is_larger_than_its_limit() {
     };
     let normals = normals_of.read(&mut run).unwrap();
     let atlas = Atlas::build(&square(), &AtlasOptions::new(TEXELS)).unwrap();
+    assert_eq!(atlas.page_size[0] * 16 % 256, 128, "bytes of a row of normals");
     let is_covered = |texel: &usize| atlas.owners[*texel] != sabi_surface::atlas::EMPTY;
     let mut counts = [Vec::new(), Vec::new()];
     let texels = 0..whole.len();
