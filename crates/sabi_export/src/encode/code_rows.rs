@@ -3,7 +3,6 @@
 //! [`ComponentPlane::units`] returns the values of a row between 0 and 1, the sRGB curve is applied to colors, [`level`] scales the
 //! values to codes, and each is rounded; in a gradient, the threshold of rounding is varied by noise.
 
-use std::mem;
 use std::ops::Range;
 
 use sabi_color::{srgb_from_linear, srgb8_from_linear};
@@ -102,54 +101,68 @@ struct SizedComponent<'a> {
 impl SizedComponent<'_> {
     /// Fills slots of rows with rounded codes.
     fn round<'c, C: Code + 'c>(&self, rows: impl Iterator<Item = (usize, impl Iterator<Item = &'c mut C>)>) {
-        let mut values = RowValues::default();
         for (y, slots) in rows {
-            values.fill::<C>(self, y);
+            let values = RowValues::new::<C>(self, y);
             for ((slot, unit), level) in slots.zip(&values.units).zip(&values.levels) {
                 *slot = C::rounded(*unit, *level, self.is_color);
             }
         }
     }
 
-    /// Fills adjacent rows with codes, which are dithered where a neighbor differs by less than two codes. Dithering would
-    /// only add noise to an area of constant value or to an edge, whose pixels differ by more.
+    /// Fills adjacent rows with codes, which are dithered where a neighbor differs by less than two codes, and around
+    /// plateaus of a shallow gradient. Dithering would only add noise to an area of constant value or to an edge, whose
+    /// pixels differ by more.
     fn dither<'c, C: Code + 'c>(
         &self,
         pattern: DitherPattern,
         rows: impl Iterator<Item = (usize, impl Iterator<Item = &'c mut C>)>,
     ) {
-        let [mut above, mut own, mut below] = [const { None::<RowValues> }; 3];
-        let values = |y: usize, mut room: RowValues| {
-            room.fill::<C>(self, y);
-            room
+        let slots: Vec<(usize, _)> = rows.collect();
+        let Some(first) = slots.first().map(|(y, _)| *y) else {
+            return;
         };
-        let mut is_gentle = Vec::new();
-        for (y, slots) in rows {
-            if own.is_none() {
-                above = y.checked_sub(1).map(|y| values(y, RowValues::default()));
+        let end = first + slots.len();
+        // With the rows above and below, where there are some.
+        let start = first.saturating_sub(1);
+        let values: Vec<RowValues> = (start..(end + 1).min(self.size[1]))
+            .map(|y| RowValues::new::<C>(self, y))
+            .collect();
+        let levels = |y: usize| values.get(y.checked_sub(start)?).map(|row| &row.levels[..]);
+        let mut steps = RowSteps::default();
+        let mut near_plateaus = vec![false; self.size[0].div_ceil(CELL)];
+        for y in first..end {
+            steps.find(
+                &values[y - start].levels,
+                [y.checked_sub(1).and_then(levels), levels(y + 1)],
+            );
+            for (cell, is_plateau) in near_plateaus.iter_mut().zip(steps.is_plateau.chunks(CELL)) {
+                *cell |= is_plateau.contains(&true);
             }
-            let current = own.take().unwrap_or_else(|| values(y, RowValues::default()));
-            let next = (y + 1 < self.size[1]).then_some(y + 1);
-            // For the first row there is no earlier buffer to reuse.
-            below = next.map(|next| values(next, below.take().unwrap_or_default()));
-            let beside = [&above, &below].map(|row| row.as_ref().map(|row| &row.levels[..]));
-            find_gentle_slopes(&current.levels, beside, &mut is_gentle);
+        }
+        let near_plateaus: Vec<bool> = (0..near_plateaus.len())
+            .map(|at| near_plateaus[at.saturating_sub(1)..(at + 2).min(near_plateaus.len())].contains(&true))
+            .collect();
+        for (y, slots) in slots {
+            let row = &values[y - start];
+            steps.find(&row.levels, [y.checked_sub(1).and_then(levels), levels(y + 1)]);
             let thresholds = C::thresholds(pattern, y as u32, self.is_color);
-            let values_of_row = current.units.iter().zip(&current.levels).zip(&is_gentle);
+            let values_of_row = row.units.iter().zip(&row.levels).zip(&steps.is_gentle);
             for (x, (slot, ((unit, level), is_gentle))) in slots.zip(values_of_row).enumerate() {
-                *slot = match is_gentle {
+                *slot = match *is_gentle || near_plateaus[x / CELL] {
                     true => C::new(thresholds.code(*level, x)),
                     false => C::rounded(*unit, *level, self.is_color),
                 };
             }
-            // The buffer of the row above is reused for the next row below.
-            own = mem::replace(&mut below, above.replace(current));
         }
     }
 }
 
+/// Side of the cells in which the plateaus of shallow gradients are found, pixels.
+const CELL: usize = 32;
+/// Longest step between two plateaus of a gradient, in codes of 8 bits: that of half floats below 1, with room for rounding.
+const PLATEAU_STEP: f32 = 0.126;
+
 /// Values of a row.
-#[derive(Default)]
 struct RowValues {
     /// Linear, 0..1.
     units: Vec<f32>,
@@ -158,39 +171,52 @@ struct RowValues {
 }
 
 impl RowValues {
-    fn fill<C: Code>(&mut self, component: &SizedComponent<'_>, y: usize) {
+    fn new<C: Code>(component: &SizedComponent<'_>, y: usize) -> RowValues {
         let width = component.size[0];
-        self.units.resize(width, 0.0);
-        component.plane.units(y * width..(y + 1) * width, &mut self.units);
-        self.levels.clear();
-        let units = self.units.iter();
-        if component.is_color {
-            self.levels
-                .extend(units.map(|unit| level(srgb_from_linear(unit.clamp(0.0, 1.0)), C::HIGHEST)));
-        } else {
-            self.levels.extend(units.map(|unit| level(*unit, C::HIGHEST)));
-        }
+        let mut units = vec![0.0; width];
+        component.plane.units(y * width..(y + 1) * width, &mut units);
+        let levels = match component.is_color {
+            true => {
+                let encoded = units.iter().map(|unit| srgb_from_linear(unit.clamp(0.0, 1.0)));
+                encoded.map(|unit| level(unit, C::HIGHEST)).collect()
+            }
+            false => units.iter().map(|unit| level(*unit, C::HIGHEST)).collect(),
+        };
+        RowValues { units, levels }
     }
 }
 
-/// Finds the pixels of a row that differ from a neighbor, but by less than two codes.
-fn find_gentle_slopes(row: &[f32], beside: [Option<&[f32]>; 2], is_gentle: &mut Vec<bool>) {
-    let gentle = |one: f32, other: f32| {
-        let step = (one - other).abs();
-        (step > 0.0) & (step < 2.0)
-    };
-    is_gentle.clear();
-    is_gentle.resize(row.len(), false);
-    for other in beside.into_iter().flatten() {
-        for ((is_gentle, own), other) in is_gentle.iter_mut().zip(row).zip(other) {
-            *is_gentle |= gentle(*own, *other);
+/// Steps between the pixels of a row and their neighbors.
+#[derive(Default)]
+struct RowSteps {
+    /// True for pixels that differ from a neighbor, but by less than two codes.
+    is_gentle: Vec<bool>,
+    /// True for pixels that differ from a neighbor, but by no more than a [`PLATEAU_STEP`].
+    is_plateau: Vec<bool>,
+}
+
+impl RowSteps {
+    fn find(&mut self, row: &[f32], beside: [Option<&[f32]>; 2]) {
+        for found in [&mut self.is_gentle, &mut self.is_plateau] {
+            found.clear();
+            found.resize(row.len(), false);
+        }
+        for other in beside.into_iter().flatten() {
+            self.compare(0, row, other);
+        }
+        if let Some(followers) = row.get(1..) {
+            self.compare(0, row, followers);
+            self.compare(1, followers, row);
         }
     }
-    let Some(followers) = row.get(1..) else { return };
-    for ((is_gentle, own), next) in is_gentle.iter_mut().zip(row).zip(followers) {
-        *is_gentle |= gentle(*own, *next);
-    }
-    for ((is_gentle, own), before) in is_gentle.iter_mut().skip(1).zip(followers).zip(row) {
-        *is_gentle |= gentle(*own, *before);
+
+    /// Compares pixels, of which `own` begins at a column, with others, pair by pair.
+    fn compare(&mut self, column: usize, own: &[f32], others: &[f32]) {
+        let found = self.is_gentle.iter_mut().zip(&mut self.is_plateau).skip(column);
+        for ((is_gentle, is_plateau), (own, other)) in found.zip(own.iter().zip(others)) {
+            let step = (own - other).abs();
+            *is_gentle |= (step > 0.0) & (step < 2.0);
+            *is_plateau |= (step > 0.0) & (step <= PLATEAU_STEP);
+        }
     }
 }

@@ -119,6 +119,30 @@ fn a_dithered_gradient_has_the_right_mean_everywhere_and_no_pixel_is_off_by_a_co
     }
 }
 
+/// Half floats between 0.5 and 1 have a step of an eighth of a code, so a shallow gradient of them has wide plateaus.
+#[test]
+fn a_shallow_gradient_of_half_floats_has_no_steps() {
+    let size = 256_usize;
+    let half = |value: f32| (value * 2048.0).round() / 2048.0;
+    for is_across in [true, false] {
+        let value = |at: usize| {
+            let along = if is_across { at % size } else { at / size };
+            half(0.5 + 0.03 * along as f32 / size as f32)
+        };
+        let codes = dithered((0..size * size).map(value).collect(), size as u32);
+        for line in 0..size {
+            let of_line = (0..size).map(|at| if is_across { at * size + line } else { line * size + at });
+            let mean = of_line.map(|at| f64::from(codes[at])).sum::<f64>() / size as f64;
+            let expected = f64::from(value(if is_across { line } else { line * size })) * 255.0;
+            // A line sees the 64 thresholds of the pattern; plain rounding would be off by up to half a code.
+            assert!(
+                (mean - expected).abs() < 0.15,
+                "{is_across} {line}: {mean}, not {expected}"
+            );
+        }
+    }
+}
+
 #[test]
 fn dithering_leaves_edges_and_exact_codes_alone() {
     let size = 64_usize;
