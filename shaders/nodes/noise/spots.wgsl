@@ -50,7 +50,8 @@ fn spots(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Para
     for (var octave = 0u; octave < params.octaves; octave++) {
         let seen = carried(2.0 * cube, at.texel_size);
         var layer = Spots(0.0, 0.0, 0.0);
-        if seen > 0.0 {
+        // Places without density have no spots.
+        if seen > 0.0 && density > 0.0 {
             site.texel = at.texel_size / cube;
             let p = position / cube;
             // Outlines of two sizes, as far as the texels carry them.

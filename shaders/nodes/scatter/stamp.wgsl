@@ -158,10 +158,11 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
     var stack: Stack;
     var away = -1e9;
     let site = Site(cell, inside, side, border, at.normal, key, slab, thick, reach, mean, 0.5 * texel + margin / unit, density);
-    var walk = CubeWalk(vec3i(0), true);
+    // Places without density have no stamps, so they need no walk.
+    var walk = CubeWalk(vec3i(0), density > 0.0);
     // Only stamps that may cover the place are drawn: software adapters go through all of a loop for each of its rounds,
     // whatever is skipped in it.
-    for (var n = 0; n < 128; n++) {
+    for (var n = 0; n < 128 && walk.goes_on; n++) {
         let next = next_stamp(walk, site, params);
         walk = next.walk;
         if !walk.goes_on {
