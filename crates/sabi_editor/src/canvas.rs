@@ -194,7 +194,11 @@ impl Canvas {
     /// Performs a command about the view of the graph.
     pub(crate) fn command(&mut self, command: CanvasCommand, ui: &Ui, document: &OpenDocument) -> Vec<Action> {
         match command {
-            CanvasCommand::AddMenu => self.open_menu(ui, None, selected_output(document)),
+            CanvasCommand::AddMenu => {
+                let into = self.wire_under_pointer(ui, document);
+                let selected = into.is_none().then(|| selected_output(document)).flatten();
+                self.open_menu(ui, None, selected, into);
+            }
             CanvasCommand::ShowAll => self.camera.frame_all(document),
             CanvasCommand::ShowSelected => self.camera.frame_nodes(document, document.selection().iter()),
             CanvasCommand::Rename => {
@@ -245,13 +249,24 @@ impl Canvas {
         Some((self.camera.place_at(at)?, wire.map(|wire| wire.to)))
     }
 
-    /// Opens the menu of nodes, to add one that the output `selected` can be connected to, or to replace the node
-    /// `instead`.
-    fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>, selected: Option<OutputRef>) {
+    /// Input of the wire that is highlighted under the pointer.
+    fn wire_under_pointer(&self, ui: &Ui, document: &OpenDocument) -> Option<SlotRef> {
+        let panel = self.camera.panel?;
+        let pointer = ui
+            .input(|input| input.pointer.hover_pos())
+            .filter(|at| panel.contains(*at))?;
+        let wires = wires::visible(document, &self.camera.view, panel);
+        wires::under(&wires, pointer).map(|wire| wire.to.clone())
+    }
+
+    /// Opens the menu of nodes, to add one that the output `selected` can be connected to or that is inserted into the
+    /// wire of the input `into`, or to replace the node `instead`.
+    fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>, selected: Option<OutputRef>, into: Option<SlotRef>) {
         let purpose = Purpose {
             place: self.camera.place_for_new(ui),
             instead,
             selected,
+            into,
             ..Purpose::default()
         };
         self.popups.menu = Some(AddMenu::new(self.camera.screen_for_new(ui), purpose));

@@ -225,7 +225,7 @@ fn context_menu(
     let is_group = context.document.node(id).is_some_and(|node| node.group.is_some());
     response.context_menu(|ui_menu| {
         if ui_menu.button("Replace with…").clicked() {
-            canvas.open_menu(ui, Some(id.clone()), None);
+            canvas.open_menu(ui, Some(id.clone()), None, None);
         }
         if is_group && ui_menu.button("Enter the group").clicked() {
             actions.push(Action::edit(NavigationCommand::Enter(id.clone())));

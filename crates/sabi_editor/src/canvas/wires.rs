@@ -12,7 +12,7 @@ use crate::theme::Theme;
 /// Segments that approximate a curve for distances.
 const PIECES: usize = 16;
 /// Distance at which a wire is under the pointer, screen points.
-const NEAR: f32 = 7.0;
+pub(super) const NEAR: f32 = 7.0;
 
 /// Wire on the screen.
 #[derive(Clone, Debug)]

@@ -3,7 +3,9 @@
 use egui::color_picker::{Alpha, color_picker_hsva_2d};
 use egui::ecolor::{hsv_from_rgb, rgb_from_hsv};
 use egui::epaint::Hsva;
-use egui::{Color32, Context, DragValue, Id, Sense, StrokeKind, TextEdit, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{
+    Color32, Context, DragValue, Id, ScrollArea, Sense, StrokeKind, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
+};
 
 use super::text_field::select_all;
 use super::values::{code_of, color_of};
@@ -18,7 +20,14 @@ const SWATCH: f32 = 18.0;
 const CODE: usize = 7;
 
 /// Shows a picker; returns whether the color has changed.
+///
+/// A text field asks the next area around it to scroll to its cursor. Without an area of its own, the picker would scroll
+/// the panel that it opens over, and would move with it.
 pub(crate) fn picker(ui: &mut Ui, picked: &mut Hsva) -> bool {
+    ScrollArea::neither().show(ui, |ui| parts(ui, picked)).inner
+}
+
+fn parts(ui: &mut Ui, picked: &mut Hsva) -> bool {
     ui.spacing_mut().slider_width = PICKER;
     let mut has_changed = color_picker_hsva_2d(ui, picked, Alpha::Opaque);
     has_changed |= numbers(ui, picked);
@@ -159,6 +168,9 @@ fn id() -> Id {
 
 #[cfg(test)]
 mod tests {
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable;
+
     use super::*;
 
     #[test]
@@ -177,6 +189,28 @@ mod tests {
             }
             assert_eq!(srgb_of([hue, saturation, value]), code);
         }
+    }
+
+    #[test]
+    fn a_typed_number_does_not_scroll_the_panel_below() {
+        let show = |ui: &mut Ui, (picked, offset): &mut (Hsva, f32)| {
+            let panel = ScrollArea::vertical().max_height(150.0).show(ui, |ui| {
+                egui::Area::new("picker".into())
+                    .fixed_pos([20.0, 200.0])
+                    .show(ui.ctx(), |ui| picker(ui, picked));
+                ui.allocate_space(vec2(100.0, 2000.0));
+            });
+            *offset = panel.state.offset.y;
+        };
+        let mut board = Harness::builder().build_ui_state(show, (Hsva::from_srgb([160, 101, 63]), 0.0));
+        board.get_by_label("Saturation").click();
+        board.run();
+        board.event(egui::Event::Text("20".into()));
+        board.key_press(egui::Key::Enter);
+        board.run();
+        let (picked, offset) = board.state();
+        assert!((hsv_of(picked.to_srgb())[1] - 0.2).abs() < 0.01, "{picked:?}");
+        assert_eq!(*offset, 0.0);
     }
 
     #[test]

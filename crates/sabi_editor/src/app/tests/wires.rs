@@ -175,6 +175,27 @@ fn a_node_dropped_on_a_wire_is_inserted_into_it() {
     );
 }
 
+#[test]
+fn a_node_is_inserted_into_a_wire_by_the_place_where_it_is_held_and_by_tab_over_the_wire() {
+    let mut window = Window::opened(WIRED);
+    let middle = between(window.port(&id("clouds"), "mask"), window.port(&id("layer"), "mask"));
+    let handle = window.title(&id("invert"));
+    assert!(
+        window.rect(&id("invert")).center().distance(handle) > 30.0,
+        "held away from its middle"
+    );
+    window.drag_from(handle, middle);
+    assert_eq!(window.reads(&id("invert"), "source"), "clouds");
+    window.undo(1);
+    window.point(middle);
+    window.key(Key::Tab);
+    window.typed("invert");
+    window.key(Key::Enter);
+    let read = window.reads(&id("layer"), "mask");
+    assert_ne!(read, "clouds", "a new node lies between");
+    assert_eq!(window.reads(&read.parse().expect("an id"), "source"), "clouds");
+}
+
 const CHAIN: &str = r#"
     "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
     "invert": { "kind": "adjust/invert", "inputs": { "source": "clouds" }, "pos": [280, 60] },

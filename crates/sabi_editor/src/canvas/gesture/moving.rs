@@ -33,12 +33,15 @@ impl Gesture {
                     .camera
                     .view
                     .screen_rect(canvas.camera.panel?, node_rect(document, id)?);
-                let crossing = wires.iter().filter(|wire| {
-                    let middle = rect.center();
-                    wire.to.node != *id && wire.from.node != *id && wire.distance(middle) < rect.height().min(60.0)
-                });
-                let crossing = crossing
-                    .min_by(|one, other| one.distance(rect.center()).total_cmp(&other.distance(rect.center())))?;
+                // A node is laid on a wire with its middle, or by the place where it is held.
+                let distance = |wire: &Wire| wire.distance(rect.center()).min(wire.distance(pointer));
+                let is_crossed = |wire: &Wire| {
+                    wire.distance(rect.center()) < rect.height().min(60.0) || wire.distance(pointer) < wires::NEAR
+                };
+                let others = wires.iter().filter(|wire| wire.to.node != *id && wire.from.node != *id);
+                let crossing = others
+                    .filter(|wire| is_crossed(wire))
+                    .min_by(|one, other| distance(one).total_cmp(&distance(other)))?;
                 sabi_editing::wires::can_insert(document, id, &crossing.to).then_some(&crossing.to)
             }
             _ => None,
