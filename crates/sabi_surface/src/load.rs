@@ -5,6 +5,7 @@
 mod arealess;
 mod assembly;
 mod blur;
+mod color_codes;
 mod completion;
 mod dae;
 mod error;

@@ -8,6 +8,7 @@
 mod document;
 mod effect;
 mod geometry;
+mod missing;
 mod polygons;
 mod scene;
 mod skin;
@@ -74,6 +75,8 @@ pub(super) fn read(
         });
     }
     assembly.materials = looks.materials(&mut assembly.pictures, &mut warnings);
+    // Before the meshes, since a reference that leads nowhere is why they lack something.
+    document.tell_missing(&mut warnings);
     read_meshes(&geometries, &mut assembly, options, &mut warnings)?;
     assembly.into_model(name, resolve, options, warnings)
 }

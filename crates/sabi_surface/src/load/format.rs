@@ -114,9 +114,25 @@ fn disguised(bytes: &[u8]) -> Option<String> {
             "this is a Git LFS pointer instead of the model itself; run `git lfs pull` where it came from".into(),
         );
     }
+    if is_web_page(bytes) {
+        return Some(
+            "this is a web page instead of the model itself; download the file, not the page that shows or offers it"
+                .into(),
+        );
+    }
     let (_, ending) = MARKS.iter().find(|(mark, _)| bytes.starts_with(mark))?;
     Some(format!(
         "this is a .{ending} file under another name: {}",
         way_from(ending)?
     ))
+}
+
+/// Returns true for HTML, which is stored where a link led to a page.
+fn is_web_page(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let starts = [&b"<!doctype html"[..], b"<html"];
+    starts.iter().any(|start| {
+        let begin = text.get(..start.len());
+        begin.is_some_and(|begin| begin.eq_ignore_ascii_case(start))
+    })
 }

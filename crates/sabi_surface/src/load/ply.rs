@@ -1,20 +1,21 @@
 //! PLY, as text and binary of both byte orders: vertices, faces, normals, texture coordinates, colors.
 //!
-//! Integer colors are interpreted as sRGB, as in the programs that write them, and float colors as linear. Texture
+//! Integer colors are interpreted as sRGB, as in the programs that write them, and float colors as linear, unless they are codes. Texture
 //! coordinates belong to vertices (`s t` or `u v`) or to the corners of faces (`texcoord`), and are converted to glTF's
 //! convention (v grows downward). Images are named in comments `TextureFile`, and `texnumber` of a face is an index into
 //! these. Missing normals are smooth up to an angle of 80°. The format defines neither units nor an up axis.
 
 mod body;
+mod colors;
 mod header;
 
 use sabi_cancel::CancelableIterator as _;
 use std::collections::BTreeSet;
 
 use glam::DMat4;
-use sabi_color::linear_from_srgb;
 
 use self::body::{PlyBody, PropertyValue};
+use self::colors::ColorProperties;
 use self::header::{NumberType, PlyElement, PlyEncoding, PlyHeader};
 use super::assembly::{Assembly, MeshInstance};
 use super::completion::{Completion, LACKING_NORMALS};
@@ -42,13 +43,6 @@ const VERTEX: [&[&str]; 8] = [
     &["nz", "normal_z"],
     &["s", "u", "texture_u", "texture_s"],
     &["t", "v", "texture_v", "texture_t"],
-];
-/// Names of the channels of a color; of each list the first that is there.
-const COLOR: [&[&str]; 4] = [
-    &["red", "r", "diffuse_red"],
-    &["green", "g", "diffuse_green"],
-    &["blue", "b", "diffuse_blue"],
-    &["alpha", "a", "diffuse_alpha"],
 ];
 /// Corners of a face.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -131,6 +125,8 @@ struct PlyReader<'h, 'w> {
     corners_have_uvs: bool,
     /// True if faces have colors and vertices have none.
     faces_have_colors: bool,
+    /// Name in warnings of the elements whose colors are read, and the channels of these colors.
+    colored: Option<(&'static str, ColorProperties)>,
 }
 
 impl PlyReader<'_, '_> {
@@ -149,6 +145,7 @@ impl PlyReader<'_, '_> {
                 .element("face")
                 .is_some_and(|face| face.place("texcoord").is_some()),
             faces_have_colors: colors_of("face") && !colors_of("vertex"),
+            colored: None,
         }
     }
 
@@ -165,8 +162,21 @@ impl PlyReader<'_, '_> {
             }
         }
         self.warnings.absorb(body.warnings);
+        if let Some((whose, colors)) = &self.colored {
+            colors.make_linear(&mut self.faces.colors.values, whose, self.warnings);
+        }
+        self.warn_of_materials();
         self.share_attributes();
         Ok(self.faces)
+    }
+
+    /// Adds a warning about materials, which are lists of numbers in some files.
+    fn warn_of_materials(&mut self) {
+        let mut elements = self.header.elements.iter();
+        if elements.any(|element| element.name == "material" || element.place("material_index").is_some()) {
+            self.warnings
+                .add("The materials of the file (`material`, `material_index`) are left out.");
+        }
     }
 
     fn read_vertices(&mut self, element: &PlyElement, body: &mut PlyBody) -> Result<(), ModelFault> {
@@ -199,6 +209,9 @@ impl PlyReader<'_, '_> {
                 self.faces.uvs.values.push([s, 1.0 - t]);
             }
             self.faces.colors.values.extend(colors.of_row(&row));
+        }
+        if colors.are_there() {
+            self.colored = Some(("vertices", colors));
         }
         Ok(())
     }
@@ -244,10 +257,14 @@ impl PlyReader<'_, '_> {
                     .colors
                     .corners
                     .extend(std::iter::repeat_n(face as u32, corners.len()));
-                self.faces.colors.values.resize(face as usize, [1.0; 4]);
+                // Faces that are left out have none.
+                self.faces.colors.values.resize(face as usize, [0.0; 4]);
                 self.faces.colors.values.push(color);
             }
             self.faces.close(corners.len(), texture, Smoothing::ByAngle);
+        }
+        if colors.are_there() {
+            self.colored = Some(("faces", colors));
         }
         Ok(())
     }
@@ -339,47 +356,5 @@ impl PlyReader<'_, '_> {
         } else {
             uvs.corners = corners.clone();
         }
-    }
-}
-
-/// Places of the channels of a color among the properties of an element, with their types.
-struct ColorProperties([Option<(usize, NumberType)>; 4]);
-
-impl ColorProperties {
-    fn of(element: &PlyElement) -> ColorProperties {
-        ColorProperties(COLOR.map(|names| {
-            let place = names.iter().find_map(|name| element.place(name))?;
-            Some((place, element.properties.get(place)?.kind))
-        }))
-    }
-
-    /// The colors if they are wanted, else none.
-    fn filter(self, are_wanted: bool) -> ColorProperties {
-        if are_wanted { self } else { ColorProperties([None; 4]) }
-    }
-
-    /// Returns true if there is red, green and blue.
-    fn are_there(&self) -> bool {
-        self.0[..3].iter().all(Option::is_some)
-    }
-
-    /// Decodes the color of a row to linear RGBA, which is opaque without alpha.
-    fn of_row(&self, row: &[PropertyValue]) -> Option<[f32; 4]> {
-        let [Some(red), Some(green), Some(blue), alpha] = self.0 else {
-            return None;
-        };
-        let share = |(place, kind): (usize, NumberType)| {
-            let value = match row.get(place) {
-                Some(PropertyValue::Number(number)) => *number as f32,
-                // A list is no channel.
-                Some(PropertyValue::List(_)) | None => 0.0,
-            };
-            kind.largest_code().map_or(value, |most| value / most)
-        };
-        let light = |channel: (usize, NumberType)| match channel.1.largest_code() {
-            Some(_) => linear_from_srgb(share(channel).clamp(0.0, 1.0)),
-            None => share(channel),
-        };
-        Some([light(red), light(green), light(blue), alpha.map_or(1.0, share)])
     }
 }

@@ -28,8 +28,12 @@ const HEADER_BYTES: usize = 84;
 /// Bytes of a binary facet: a normal, three corners, two bytes without a defined meaning.
 const FACET_BYTES: usize = 50;
 
-/// Word in the header of files whose facets have colors.
+/// Word in the header of files of Magics, whose facets have colors.
 const COLORED: &[u8] = b"COLOR=";
+/// Bit in the last bytes of a facet by which VisCAM and SolidView say that the others are a color.
+const HAS_COLOR: u16 = 1 << 15;
+/// Warning about colors of any of these programs, and of lines `color` in a text.
+const COLORS_LEFT_OUT: &str = "The colors of facets, which some programs add to the format, are left out.";
 
 /// Bytes among which the first line of a text is looked for.
 const START_BYTES: usize = 4096;
@@ -160,8 +164,15 @@ fn read_binary(bytes: &[u8], memory_bytes: u64, warnings: &mut Warnings) -> Resu
         }
     };
     check_size(facets.len() as u64, 1, memory_bytes)?;
-    if bytes[..HEADER_BYTES].windows(COLORED.len()).any(|word| word == COLORED) {
-        warnings.add("The colors of facets, which some programs add to the format, are left out.");
+    let has_color = |facet: &[u8; FACET_BYTES]| {
+        facet
+            .last_chunk()
+            .is_some_and(|last| u16::from_le_bytes(*last) & HAS_COLOR != 0)
+    };
+    if bytes[..HEADER_BYTES].windows(COLORED.len()).any(|word| word == COLORED)
+        || facets.iter().looking().any(has_color)
+    {
+        warnings.add(COLORS_LEFT_OUT);
     }
     if facets.len() as u64 != claim {
         warnings.add(format!(
@@ -248,6 +259,8 @@ impl TextReader<'_> {
             } else if is("vertex") {
                 let corner = corner(&mut words, self.warnings).ok_or("`vertex` needs 3 numbers")?;
                 self.solid().corner(corner);
+            } else if is("color") {
+                self.warnings.add(COLORS_LEFT_OUT);
             } else if ["facet", "end", "endloop", "endfacet"].into_iter().any(is) {
                 self.close();
             }

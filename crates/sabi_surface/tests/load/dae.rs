@@ -392,3 +392,105 @@ fn a_document_type_without_entities_changes_nothing() {
     };
     assert_eq!(read(&typed).unwrap().mesh, read(&plain).unwrap().mesh);
 }
+
+/// What divides a text without ending it: a comment, a processing instruction, a section of characters.
+const DIVIDERS: [&str; 3] = ["<!-- 9 9 9 -->", "<?exporter 9 9 9?>", "<![CDATA[]]>"];
+
+#[test]
+fn comments_and_instructions_do_not_end_a_text() {
+    let asset = "<up_axis>Z_UP</up_axis>";
+    let node = r##"<node name="board"><translate>1 2 3</translate><instance_geometry url="#shape"/></node>"##;
+    let whole = file(asset, "", FACE, node);
+    let expected = read(&whole);
+    for divider in DIVIDERS {
+        for (text, divided) in [
+            ("Z_UP", format!("{divider}Z_{divider}UP")),
+            ("<translate>1 2 ", format!("<translate>1 {divider} 2 {divider}")),
+            (">0 0 0 1 0 0 1 1 0", format!(">0 0 0 {divider} 1 0 0{divider} 1 1 0")),
+            ("<vcount>4", format!("<vcount>{divider}4")),
+            ("<p>0 0 0 1 1 0", format!("<p>0 0 0 {divider}1 1 {divider}0")),
+        ] {
+            assert!(whole.contains(text));
+            let model = read(&whole.replace(text, &divided));
+            assert_eq!(model.mesh, expected.mesh, "{divided}");
+            assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+        }
+    }
+    let painted = file("", LOOKS, FACE, &bound("m1"));
+    for (text, divided) in [
+        ("/my paint", "/my <!-- new -->paint"),
+        ("<color>0.5 0.25 0 1", "<color>0.5 <!-- dim --> 0.25 0 1"),
+        ("<source>", "<source><!-- of the paint -->"),
+        ("<double_sided>", "<double_sided><!-- no -->"),
+    ] {
+        assert!(painted.contains(text), "{text}");
+        assert_eq!(
+            read(&painted.replace(text, divided)).materials,
+            read(&painted).materials,
+            "{divided}"
+        );
+    }
+}
+
+#[test]
+fn references_that_lead_nowhere_are_told_by_kind() {
+    let gone = r##"<node><instance_geometry url="#gone"/><instance_geometry url="other.dae#shape"/><instance_node url="#n"/>
+        <instance_controller url="#bones"/></node>"##;
+    let none = file("", "", FACE, gone);
+    assert_eq!(
+        said("thing.dae", none.as_bytes()),
+        "thing.dae: it has no triangles; The file refers to meshes that it does not have, which are left out: `#gone`; The file refers to \
+         nodes that it does not have, which are left out: `#n`; The file refers to skins or morph targets that it does not have, which \
+         are left out: `#bones`"
+    );
+    let elsewhere = file(
+        "",
+        "",
+        FACE,
+        r##"<node><instance_geometry url="other.dae#shape"/></node>"##,
+    );
+    assert_eq!(
+        said("thing.dae", elsewhere.as_bytes()),
+        "thing.dae: it has no triangles; The file refers to meshes of other files, which are not read and left out: \
+         `other.dae#shape`; export all as one file"
+    );
+    for (text, wrong, what) in [
+        (
+            "target=\"#m1\"",
+            "target=\"#m9\"",
+            "materials that it does not have, which are left out: `#m9`.",
+        ),
+        (
+            "url=\"#fx\"",
+            "url=\"#\"",
+            "effects of materials that it does not have, which are left out: `#`.",
+        ),
+        (
+            "source=\"#half\"",
+            "source=\"#uvs\"",
+            "sources that it does not have, which are left out: `#uvs`.",
+        ),
+        (
+            "url=\"#scene\"",
+            "url=\"#stage\"",
+            "scenes that it does not have, which are left out: `#stage`.",
+        ),
+    ] {
+        // The first scene is taken where the chosen one is not there.
+        let whole = file("", LOOKS, FACE, &bound("m1")).replace("<visual_scene id=\"other\"/>", "");
+        assert!(whole.contains(text), "{text}");
+        let warnings = read(&whole.replace(text, wrong)).warnings;
+        assert_eq!(warnings[0], format!("The file refers to {what}"), "{warnings:?}");
+    }
+    let many: String = (0..9000)
+        .map(|n| format!(r##"<instance_geometry url="#g{n:04}"/>"##))
+        .collect();
+    let model = read(&file("", "", FACE, &format!("<node>{many}</node>{NODE}")));
+    assert_eq!(
+        model.warnings,
+        [
+            "The file refers to meshes that it does not have, which are left out: `#g0000`, `#g0001`, `#g0002`, `#g0003`, `#g0004` \
+          and 8995 more."
+        ]
+    );
+}

@@ -27,6 +27,14 @@ const FAULTS: &[(GltfEdit, &str)] = &[
         "this is glTF 3, and glTF 2 is read here",
     ),
     (
+        |f| f.json["asset"] = json!({ "version": "2.1", "minVersion": "2.1" }),
+        "this needs a reader of glTF 2.1, and glTF 2.0 is read here; export it as glTF 2.0",
+    ),
+    (
+        |f| f.json["asset"] = json!({ "version": "3.0", "minVersion": "3.0" }),
+        "this needs a reader of glTF 3.0, and glTF 2.0 is read here; export it as glTF 2.0",
+    ),
+    (
         |f| f.json["meshes"] = json!([]),
         "the file is damaged: nodes[0] shows meshes[0], which is not there",
     ),

@@ -8,6 +8,9 @@ use serde_json::json;
 use crate::builder::{Gltf, nothing};
 use crate::faults::said;
 
+const WEB_PAGE: &str =
+    "this is a web page instead of the model itself; download the file, not the page that shows or offers it";
+
 /// Names and first bytes of files that are not read, and what is said.
 const OTHERS: &[(&str, &[u8], &str)] = &[
     (
@@ -35,6 +38,11 @@ const OTHERS: &[(&str, &[u8], &str)] = &[
         b"version https://git-lfs.github.com/spec/v1\noid",
         "this is a Git LFS pointer instead of the model itself; run `git lfs pull` where it came from",
     ),
+    ("a.stl", b"<!DOCTYPE html>\n<html lang=\"en\">", WEB_PAGE),
+    ("a.obj", b"\xef\xbb\xbf\n<!doctype HTML PUBLIC>", WEB_PAGE),
+    ("a.ply", b"<HTML>", WEB_PAGE),
+    ("a.glb", b"<html>", WEB_PAGE),
+    ("a.dae", b"<html>", WEB_PAGE),
     (
         "a.usdz",
         b"PK",

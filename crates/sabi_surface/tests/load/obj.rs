@@ -232,6 +232,11 @@ fn colors_of_vertices_are_read_in_all_their_forms() {
         warnings,
         ["Colors in a remark `#MRGB` are damaged; some vertices have none, or that of another."]
     );
+    let bright = read(&format!("v 0 0 0 1.5 0.5 -0.5\nv 1 0 0\nv 0 1 0\n{faces}")).unwrap();
+    assert_eq!(
+        bright.warnings,
+        ["Some colors of vertices are below 0 or above full intensity; the nearest possible ones are taken."]
+    );
     let weighted = read(&format!("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n{faces}")).unwrap();
     assert!(weighted.mesh.colors.is_empty());
 }
@@ -409,5 +414,22 @@ fn each_fault_has_its_sentence() {
     assert_eq!(
         error.to_string(),
         "a.obj: it has no UV set 1; OBJ files have set 0 alone"
+    );
+}
+
+#[test]
+fn texture_maps_of_the_first_version_are_told() {
+    let faces = "f 1 2 3\n";
+    let told = [
+        "The texture maps of `maplib` and `usemap`, an old way to show pictures, are left out; those of materials are read.",
+    ];
+    for statements in ["maplib a.mpc\nusemap wood\n", "usemap wood\n", "MAPLIB a.mpc\n"] {
+        assert_eq!(read(&format!("{statements}{SQUARE}{faces}")).unwrap().warnings, told);
+    }
+    assert!(
+        read(&format!("usemap off\n{SQUARE}{faces}"))
+            .unwrap()
+            .warnings
+            .is_empty()
     );
 }

@@ -250,3 +250,36 @@ fn a_picture_of_each_tile_is_told() {
         ]
     );
 }
+
+#[test]
+fn values_out_of_their_range_are_told_and_clamped() {
+    let model = read("newmtl a\nKd 255 -0.5 0.25\nPr 3\nKe 4 0 0\n");
+    let material = &model.materials[0];
+    assert_eq!(material.base_color_factor, [1.0, 0.0, 0.25, 1.0]);
+    assert_eq!(
+        (material.roughness_factor, material.emission_factor),
+        (1.0, [4.0, 0.0, 0.0])
+    );
+    assert_eq!(
+        model.warnings,
+        [
+            "`Kd` of material `a` cannot have a value of 255; 1 is taken.",
+            "`Kd` of material `a` cannot have a value of -0.5; 0 is taken.",
+            "`Pr` of material `a` cannot have a value of 3; 1 is taken.",
+        ]
+    );
+    assert!(
+        read("newmtl a\nKd 1.0001 0 0\n").warnings.is_empty(),
+        "rounding is no fault"
+    );
+}
+
+#[test]
+fn a_picture_replaces_the_color_beside_it() {
+    for library in [
+        "newmtl a\nKd 0 0 0\nmap_Kd paint.png\n",
+        "newmtl a\nmap_Kd paint.png\nKd 0.5 0.5 0.5\n",
+    ] {
+        assert_eq!(read(library).materials[0].base_color_factor, [1.0; 4], "{library}");
+    }
+}

@@ -292,3 +292,100 @@ fn colors_of_faces_are_read_where_vertices_have_none() {
     assert_eq!(colors(0), [[1.0, 0.0, 0.0, 1.0]; 3]);
     assert_eq!(colors(1), [[0.0, 0.0, 1.0, 1.0]; 3]);
 }
+
+/// A triangle whose vertices have one color of a type.
+fn colored(kind: &str, color: &str) -> Model {
+    let vertex = format!("{XYZ}property {kind} red\nproperty {kind} green\nproperty {kind} blue\n");
+    let vertices = SQUARE[..3].iter().map(|at| format!("{at} {color}"));
+    let vertices: Vec<String> = vertices.collect();
+    let vertices: Vec<&str> = vertices.iter().map(String::as_str).collect();
+    read(&file(&vertex, &vertices, CORNERS, &["3 0 1 2"])).unwrap()
+}
+
+#[test]
+fn codes_of_bytes_are_colors_in_any_type() {
+    let above = ["The colors of vertices reach above 1; they are taken as codes of 0 to 255."];
+    let small = |code: u32| {
+        format!(
+            "No color of the vertices is above {code}, though its type has larger numbers; they are taken as codes of 0 to {code}."
+        )
+    };
+    let (bytes, words) = ([small(255)], [small(65535)]);
+    let above = above.map(str::to_owned);
+    for (kind, color, warnings) in [
+        ("uchar", "255 128 0", &[][..]),
+        ("float", "255 128 0", &above[..]),
+        ("double", "255 128 0", &above[..]),
+        ("char", "255 128 0", &[]),
+        ("short", "255 128 0", &bytes),
+        ("ushort", "255 128 0", &bytes),
+        ("int", "255 128 0", &bytes),
+        ("uint", "255 128 0", &bytes),
+        ("ushort", "65535 32896 0", &[]),
+        ("int", "65535 32896 0", &words),
+        ("int", "2147483647 1077952576 0", &[]),
+        ("uint", "4294967295 2155905152 0", &[]),
+    ] {
+        let model = colored(kind, color);
+        // 128 of 255 is 0.2158605 in linear light (IEC 61966-2-1).
+        let [r, g, b, a] = model.mesh.colors[0];
+        assert_eq!([r, b, a], [1.0, 0.0, 1.0], "{kind} {color}");
+        assert!((g - 0.215_860_5).abs() < 1e-3, "{kind} {color}: {g}");
+        assert_eq!(model.warnings, warnings, "{kind} {color}");
+    }
+    // Somewhat overbright light stays light, and black needs no guess.
+    assert_eq!(colored("float", "1.5 0.5 0").mesh.colors[0], [1.5, 0.5, 0.0, 1.0]);
+    assert!(colored("int", "0 0 0").warnings.is_empty());
+}
+
+#[test]
+fn alpha_goes_as_far_as_the_colors_of_its_type() {
+    let vertices = ["0 0 0", "1 0 0", "0 1 0"];
+    for (kind, of_alpha, color, alpha) in [
+        ("ushort", "ushort", "200 100 0 65535", 1.0),
+        ("ushort", "ushort", "255 100 0 51", 0.2),
+        ("float", "float", "255 128 0 0.25", 0.25),
+        ("float", "float", "1 0.5 0 51", 0.2),
+        ("uchar", "float", "255 128 0 0.25", 0.25),
+    ] {
+        let vertex = format!(
+            "{XYZ}property {kind} red\nproperty {kind} green\nproperty {kind} blue\nproperty {of_alpha} alpha\n"
+        );
+        let vertices = vertices.map(|at| format!("{at} {color}"));
+        let text = file(&vertex, &vertices.each_ref().map(String::as_str), CORNERS, &["3 0 1 2"]);
+        let [.., is] = read(&text).unwrap().mesh.colors[0];
+        assert!((is - alpha).abs() < 1e-6, "{kind} {color}: {is}");
+    }
+}
+
+#[test]
+fn materials_that_are_lists_of_numbers_are_told() {
+    let face = format!("{CORNERS}property int material_index\n");
+    let told = ["The materials of the file (`material`, `material_index`) are left out."];
+    let indexed = file(XYZ, &SQUARE[..3], &face, &["3 0 1 2 0"]);
+    assert_eq!(read(&indexed).unwrap().warnings, told);
+    let listed = indexed.replace(
+        "end_header\n",
+        "element material 1\nproperty uchar ambient_red\nend_header\n",
+    );
+    assert_eq!(read(&format!("{listed}255\n")).unwrap().warnings, told);
+}
+
+#[test]
+fn elements_may_begin_with_the_code_of_a_line_feed() {
+    // The lowest byte of the first x is 0A.
+    let first = f32::from_bits(0x3f80_000a);
+    for end in ["\n", "\r", "\r\n"] {
+        let header = format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex 3\n{XYZ}element face 1\n{CORNERS}end_header\n"
+        );
+        let mut bytes = header.replace('\n', end).into_bytes();
+        for number in [first, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0, 0.0] {
+            bytes.extend(number.to_le_bytes());
+        }
+        bytes.push(3);
+        (0..3u32).for_each(|corner| bytes.extend(corner.to_le_bytes()));
+        let model = load_bytes("thing.ply", &bytes, &mut nothing, &LoadOptions::default()).unwrap();
+        assert_eq!(model.mesh.positions[0], [first, 0.0, 0.0], "{end:?}");
+    }
+}

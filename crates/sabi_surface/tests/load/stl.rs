@@ -199,9 +199,19 @@ fn each_fault_has_its_sentence() {
 
 #[test]
 fn colors_of_facets_are_told() {
-    let model = read(&binary("COLOR=rgba"));
-    assert_eq!(
-        model.warnings,
-        ["The colors of facets, which some programs add to the format, are left out."]
-    );
+    // Bit 15 of the last two bytes of a facet says that the others are a color of VisCAM or SolidView.
+    let mut marked = binary("made by hand");
+    let last = marked.len() - 1;
+    marked[last] = 0x80;
+    let lines = text().replace("    outer loop", "    color 0.5 0.25 1\n    outer loop");
+    let expected = read(&binary("made by hand"));
+    assert!(expected.warnings.is_empty(), "other bits are no colors");
+    for bytes in [binary("COLOR=rgba"), marked, lines.into_bytes()] {
+        let model = read(&bytes);
+        assert_eq!(
+            model.warnings,
+            ["The colors of facets, which some programs add to the format, are left out."]
+        );
+        assert_eq!(model.mesh, expected.mesh);
+    }
 }

@@ -1,11 +1,14 @@
 //! The tree of elements, and properties of the whole file.
 
 use sabi_cancel::CancelableIterator as _;
+use std::borrow::Cow;
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use glam::{DMat4, DVec3};
 use roxmltree::{Node, ParsingOptions};
 
+use super::missing::{MissingReferences, is_meant};
 use crate::load::Up;
 use crate::load::error::{ModelFault, damaged};
 use crate::load::numbers::number;
@@ -70,6 +73,7 @@ fn most_attributes(text: &str) -> Option<usize> {
 pub(super) struct DaeDocument<'d> {
     pub(super) root: Node<'d, 'd>,
     ids: HashMap<&'d str, Node<'d, 'd>>,
+    missing: RefCell<MissingReferences<'d>>,
     /// Transform to meters and +Y up.
     pub(super) file_from_scene: DMat4,
 }
@@ -93,8 +97,8 @@ impl<'d> DaeDocument<'d> {
         let unit = asset.and_then(|asset| child(asset, "unit")?.attribute("meter"));
         // If the file declares no unit, it is a meter.
         let unit = unit.map_or(1.0, |unit| meters(unit, warnings));
-        let up = asset.and_then(|asset| child(asset, "up_axis")?.text());
-        let up = match up.map(str::trim) {
+        let up = asset.and_then(|asset| child(asset, "up_axis")).map(text);
+        let up = match up.as_deref() {
             Some("Z_UP") => Up::Z,
             Some("X_UP") => Up::X,
             None | Some("Y_UP" | "") => Up::Y,
@@ -108,13 +112,9 @@ impl<'d> DaeDocument<'d> {
         Ok(DaeDocument {
             root,
             ids,
+            missing: RefCell::default(),
             file_from_scene: DMat4::from_mat3(up.turned()) * DMat4::from_scale(DVec3::splat(unit)),
         })
-    }
-
-    /// Returns the element to which a reference such as `#shape` refers.
-    pub(super) fn target(&self, reference: &str) -> Option<Node<'d, 'd>> {
-        self.by_id(reference.strip_prefix('#')?)
     }
 
     /// The element of an id.
@@ -122,9 +122,26 @@ impl<'d> DaeDocument<'d> {
         self.ids.get(id).copied()
     }
 
-    /// Returns the element to which an attribute of a node refers.
-    pub(super) fn referenced(&self, node: Node<'_, '_>, attribute: &str) -> Option<Node<'d, 'd>> {
-        self.target(node.attribute(attribute)?)
+    /// Returns the element to which an attribute of a node refers by a reference such as `#shape`. Of an element that is not there, the
+    /// reference is recorded.
+    pub(super) fn referenced(&self, node: Node<'d, 'd>, attribute: &str) -> Option<Node<'d, 'd>> {
+        let reference = node.attribute(attribute)?;
+        let target = reference.strip_prefix('#').and_then(|id| self.by_id(id));
+        let target = target.filter(|target| is_meant(node, *target));
+        if target.is_none() {
+            self.note_missing(node, reference);
+        }
+        target
+    }
+
+    /// Records a reference that leads nowhere.
+    pub(super) fn note_missing(&self, node: Node<'d, 'd>, reference: &'d str) {
+        self.missing.borrow_mut().add(node, reference);
+    }
+
+    /// Adds warnings about the references that led nowhere.
+    pub(super) fn tell_missing(&self, warnings: &mut Warnings) {
+        self.missing.borrow().tell(warnings);
     }
 
     /// The first library of a name.
@@ -156,14 +173,23 @@ pub(super) fn children<'d, 'n>(node: Node<'d, 'd>, name: &'n str) -> impl Iterat
     node.children().filter(move |child| child.tag_name().name() == name)
 }
 
-/// The text of an element, trimmed.
-pub(super) fn text<'d>(node: Node<'d, 'd>) -> &'d str {
-    node.text().map_or("", str::trim)
+/// The text of an element, trimmed. Comments and processing instructions divide a text without ending it (XML 1.0, 2.5 and 2.6).
+pub(super) fn text<'d>(node: Node<'d, 'd>) -> Cow<'d, str> {
+    let mut texts = node
+        .children()
+        .filter_map(|child| child.text().filter(|_| child.is_text()));
+    let first = texts.next().unwrap_or_default();
+    let Some(second) = texts.next() else {
+        return Cow::Borrowed(first.trim());
+    };
+    let whole: String = [first, second].into_iter().chain(texts).looking().collect();
+    Cow::Owned(whole.trim().to_owned())
 }
 
 /// Returns the numbers of a text. Words that are not numbers become NaN.
 pub(super) fn numbers(node: Node<'_, '_>, warnings: &mut Warnings) -> Vec<f64> {
-    let words = node.text().map_or("", str::trim).split_ascii_whitespace();
+    let text = text(node);
+    let words = text.split_ascii_whitespace();
     let numbers = words.looking().map(|word| number(word, warnings).unwrap_or(f64::NAN));
     numbers.collect()
 }

@@ -1,5 +1,6 @@
 //! Materials, and the effects that describe them.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use roxmltree::Node;
@@ -26,11 +27,8 @@ pub(super) struct DaeMaterials<'d, 'r> {
 
 impl<'d, 'r> DaeMaterials<'d, 'r> {
     pub(super) fn new(document: &'r DaeDocument<'d>) -> DaeMaterials<'d, 'r> {
-        let library = document.first("library_materials");
-        let materials: Vec<Node> = library
-            .into_iter()
-            .flat_map(|library| children(library, "material"))
-            .collect();
+        let libraries = children(document.root, "library_materials");
+        let materials: Vec<Node> = libraries.flat_map(|library| children(library, "material")).collect();
         let ids = materials.iter().map(|material| material.attribute("id")).zip(0..);
         DaeMaterials {
             document,
@@ -49,8 +47,11 @@ impl<'d, 'r> DaeMaterials<'d, 'r> {
             .flat_map(|bound| children(bound, "instance_material"));
         let mut by_symbol = BTreeMap::new();
         for binding in bindings {
-            let target = binding.attribute("target").and_then(|target| target.strip_prefix('#'));
-            let material = target.and_then(|target| self.by_id.get(target)).copied();
+            let target = binding.attribute("target").unwrap_or_default();
+            let material = target.strip_prefix('#').and_then(|id| self.by_id.get(id)).copied();
+            if material.is_none() {
+                self.document.note_missing(binding, target);
+            }
             let (Some(symbol), Some(material)) = (binding.attribute("symbol"), material) else {
                 continue;
             };
@@ -213,8 +214,8 @@ impl<'d> Effect<'_, 'd> {
             return None;
         };
         let path = path(image);
-        let id = image.attribute("id").unwrap_or(path);
-        let number = self.pictures.number(id, || place(path));
+        let id = image.attribute("id").unwrap_or(&path);
+        let number = self.pictures.number(id, || place(&path));
         // Textures without a name for their set use the first one.
         let set = texture
             .attribute("texcoord")
@@ -236,8 +237,8 @@ impl<'d> Effect<'_, 'd> {
             if let Some(image) = child(inside, "instance_image") {
                 return document.referenced(image, "url");
             }
-            let surface = parameter(text(child(inside, "source")?))?;
-            document.by_id(text(child(child(surface, "surface")?, "init_from")?))
+            let surface = parameter(&text(child(inside, "source")?))?;
+            document.by_id(&text(child(child(surface, "surface")?, "init_from")?))
         });
         let image = through.or_else(|| document.by_id(sampler));
         image.filter(|image| image.tag_name().name() == "image")
@@ -245,10 +246,10 @@ impl<'d> Effect<'_, 'd> {
 }
 
 /// Returns the path of an image, which is a text in version 1.4 and an element in 1.5.
-fn path<'d>(image: Node<'d, 'd>) -> &'d str {
+fn path<'d>(image: Node<'d, 'd>) -> Cow<'d, str> {
     let from = child(image, "init_from");
     let inner = from.and_then(|from| child(from, "ref")).or(from);
-    inner.map_or("", text)
+    inner.map(text).unwrap_or_default()
 }
 
 fn place(path: &str) -> (String, ImageLocation) {

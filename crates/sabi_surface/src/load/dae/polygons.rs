@@ -3,7 +3,7 @@
 use roxmltree::Node;
 use sabi_cancel::CancelableIterator as _;
 
-use super::document::{DaeDocument, child, children};
+use super::document::{DaeDocument, child, children, text};
 use crate::load::error::{ModelFault, damaged};
 use crate::load::warnings::Warnings;
 
@@ -180,7 +180,8 @@ fn inputs<'d>(document: &DaeDocument<'d>, list: Node<'d, 'd>) -> Vec<DaeInput<'d
 }
 
 fn indices(list: Node<'_, '_>) -> Result<Vec<u32>, ModelFault> {
-    let words = list.text().map_or("", str::trim).split_ascii_whitespace();
+    let text = text(list);
+    let words = text.split_ascii_whitespace();
     let indices = words.looking().map(|word| {
         let index = word.parse();
         index.map_err(|_| ModelFault::Damaged(format!("`{word}` is not an index")))

@@ -77,12 +77,14 @@ impl DaeSkins {
         let names = child(names, "Name_array").or_else(|| child(names, "IDREF_array"))?;
         let binds = child(source("INV_BIND_MATRIX")?, "float_array")?;
         // Skins may share these lists. A name takes at least a letter and a space, and a matrix sixteen digits with a space each.
-        let most = text(names).len() / 2 + text(binds).len() / 32;
+        // Their whole elements are counted, which does not take looking at their texts again for each skin.
+        let most = names.range().len() / 2 + binds.range().len() / 32;
         if self.joints.take(most as u64).is_none() {
             return Some(RestPose::TooLarge);
         }
         let binds = numbers(binds, warnings);
-        let bound = text(names).split_ascii_whitespace().zip(binds.as_chunks::<16>().0);
+        let names = text(names);
+        let bound = names.split_ascii_whitespace().zip(binds.as_chunks::<16>().0);
         let placements = bound.filter_map(|(name, bind)| {
             let scene_from_joint = joints.scene_from_joint(name)?;
             Some(JointPlacement {

@@ -87,12 +87,18 @@ impl GltfDocument {
         let Value::Object(mut root) = root else {
             return damaged("its JSON is not an object");
         };
-        // Some programs write the version as a number.
-        let version = match root.get("asset").and_then(|asset| asset.get("version")) {
+        let version = |key: &str| match root.get("asset").and_then(|asset| asset.get(key)) {
+            // Some programs write the version as a number.
             Some(Value::Number(number)) => Some(number.to_string()),
             version => version.and_then(Value::as_str).map(str::to_owned),
         };
-        match version
+        // It comes first, and says which version a reader has to know (glTF 2.0, 3.2).
+        if let Some(needed) = version("minVersion").filter(|needed| is_newer(needed)) {
+            return Err(ModelFault::Format(format!(
+                "this needs a reader of glTF {needed}, and glTF 2.0 is read here; export it as glTF 2.0"
+            )));
+        }
+        match version("version")
             .as_deref()
             .map(|version| version.split_once('.').map_or(version, |(major, _)| major))
         {
@@ -203,6 +209,13 @@ impl GltfDocument {
             _ => format!("mesh {mesh}"),
         }
     }
+}
+
+/// Returns true for a version after glTF 2.0. What is no version says nothing.
+fn is_newer(version: &str) -> bool {
+    let (major, minor) = version.split_once('.').unwrap_or((version, "0"));
+    let numbers = [major, minor].map(str::parse::<u32>);
+    matches!(numbers, [Ok(major), Ok(minor)] if [major, minor] > [2, 0])
 }
 
 fn old_version() -> ModelFault {

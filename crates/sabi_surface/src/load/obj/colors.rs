@@ -3,12 +3,9 @@
 
 use sabi_color::linear_from_srgb;
 
+use crate::load::color_codes::{LARGEST_CODE, are_codes};
 use crate::load::warnings::Warnings;
 
-/// Value from which colors are interpreted as codes from 0 to 255. Colors between 0 and 1 do not reach it by rounding
-/// errors or by somewhat overbright values.
-const CODES_FROM: f32 = 2.0;
-const LARGEST_CODE: f32 = 255.0;
 /// Stands for the color of a position without one.
 const ABSENT: [f32; 4] = [f32::INFINITY; 4];
 /// Number of digits of a vertex in a comment.
@@ -51,18 +48,17 @@ impl ObjColors {
         if colors.is_empty() {
             colors = self.in_remarks;
         }
-        let largest = colors
-            .iter()
-            .filter(|color| **color != ABSENT)
-            .flatten()
-            .copied()
-            .fold(0.0, f32::max);
-        let most = if largest >= CODES_FROM {
-            warnings.add("The colors of vertices reach above 1; they are taken as codes of 0 to 255.");
+        let values = || colors.iter().filter(|color| **color != ABSENT).flatten().copied();
+        let most = if are_codes(values().fold(0.0, f32::max), "vertices", warnings) {
             LARGEST_CODE
         } else {
             1.0
         };
+        if values().any(|value| is_outside(value / most)) {
+            warnings.add(
+                "Some colors of vertices are below 0 or above full intensity; the nearest possible ones are taken.",
+            );
+        }
         for color in &mut colors {
             let [r, g, b, a] = *color;
             *color = if *color == ABSENT {
@@ -75,4 +71,9 @@ impl ObjColors {
         }
         colors
     }
+}
+
+/// Returns true if a share is outside of 0 to 1 by more than rounding errors.
+fn is_outside(share: f32) -> bool {
+    !(-1e-3..=1.001).contains(&share)
 }

@@ -81,6 +81,9 @@ impl MaterialDraft {
                 let Some([r, g, b]) = color(rest, warnings) else {
                     return warnings.add(format!("{whose} is no color of three numbers and is left out."));
                 };
+                // Emission has no upper limit.
+                let most = if keyword.lower == "kd" { 1.0 } else { f32::MAX };
+                let [r, g, b] = [r, g, b].map(|share| within(share, most, &whose, warnings));
                 let material = &mut self.material;
                 match keyword.lower.as_str() {
                     "kd" if material.base_color.is_none() => {
@@ -104,7 +107,7 @@ impl MaterialDraft {
                 let Some(value) = value else {
                     return warnings.add(format!("{whose} is no number and is left out."));
                 };
-                let value = (value as f32).clamp(0.0, 1.0);
+                let value = within(value as f32, 1.0, &whose, warnings);
                 let material = &mut self.material;
                 match keyword.lower.as_str() {
                     "d" => self.opacity = Some(value),
@@ -208,4 +211,13 @@ fn color(rest: &str, warnings: &mut Warnings) -> Option<[f32; 3]> {
     };
     let color = color.map(|share| share as f32);
     color.iter().all(|share| share.is_finite()).then_some(color)
+}
+
+/// Clamps a value to 0..=`most`, with a warning unless the difference is only rounding.
+fn within(value: f32, most: f32, whose: &str, warnings: &mut Warnings) -> f32 {
+    let within = value.clamp(0.0, most);
+    if (within - value).abs() >= 1e-3 {
+        warnings.add(format!("{whose} cannot have a value of {value}; {within} is taken."));
+    }
+    within
 }

@@ -33,7 +33,7 @@ pub(super) struct Statements {
 }
 
 /// Statements of curves, surfaces, merging groups and display, which do not affect polygons.
-const WITHOUT_EFFECT: [&str; 25] = [
+const WITHOUT_EFFECT: [&str; 23] = [
     "vp",
     "cstype",
     "deg",
@@ -51,8 +51,6 @@ const WITHOUT_EFFECT: [&str; 25] = [
     "c_interp",
     "d_interp",
     "lod",
-    "maplib",
-    "usemap",
     "shadow_obj",
     "trace_obj",
     "ctech",
@@ -173,6 +171,11 @@ impl Statements {
                 ));
             }
             "mtllib" => self.libraries.push(named(rest).trim_matches('"').to_string()),
+            "usemap" if named(rest) == "off" => {}
+            "maplib" | "usemap" => warnings.add(
+                "The texture maps of `maplib` and `usemap`, an old way to show pictures, are left out; those of materials are \
+                 read.",
+            ),
             "l" | "p" => warnings.add("Points and lines are left out."),
             "curv" | "curv2" | "surf" => warnings.add("Curves and curved surfaces are left out."),
             "call" | "csh" => warnings.add("Other files and commands that the file calls are left out."),

@@ -148,10 +148,13 @@ impl PlyHeader {
 fn split(bytes: &[u8]) -> Result<(&[u8], &[u8]), ModelFault> {
     let start = &bytes[..bytes.len().min(MOST_BYTES)];
     let mut from = 0;
+    // In a file whose lines end in carriage returns, a line feed behind the last one is the first byte of its elements.
+    let mut ends_in_returns = false;
     while let Some(length) = start[from..].iter().position(|byte| matches!(byte, b'\n' | b'\r')) {
         let end = from + length;
         let is_last = start[from..end].trim_ascii() == b"end_header";
-        let two = start[end] == b'\r' && start.get(end + 1) == Some(&b'\n');
+        let two = start[end] == b'\r' && start.get(end + 1) == Some(&b'\n') && !(is_last && ends_in_returns);
+        ends_in_returns = start[end] == b'\r' && !two;
         from = end + if two { 2 } else { 1 };
         if is_last {
             return Ok((&bytes[..end], &bytes[from..]));
