@@ -148,6 +148,8 @@ impl MapCollector {
         let mut both = whole(&Channel::BaseColor);
         both.extend(whole(&Channel::Opacity));
         let with_opacity = || input.written(&both, true, false);
+        // Without the opacity, where that is 1: the file is whole only now.
+        let written = written.or_else(|| input.written(&whole(&Channel::BaseColor), true, false));
         // If opacity varies, it is in the map, and its factor is 1.
         let mut factor = [1.0, 1.0, 1.0, alpha.unwrap_or(1.0)];
         let file = match (&color, alpha) {

@@ -202,6 +202,28 @@ fn the_copy_of_the_model_names_the_maps_of_the_preset_for_gltf() {
 }
 
 #[test]
+fn the_copy_of_the_model_takes_the_base_color_of_the_preset_whether_opacity_varies_or_is_one_value() {
+    for (name, opacity) in [
+        ("opaque", pixels(&Channel::Opacity, |_| 1.0)),
+        ("half", pixels(&Channel::Opacity, |_| 0.5)),
+        ("varied", pixels(&Channel::Opacity, wavy)),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let layout = layout();
+        let options = preset("gltf");
+        let mut writer = writer(folder.path());
+        let mut set = writer.set(&layout, "wood", &options);
+        let color = pixels(&Channel::BaseColor, wavy);
+        set.channel(&Channel::BaseColor, color, true).unwrap();
+        set.channel(&Channel::Opacity, opacity, true).unwrap();
+        set.finish().unwrap();
+        let maps = writer.take_model_maps().remove(&layout.key).unwrap();
+        let color = maps.base_color.map(|map| (map.name, map.is_written));
+        assert_eq!(color, Some(("wood_BaseColor.png".to_owned(), true)), "{name}");
+    }
+}
+
+#[test]
 fn packed_finishes_have_their_components_where_the_targets_read_them() {
     let (strength, x, y) = (0.5, 0.9, 0.2);
     let anisotropy = pixels(&Channel::Anisotropy, |index| match index % 3 {
