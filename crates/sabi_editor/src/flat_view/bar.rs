@@ -142,25 +142,49 @@ impl FlatView {
 
     /// Menu of the planes.
     fn planes(&mut self, ui: &mut Ui, values: &InspectedResult) {
-        let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
-            "" => "color",
-            name => name,
-        };
+        let title = |at: usize| plane_names(&values.planes[at].name).0;
         let menu = egui::ComboBox::from_id_salt("plane").width(PLANES).truncate();
-        menu.selected_text(name(self.plane)).show_ui(ui, |ui| {
+        let menu = menu.selected_text(title(self.plane)).show_ui(ui, |ui| {
             for at in 0..values.planes.len() {
-                ui.selectable_value(&mut self.plane, at, name(at));
+                ui.selectable_value(&mut self.plane, at, title(at));
             }
         });
+        menu.response.on_hover_text(title(self.plane));
     }
 
     /// Switches of the components of the plane that is shown.
     fn components(&mut self, ui: &mut Ui, values: &InspectedResult) {
-        let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
+        let Some(plane) = values.planes.get(self.plane) else {
+            return;
+        };
+        let (_, meanings) = plane_names(&plane.name);
         ui.selectable_value(&mut self.component, None, "RGB");
-        for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {
-            ui.selectable_value(&mut self.component, Some(at), *name);
+        for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(plane.components) {
+            let button = ui.selectable_value(&mut self.component, Some(at), *name);
+            if let Some(meaning) = meanings.get(at) {
+                button.on_hover_text(*meaning);
+            }
         }
+    }
+}
+
+/// Title of a plane of a result, and what its components are, by the name of the plane.
+fn plane_names(plane: &str) -> (&str, &'static [&'static str]) {
+    match plane.trim_end_matches('.') {
+        "" => ("Color", &["Red", "Green", "Blue"]),
+        "color" => ("Base color", &["Red", "Green", "Blue", "Opacity"]),
+        "surface" => (
+            "Roughness, metallic, occlusion",
+            &["Roughness", "Metallic", "Occlusion"],
+        ),
+        "height" => ("Height", &["Height"]),
+        "slope" => ("Slope", &["Along x", "Along y", "Along z"]),
+        "emission" => ("Emission", &["Red", "Green", "Blue"]),
+        "coat" => ("Coat", &["Share", "Roughness"]),
+        "anisotropy" => ("Anisotropy", &["Along x", "Along y", "Along z"]),
+        "sheen" => ("Sheen", &["Red", "Green", "Blue", "Roughness"]),
+        "subsurface" => ("Subsurface", &["Red", "Green", "Blue", "Transmission"]),
+        other => (other, &[]),
     }
 }
 

@@ -100,6 +100,9 @@ impl PaintingPanel {
     }
 }
 
+/// Height of the longest list of choices, points.
+const LONGEST_LIST: f32 = 400.0;
+
 /// A list from which one of several values is chosen.
 fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(T, &str)]) -> Response {
     let title = all
@@ -110,6 +113,8 @@ fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(
     let list = ComboBox::from_id_salt((name, "choice"))
         .selected_text(title)
         .width(84.0)
+        // All choices are in view, rather than in a list that scrolls.
+        .height(LONGEST_LIST)
         .show_ui(ui, |ui| {
             for (one, title) in all {
                 ui.selectable_value(chosen, *one, *title);
