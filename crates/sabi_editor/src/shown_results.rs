@@ -36,6 +36,8 @@ pub(crate) struct ShownResults {
     outputs: BTreeMap<String, String>,
     /// True if the model shows the pinned result beside another result.
     pub(crate) is_compared: bool,
+    /// True if the result on the model was pinned by the comparison, and is let go with it.
+    is_pinned_to_compare: bool,
     /// Purpose of the next clicked color.
     pub(crate) color_target: Option<ColorTarget>,
     /// Length parameter under the pointer or in a drag, in working units: the viewport draws it as a bar.
@@ -186,13 +188,19 @@ impl ShownResults {
                     self.pinned_3d = None;
                 }
             }
-            LookAction::PinIn3d => self.pinned_3d = self.shown.clone(),
+            LookAction::PinIn3d => {
+                self.pinned_3d = self.shown.clone();
+                self.is_pinned_to_compare = false;
+            }
             LookAction::UnpinFrom3d => self.pinned_3d = None,
             LookAction::Compare => {
-                if !self.is_compared && self.pinned_3d.is_none() {
-                    self.pinned_3d = self.shown.clone();
-                }
                 self.is_compared = !self.is_compared;
+                if self.is_compared && self.pinned_3d.is_none() {
+                    self.pinned_3d = self.shown.clone();
+                    self.is_pinned_to_compare = true;
+                } else if !self.is_compared && std::mem::take(&mut self.is_pinned_to_compare) {
+                    self.pinned_3d = None;
+                }
             }
             LookAction::UnpinFrom2d => self.pinned_2d = None,
         }

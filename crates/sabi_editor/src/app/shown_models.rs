@@ -1,6 +1,6 @@
 //! The shown model, and the models beside it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::Context;
@@ -251,6 +251,9 @@ impl ShownModels<'_> {
         let before = self.documents.written_model();
         let found = missing_files::relocate(&mut self.documents.document, lost, file);
         if self.documents.written_model() != before {
+            // The strip has the model at its new place only.
+            let is_lost = |model: &PathBuf| model.file_name() == file.file_name() && !model.exists();
+            self.documents.models.files.retain(|model| !is_lost(model));
             self.take_named();
         }
         let sentence = match found {

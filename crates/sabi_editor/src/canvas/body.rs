@@ -6,6 +6,7 @@ use sabi_editing::node_size::{MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITL
 
 use super::node_summary::{NodeSummary, RowContext};
 use crate::knobs::{KnobRow, ParamMask, is_inline_menu_asked, knob_inline};
+use crate::notices::with_capital;
 use crate::theme::{Theme, space, type_size};
 use crate::time_text::time_text;
 
@@ -143,7 +144,7 @@ pub(super) fn picture(ui: &Ui, theme: &Theme, shown: &NodeSummary, rect: Rect, z
             .rect_stroke(rect, corner, Stroke::new(1.0, color), StrokeKind::Inside);
         let inner = rect.shrink(space::TIGHT * zoom);
         let font = FontId::proportional(type_size::SMALL * zoom);
-        let text = ui.painter().layout(sentence.clone(), font, color, inner.width());
+        let text = ui.painter().layout(with_capital(sentence), font, color, inner.width());
         ui.painter()
             .with_clip_rect(inner.intersect(ui.clip_rect()))
             .galley(inner.min, text, color);

@@ -59,7 +59,7 @@ impl View for StackPanel {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         let stacks = stack::all(context.document);
-        self.wanted = wanted(context.document, &stacks);
+        self.wanted = wanted(context, &stacks);
         self.rows.clear();
         if stacks.is_empty() {
             let sentence = "There is no output yet; the first layer adds one.";
@@ -253,10 +253,11 @@ fn painted_masks(ui: &mut Ui, layer: &Layer, actions: &mut Vec<Action>) {
 }
 
 /// Results that rows show: of each layer, and of its mask.
-fn wanted(document: &OpenDocument, stacks: &[Stack]) -> Vec<NodeRef> {
+fn wanted(context: &ViewContext<'_>, stacks: &[Stack]) -> Vec<NodeRef> {
+    let document = context.document;
     let layers = stacks.iter().flat_map(|stack| &stack.layers);
     let results = layers.flat_map(|layer| {
-        let own = result_of(document, &layer.node, None);
+        let own = context.looks.chosen(document, &layer.node);
         let mask = layer.mask.as_ref();
         let mask = mask.map(|mask| result_of(document, &mask.node, mask.port.clone()));
         std::iter::once(own).chain(mask)

@@ -126,6 +126,32 @@ fn masks_and_layers_have_pictures_although_the_canvas_does_not_show_their_nodes(
 }
 
 #[test]
+fn a_layer_of_a_group_has_the_picture_of_its_material_although_that_is_not_its_first_output() {
+    let window = layered(
+        r#"{
+  "format": "sabi", "version": 1, "name": "",
+  "groups": { "Moss": {
+    "inputs": { "base": { "to": ["layer.base"], "type": "material" } },
+    "outputs": { "where": "cells.mask", "whole": "layer" },
+    "nodes": {
+      "cells": { "kind": "noise/cells" },
+      "layer": { "kind": "effect/layer", "inputs": { "mask": "cells" } }
+    } } },
+  "nodes": {
+    "paint": { "kind": "source/material" },
+    "grown": { "kind": "graph/group", "group": "Moss", "label": "Moss", "inputs": { "base": "paint" }, "pos": [300, 0] },
+    "out": { "kind": "output/material", "inputs": { "material": "grown.whole" }, "pos": [900, 0] }
+  }
+}"#,
+    );
+    assert_eq!(titles(&window), ["Moss", "Plain material"]);
+    let editor = window.editor();
+    let shown = editor.looks.chosen(&editor.documents.document, &id("grown"));
+    assert_eq!(shown.port.as_deref(), Some("whole"));
+    assert!(editor.views.layers.wanted.contains(&shown));
+}
+
+#[test]
 fn a_layer_is_renamed_blended_and_masked_in_its_row() {
     let mut window = layered(LAYERED);
     let rust = id("rust");

@@ -126,6 +126,13 @@ fn the_menu_on_the_picture_shows_and_changes_the_subject_of_the_model() {
     choose(&mut window, "Pin Tiles");
     choose(&mut window, "Outputs");
     assert!(window.on_model().is_empty(), "nothing is pinned any more");
+    window.click_at(window.title(&id("dots")));
+    choose(&mut window, "Compare with Spots");
+    choose(&mut window, "Compare with Spots");
+    assert!(
+        window.on_model().is_empty(),
+        "what was pinned to be compared is let go with the comparison"
+    );
 }
 
 #[test]
