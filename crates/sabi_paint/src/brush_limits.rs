@@ -60,6 +60,11 @@ impl Eye {
         }
     }
 
+    /// Returns true if it sees the back of a surface, which has this unit normal at a place.
+    pub fn sees_back(&self, place: DVec3, normal: DVec3) -> bool {
+        self.is_finite() && self.way_from(place).dot(normal) < 0.0
+    }
+
     /// Returns true if all its numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let (Eye::Place(numbers) | Eye::Toward(numbers)) = self;

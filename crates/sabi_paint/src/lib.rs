@@ -60,7 +60,7 @@ pub use stencil::Stencil;
 pub use stroke::{Action, Area, CopyOf, Step, Stroke, StrokeGroup, StrokePoint};
 pub use stroke_text::{NoStrokes, is_text_of_strokes, strokes_as_text, strokes_from_text};
 pub use supplies::{InputColors, Supplies};
-pub use surface::{PaintSurface, StopCheck, rightward};
+pub use surface::{PaintSurface, StopCheck, decal_axes, rightward};
 pub use swatch::{stamp_swatch, swatch};
 pub use tips::Tip;
 pub use version::Version;

@@ -8,6 +8,7 @@ use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
 use sabi_surface::patch::{ConnectedMesh, Site, walk, weights_at};
 
+use crate::brush_limits::Eye;
 use crate::index::SurfaceIndex;
 use crate::pen::{Shaft, Touch};
 use crate::stroke::StrokePoint;
@@ -202,6 +203,16 @@ impl<'a> PaintSurface<'a> {
         let angle_degrees = if along == DVec3::ZERO { 0.0 } else { angle_degrees };
         Shaft::leaning(normal, along, angle_degrees)
     }
+}
+
+/// Returns the directions to the right and upward on a decal at a point of a surface, of unit length: for a person in front
+/// of the surface, or behind it if the eye sees its back, so that writing can be read from where it was laid.
+pub fn decal_axes(point: &StrokePoint, normal: DVec3, eye: Option<Eye>) -> [DVec3; 2] {
+    let of_triangle = DVec3::from(point.normal.map(f64::from));
+    let is_behind = eye.is_some_and(|eye| eye.sees_back(point.site.position, of_triangle));
+    let toward_eye = if is_behind { -normal } else { normal };
+    let right = rightward(toward_eye);
+    [right, toward_eye.cross(right)]
 }
 
 /// Returns the direction to the right for a person who stands in front of a surface, given by its unit normal; for a level

@@ -4,7 +4,7 @@
 use egui::{Pos2, Vec2};
 use glam::DVec3;
 use sabi_engine::live::LiveModel;
-use sabi_paint::{Brush, StrokePoint, rightward};
+use sabi_paint::{Brush, Eye, StrokePoint, decal_axes};
 use sabi_surface::patch::Site;
 
 use super::PaintView;
@@ -32,7 +32,7 @@ impl Decal {
     /// A decal whose middle lies at a place of the model.
     pub(super) fn new(model: &LiveModel, canvas: &impl PaintView, placed: &StrokePoint, middle: Pos2) -> Decal {
         Decal {
-            axes: axes_on_screen(model, canvas, placed),
+            axes: axes_on_screen(model, canvas, placed, canvas.eye(model)),
             way: Vec2::ZERO,
             middle,
         }
@@ -80,7 +80,7 @@ pub(super) fn sized(
     canvas: &impl PaintView,
     placed: &StrokePoint,
 ) -> BrushChoices {
-    let axes = axes_on_screen(model, canvas, placed).filter(|_| brush.is_on_screen);
+    let axes = axes_on_screen(model, canvas, placed, None).filter(|_| brush.is_on_screen);
     // The longer of both is not shortened by the slant of the surface.
     let scale = axes.map(|[right, up]| right.length().max(up.length()) * model.linked.largest_side as f32);
     match scale.filter(|scale| *scale > 0.0) {
@@ -93,10 +93,14 @@ pub(super) fn sized(
     }
 }
 
-/// Vectors on the screen of one model unit to the right and upward of a decal, in points.
-pub(super) fn axes_on_screen(model: &LiveModel, canvas: &impl PaintView, placed: &StrokePoint) -> Option<[Vec2; 2]> {
+/// Vectors on the screen of one model unit to the right and upward of a decal that is laid with this eye, in points.
+pub(super) fn axes_on_screen(
+    model: &LiveModel,
+    canvas: &impl PaintView,
+    placed: &StrokePoint,
+    eye: Option<Eye>,
+) -> Option<[Vec2; 2]> {
     let normal = DVec3::from(placed.normal.map(f64::from));
-    let right = rightward(normal);
     let probe = PROBE * model.linked.largest_side;
     let seen = |offset: DVec3| {
         canvas.place(
@@ -109,7 +113,8 @@ pub(super) fn axes_on_screen(model: &LiveModel, canvas: &impl PaintView, placed:
     };
     let middle = seen(DVec3::ZERO)?;
     let axis = |direction: DVec3| Some((seen(probe * direction)? - middle) / probe as f32);
-    Some([axis(right)?, axis(normal.cross(right))?])
+    let [right, up] = decal_axes(placed, normal, eye);
+    Some([axis(right)?, axis(up)?])
 }
 
 /// Length of a vector on the screen in model units, and its angle from the right in degrees, counterclockwise; `None`

@@ -69,7 +69,7 @@ impl Handles {
         if distance > HIDDEN * model.linked.largest_side {
             return None;
         }
-        let [right, up] = axes_on_screen(model, canvas, placed)?;
+        let [right, up] = axes_on_screen(model, canvas, placed, stroke.eye)?;
         let (sine, cosine) = stroke.brush.angle_degrees.to_radians().sin_cos();
         let radius = stroke.brush.radius;
         let at = |x: f32, y: f32| {
@@ -145,14 +145,15 @@ impl HeldDecal {
             stroke: self.stroke.id,
             points: vec![point],
             path: None,
-            eye: canvas.eye(&self.model),
+            // The 2D view has no eye; the decal is read from where it was.
+            eye: canvas.eye(&self.model).or(self.stroke.eye),
         })
     }
 
     fn turned(&self, to: Pos2, canvas: &impl PaintView) -> Option<Step> {
         let placed = self.stroke.points.first()?;
         let middle = canvas.place(&self.model, placed.site)?;
-        let axes = axes_on_screen(&self.model, canvas, placed)?;
+        let axes = axes_on_screen(&self.model, canvas, placed, self.stroke.eye)?;
         let [radius, turn] = turn_of(axes, to - middle)?;
         let least = (LEAST * self.model.linked.largest_side) as f32;
         let brush = Brush {

@@ -53,7 +53,7 @@ fn shaft_over(
     tilt_degrees: [f32; 2],
 ) -> Option<Shaft> {
     let (way, angle_degrees) = lean(tilt_degrees)?;
-    let turn = axes_on_screen(model, canvas, placed).and_then(|axes| turn_of(axes, way));
+    let turn = axes_on_screen(model, canvas, placed, None).and_then(|axes| turn_of(axes, way));
     // A surface that is seen from its edge has no such direction.
     let turn = turn.map_or(0.0, |[_, turn]| f64::from(turn));
     let normal = DVec3::from(placed.normal.map(f64::from));

@@ -166,7 +166,7 @@ impl<'a> Painter<'a> {
             _ => return self.fill(points, area, used),
         }
         if area.is_single() {
-            return self.draw_single(points, area, used);
+            return self.draw_single(stroke, area, used);
         }
         let way = self.way_of(points, &used.brush);
         if area == Area::Ribbon {

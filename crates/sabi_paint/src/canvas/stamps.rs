@@ -14,8 +14,9 @@ use super::texels::{At, SurfaceTexels, for_texels};
 use super::used_brush::UsedBrush;
 use crate::brush::{Brush, TipDirection};
 use crate::pen::PenPose;
-use crate::stroke::{Area, StrokePoint};
-use crate::surface::rightward;
+use crate::site::LocatedStroke;
+use crate::stroke::Area;
+use crate::surface::{decal_axes, rightward};
 use crate::way::{WayPoint, spaced};
 
 /// Sine of the slope from which on a surface has a downward direction, about 2°.
@@ -151,9 +152,16 @@ impl Painter<'_> {
     }
 
     /// Draws a single stamp at the first of some points, upright on the model except for the angle of the brush.
-    pub(super) fn draw_single(&mut self, points: &[StrokePoint], area: Area, used: &UsedBrush) {
-        let Some(point) = points.first() else { return };
+    pub(super) fn draw_single(&mut self, stroke: &LocatedStroke, area: Area, used: &UsedBrush) {
+        let Some(point) = stroke.points.first() else { return };
         let normal = self.normal_under(point.site);
+        let of_plane = {
+            let right = rightward(normal);
+            [right, normal.cross(right)]
+        };
+        let of_decal = decal_axes(point, normal, stroke.eye);
+        let decal_from_plane = DMat2::from_cols_array_2d(&of_plane.map(|axis| of_decal.map(|other| axis.dot(other))));
+        let turn = DMat2::from_angle(-mirrored(used, f64::from(used.brush.angle_degrees)).to_radians());
         let radius = f64::from(used.brush.radius);
         let wanted = PatchRequest {
             from: point.site,
@@ -171,11 +179,11 @@ impl Painter<'_> {
             radius,
             strength: 1.0,
             hardness: f64::from(used.brush.hardness),
-            tip_from_plane: DMat2::from_angle(-mirrored(used, f64::from(used.brush.angle_degrees)).to_radians()),
+            tip_from_plane: turn * decal_from_plane,
             stamp: used
                 .brush
                 .tip
-                .stamp([stroke_seed(&self.way_of(&points[..1], &used.brush)), 0]),
+                .stamp([stroke_seed(&self.way_of(&stroke.points[..1], &used.brush)), 0]),
         };
         let reach = DVec2::splat(plane.reach);
         let laying = StampBlend {

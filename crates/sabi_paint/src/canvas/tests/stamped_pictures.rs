@@ -104,6 +104,55 @@ fn a_decal_on_a_mirrored_side_is_not_mirrored() {
 }
 
 #[test]
+fn a_decal_can_be_read_from_the_side_on_which_it_was_laid() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (tip, pictures) = flag();
+    let across = [[-0.3, 0.1], [0.3, -0.1], [0.0, 0.35], [0.6, 0.0]];
+    // Counter-clockwise as seen from either side, so that red comes to lie below.
+    let upright = [[0.1, -0.3], [-0.1, 0.3], [0.35, 0.0], [0.0, 0.6]];
+    for (eye, turn, places, expected) in [
+        (
+            Some(Eye::Place([0.0, 0.0, 5.0])),
+            0.0,
+            across,
+            [RED, BLUE, CLEAR, CLEAR],
+        ),
+        (
+            Some(Eye::Place([0.0, 0.0, -5.0])),
+            0.0,
+            across,
+            [BLUE, RED, CLEAR, CLEAR],
+        ),
+        (
+            Some(Eye::Toward([0.0, 0.0, -1.0])),
+            0.0,
+            across,
+            [BLUE, RED, CLEAR, CLEAR],
+        ),
+        (None, 0.0, across, [RED, BLUE, CLEAR, CLEAR]),
+        (
+            Some(Eye::Place([0.0, 0.0, 5.0])),
+            90.0,
+            upright,
+            [RED, BLUE, CLEAR, CLEAR],
+        ),
+        (
+            Some(Eye::Place([0.0, 0.0, -5.0])),
+            90.0,
+            upright,
+            [RED, BLUE, CLEAR, CLEAR],
+        ),
+    ] {
+        let mut stroke = decal(&surface, tip.clone(), turn);
+        stroke.eye = eye;
+        let canvas = painted_with(&surface, &atlas, &[stroke], &pictures, COLORED);
+        assert_eq!(seen(&atlas, &canvas, places), expected, "{eye:?} {turn}");
+    }
+}
+
+#[test]
 fn a_decal_is_projected_straight_over_the_joints_of_boards() {
     // Boards of the crate are at different depths, and each is a separate piece.
     let mesh = mesh_of("crate");
