@@ -8,9 +8,11 @@ const NO_CHANNEL: u32 = 16u;
 struct Textures {
     // Material whose triangles are filled.
     material: u32,
-    pad_1: u32,
-    pad_2: u32,
-    pad_3: u32,
+    // Value from which a component that is cut is 1, and below which it is 0.
+    cutoff: f32,
+    // Components that are cut, a bit for each.
+    is_cut: u32,
+    pad: u32,
     // Channels of the textures, four for each in turn, that each component is a product of.
     first: vec4u,
     second: vec4u,
@@ -77,7 +79,9 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         channel_of(means, textures.second.w),
     );
     let value = textures.addend + textures.factor * first * second;
-    textureStore(field, texel.xy, texel.z, stored(value));
+    let cut = select(vec4f(0.0), vec4f(1.0), value >= vec4f(textures.cutoff));
+    let is_cut = (vec4u(textures.is_cut) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+    textureStore(field, texel.xy, texel.z, stored(select(value, cut, is_cut)));
 }
 
 // A channel of one of the textures, four for each in turn, or 1.

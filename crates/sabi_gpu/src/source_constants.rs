@@ -118,8 +118,12 @@ wgsl_struct! {
     pub struct TexturesConstants {
         /// Material whose triangles are filled.
         pub material: u32,
+        /// Value from which a component that is cut is 1, and below which it is 0.
+        pub cutoff: f32,
+        /// Components that are cut, a bit for each.
+        pub is_cut: u32,
         /// Unused.
-        pub pad: [u32; 3],
+        pub pad: u32,
         /// Channels that are multiplied to get each component: four channels for each texture in turn.
         pub first: [u32; 4],
         /// Second channel of each product.

@@ -33,6 +33,7 @@ mod submesh;
 mod tangents;
 mod text;
 mod unit_vector;
+mod value_range;
 mod warnings;
 
 use std::borrow::Cow;

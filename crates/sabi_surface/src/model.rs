@@ -168,6 +168,9 @@ pub struct ModelMaterial {
     pub base_color_factor: [f32; 4],
     /// True if alpha is ignored: glTF's alpha mode `OPAQUE`, with which textures may contain any alpha.
     pub ignores_alpha: bool,
+    /// Alpha from which the material is opaque, and below which it is invisible: glTF's alpha mode `MASK`. `None` if alpha is an
+    /// opacity.
+    pub alpha_cutoff: Option<f32>,
     /// True if its back faces are visible, too; glTF states this for each material.
     pub is_double_sided: bool,
     /// Metallic factor.
@@ -275,6 +278,7 @@ impl Default for ModelMaterial {
             uv_decoding: None,
             base_color_factor: [1.0; 4],
             ignores_alpha: false,
+            alpha_cutoff: None,
             is_double_sided: true,
             metallic_factor: 1.0,
             roughness_factor: 1.0,

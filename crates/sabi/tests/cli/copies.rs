@@ -328,3 +328,33 @@ fn the_look_of_a_model_does_not_hide_the_maps_of_its_copy_unless_it_is_kept() {
     assert!(said.contains(words), "{said}");
     place.bake("rust.sabi", "unlit.gltf", &["--keep-look"]).fails(2);
 }
+
+#[test]
+fn alpha_below_the_cutoff_of_a_masked_material_is_nothing_and_all_else_is_opaque() {
+    let place = CliFolder::new();
+    unlit(&place);
+    place.write(
+        "own.sabi",
+        r#"{ "format": "sabi", "version": 1, "nodes": { "own": { "kind": "source/model" },
+            "out": { "kind": "output/material", "inputs": { "material": "own" } } } }"#,
+    );
+    let model = String::from_utf8(place.read("unlit.gltf")).unwrap();
+    // At the cutoff itself, a material is opaque (glTF 2.0, 3.9.4). Both numbers are exact.
+    for (name, cutoff, opacity) in [("above", 0.5, 0.0), ("equal", 0.25, 1.0), ("below", 0.125, 1.0)] {
+        let look = format!(
+            r#""alphaMode": "MASK", "alphaCutoff": {cutoff}, "pbrMetallicRoughness": {{ "baseColorFactor": [1, 1, 1, 0.25] }},"#
+        );
+        place.write("masked.gltf", model.replace(r#""alphaMode": "BLEND","#, &look));
+        place.bake("own.sabi", "masked.gltf", &["--model", "-o", name]).good();
+        let copy: Json = serde_json::from_slice(&place.read(&format!("{name}/masked.gltf"))).unwrap();
+        let material = &copy["materials"][0];
+        let factor = material.pointer("/pbrMetallicRoughness/baseColorFactor/3");
+        assert_eq!(
+            factor.map_or(1.0, |alpha| alpha.as_f64().unwrap()),
+            opacity,
+            "{name}: {copy}"
+        );
+        let mode = material.get("alphaMode").and_then(Json::as_str);
+        assert_eq!(mode, (opacity == 0.0).then_some("BLEND"), "{name}: {copy}");
+    }
+}

@@ -50,9 +50,14 @@ impl MaterialCanvas<'_> {
         let number = |at: usize| {
             products.map(|product| channel_number(&textures, product.channels[at]).unwrap_or(NO_CHANNEL)) // 1 in the shader.
         };
+        // A material has one cutoff.
+        let cutoff = products.iter().find_map(|product| product.cutoff);
+        let cut = products.iter().zip(0..).filter(|(product, _)| product.cutoff.is_some());
         let mut constants = TexturesConstants {
             material: self.material,
-            pad: [0; 3],
+            cutoff: cutoff.unwrap_or_default(),
+            is_cut: cut.map(|(_, component)| 1 << component).sum(),
+            pad: 0,
             first: number(0),
             second: number(1),
             factor: products.map(|product| product.factor),

@@ -115,6 +115,7 @@ impl MaterialTextures<'_> {
         if self.material.ignores_alpha {
             color[3] = Product::constant(1.0);
         }
+        color[3].cutoff = self.material.alpha_cutoff;
         color
     }
 

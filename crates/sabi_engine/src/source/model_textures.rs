@@ -70,12 +70,14 @@ impl<'a> ModelTexture<'a> {
 /// Channel of a texture; `None` means the value 1.
 pub(super) type TextureChannel<'t> = Option<(&'t ModelTexture<'t>, u32)>;
 
-/// Component of a plane: a product of channels and a factor, plus an addend.
+/// Component of a plane: a product of channels and a factor, plus an addend, cut if it has a cutoff.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Product<'t> {
     pub(super) channels: [TextureChannel<'t>; 2],
     pub(super) factor: f32,
     pub(super) addend: f32,
+    /// Value from which the component is 1, and below which it is 0.
+    pub(super) cutoff: Option<f32>,
 }
 
 impl<'t> Product<'t> {
@@ -92,7 +94,7 @@ impl<'t> Product<'t> {
         Product {
             channels: [texture.as_ref().map(|texture| (texture, channel)), None],
             factor,
-            addend: 0.0,
+            ..Product::default()
         }
     }
 

@@ -251,6 +251,17 @@ fn opacity_and_colors_of_materials_have_the_rules_of_all_formats() {
     );
     let short = looks("<color>0.5 0.25 0 1</color>", "<color>0.5 0.25 0</color>");
     assert_eq!(short.materials[0].emission_factor, [0.5, 0.25, 0.0]);
+    let codes = file("", &LOOKS.replace("0.1 0.2 0.3 1", "255 -1 0.3 1"), FACE, &bound("m2"));
+    let codes = read(&codes);
+    assert_eq!(codes.materials[0].base_color_factor, [1.0, 0.0, 0.3, 1.0]);
+    // The material `unused` has the same color, and comes first.
+    assert_eq!(
+        codes.warnings[2..],
+        [
+            "The base color of material `plain` cannot be 255; 1 is taken.",
+            "The base color of material `plain` cannot be -1; 0 is taken.",
+        ]
+    );
     let lost = looks("<color>0.5 0.25 0 1</color>", "<color>bright</color>");
     assert_eq!(
         lost.warnings,

@@ -124,6 +124,18 @@ fn an_older_material_gives_color_shininess_and_opacity() {
 }
 
 #[test]
+fn a_color_out_of_its_range_is_told_and_clamped() {
+    let mut file = Fbx::square();
+    paint(&mut file, &[("DiffuseColor", "Color", &[4.0, 0.5, 0.0])]);
+    let model = file.model();
+    assert_eq!(model.materials[0].base_color_factor, [1.0, 0.5, 0.0, 1.0]);
+    assert_eq!(
+        model.warnings,
+        ["The base color of material `paint` cannot be 4; 1 is taken."]
+    );
+}
+
+#[test]
 fn pictures_are_found_in_the_file_and_beside_it_but_never_elsewhere() {
     let folder = tempfile::tempdir().unwrap();
     let outside = folder.path().join("outside.png");

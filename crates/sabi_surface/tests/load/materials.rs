@@ -53,13 +53,39 @@ fn alpha_of_gltf_is_believed_and_a_material_that_nobody_sees_is_told() {
     for (mode, warnings) in [
         ("OPAQUE", &[][..]),
         ("BLEND", &["The file has material `glass` invisible: its alpha is 0."]),
-        ("MASK", &["The file has material `glass` invisible: its alpha is 0."]),
+        (
+            "MASK",
+            &["The file has material `glass` invisible: its alpha is below its cutoff."],
+        ),
     ] {
         let pbr = json!({ "baseColorFactor": [1, 1, 1, 0] });
         let file = with_material(json!({ "name": "glass", "alphaMode": mode, "pbrMetallicRoughness": pbr }));
         let model = file.model();
         assert_eq!(model.materials[0].base_color_factor[3], 0.0, "{mode}");
         assert_eq!(model.warnings, warnings, "{mode}");
+    }
+}
+
+#[test]
+fn only_the_alpha_mode_mask_has_a_cutoff_which_is_a_half_by_default() {
+    let hidden = &["The file has material `leaf` invisible: its alpha is below its cutoff."][..];
+    for (mode, cutoff, alpha, expected, warnings) in [
+        ("MASK", json!(0.25), 0.25, Some(0.25), &[][..]),
+        ("MASK", json!(0.3), 0.25, Some(0.3), hidden),
+        ("MASK", json!(0), 0.0, Some(0.0), &[]),
+        ("MASK", json!(null), 0.25, Some(0.5), hidden),
+        ("MASK", json!(null), 0.5, Some(0.5), &[]),
+        ("BLEND", json!(null), 0.25, None, &[]),
+        ("OPAQUE", json!(null), 0.25, None, &[]),
+    ] {
+        let mut material = json!({ "name": "leaf", "alphaMode": mode,
+            "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, alpha] } });
+        if !cutoff.is_null() {
+            material["alphaCutoff"] = cutoff.clone();
+        }
+        let model = with_material(material).model();
+        assert_eq!(model.materials[0].alpha_cutoff, expected, "{mode} {cutoff}");
+        assert_eq!(model.warnings, warnings, "{mode} {cutoff}");
     }
 }
 

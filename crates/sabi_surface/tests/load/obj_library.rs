@@ -263,9 +263,9 @@ fn values_out_of_their_range_are_told_and_clamped() {
     assert_eq!(
         model.warnings,
         [
-            "`Kd` of material `a` cannot have a value of 255; 1 is taken.",
-            "`Kd` of material `a` cannot have a value of -0.5; 0 is taken.",
-            "`Pr` of material `a` cannot have a value of 3; 1 is taken.",
+            "`Kd` of material `a` cannot be 255; 1 is taken.",
+            "`Kd` of material `a` cannot be -0.5; 0 is taken.",
+            "`Pr` of material `a` cannot be 3; 1 is taken.",
         ]
     );
     assert!(

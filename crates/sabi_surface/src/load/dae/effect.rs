@@ -12,6 +12,7 @@ use super::scene::DaeMeshInstance;
 use crate::load::faces::NONE;
 use crate::load::material_images::{ImageLocation, MaterialImages, file_name, places};
 use crate::load::opacity::{set_opacity, set_opacity_map};
+use crate::load::value_range::within;
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
 
@@ -125,14 +126,17 @@ impl<'d> Effect<'_, 'd> {
             if material.base_color.is_some() {
                 material.base_color_factor = [1.0; 4];
             } else if let Some([r, g, b, _]) = diffuse.and_then(|diffuse| self.color(diffuse)) {
-                material.base_color_factor = [r, g, b, 1.0].map(|share| share.clamp(0.0, 1.0));
+                let whose = format!("The base color of {}", self.label);
+                let [r, g, b] = [r, g, b].map(|share| within(share, 1.0, &whose, self.warnings));
+                material.base_color_factor = [r, g, b, 1.0];
             }
             let emission = child(model, "emission");
             material.emission = emission.and_then(|emission| self.texture(emission, "emission"));
             if material.emission.is_some() {
                 material.emission_factor = [1.0; 3];
             } else if let Some([r, g, b, _]) = emission.and_then(|emission| self.color(emission)) {
-                material.emission_factor = [r, g, b].map(|share| share.clamp(0.0, f32::MAX));
+                let whose = format!("The emission of {}", self.label);
+                material.emission_factor = [r, g, b].map(|share| within(share, f32::MAX, &whose, self.warnings));
             }
             self.read_opacity(model, &mut material);
         }

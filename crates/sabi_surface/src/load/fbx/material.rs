@@ -9,6 +9,7 @@ use super::nodes::FbxMeshNode;
 use super::textures::{FbxTextures, connected};
 use crate::load::material_images::MaterialImages;
 use crate::load::opacity::{set_opacity, set_opacity_map};
+use crate::load::value_range::within;
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
 
@@ -57,8 +58,10 @@ impl<'s> FbxMaterials<'s> {
         } else {
             color(base, ModelMaterial::UNKNOWN_COLOR)
         };
-        let [r, g, b] = tint.map(|share| share * number(&pbr.base_factor, 1.0));
-        look.base_color_factor = [r, g, b, 1.0].map(|share| share.clamp(0.0, 1.0));
+        let whose = format!("The base color of {}", label(material));
+        let factor = number(&pbr.base_factor, 1.0);
+        let [r, g, b] = tint.map(|share| within(share * factor, 1.0, &whose, warnings));
+        look.base_color_factor = [r, g, b, 1.0];
         let light = if look.emission.is_some() {
             [1.0; 3]
         } else {

@@ -5,6 +5,7 @@ mod finish;
 use std::collections::BTreeMap;
 
 use gltf::json;
+use json::material::AlphaMode;
 use json::texture::WrappingMode;
 use json::validation::Checked;
 use serde_json::{Map, Value};
@@ -14,6 +15,7 @@ use super::picture::GltfImageCache;
 use super::source::GltfSource;
 use super::texture_use::{TRANSFORM, finite, overridden, raw_transform, rows};
 use super::uv_decoding::UvDecodings;
+use crate::load::value_range::within;
 use crate::load::warnings::Warnings;
 use crate::model::{Model, ModelMaterial, TextureRef, Wrap};
 
@@ -139,11 +141,20 @@ impl GltfImages<'_> {
         let metallic_roughness = info(&pbr.metallic_roughness_texture);
         let emission = info(&material.emissive_texture);
         let finish = self.finish(material, &label);
-        let ignores_alpha = matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque));
-        if base_color_factor[3] == 0.0 && !ignores_alpha {
+        let ignores_alpha = matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque));
+        let is_masked = matches!(material.alpha_mode, Checked::Valid(AlphaMode::Mask));
+        // 0.5 where the file says nothing (glTF 2.0, 3.9.4).
+        let alpha_cutoff = is_masked.then(|| material.alpha_cutoff.unwrap_or_default().0);
+        // A texture makes alpha only smaller.
+        let [.., most] = base_color_factor;
+        let reason = match alpha_cutoff {
+            Some(cutoff) if most < cutoff => Some("its alpha is below its cutoff"),
+            None if most == 0.0 && !ignores_alpha => Some("its alpha is 0"),
+            _ => None,
+        };
+        if let Some(reason) = reason {
             // The format defines the meaning of alpha, so the file is followed.
-            self.warnings
-                .add(format!("The file has {label} invisible: its alpha is 0."));
+            self.warnings.add(format!("The file has {label} invisible: {reason}."));
         }
         ModelMaterial {
             // A name is optional in glTF; an empty one means unnamed.
@@ -152,6 +163,7 @@ impl GltfImages<'_> {
             uv_decoding: None,
             base_color_factor,
             ignores_alpha,
+            alpha_cutoff,
             is_double_sided: material.double_sided,
             metallic_factor,
             roughness_factor,
@@ -186,16 +198,8 @@ impl GltfImages<'_> {
 
     /// Clamps factors to 0..=`most`, with a warning unless the difference is only rounding.
     fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
-        factors.map(|factor| {
-            let within = factor.clamp(0.0, most);
-            if (within - factor).abs() < 1e-3 {
-                return within;
-            }
-            let taken = if factor < 0.0 { 0.0 } else { 1.0 };
-            self.warnings
-                .add(format!("The {what} of {label} cannot be {factor}; {taken} is taken."));
-            taken
-        })
+        let whose = format!("The {what} of {label}");
+        factors.map(|factor| within(factor, most, &whose, self.warnings))
     }
 
     fn info(&mut self, label: &str, info: &json::texture::Info) -> Option<TextureRef> {

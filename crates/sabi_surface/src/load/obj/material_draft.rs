@@ -4,6 +4,7 @@ use super::map_statement::MapStatement;
 use crate::load::material_images::MaterialImages;
 use crate::load::numbers::number;
 use crate::load::opacity::{set_opacity, set_opacity_map};
+use crate::load::value_range::within;
 use crate::load::warnings::Warnings;
 use crate::model::{ModelMaterial, TextureRef};
 
@@ -211,13 +212,4 @@ fn color(rest: &str, warnings: &mut Warnings) -> Option<[f32; 3]> {
     };
     let color = color.map(|share| share as f32);
     color.iter().all(|share| share.is_finite()).then_some(color)
-}
-
-/// Clamps a value to 0..=`most`, with a warning unless the difference is only rounding.
-fn within(value: f32, most: f32, whose: &str, warnings: &mut Warnings) -> f32 {
-    let within = value.clamp(0.0, most);
-    if (within - value).abs() >= 1e-3 {
-        warnings.add(format!("{whose} cannot have a value of {value}; {within} is taken."));
-    }
-    within
 }
