@@ -170,7 +170,8 @@ impl AddMenu {
             .max_height(SIZE[1])
             // The popup offers only as much height as its last contents took.
             .min_scrolled_height(SIZE[1])
-            .auto_shrink([false, true]);
+            // A shorter list leaves the field above it where it is, also near the lower end of the window.
+            .auto_shrink(false);
         if is_other {
             area = area.vertical_scroll_offset(0.0);
         }

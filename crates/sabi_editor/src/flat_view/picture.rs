@@ -111,6 +111,12 @@ impl Histogram {
             .then(|| rect.left() + (value - low) / (high - low) * rect.width())
     }
 
+    /// Value at a horizontal place of a histogram that is drawn in a rectangle.
+    pub(crate) fn value_at(&self, x: f32, rect: Rect) -> f32 {
+        let [low, high] = self.range;
+        low + (x - rect.left()) / rect.width() * (high - low)
+    }
+
     /// Draws the histogram in a rectangle.
     pub(crate) fn draw_in(&self, painter: &Painter, rect: Rect, theme: &Theme) {
         painter.rect_filled(rect, space::CORNER, theme.panel.gamma_multiply(0.9));

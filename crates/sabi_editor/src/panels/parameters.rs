@@ -109,11 +109,11 @@ impl Parameters {
         // Each node opens at its top.
         let area = ScrollArea::vertical().id_salt(id).auto_shrink(false);
         let shown = area.show(ui, |ui| {
-            histogram.show(ui, context, id);
+            let of_histogram = histogram.show(ui, context, id);
             let of_knobs = ui.push_id(id, |ui| {
                 let sections = channel_sections::sections(&rows, &switches);
                 let events = knobs_ui(ui, theme, memory, &sections, &context.lengths());
-                let actions = events.into_iter().map(|event| Action::Knob {
+                let actions = of_histogram.into_iter().chain(events).map(|event| Action::Knob {
                     node: id.clone(),
                     event,
                 });
@@ -132,6 +132,11 @@ impl Parameters {
     /// Returns whether the histogram of an input is drawn.
     pub(crate) fn has_histogram(&self) -> bool {
         self.histogram.is_shown()
+    }
+
+    /// Place of a value in that histogram, if it is drawn in this rectangle.
+    pub(crate) fn place_in_histogram(&self, value: f32, rect: egui::Rect) -> Option<f32> {
+        self.histogram.place_of(value, rect)
     }
 }
 

@@ -305,7 +305,7 @@ fn a_new_image_asks_for_its_file_and_is_no_problem_without_one() {
 #[test]
 fn levels_show_the_histogram_of_their_input() {
     let mut window = Window::opened(
-        r#""n": { "kind": "noise/simplex" }, "l": { "kind": "adjust/levels", "inputs": { "source": "n" }, "pos": [300, 0] }"#,
+        r#""n": { "kind": "noise/simplex" }, "l": { "kind": "adjust/levels", "inputs": { "source": "n" }, "params": { "black": 0.4 }, "pos": [300, 0] }"#,
     );
     // The histogram does not depend on what the 2D view showed before.
     window.click_at(window.title(&id("n")));
@@ -315,7 +315,17 @@ fn levels_show_the_histogram_of_their_input() {
     window.until("the histogram", |editor| editor.views.parameters.has_histogram());
     let measured = window.editor().evaluation.results.measured.as_ref().expect("values");
     assert_eq!(measured.0.node, "n");
-    assert!(window.has("Histogram of the input"));
+    let rect = window.harness.get_by_label("Histogram of the input").rect();
+    let steps = window.steps();
+    let [from, to] = [0.4, 0.55].map(|value| {
+        let of_input = window.editor().views.parameters.place_in_histogram(value, rect);
+        egui::pos2(of_input.expect("in the range"), rect.center().y)
+    });
+    window.drag_from(from, to);
+    let black = window.document().node(&id("l")).expect("a node").params.get("black");
+    let black = black.and_then(|value| value.as_number()).expect("a number");
+    assert!((black - 0.55).abs() < 0.02, "{black}");
+    assert_eq!(window.steps(), steps + 1, "one step to undo");
     window.until_inspected("l");
     window.click_at(window.title(&id("n")));
     window.until_inspected("n");
