@@ -7,13 +7,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use sabi_cancel::{LookingReader, is_canceled};
 
+use self::alpha::with_straight_alpha;
 use crate::decode_bmp;
 use crate::decode_exr::{check_exr, decode_exr, exr_layer_names};
 use crate::decode_hdr::HdrFile;
 use crate::decode_ktx2::{self, check_ktx2, decode_ktx2};
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
-use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels};
 
 /// Maximum compression ratio of deflate (RFC 1951: 258 bytes from 2 bits).
 const DEFLATE_BEST_RATIO: u64 = 1032;
@@ -308,6 +309,7 @@ fn decode_png_with_end(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> 
         channels,
         pixels,
         color_space,
+        remarks: PictureRemarks::default(),
     })
 }
 
@@ -395,10 +397,7 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     let decoder = open_other(name, bytes, format)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(|error| explain_other(name, format, error))?;
     let (width, height) = (picture.width(), picture.height());
-    let picture = match format {
-        ImageFormat::Tga if has_idle_alpha(bytes, &picture) => DynamicImage::ImageRgb8(picture.into_rgb8()),
-        _ => picture,
-    };
+    let (picture, remark) = with_straight_alpha(bytes, format, picture);
     let channels = picture.color().channel_count();
     let pixels = samples_of(picture).map_err(|feature| ImageError::Feature {
         name: name.into(),
@@ -411,18 +410,11 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
         channels,
         pixels,
         color_space: DeclaredColorSpace::Unknown,
+        remarks: PictureRemarks {
+            values: remark.map(str::to_owned).into_iter().collect(),
+            color: Vec::new(),
+        },
     })
-}
-
-/// Returns true for a TGA whose fourth byte is no alpha: its descriptor says that there are no such bits, and all of them are 0. Many
-/// programs write alpha and say that there is none.
-fn has_idle_alpha(bytes: &[u8], picture: &DynamicImage) -> bool {
-    const DESCRIPTOR: usize = 17;
-    let says_none = bytes.get(DESCRIPTOR).is_some_and(|descriptor| descriptor & 0x0f == 0);
-    match picture {
-        DynamicImage::ImageRgba8(samples) => says_none && samples.pixels().all(|pixel| pixel.0[3] == 0),
-        _ => false,
-    }
 }
 
 /// Returns the samples unchanged, or the name of their kind where it is not read.
@@ -448,6 +440,7 @@ fn jpeg_is_complete(bytes: &[u8]) -> bool {
     last([0xff, 0xd9]).is_some_and(|end| last([0xff, 0xda]).is_none_or(|scan| scan < end))
 }
 
+mod alpha;
 #[cfg(test)]
 mod odd_kinds;
 #[cfg(test)]

@@ -12,7 +12,7 @@ use sabi_cancel::LookingReader;
 use crate::error::damaged;
 use crate::exr_layers::{ExrLayer, ExrPart, layers};
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
-use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels};
 
 const FORMAT: &str = "OpenEXR";
 const DEEP: &str = "it holds deep samples, several for each pixel";
@@ -262,6 +262,7 @@ fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[Option<usize>]) -
         channels: channels as u8,
         pixels: Pixels::F32(samples),
         color_space: DeclaredColorSpace::Linear,
+        remarks: PictureRemarks::default(),
     }
 }
 

@@ -41,6 +41,17 @@ pub struct Picture {
     pub pixels: Pixels,
     /// Color space that the file declares.
     pub color_space: DeclaredColorSpace,
+    /// Deviations from what the file says.
+    pub remarks: PictureRemarks,
+}
+
+/// Deviations of a picture from what its file says, as clauses that follow the name of the file: `has an alpha of 0 everywhere…`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PictureRemarks {
+    /// Clauses that matter to all uses.
+    pub values: Vec<String>,
+    /// Clauses that matter where the color space of the file counts.
+    pub color: Vec<String>,
 }
 
 /// An image as linear RGBA.
@@ -148,6 +159,7 @@ mod tests {
             channels,
             pixels,
             color_space: DeclaredColorSpace::Unknown,
+            remarks: PictureRemarks::default(),
         }
     }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
-use sabi_image::{DeclaredColorSpace, ImageError, Picture, Pixels, decode};
+use sabi_image::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels, decode};
 use serde::{Deserialize, Serialize};
 
 use mip_level::MipLevel;
@@ -154,6 +154,7 @@ impl StampPicture {
             channels: 2,
             pixels: Pixels::U8(alpha.iter().flat_map(|alpha| [255, *alpha]).collect()),
             color_space: DeclaredColorSpace::Srgb,
+            remarks: PictureRemarks::default(),
         })
     }
 
@@ -239,6 +240,7 @@ mod tests {
             channels: 4,
             pixels: Pixels::U8(pixels.as_flattened().to_vec()),
             color_space: DeclaredColorSpace::Unknown,
+            remarks: PictureRemarks::default(),
         })
     }
 

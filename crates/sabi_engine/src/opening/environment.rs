@@ -176,8 +176,15 @@ fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineEr
     let is_light = matches!(picture.pixels, Pixels::F32(_));
     let is_linear = is_light || picture.color_space == DeclaredColorSpace::Linear;
     let linear = picture.linear_rgba(!is_linear);
+    let of_file = picture
+        .remarks
+        .values
+        .iter()
+        .map(|remark| format!("it {remark}"))
+        .collect::<Vec<_>>();
     drop(picture);
     let (panorama, mut remarks) = Panorama::new(linear.width, linear.height, &linear.rgba)?;
+    remarks.extend(of_file);
     if let [shown, others @ ..] = sabi_image::layer_names(name, bytes)?.as_slice()
         && !others.is_empty()
     {

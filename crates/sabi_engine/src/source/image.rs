@@ -228,11 +228,12 @@ fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: ImageOutput) -> 
             listed_layers(others)
         ));
     }
-    if open.has_non_numbers {
-        sentences.push(format!(
-            "node '{}' ({NAME}): {file} holds infinite or undefined numbers, which count as 0",
-            step.id
-        ));
-    }
+    let remarks = &open.picture.remarks;
+    sentences.extend(
+        remarks
+            .values
+            .iter()
+            .map(|remark| format!("node '{}' ({NAME}): {file} {remark}", step.id)),
+    );
     Ok(sentences)
 }

@@ -269,7 +269,7 @@ impl PixelCoverage {
 
 #[cfg(test)]
 mod tests {
-    use sabi_image::DeclaredColorSpace;
+    use sabi_image::{DeclaredColorSpace, PictureRemarks};
 
     use super::*;
 
@@ -292,6 +292,7 @@ mod tests {
                 channels: 4,
                 pixels: Pixels::F32(pixels.clone()),
                 color_space: DeclaredColorSpace::Linear,
+                remarks: PictureRemarks::default(),
             });
             let levels = MipChain::new(picture.clone(), PixelReading::of(false, true)).down_to(1);
             let second = if size[0] == 4 { (1, 0) } else { (0, 1) };
@@ -305,6 +306,7 @@ mod tests {
                 channels: 4,
                 pixels: Pixels::F32(pixels[..12].to_vec()),
                 color_space: DeclaredColorSpace::Linear,
+                remarks: PictureRemarks::default(),
             });
             let color = MipChain::new(odd, PixelReading::of(false, true))
                 .down_to(1)
@@ -324,6 +326,7 @@ mod tests {
             channels: 1,
             pixels: Pixels::F32(samples.map(|(x, y)| value(x, y)).collect()),
             color_space: DeclaredColorSpace::Linear,
+            remarks: PictureRemarks::default(),
         })
     }
 

@@ -228,6 +228,12 @@ fn open_materials<'a>(
             .as_ref()
             .map_err(|why| warnings.push(why.clone()))
             .ok()?;
+        for remark in &picture.picture.remarks.values {
+            let remark = format!("the {what} picture {name} {remark}");
+            if !warnings.contains(&remark) {
+                warnings.push(remark);
+            }
+        }
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
         let mut texture = ModelTexture::new(name, picture, texture, other, reading, size);
         texture.missing = missing;

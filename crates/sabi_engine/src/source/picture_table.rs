@@ -221,7 +221,7 @@ fn rgba<C: Copy + Default>(codes: &[C], channels: usize, pixel: usize, full: C) 
 
 #[cfg(test)]
 mod tests {
-    use sabi_image::{DeclaredColorSpace, Picture};
+    use sabi_image::{DeclaredColorSpace, Picture, PictureRemarks};
 
     use super::*;
 
@@ -232,6 +232,7 @@ mod tests {
             channels,
             pixels,
             color_space: DeclaredColorSpace::Unknown,
+            remarks: PictureRemarks::default(),
         };
         let reading = PixelReading {
             is_srgb,

@@ -149,7 +149,8 @@ fn the_fourth_byte_of_a_tga_is_alpha_unless_it_is_none_and_says_so() {
     let opaque = (3, Pixels::U8(vec![10, 20, 30, 40, 50, 60]));
     assert_eq!(file(0, [0, 0]), opaque);
     assert_eq!(file(0, [0, 9]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 9])));
-    assert_eq!(file(8, [0, 0]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 0])));
+    assert_eq!(file(8, [0, 0]), opaque);
+    assert_eq!(file(8, [0, 9]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 9])));
 }
 
 #[test]
