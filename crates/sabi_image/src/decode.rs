@@ -8,6 +8,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use sabi_cancel::{LookingReader, is_canceled};
 
 use self::alpha::with_straight_alpha;
+use crate::declared_color::declared_by_png;
 use crate::decode_bmp;
 use crate::decode_exr::{check_exr, decode_exr, exr_layer_names};
 use crate::decode_hdr::HdrFile;
@@ -232,7 +233,7 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<LookingReader
     let mut decoder = png::Decoder::new_with_limits(LookingReader(Cursor::new(bytes)), limits);
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
-    // Only the existence of a profile matters, and a small one may unpack to gigabytes.
+    // A small profile may unpack to gigabytes. `declared_by_png` reads the beginning.
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(damaged)?;
     let (width, height) = (header.width, header.height);
@@ -247,23 +248,6 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<LookingReader
         return Err(self::damaged(name, "PNG", "the file ends too early"));
     }
     Ok(reader)
-}
-
-/// Returns whether a PNG file has a color profile before its pixels.
-fn has_profile(bytes: &[u8]) -> bool {
-    const SIGNATURE_BYTES: usize = 8;
-    let mut rest = bytes.get(SIGNATURE_BYTES..).unwrap_or_default(); // A file that ends here has no chunks.
-    // Each chunk consists of its length, its type, its data and a checksum.
-    while let Some((length, after)) = rest.split_first_chunk::<4>() {
-        match after.first_chunk::<4>() {
-            Some(b"iCCP") => return true,
-            None | Some(b"IDAT" | b"IEND") => return false,
-            Some(_) => {}
-        }
-        let skipped = (u32::from_be_bytes(*length) as usize).saturating_add(8);
-        rest = after.get(skipped..).unwrap_or_default(); // The file is truncated.
-    }
-    false
 }
 
 /// Returns the size of a sample in bytes after expansion to whole bytes.
@@ -283,7 +267,7 @@ fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
 fn decode_png_with_end(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     let mut reader = open_png(name, bytes)?;
     let (width, height) = (reader.info().width, reader.info().height);
-    let color_space = declared_by_png(reader.info(), has_profile(bytes));
+    let declared = declared_by_png(reader.info(), bytes);
     let (color, depth) = reader.output_color_type();
     let channels = color.samples() as u8;
     let size = reader
@@ -308,32 +292,9 @@ fn decode_png_with_end(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> 
         height,
         channels,
         pixels,
-        color_space,
-        remarks: PictureRemarks::default(),
+        color_space: declared.space,
+        remarks: declared.remarks,
     })
-}
-
-/// Returns the color space that the chunks declare. Newer types of chunks take precedence (PNG specification, third edition, 4.3).
-fn declared_by_png(info: &png::Info<'_>, has_profile: bool) -> DeclaredColorSpace {
-    if let Some(cicp) = &info.coding_independent_code_points {
-        // ITU-T H.273: 8 is linear, 13 is the sRGB curve.
-        return match cicp.transfer_function {
-            8 => DeclaredColorSpace::Linear,
-            13 => DeclaredColorSpace::Srgb,
-            _ => DeclaredColorSpace::Unknown,
-        };
-    }
-    if has_profile {
-        return DeclaredColorSpace::Unknown;
-    }
-    if info.srgb.is_some() {
-        return DeclaredColorSpace::Srgb;
-    }
-    match info.gama_chunk.map(png::ScaledFloat::into_value) {
-        Some(gamma) if (gamma - 1.0).abs() < 0.005 => DeclaredColorSpace::Linear,
-        Some(gamma) if (gamma - 1.0 / 2.2).abs() < 0.005 => DeclaredColorSpace::Srgb,
-        _ => DeclaredColorSpace::Unknown,
-    }
 }
 
 /// Converts an error of the `image` crate's decoders.

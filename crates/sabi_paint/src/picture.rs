@@ -117,12 +117,7 @@ impl StampPicture {
 
     /// Prepares a decoded picture.
     pub fn new(picture: &Picture) -> StampPicture {
-        let is_coded = match picture.color_space {
-            DeclaredColorSpace::Srgb => true,
-            DeclaredColorSpace::Linear => false,
-            DeclaredColorSpace::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
-        };
-        let mut level = MipLevel::new(picture, is_coded);
+        let mut level = MipLevel::new(picture);
         let likely = level.likely_part();
         while level.size.iter().any(|side| *side > SIDE_LIMIT as usize) {
             level = level.halved();

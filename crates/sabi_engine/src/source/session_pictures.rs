@@ -138,7 +138,7 @@ pub(crate) struct OpenPicture {
     /// True if a pixel is not opaque.
     is_transparent: bool,
     /// Mip chains, as far down as they were needed, by the number of the reading options.
-    levels: [Mutex<MipChain>; 4],
+    levels: [Mutex<MipChain>; 6],
 }
 
 impl OpenPicture {
@@ -167,7 +167,7 @@ impl OpenPicture {
     pub(crate) fn reading(&self, wish: PixelReading) -> PixelReading {
         PixelReading {
             by_alpha: wish.by_alpha && self.is_transparent,
-            ..wish
+            ..wish.named(&self.picture)
         }
     }
 
