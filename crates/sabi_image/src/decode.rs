@@ -313,6 +313,15 @@ fn explain_other(name: &str, format: ImageFormat, error: image::ImageError) -> I
 /// Opens an image of another format and reads everything before its pixels.
 fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<impl ImageDecoder + 'b, ImageError> {
     let format_name = ImageFileFormat::Other(format).name();
+    if format == ImageFormat::Jpeg
+        && let Some(feature) = jpeg_kind::unread_feature(bytes)
+    {
+        return Err(ImageError::Feature {
+            name: name.into(),
+            format: format_name,
+            feature,
+        });
+    }
     if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(damaged(name, format_name, "the file ends too early"));
     }
@@ -402,6 +411,7 @@ fn jpeg_is_complete(bytes: &[u8]) -> bool {
 }
 
 mod alpha;
+mod jpeg_kind;
 #[cfg(test)]
 mod odd_kinds;
 #[cfg(test)]

@@ -138,6 +138,37 @@ fn cmyk_and_progressive_jpegs_are_read_as_rgb() {
 }
 
 #[test]
+fn kinds_of_jpeg_that_are_not_read_are_not_called_damaged() {
+    let baseline = from_hexadecimal(CMYK_JPEG);
+    let frame = baseline.windows(2).position(|mark| mark == [0xff, 0xc0]).unwrap();
+    let told = |marker: u8, precision: u8| {
+        let mut file = baseline.clone();
+        file[frame + 1] = marker;
+        file[frame + 4] = precision;
+        decode("a.jpg", &file).unwrap_err().to_string()
+    };
+    // ITU-T T.81, table B.1, and T.87 for JPEG-LS.
+    for (marker, precision, feature) in [
+        (0xc1, 12, "it has 12 bits for each sample, which are not read"),
+        (0xc3, 8, "it is a lossless JPEG (SOF3), which is not read"),
+        (0xc9, 8, "it has arithmetic coding (SOF9), which is not read"),
+        (0xca, 8, "it has arithmetic coding (SOF10), which is not read"),
+        (0xc5, 8, "it is a hierarchical JPEG (SOF5), which is not read"),
+        (0xf7, 8, "it is a JPEG-LS file (SOF55), which is not read"),
+    ] {
+        let expected = format!("a.jpg cannot be used: {feature}; save it again as a plain JPEG file");
+        assert_eq!(told(marker, precision), expected);
+        let mut file = baseline.clone();
+        (file[frame + 1], file[frame + 4]) = (marker, precision);
+        assert_eq!(check_header("a.jpg", &file).unwrap_err().to_string(), expected);
+    }
+    assert!(
+        told(0xc0, 77).starts_with("a.jpg is a damaged JPEG file"),
+        "a precision that does not exist"
+    );
+}
+
+#[test]
 fn the_fourth_byte_of_a_tga_is_alpha_unless_it_is_none_and_says_so() {
     // Two pixels from the top left: blue, green, red and a fourth byte, of which so many bits are alpha.
     let file = |bits: u8, alphas: [u8; 2]| {
