@@ -276,7 +276,7 @@ fn exr_files_of_every_layout_are_read() {
 }
 
 #[test]
-fn infinity_and_not_a_number_are_replaced_by_finite_numbers() {
+fn infinity_and_not_a_number_are_replaced_by_finite_numbers_and_counted() {
     let mut values = vec![1.0; 16];
     values[..3].copy_from_slice(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
     let picture = decode(
@@ -288,6 +288,16 @@ fn infinity_and_not_a_number_are_replaced_by_finite_numbers() {
         panic!("floats")
     };
     assert_eq!(samples[..4], [0.0, 65504.0, -65504.0, 1.0]);
+    assert_eq!(
+        picture.remarks.values,
+        [
+            "has 3 pixels with infinite or undefined numbers; infinite ones count as 65504 and undefined ones as 0, so save it again \
+             without them"
+        ]
+    );
+    values[..3].fill(2.0);
+    let finite = crate::encode_exr(4, 4, &[("Y", &values)], crate::ExrSamples::Float).unwrap();
+    assert_eq!(decode("a.exr", &finite).unwrap().remarks, PictureRemarks::default());
 }
 
 #[test]
