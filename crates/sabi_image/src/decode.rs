@@ -136,7 +136,7 @@ impl ImageFileFormat {
 }
 
 /// Signatures of common files that are not supported, so that the message can name them.
-const FOREIGN: [(usize, &[u8], &str); 32] = [
+const FOREIGN: [(usize, &[u8], &str); 31] = [
     (0, b"GIF8", "a GIF picture"),
     (0, b"II*\0", "a TIFF picture"),
     (0, b"MM\0*", "a TIFF picture"),
@@ -168,12 +168,9 @@ const FOREIGN: [(usize, &[u8], &str); 32] = [
     (0, b"PK\x03\x04", "an archive (zip)"),
     (0, b"<!DOCTYPE", "a web page"),
     (0, b"<html", "a web page"),
-    (
-        0,
-        b"version https://git-lfs",
-        "a Git LFS pointer instead of the file itself",
-    ),
 ];
+/// First bytes of the text that Git LFS checks out in place of a file that was not fetched (Git LFS specification, "The Pointer").
+const GIT_LFS_POINTER: &[u8] = b"version https://git-lfs";
 /// Bytes of a drawing in XML among which its root is looked for.
 const ROOT_WITHIN: usize = 1024;
 
@@ -213,6 +210,9 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<ImageFileFormat, ImageError> {
             // A mark of two bytes may be the beginning of a TGA, which has none.
             if name.to_ascii_lowercase().ends_with(".tga") && is_tga(bytes) {
                 return Ok(ImageFileFormat::Other(ImageFormat::Tga));
+            }
+            if bytes.starts_with(GIT_LFS_POINTER) {
+                return Err(ImageError::Pointer { name: name.into() });
             }
             let kind = foreign_kind(bytes).unwrap_or("no picture of a known kind");
             return Err(ImageError::Unsupported {

@@ -200,6 +200,13 @@ fn errors_are_clear_sentences() {
         "a.tif is a TIFF picture, which Sabi does not read; save it as PNG, JPEG, WebP, TGA, BMP, HDR or OpenEXR and use \
          that file"
     );
+    assert_eq!(
+        says(
+            "a.png",
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"
+        ),
+        "a.png is a Git LFS pointer instead of the picture itself; run `git lfs pull` where it came from"
+    );
     assert!(says("a.png", b"hello").starts_with("a.png is no picture of a known kind"));
     for (bytes, kind) in [
         (&b"\0\0\0\x20ftypavif"[..], "an AVIF picture"),
